@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "nurbs/nurbs_curve.h"
+
+namespace nurbeam {
+
+struct NamedCurve {
+  std::string name;
+  NurbsCurve curve;
+};
+
+enum class LengthUnit { metre, millimetre, inch };
+/// "m", "mm", "inch" ("in"). Throws std::invalid_argument listing these for anything else.
+LengthUnit parse_length_unit(const std::string& text);
+
+/// Writes the curves, one B-spline curve entity each, under their names, in the unit, at full (17 digits)
+/// precision; STEP or IGES by the extension (.step .stp .igs .iges). Written to a temporary name and renamed.
+/// Throws std::invalid_argument for an unknown extension (naming the known ones), std::runtime_error when the
+/// file cannot be written.
+void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
+
+}  // namespace nurbeam

@@ -1,0 +1,15 @@
+# KLU (SuiteSparse) ships no CMake configuration on Debian 12: KLU::KLU names its headers and libraries.
+find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)
+find_library(KLU_LIBRARY klu)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(KLU REQUIRED_VARS KLU_LIBRARY KLU_INCLUDE_DIR)
+if(KLU_FOUND AND NOT TARGET KLU::KLU)
+  set(libraries ${KLU_LIBRARY})
+  foreach(name btf amd colamd suitesparseconfig)
+    find_library(KLU_${name}_LIBRARY ${name})
+    list(APPEND libraries ${KLU_${name}_LIBRARY})
+  endforeach()
+  add_library(KLU::KLU INTERFACE IMPORTED)
+  set_target_properties(KLU::KLU PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${KLU_INCLUDE_DIR}
+    INTERFACE_LINK_LIBRARIES "${libraries}")
+endif()

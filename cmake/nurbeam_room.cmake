@@ -1,0 +1,17 @@
+# nurbeam_room(<name>): the library of one top-level folder, made of every .cpp and .h in it (main.cpp apart).
+# Includes go from the root ("nurbs/knot_vector.h"); each public header must compile alone.
+function(nurbeam_room name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  add_library(nurbeam_${name} STATIC ${sources})
+  add_library(nurbeam::${name} ALIAS nurbeam_${name})
+  set_target_properties(nurbeam_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  target_compile_features(nurbeam_${name} PUBLIC cxx_std_20)
+  target_compile_options(nurbeam_${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_sources(nurbeam_${name} PUBLIC FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  install(TARGETS nurbeam_${name} EXPORT nurbeam-targets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nurbeam)
+endfunction()

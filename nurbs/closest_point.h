@@ -1,0 +1,23 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "nurbs/bezier_path.h"
+
+namespace nurbeam {
+
+/// The closest place of a path to a point.
+struct ClosestPoint {
+  int segment;            ///< 0-based
+  double u;               ///< parameter in that segment, [0,1]
+  Eigen::Vector3d point;  ///< [m]
+  double distance;        ///< [m]
+};
+
+/// Global closest point: candidates by bounding boxes of the control points (convex hull property) with
+/// subdivision, digits by Newton.
+ClosestPoint closest_point(const BezierPath& path, const Eigen::Vector3d& point);
+
+/// Largest distance between two paths, both ways (Hausdorff) [m]: sampled densely and refined at the maxima.
+double hausdorff_distance(const BezierPath& a, const BezierPath& b);
+
+}  // namespace nurbeam

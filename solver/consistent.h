@@ -1,0 +1,19 @@
+#pragma once
+#include "solver/second_order_system.h"
+
+namespace nurbeam {
+
+/// Accelerations and multipliers that belong to (t, q, v): [M G'; G 0][a; lambda] = [f; -curvature].
+/// Returns false when the matrix is singular (state unchanged).
+[[nodiscard]] bool make_accelerations_consistent(const SecondOrderSystem& system, State& state);
+
+/// The velocity nearest to `v` in the mass norm with G v + rate = 0; `impulse` (m) is the constraint impulse that
+/// makes it so: M (v_new - v) + G' impulse = 0 [N s]. Returns false when the matrix is singular (state unchanged).
+[[nodiscard]] bool project_velocities(const SecondOrderSystem& system, State& state, Eigen::VectorXd& impulse);
+
+/// The velocity with M v + G' mu = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
+/// Returns false when the matrix is singular (state unchanged).
+[[nodiscard]] bool velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
+                                            State& state, Eigen::VectorXd& impulse);
+
+}  // namespace nurbeam

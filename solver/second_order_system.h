@@ -1,0 +1,53 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <limits>
+
+#include "solver/state.h"
+
+namespace nurbeam {
+
+/// Factors of the three tangents in the iteration matrix.
+struct TangentWeights {
+  double mass = 0;       ///< of d(dynamics)/da
+  double damping = 0;    ///< of d(dynamics)/dv
+  double stiffness = 0;  ///< of d(dynamics)/dq
+};
+
+/// M(q) a + G'lambda = f(q, v, t), g(q, t) = 0, and their tangents: the only thing an integrator may know.
+///
+/// n = coordinate_count(), m = constraint_count(); G = dg/dq (m x n). All calls are const and without side effect;
+/// none allocates once the output arguments have their sizes.
+class SecondOrderSystem {
+ public:
+  virtual ~SecondOrderSystem() = default;
+  virtual int coordinate_count() const = 0;
+  virtual int constraint_count() const = 0;
+
+  /// dynamics (n) = M(q) a - f(q, v, t) + G'lambda; constraints (m) = g(q, t).
+  virtual void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                        Eigen::Ref<Eigen::VectorXd> constraints) const = 0;
+
+  /// An (n+m) x (n+m) compressed matrix with the fixed pattern of `tangent` (diagonal of the (2,2) block included
+  /// as explicit zeros), values zero.
+  virtual Eigen::SparseMatrix<double> tangent_pattern() const = 0;
+
+  /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, G'], [G, 0]], F = dynamics at `state`
+  /// (lambda included), into a matrix made by tangent_pattern().
+  virtual void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const = 0;
+
+  /// (m) dg/dt at fixed q: a consistent velocity satisfies G v + rate = 0.
+  virtual Eigen::VectorXd constraint_rate(const State& state) const = 0;
+  /// (m) everything in d2g/dt2 but G a: a consistent acceleration satisfies G a + curvature = 0.
+  virtual Eigen::VectorXd constraint_curvature(const State& state) const = 0;
+
+  /// Longest step allowed from this state [s].
+  virtual double step_limit(const State&) const { return std::numeric_limits<double>::infinity(); }
+  /// Whether the configuration means anything (no element turned inside out); an integrator shortens its step
+  /// rather than accept an inadmissible state.
+  virtual bool admissible(const State&) const { return true; }
+  /// (n) a typical size of each coordinate, > 0, for error control.
+  virtual Eigen::VectorXd coordinate_scale() const { return Eigen::VectorXd::Ones(coordinate_count()); }
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,15 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace nurbeam {
+
+/// t, q, v, a, lambda: a value; a trajectory is a sequence of them.
+struct State {
+  double t = 0;
+  Eigen::VectorXd q;       ///< generalised positions
+  Eigen::VectorXd v;       ///< dq/dt
+  Eigen::VectorXd a;       ///< d2q/dt2
+  Eigen::VectorXd lambda;  ///< Lagrange multipliers
+};
+
+}  // namespace nurbeam
