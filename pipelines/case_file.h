@@ -1,0 +1,160 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "cad_import/import_report.h"
+
+namespace nurbeam {
+
+/// A place on a beam; lengths in reference arc length from the beam's start.
+struct Place {
+  enum class Kind { start, end, length, fraction, near } kind = Kind::start;
+  double value = 0;                                 ///< [m] for length, [-] in [0,1] for fraction
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m] for near
+};
+
+struct CaseAxis {
+  struct File {
+    std::filesystem::path path;  ///< absolute
+    std::optional<std::string> curve_name;
+    std::optional<int> curve_index;  ///< from 1
+    bool chain = false;
+  };
+  using Polyline = std::vector<Eigen::Vector3d>;
+  struct Arc {
+    Eigen::Vector3d center, start, end, normal;
+  };
+  std::variant<File, NurbsCurve, Polyline, Arc> source;
+};
+
+struct CaseSection {
+  double area = 0;           ///< [m^2]
+  double second_moment = 0;  ///< [m^4]
+};
+
+struct CaseMaterial {
+  double density = 0;         ///< [kg/m^3]
+  double youngs_modulus = 0;  ///< [Pa]
+  double damping = 0;         ///< [s], theory c
+};
+
+struct CaseElements {
+  std::optional<int> count;
+  std::optional<double> max_length;  ///< [m]
+  std::optional<int> per_segment;
+};
+
+enum class ElementKind { ale_rancf, ale_ancf };
+enum class WeightRule { material, constant };
+enum class MergeRule { standard, paper, ones };
+enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
+enum class CurvatureMeasure { material, spatial };
+
+struct CaseBeam {
+  std::string name;
+  std::string path;  ///< JSON path of this object, for messages
+  CaseAxis axis;
+  double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  bool allow_corners = false;             ///< "corners": "allow" keeps a G0 corner as a rigid one
+  CaseSection section;
+  CaseMaterial material;
+  CaseElements elements;
+  ElementKind element = ElementKind::ale_rancf;
+  WeightRule weights = WeightRule::material;
+  MergeRule merge = MergeRule::standard;
+  StressFree stress_free = StressFree::automatic;
+  CurvatureMeasure curvature = CurvatureMeasure::material;
+};
+
+struct CaseBody {
+  std::string name;
+  double mass = 0;  ///< [kg]
+};
+
+using TimeTable = std::vector<std::pair<double, double>>;  ///< (t [s], value), t increasing; linear between, constant outside
+
+struct CaseLoad {
+  enum class Kind { force, moment, force_per_length } kind = Kind::force;
+  std::string path;
+  std::string beam;
+  Place at;                                         ///< for force and moment
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N], [N m] or [N/m]
+  bool follower = false;
+  std::optional<double> moving_speed;               ///< along the beam from `at` [m/s]
+  TimeTable time;                                   ///< factor; empty: 1
+};
+
+struct CaseSupport {
+  enum class Type { clamped, pinned } type = Type::pinned;
+  std::string path;
+  std::string beam;
+  Place at;
+};
+
+struct CaseSlidingJoint {
+  std::string path;
+  std::string body, beam;
+  Place at;
+  double speed = 0;                    ///< initial [m/s]
+  std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
+  TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
+  bool continuous_slope = true;
+  bool leave_at_end = true;            ///< false: stop
+};
+
+struct CaseAnalysis {
+  enum class Type { dynamic, statics } type = Type::dynamic;
+  bool start_from_equilibrium = false;
+  double end_time = 0;              ///< [s]
+  std::optional<double> step;       ///< [s]
+  std::optional<double> tolerance;  ///< adaptive steps
+  double rho_infinity = 0.8;
+  double length_control_min = 0.5, length_control_max = 1.5;  ///< in standard element lengths
+};
+
+struct CaseProbe {
+  std::string name, beam;
+  Place at;
+};
+
+struct CaseOutput {
+  std::optional<double> every;  ///< [s]
+  std::vector<std::string> cad_formats;  ///< "step", "iges"
+  std::vector<double> cad_times;         ///< [s]
+  std::string cad_unit = "mm";
+  std::vector<CaseProbe> probes;
+};
+
+/// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
+struct CaseFile {
+  std::filesystem::path path;
+  std::string name;
+  Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);
+  std::vector<CaseBeam> beams;
+  std::vector<CaseBody> bodies;
+  std::vector<CaseLoad> loads;
+  std::vector<CaseSupport> supports;
+  std::vector<CaseSlidingJoint> sliding_joints;
+  CaseAnalysis analysis;
+  CaseOutput output;
+};
+
+/// A case file and everything that is wrong with it; `value` is empty when any diagnostic is an error.
+struct CaseFileReport {
+  std::optional<CaseFile> value;
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Reads, checks and resolves a case file: comments allowed, unit strings ("5 mm"), unknown keys are errors that
+/// name the closest known key, all errors at once, each with its JSON path. `overrides`: "path=value" (--set).
+CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The JSON schema of the case file.
+std::string case_file_schema();
+
+}  // namespace nurbeam
