@@ -10,9 +10,9 @@ namespace nurbeam {
 
 /// A place where consecutive cubics meet at an angle.
 struct Corner {
-  int after_segment;        ///< the corner lies between this segment and the next (0-based)
-  Eigen::Vector3d point;    ///< [m]
-  double angle;             ///< between the two tangents [rad]
+  int after_segment;      ///< the corner lies between this segment and the next (0-based)
+  Eigen::Vector3d point;  ///< [m]
+  double angle;           ///< between the two tangents [rad]
 };
 
 /// Cubics in order, their break parameters in the source, and the measured deviation from it.
@@ -21,16 +21,16 @@ struct Corner {
 struct BezierPath {
   std::vector<RationalCubic> segments;
   std::vector<double> breaks;  ///< segments.size() + 1 parameters in the source curve, increasing
-  double deviation = 0;        ///< largest measured distance from the source [m]; 0 where the conversion is exact
+  double deviation = 0;  ///< largest measured distance from the source [m]; 0 where the conversion is exact
 
   /// Knot insertion to full multiplicity, degree elevation in homogeneous coordinates: exact (1e-15) up to
-  /// degree 3. Above, C1 Hermite interpolation in homogeneous coordinates, bisected until the measured deviation
-  /// is below `tolerance` [m]. Throws std::invalid_argument for tolerance <= 0 when degree > 3.
+  /// degree 3. Above, C1 Hermite interpolation in homogeneous coordinates, bisected until the measured
+  /// deviation is below `tolerance` [m]. Throws std::invalid_argument for tolerance <= 0 when degree > 3.
   /// Every rational piece that turns by more than 90 degrees is split until it does not.
   static BezierPath from_nurbs(const NurbsCurve& curve, double tolerance);
 
-  /// One cubic NURBS curve through all segments with triple interior knots at `breaks`, segment weights rescaled
-  /// by sigma_{j+1} = sigma_j w3_j / w0_{j+1} so that shared control points agree. Lossless.
+  /// One cubic NURBS curve through all segments with triple interior knots at `breaks`, segment weights
+  /// rescaled by sigma_{j+1} = sigma_j w3_j / w0_{j+1} so that shared control points agree. Lossless.
   NurbsCurve to_nurbs() const;
 
   /// Total length [m], to a relative error of about 1e-13.
@@ -46,8 +46,9 @@ struct Chain {
   bool closed = false;
 };
 
-/// Orders and orients curves whose end points coincide within `tolerance` [m] into maximal chains; a point where
-/// three or more ends meet ends the chains there. The first curve of a chain keeps its direction if it can.
+/// Orders and orients curves whose end points coincide within `tolerance` [m] into maximal chains; a point
+/// where three or more ends meet ends the chains there. The first curve of a chain keeps its direction if it
+/// can.
 std::vector<Chain> find_chains(const std::vector<NurbsCurve>& curves, double tolerance);
 
 /// The cubics of the curves of a chain one after another as one path (breaks: cumulative over the curves).

@@ -3,7 +3,8 @@
 
 namespace nurbeam {
 
-/// Degree and the full non-decreasing knots of a NURBS curve, both ends included; an invalid one cannot exist.
+/// Degree and the full non-decreasing knots of a NURBS curve, both ends included; an invalid one cannot
+/// exist.
 ///
 /// knots = (u_0, ..., u_{n+p}), n control points, degree p; the curve lives on [u_p, u_n] (Piegl & Tiller,
 /// The NURBS Book, Eq. 2.13, with the end knots not required to be clamped).

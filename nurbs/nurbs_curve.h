@@ -22,6 +22,9 @@ class NurbsCurve {
   Eigen::Vector3d point(double u) const;
   /// Derivatives 0..n with respect to u: column k is d^k r/du^k, 3 x (n+1) (The NURBS Book, Eq. 4.8).
   Eigen::Matrix3Xd derivatives(double u, int n) const;
+  /// Homogeneous Bezier points, 4 x (degree + 1), of the polynomial piece on the non-empty knot span
+  /// [knots[span], knots[span + 1]].
+  Eigen::Matrix4Xd bezier_points(int span) const;
   /// The same curve run through backwards.
   NurbsCurve reversed() const;
 

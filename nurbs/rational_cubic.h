@@ -25,6 +25,9 @@ class RationalCubic {
   Eigen::Matrix<double, 3, 6> derivatives(double u) const;
   /// d^k W/du^k for k = 0..3.
   std::array<double, 4> weight_derivatives(double u) const;
+  /// Bernstein coefficients of W(u)^2 r'(u), a quartic: 3 x 5. Made of differences of control points, so they
+  /// keep their digits far from the origin (Floater 1992, "Derivatives of rational Bezier curves").
+  Eigen::Matrix<double, 3, 5> hodograph() const;
   /// The two halves at u in (0,1) (de Casteljau in homogeneous coordinates), each again on [0,1].
   std::pair<RationalCubic, RationalCubic> split(double u) const;
   /// The piece on [u0, u1], 0 <= u0 < u1 <= 1, again on [0,1].

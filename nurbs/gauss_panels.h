@@ -1,0 +1,60 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace nurbeam {
+
+/// Integral of f over [a, b] by the Gauss-Legendre rule of 10 points: exact for polynomials up to degree 19.
+template <typename Function>
+double gauss(const Function& f, double a, double b) {
+  constexpr std::pair<double, double> abscissae_and_weights[] = {
+      {0.14887433898163121088, 0.29552422471475287017},
+      {0.43339539412924719080, 0.26926671930999635509},
+      {0.67940956829902440623, 0.21908636251598204400},
+      {0.86506336668898451073, 0.14945134915058059315},
+      {0.97390652851717172008, 0.06667134430868813759}};
+  const double middle = 0.5 * (a + b);
+  const double half = 0.5 * (b - a);
+  double sum = 0;
+  for (const auto& [x, weight] : abscissae_and_weights)
+    sum += weight * (f(middle - half * x) + f(middle + half * x));
+  return half * sum;
+}
+
+/// An interval cut into panels on each of which the rule of `gauss` integrates a function to round-off.
+struct Panels {
+  std::vector<double> breaks;     ///< increasing, from the start of the interval to its end
+  std::vector<double> integrals;  ///< cumulative integral at each break, 0 first
+};
+
+/// The panels of a non-negative f on [a, b]: halved until the halves agree with the whole to 1e-13 of the
+/// integral, then both halves are kept. A panel shorter than 2^-40 of the interval is kept as it is (f with a
+/// kink or a jump).
+template <typename Function>
+Panels panels_of(const Function& f, double a, double b) {
+  Panels panels{{a}, {0}};
+  const double scale = gauss(f, a, b);
+  const auto append = [&panels](double end, double integral) {
+    panels.breaks.push_back(end);
+    panels.integrals.push_back(panels.integrals.back() + integral);
+  };
+  const auto divide = [&](const auto& self, double left, double right, double whole) -> void {
+    const double middle = 0.5 * (left + right);
+    const double first = gauss(f, left, middle);
+    const double second = gauss(f, middle, right);
+    const double tolerance = 1e-13 * std::max(scale, first + second);
+    if (std::abs(first + second - whole) <= tolerance || right - left < std::ldexp(b - a, -40)) {
+      append(middle, first);
+      append(right, second);
+    } else {
+      self(self, left, middle, first);
+      self(self, middle, right, second);
+    }
+  };
+  divide(divide, a, b, scale);
+  return panels;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,97 @@
+#include "nurbs/rational_cubic.h"
+
+#include <cassert>
+#include <sstream>
+#include <stdexcept>
+
+#include "nurbs/projection.h"
+
+namespace nurbeam {
+namespace {
+
+using Points = Eigen::Matrix4d;
+
+/// Value and derivatives 0..3 of the cubic with the given Bezier points: column k is the k-th derivative.
+Points cubic_derivatives(const Points& points, double u) {
+  const double v = 1 - u;
+  const Eigen::Matrix<double, 4, 3> first = 3 * (points.rightCols<3>() - points.leftCols<3>());
+  const Eigen::Matrix<double, 4, 2> second = 2 * (first.rightCols<2>() - first.leftCols<2>());
+  Points derivatives;
+  derivatives.col(0) = points * Eigen::Vector4d(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
+  derivatives.col(1) = first * Eigen::Vector3d(v * v, 2 * u * v, u * u);
+  derivatives.col(2) = second * Eigen::Vector2d(v, u);
+  derivatives.col(3) = second.col(1) - second.col(0);
+  return derivatives;
+}
+
+/// Polar form (blossom) of the cubic: symmetric, affine in each argument, blossom(u, u, u) = value at u.
+Eigen::Vector4d blossom(const Points& points, double a, double b, double c) {
+  const Eigen::Matrix<double, 4, 3> once = (1 - a) * points.leftCols<3>() + a * points.rightCols<3>();
+  const Eigen::Matrix<double, 4, 2> twice = (1 - b) * once.leftCols<2>() + b * once.rightCols<2>();
+  return (1 - c) * twice.col(0) + c * twice.col(1);
+}
+
+}  // namespace
+
+RationalCubic::RationalCubic(const Eigen::Matrix4d& points) : points_(points) {
+  std::ostringstream message;
+  message.precision(17);
+  if (!points.allFinite())
+    message << "the control points of a rational cubic must be finite:\n" << points;
+  else if (points.row(3).minCoeff() <= 0)
+    message << "the weights of a rational cubic must be positive: " << points.row(3);
+  else
+    return;
+  throw std::invalid_argument(message.str());
+}
+
+Eigen::Vector3d RationalCubic::control_point(int i) const { return points_.col(i).head<3>() / weight(i); }
+
+Eigen::Vector3d RationalCubic::point(double u) const {
+  const double v = 1 - u;
+  const Eigen::Vector4d h = points_ * Eigen::Vector4d(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
+  return h.head<3>() / h(3);
+}
+
+Eigen::Matrix<double, 3, 6> RationalCubic::derivatives(double u) const {
+  // Measured from the first control point, so that a curve far from the origin keeps its digits.
+  const Eigen::Vector3d origin = control_point(0);
+  Points local = points_;
+  local.topRows<3>() -= origin * points_.row(3);
+  Eigen::Matrix<double, 4, 6> homogeneous = Eigen::Matrix<double, 4, 6>::Zero();
+  homogeneous.leftCols<4>() = cubic_derivatives(local, u);
+  Eigen::Matrix<double, 3, 6> derivatives = projected_derivatives(homogeneous);
+  derivatives.col(0) += origin;
+  return derivatives;
+}
+
+std::array<double, 4> RationalCubic::weight_derivatives(double u) const {
+  const Eigen::RowVector4d w = cubic_derivatives(points_, u).row(3);
+  return {w(0), w(1), w(2), w(3)};
+}
+
+Eigen::Matrix<double, 3, 5> RationalCubic::hodograph() const {
+  const auto leg = [this](int i, int j) -> Eigen::Vector3d {
+    return weight(i) * weight(j) * (control_point(j) - control_point(i));
+  };
+  Eigen::Matrix<double, 3, 5> coefficients;
+  coefficients << 3 * leg(0, 1), 1.5 * leg(0, 2), 0.5 * leg(0, 3) + 1.5 * leg(1, 2), 1.5 * leg(1, 3),
+      3 * leg(2, 3);
+  return coefficients;
+}
+
+std::pair<RationalCubic, RationalCubic> RationalCubic::split(double u) const {
+  return {piece(0, u), piece(u, 1)};
+}
+
+RationalCubic RationalCubic::piece(double u0, double u1) const {
+  assert(0 <= u0 && u0 < u1 && u1 <= 1);
+  Points points;
+  points << blossom(points_, u0, u0, u0), blossom(points_, u0, u0, u1), blossom(points_, u0, u1, u1),
+      blossom(points_, u1, u1, u1);
+  return RationalCubic(points);
+}
+
+RationalCubic RationalCubic::reversed() const { return RationalCubic(points_.rowwise().reverse()); }
+
+}  // namespace nurbeam
