@@ -64,12 +64,16 @@ std::string entity_name(const Handle(Geom_Curve) & curve) {
   return "other";
 }
 
-// The piece of the B-spline on the range; untouched, bit by bit, when it is the whole.
+bool is_clamped(const Geom_BSplineCurve& curve) {
+  const int full = curve.Degree() + 1;
+  return curve.Multiplicity(1) == full && curve.Multiplicity(curve.NbKnots()) == full;
+}
+
+// The piece of the B-spline on the range, with clamped ends; untouched, bit by bit, when it is the whole.
 Handle(Geom_BSplineCurve) segment(const Handle(Geom_BSplineCurve) & source, double first, double last) {
   const auto curve = Handle(Geom_BSplineCurve)::DownCast(source->Copy());
   const bool whole = first == curve->FirstParameter() && last == curve->LastParameter();
-  if (!whole) curve->Segment(first, last);
-  if (curve->IsPeriodic()) curve->SetNotPeriodic();
+  if (!whole || !is_clamped(*curve)) curve->Segment(first, last);
   return curve;
 }
 
