@@ -1,9 +1,24 @@
 #pragma once
 #include <vector>
 
+#include "nurbs/gauss_panels.h"
 #include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
+
+/// The speed |r'(u)| = |hodograph(u)| / W(u)^2 of a rational cubic.
+class Speed {
+ public:
+  explicit Speed(const RationalCubic& cubic);
+  double operator()(double u) const;
+
+ private:
+  Eigen::Matrix<double, 3, 5> hodograph_;
+  Eigen::RowVector4d weights_;
+};
+
+/// Length of a rational cubic [m], to about 1e-14; cusps are allowed.
+double length(const RationalCubic& cubic);
 
 /// Arc length s(u) of a rational cubic on [0,1] and its inverse, both to about 1e-14 of the length
 /// (adaptive Gauss panels; Newton on the speed for the inverse; subdivision paper Eqs. 12-16).
@@ -12,16 +27,16 @@ class ArcLengthMap {
   /// Throws std::invalid_argument when the speed |r'(u)| vanishes on [0,1] (the value and place are named).
   explicit ArcLengthMap(const RationalCubic& cubic);
 
-  double length() const { return panel_lengths_.back(); }
+  double length() const { return panels_.integrals.back(); }
   /// s(u) [m]; u slightly outside [0,1] extrapolates.
   double arc_length(double u) const;
   /// u(s); s slightly outside [0, length] extrapolates.
   double parameter(double s) const;
 
  private:
-  RationalCubic cubic_;
-  std::vector<double> panel_breaks_;   // in u, from 0 to 1
-  std::vector<double> panel_lengths_;  // cumulative s at each break
+  Speed speed_;
+  Panels panels_;                     // of the speed: breaks in u, integrals in s
+  std::vector<double> break_speeds_;  // at the breaks of the panels
 };
 
 }  // namespace nurbeam

@@ -1,0 +1,92 @@
+#include "nurbs/arc_length.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+
+#include "nurbs/golden_section.h"
+
+namespace nurbeam {
+namespace {
+
+/// Index of the panel that holds the value; the first or the last for a value outside.
+std::size_t panel_holding(const std::vector<double>& bounds, double value) {
+  const auto after = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, value);
+  return static_cast<std::size_t>(after - bounds.begin()) - 1;
+}
+
+/// Where the speed is least, looked for around the slowest break: panels crowd where the speed nearly
+/// vanishes.
+double slowest_place(const Speed& speed, const Panels& panels, const std::vector<double>& break_speeds) {
+  const std::size_t last = break_speeds.size() - 1;
+  const std::size_t i = std::min_element(break_speeds.begin(), break_speeds.end()) - break_speeds.begin();
+  const double at_break = panels.breaks[i];
+  const double between =
+      minimum_place(speed, panels.breaks[i > 0 ? i - 1 : 0], panels.breaks[std::min(i + 1, last)], 80);
+  return speed(between) < speed(at_break) ? between : at_break;
+}
+
+}  // namespace
+
+Speed::Speed(const RationalCubic& cubic) : hodograph_(cubic.hodograph()), weights_(cubic.points().row(3)) {}
+
+double Speed::operator()(double u) const {
+  const double v = 1 - u;
+  const double uu = u * u, uv = u * v, vv = v * v;
+  const double weight =
+      weights_(0) * vv * v + 3 * uv * (weights_(1) * v + weights_(2) * u) + weights_(3) * uu * u;
+  const Eigen::Vector3d numerator = vv * vv * hodograph_.col(0) + 4 * uv * vv * hodograph_.col(1) +
+                                    6 * uv * uv * hodograph_.col(2) + 4 * uv * uu * hodograph_.col(3) +
+                                    uu * uu * hodograph_.col(4);
+  return numerator.norm() / (weight * weight);
+}
+
+double length(const RationalCubic& cubic) { return panels_of(Speed(cubic), 0, 1).integrals.back(); }
+
+ArcLengthMap::ArcLengthMap(const RationalCubic& cubic) : speed_(cubic), panels_(panels_of(speed_, 0, 1)) {
+  for (const double u : panels_.breaks) break_speeds_.push_back(speed_(u));
+  const double u = slowest_place(speed_, panels_, break_speeds_);
+  if (speed_(u) > 1e-10 * length()) return;
+  std::ostringstream message;
+  message.precision(17);
+  message << "the speed |r'(u)| is " << speed_(u) << " m at u = " << u << " of a cubic " << length()
+          << " m long; it must be above 1e-10 of the length";
+  throw std::invalid_argument(message.str());
+}
+
+double ArcLengthMap::arc_length(double u) const {
+  const std::size_t k = panel_holding(panels_.breaks, u);
+  return panels_.integrals[k] + gauss(speed_, panels_.breaks[k], u);
+}
+
+double ArcLengthMap::parameter(double s) const {
+  const std::size_t k = panel_holding(panels_.integrals, s);
+  const double a = panels_.breaks[k], b = panels_.breaks[k + 1];
+  const double panel_length = panels_.integrals[k + 1] - panels_.integrals[k];
+  const double from_a = s - panels_.integrals[k];
+
+  // First guess: the cubic u(s) with the right ends and slopes 1 / speed there.
+  const double t = from_a / panel_length;
+  const double slope_a = panel_length / break_speeds_[k], slope_b = panel_length / break_speeds_[k + 1];
+  const double guess = a + t * t * (3 - 2 * t) * (b - a) + t * (1 - t) * ((1 - t) * slope_a - t * slope_b);
+
+  const bool inside = 0 <= t && t <= 1;
+  double low = a, high = b;
+  double u =
+      inside ? std::clamp(guess, a, b)
+             : (t < 0 ? a + from_a / break_speeds_[k] : b + (from_a - panel_length) / break_speeds_[k + 1]);
+  for (int i = 0; i < 60; ++i) {
+    const double excess = gauss(speed_, a, u) - from_a;
+    (excess > 0 ? high : low) = u;
+    double next = u - excess / speed_(u);
+    if (inside && (next < low || next > high)) next = 0.5 * (low + high);
+    const double step = std::abs(next - u);
+    u = next;
+    if (step <= 1e-9 * (b - a)) break;
+  }
+  return u;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,165 @@
+#include "nurbs/closest_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "nurbs/golden_section.h"
+
+namespace nurbeam {
+namespace {
+
+/// A lower bound of the distance from the point to the cubic: that to the box of its control points.
+double distance_to_box(const RationalCubic& cubic, const Eigen::Vector3d& point) {
+  const Eigen::Matrix<double, 3, 4> controls =
+      cubic.points().topRows<3>().array().rowwise() / cubic.points().row(3).array();
+  const Eigen::Vector3d below = controls.rowwise().minCoeff() - point;
+  const Eigen::Vector3d above = point - controls.rowwise().maxCoeff();
+  return below.cwiseMax(above).cwiseMax(0).norm();
+}
+
+/// Bernstein coefficients of (r - p) . r' times W^3, a polynomial of degree 7 whose roots are the stationary
+/// distances; those below the round-off of coordinates of this size are set to zero.
+std::array<double, 8> stationarity(const RationalCubic& cubic, const Eigen::Vector3d& point) {
+  constexpr std::array<double, 4> binomial_3{1, 3, 3, 1};
+  constexpr std::array<double, 5> binomial_4{1, 4, 6, 4, 1};
+  constexpr std::array<double, 8> binomial_7{1, 7, 21, 35, 35, 21, 7, 1};
+  const Eigen::Matrix<double, 3, 5> hodograph = cubic.hodograph();
+  const Eigen::Matrix<double, 3, 4> relative = cubic.points().topRows<3>() - point * cubic.points().row(3);
+  const Eigen::Matrix<double, 4, 5> products = relative.transpose() * hodograph;
+  std::array<double, 8> coefficients{};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 5; ++j) coefficients[i + j] += binomial_3[i] * binomial_4[j] * products(i, j);
+  const double size = cubic.points().topRows<3>().norm() + point.norm() * cubic.points().row(3).norm();
+  const double round_off = 1e-15 * size * (hodograph.norm() + relative.norm() * cubic.points().row(3).norm());
+  for (int k = 0; k < 8; ++k) {
+    coefficients[k] /= binomial_7[k];
+    if (std::abs(coefficients[k]) <= round_off) coefficients[k] = 0;
+  }
+  return coefficients;
+}
+
+int sign_changes(const std::array<double, 8>& coefficients) {
+  int changes = 0;
+  double before = 0;
+  for (const double c : coefficients) {
+    if (c * before < 0) ++changes;
+    if (c != 0) before = c;
+  }
+  return changes;
+}
+
+/// The parameter in [a, b] where (r - p) . r' goes through zero, given that it does so once: Newton,
+/// bisection where that would leave the bracket.
+double stationary_parameter(const RationalCubic& cubic, const Eigen::Vector3d& point, double a, double b) {
+  double u = 0.5 * (a + b);
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Matrix<double, 3, 6> r = cubic.derivatives(u);
+    const Eigen::Vector3d offset = r.col(0) - point;
+    const double slope = offset.dot(r.col(1));
+    (slope > 0 ? b : a) = u;
+    double next = u - slope / (r.col(1).squaredNorm() + offset.dot(r.col(2)));
+    if (!(a <= next && next <= b)) next = 0.5 * (a + b);
+    const double step = std::abs(next - u);
+    u = next;
+    if (step <= 1e-15) break;
+  }
+  return u;
+}
+
+/// Search of one path for the point closest to a given one.
+class Search {
+ public:
+  Search(const BezierPath& path, const Eigen::Vector3d& point)
+      : path_(path),
+        point_(point),
+        best_{0, 0, path.segments.front().point(0), std::numeric_limits<double>::infinity()} {}
+
+  ClosestPoint result() {
+    std::vector<std::pair<double, int>> nearest_first;
+    for (int j = 0; j < static_cast<int>(path_.segments.size()); ++j)
+      nearest_first.emplace_back(distance_to_box(path_.segments[j], point_), j);
+    std::sort(nearest_first.begin(), nearest_first.end());
+    for (const auto& [bound, j] : nearest_first) {
+      if (bound >= best_.distance) break;
+      try_parameter(j, 0);
+      try_parameter(j, 1);
+      visit(j, path_.segments[j], 0, 1);
+    }
+    return best_;
+  }
+
+ private:
+  void try_parameter(int j, double u) {
+    const Eigen::Vector3d candidate = path_.segments[j].point(u);
+    const double distance = (candidate - point_).norm();
+    if (distance < best_.distance) best_ = {j, u, candidate, distance};
+  }
+
+  /// Looks into the piece of segment j on [a, b], whose ends have been tried: done when it can hold nothing
+  /// closer, no interior minimum or a single one (no or one change of sign from - to +), else in two halves.
+  void visit(int j, const RationalCubic& piece, double a, double b) {
+    if (distance_to_box(piece, point_) >= best_.distance) return;
+    const std::array<double, 8> coefficients = stationarity(piece, point_);
+    const int changes = sign_changes(coefficients);
+    const double middle = 0.5 * (a + b);
+    if (changes == 0) return;
+    if (changes == 1) {
+      const double first =
+          *std::find_if(coefficients.begin(), coefficients.end(), [](double c) { return c != 0; });
+      if (first < 0) try_parameter(j, stationary_parameter(path_.segments[j], point_, a, b));
+      return;
+    }
+    try_parameter(j, middle);
+    const auto [left, right] = piece.split(0.5);
+    visit(j, left, a, middle);
+    visit(j, right, middle, b);
+  }
+
+  const BezierPath& path_;
+  const Eigen::Vector3d point_;
+  ClosestPoint best_;
+};
+
+/// Largest value of f on [0,1]: samples, and golden section around those above their neighbours.
+template <typename Function>
+double largest_value(const Function& f) {
+  constexpr int count = 32;
+  std::array<double, count + 1> samples;
+  for (int i = 0; i <= count; ++i) samples[i] = f(double(i) / count);
+  double largest = *std::max_element(samples.begin(), samples.end());
+  for (int i = 0; i <= count; ++i) {
+    const int before = std::max(i - 1, 0), after = std::min(i + 1, count);
+    if (samples[i] < samples[before] || samples[i] < samples[after]) continue;
+    const double u =
+        minimum_place([&f](double v) { return -f(v); }, double(before) / count, double(after) / count, 30);
+    largest = std::max(largest, f(u));
+  }
+  return largest;
+}
+
+}  // namespace
+
+ClosestPoint closest_point(const BezierPath& path, const Eigen::Vector3d& point) {
+  return Search(path, point).result();
+}
+
+double largest_distance(const std::function<Eigen::Vector3d(double)>& curve, const BezierPath& path) {
+  return largest_value([&](double u) { return closest_point(path, curve(u)).distance; });
+}
+
+double hausdorff_distance(const BezierPath& a, const BezierPath& b) {
+  const auto one_way = [](const BezierPath& from, const BezierPath& to) {
+    double largest = 0;
+    for (const RationalCubic& segment : from.segments)
+      largest = std::max(largest, largest_distance([&](double u) { return segment.point(u); }, to));
+    return largest;
+  };
+  return std::max(one_way(a, b), one_way(b, a));
+}
+
+}  // namespace nurbeam

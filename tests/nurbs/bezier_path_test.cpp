@@ -1,0 +1,314 @@
+#include "nurbs/bezier_path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "nurbs/closest_point.h"
+#include "tests/support/curves.h"
+
+namespace nurbeam {
+namespace {
+
+using std::numbers::pi;
+
+/// Largest distance between the path and the curve at equal parameters.
+double parametric_distance(const BezierPath& path, const NurbsCurve& curve) {
+  double largest = 0;
+  for (std::size_t j = 0; j < path.segments.size(); ++j)
+    for (int i = 0; i <= 20; ++i) {
+      const double t = 0.05 * i;
+      const double u = path.breaks[j] + t * (path.breaks[j + 1] - path.breaks[j]);
+      largest = std::max(largest, (path.segments[j].point(t) - curve.point(u)).norm());
+    }
+  return largest;
+}
+
+/// A connected path of random gentle cubics (none turns by 90 degrees), weights in [0.5, 2] and free at
+/// joints.
+BezierPath random_path(Generator& generator, int count) {
+  BezierPath path{{}, {uniform(generator, -1, 1)}, 0};
+  Eigen::Vector3d start = random_point(generator);
+  for (int j = 0; j < count; ++j) {
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = uniform(generator, 0.5, 2);
+      const Eigen::Vector3d along(1.0 * i, 0, 0);
+      points.col(i) << weight * (start + along + (i == 0 ? 0 : 0.2) * random_point(generator)), weight;
+    }
+    path.segments.emplace_back(points);
+    start = path.segments.back().control_point(3);
+    path.breaks.push_back(path.breaks.back() + uniform(generator, 0.1, 1));
+  }
+  return path;
+}
+
+TEST(BezierPathTest, CurvesUpToDegreeThreeAreConvertedExactly) {
+  Generator generator(30);
+  for (int i = 0; i < 2000; ++i) {
+    const NurbsCurve curve = random_nurbs(generator, 1 + i % 3, i % 4 > 1, i % 2 == 0);
+    const BezierPath path = BezierPath::from_nurbs(curve, 0);
+    ASSERT_LE(parametric_distance(path, curve), 1e-13);
+    ASSERT_EQ(path.deviation, 0);
+    ASSERT_TRUE(std::is_sorted(path.breaks.begin(), path.breaks.end()));
+    ASSERT_EQ(path.breaks.front(), curve.knots().start());
+    ASSERT_EQ(path.breaks.back(), curve.knots().end());
+    for (std::size_t j = 1; j < path.segments.size(); ++j)
+      ASSERT_LE((path.segments[j].control_point(0) - path.segments[j - 1].control_point(3)).norm(), 2e-15);
+  }
+}
+
+TEST(BezierPathTest, ACircleIsFourArcsClampedOrPeriodic) {
+  for (const NurbsCurve& circle : {unit_circle(), unit_circle(-1, 5)}) {
+    const BezierPath path = BezierPath::from_nurbs(circle, 1e-6);
+    ASSERT_EQ(path.segments.size(), 4u);
+    for (const RationalCubic& arc : path.segments)
+      for (int i = 0; i <= 100; ++i) EXPECT_NEAR(arc.point(0.01 * i).norm(), 1, 1e-15);
+    EXPECT_NEAR(path.length() / (2 * pi), 1, 1e-14);
+    EXPECT_TRUE(path.corners(1e-12).empty());
+  }
+}
+
+TEST(BezierPathTest, APolylineIsOneStraightCubicPerPieceWithItsCorners) {
+  Eigen::Matrix3Xd points(3, 4);
+  points << 0, 1, 1, 2, 0, 0, 1, 2, 0, 0, 0, 0;
+  const NurbsCurve polyline =
+      make_nurbs_curve(KnotVector(1, {0, 0, 1, 2, 3, 3}), points, Eigen::Vector4d::Ones());
+  const BezierPath path = BezierPath::from_nurbs(polyline, 0);
+  ASSERT_EQ(path.segments.size(), 3u);
+  EXPECT_LE((path.segments[0].control_point(1) - Eigen::Vector3d(1.0 / 3, 0, 0)).norm(), 1e-15);
+  const std::vector<Corner> corners = path.corners(0.01);
+  ASSERT_EQ(corners.size(), 2u);
+  EXPECT_EQ(corners[0].after_segment, 0);
+  EXPECT_EQ(corners[0].point, Eigen::Vector3d(1, 0, 0));
+  EXPECT_NEAR(corners[0].angle, pi / 2, 1e-15);
+  EXPECT_EQ(corners[1].after_segment, 1);
+  EXPECT_NEAR(corners[1].angle, pi / 4, 1e-15);
+  EXPECT_EQ(path.corners(1).size(), 1u);
+  EXPECT_NEAR(path.length(), 2 + std::sqrt(2.0), 1e-14);
+}
+
+TEST(BezierPathTest, ACornerIsSeenThroughDoubleControlPoints) {
+  Eigen::Matrix3Xd points(3, 7);
+  points << 0, 1, 2, 2, 2, 2, 2, 0, 0, 0, 0, 0, 1, 2, 0, 0, 0, 0, 0, 0, 0;
+  const NurbsCurve curve =
+      make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2}), points, Eigen::VectorXd::Ones(7));
+  const std::vector<Corner> corners = BezierPath::from_nurbs(curve, 0).corners(0.1);
+  ASSERT_EQ(corners.size(), 1u);
+  EXPECT_NEAR(corners[0].angle, pi / 2, 1e-15);
+}
+
+TEST(BezierPathTest, RationalPiecesAreSplitUntilNoneTurnsByMoreThanARightAngle) {
+  for (const double degrees : {60.0, 90.0, 91.0, 120.0, 175.0}) {
+    const BezierPath path = BezierPath::from_nurbs(circular_arc(2, degrees * pi / 180), 0);
+    ASSERT_EQ(path.segments.size(), degrees > 90 ? 2u : 1u) << degrees;
+    for (const RationalCubic& arc : path.segments) {
+      const Eigen::Vector3d a = arc.derivatives(0).col(1), b = arc.derivatives(1).col(1);
+      EXPECT_GE(a.dot(b), -1e-14 * a.norm() * b.norm());
+    }
+    EXPECT_NEAR(path.length(), 2 * degrees * pi / 180, 1e-14);
+    EXPECT_LE(parametric_distance(path, circular_arc(2, degrees * pi / 180)), 4e-15);
+  }
+}
+
+TEST(BezierPathTest, ToNurbsAndBackGivesTheSameSegmentsUpToAFactorEach) {
+  Generator generator(31);
+  for (int i = 0; i < 2000; ++i) {
+    const BezierPath path = random_path(generator, 1 + i % 40);
+    const NurbsCurve curve = path.to_nurbs();
+    ASSERT_EQ(curve.degree(), 3);
+    const BezierPath back = BezierPath::from_nurbs(curve, 0);
+    ASSERT_EQ(back.breaks, path.breaks);
+    for (std::size_t j = 0; j < path.segments.size(); ++j) {
+      const double factor = path.segments[j].weight(0) / back.segments[j].weight(0);
+      ASSERT_LE((factor * back.segments[j].points() - path.segments[j].points()).norm(),
+                1e-13 * path.segments[j].points().norm());
+    }
+  }
+}
+
+TEST(BezierPathTest, FromNurbsAndBackIsTheSameCurve) {
+  Generator generator(32);
+  for (int i = 0; i < 1000; ++i) {
+    const NurbsCurve curve = random_nurbs(generator, 1 + i % 3, i % 4 > 1, i % 2 == 0);
+    const NurbsCurve back = BezierPath::from_nurbs(curve, 0).to_nurbs();
+    for (int k = 0; k < 20; ++k) {
+      const double u = uniform(generator, curve.knots().start(), curve.knots().end());
+      ASSERT_LE((back.point(u) - curve.point(u)).norm(), 1e-13);
+    }
+  }
+}
+
+TEST(BezierPathTest, APathWithoutSegmentsOrWithTheWrongBreaksIsNotWritten) {
+  Generator generator(33);
+  BezierPath path = random_path(generator, 2);
+  path.breaks.pop_back();
+  EXPECT_THROW(path.to_nurbs(), std::invalid_argument);
+  EXPECT_THROW((BezierPath{{}, {0}, 0}.to_nurbs()), std::invalid_argument);
+}
+
+TEST(BezierPathTest, HigherDegreesAreApproximatedWithinTheToleranceAtAnySampledPlace) {
+  Generator generator(34);
+  for (int i = 0; i < 12; ++i) {
+    const NurbsCurve curve = random_nurbs(generator, 4 + i % 3, i % 2 == 0, i % 4 < 2);
+    const double tolerance = 1e-5;
+    const BezierPath path = BezierPath::from_nurbs(curve, tolerance);
+    double largest = 0;
+    const double a = curve.knots().start(), b = curve.knots().end();
+    for (int k = 0; k <= 1000; ++k)
+      largest = std::max(largest, closest_point(path, curve.point(a + (b - a) * 1e-3 * k)).distance);
+    EXPECT_LE(largest, path.deviation * (1 + 1e-6) + 1e-15);
+    EXPECT_LE(path.deviation, tolerance);
+    EXPECT_GT(path.deviation, 0);
+  }
+}
+
+/// (u, u^4 / 4) on [0, 1].
+NurbsCurve quartic() {
+  Eigen::Matrix3Xd points(3, 5);
+  points << 0, 0.25, 0.5, 0.75, 1, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, 0;
+  return make_nurbs_curve(KnotVector(4, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}), points, Eigen::VectorXd::Ones(5));
+}
+
+TEST(BezierPathTest, TheDeviationOfAQuarticIsThatOfTheFormula) {
+  // Hermite interpolation of u^4/4 misses it by u^2 (1-u)^2 / 4 upwards; 1/64 at the middle. The distance is
+  // a little less than that, by the cosine of the slope and the curvature.
+  const BezierPath path = BezierPath::from_nurbs(quartic(), 1);
+  ASSERT_EQ(path.segments.size(), 1u);
+  EXPECT_LT(path.deviation, 1.0 / 64);
+  EXPECT_GT(path.deviation, 0.95 / 64);
+}
+
+TEST(BezierPathTest, TheDeviationFallsWithTheFourthPowerOfThePieces) {
+  const auto coarse = static_cast<double>(BezierPath::from_nurbs(quartic(), 3e-5).segments.size());
+  const auto fine = static_cast<double>(BezierPath::from_nurbs(quartic(), 3e-5 / 256).segments.size());
+  EXPECT_NEAR(fine / coarse, 4, 0.5);
+}
+
+TEST(BezierPathTest, AnApproximatedCurveHasNoCorners) {
+  const BezierPath path = BezierPath::from_nurbs(quartic(), 1e-7);
+  EXPECT_GT(path.segments.size(), 8u);
+  EXPECT_TRUE(path.corners(1e-12).empty());
+}
+
+TEST(BezierPathTest, ACubicWrittenWithDegreeFiveIsFoundAgain) {
+  Generator generator(35);
+  const RationalCubic cubic = random_path(generator, 1).segments.front();
+  Eigen::Matrix4Xd points = cubic.points();
+  for (int p = 4; p <= 5; ++p) {
+    Eigen::Matrix4Xd higher(4, p + 1);
+    higher.col(0) = points.col(0);
+    higher.col(p) = points.col(p - 1);
+    for (int j = 1; j < p; ++j)
+      higher.col(j) = (double(j) * points.col(j - 1) + double(p - j) * points.col(j)) / p;
+    points = higher;
+  }
+  const NurbsCurve curve(KnotVector(5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}), points);
+  const BezierPath path = BezierPath::from_nurbs(curve, 1e-12);
+  ASSERT_EQ(path.segments.size(), 1u);
+  EXPECT_LE((path.segments[0].points() - cubic.points()).norm(), 1e-14);
+  EXPECT_LE(path.deviation, 1e-14);
+}
+
+TEST(BezierPathTest, AToleranceBelowRoundOffStillEnds) {
+  const BezierPath path = BezierPath::from_nurbs(quartic(), 1e-30);
+  EXPECT_LE(path.deviation, 1e-14);
+  EXPECT_LT(path.segments.size(), 5000u);
+}
+
+TEST(BezierPathTest, ATolerancePositiveIsAskedOfHigherDegreesOnly) {
+  EXPECT_THROW(BezierPath::from_nurbs(quartic(), 0), std::invalid_argument);
+  EXPECT_THROW(BezierPath::from_nurbs(quartic(), std::nan("")), std::invalid_argument);
+  EXPECT_NO_THROW(BezierPath::from_nurbs(unit_circle(), 0));
+}
+
+TEST(BezierPathTest, AShuffledOutlineIsOneClosedChain) {
+  const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0);
+  const std::vector<NurbsCurve> square{line(a, b), line(d, c), line(b, c), line(a, d)};
+  const std::vector<Chain> chains = find_chains(square, 1e-9);
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_TRUE(chains[0].closed);
+  EXPECT_EQ(chains[0].curves, (std::vector<int>{0, 2, 1, 3}));
+  EXPECT_EQ(chains[0].reversed, (std::vector<bool>{false, false, true, true}));
+}
+
+TEST(BezierPathTest, AnOpenChainStartsWithACurveInItsOwnDirection) {
+  const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(2, 1, 0), d(3, 1, 0);
+  const std::vector<Chain> forwards = find_chains({line(b, c), line(d, c), line(a, b)}, 1e-9);
+  ASSERT_EQ(forwards.size(), 1u);
+  EXPECT_FALSE(forwards[0].closed);
+  EXPECT_EQ(forwards[0].curves, (std::vector<int>{2, 0, 1}));
+  EXPECT_EQ(forwards[0].reversed, (std::vector<bool>{false, false, true}));
+  const std::vector<Chain> turned = find_chains({line(b, c), line(d, c), line(b, a)}, 1e-9);
+  ASSERT_EQ(turned.size(), 1u);
+  EXPECT_EQ(turned[0].curves, (std::vector<int>{1, 0, 2}));
+  EXPECT_EQ(turned[0].reversed, (std::vector<bool>{false, true, false}));
+}
+
+TEST(BezierPathTest, AForkEndsThreeChainsAndACircleIsItsOwn) {
+  const Eigen::Vector3d o(5, 0, 0), a(6, 0, 0), b(5, 1, 0), c(5, 0, 1), far(5, 0, 2);
+  const std::vector<Chain> chains =
+      find_chains({line(o, a), line(b, o), unit_circle(), line(o, c), line(c, far)}, 1e-9);
+  ASSERT_EQ(chains.size(), 4u);
+  EXPECT_EQ(chains[2].curves, std::vector<int>{2});
+  EXPECT_TRUE(chains[2].closed);
+  EXPECT_EQ(chains[3].curves, (std::vector<int>{3, 4}));
+  EXPECT_FALSE(chains[3].closed);
+}
+
+TEST(BezierPathTest, EndsFurtherApartThanTheToleranceDoNotMeet) {
+  const std::vector<NurbsCurve> curves{line({0, 0, 0}, {1, 0, 0}), line({1, 1e-4, 0}, {2, 0, 0})};
+  EXPECT_EQ(find_chains(curves, 2e-4).size(), 1u);
+  EXPECT_EQ(find_chains(curves, 5e-5).size(), 2u);
+}
+
+TEST(BezierPathTest, RandomlyTurnedPiecesOfOneCurveAreJoinedAgain) {
+  Generator generator(36);
+  for (int i = 0; i < 200; ++i) {
+    const int count = 2 + i % 6;
+    const BezierPath whole = random_path(generator, count);
+    std::vector<NurbsCurve> pieces;
+    for (int j = 0; j < count; ++j) {
+      const NurbsCurve piece =
+          BezierPath{{whole.segments[j]}, {whole.breaks[j], whole.breaks[j + 1]}, 0}.to_nurbs();
+      pieces.push_back(generator() % 2 == 0 ? piece.reversed() : piece);
+    }
+    std::shuffle(pieces.begin(), pieces.end(), generator);
+    const std::vector<Chain> chains = find_chains(pieces, 1e-9);
+    ASSERT_EQ(chains.size(), 1u);
+    const BezierPath joined = join(pieces, chains[0], 1e-9);
+    ASSERT_EQ(joined.segments.size(), whole.segments.size());
+    ASSERT_NEAR(joined.breaks.back() - joined.breaks.front(), whole.breaks.back() - whole.breaks.front(),
+                1e-13);
+    for (int j = 0; j < count; ++j) {
+      const bool forwards =
+          (joined.segments[0].control_point(0) - whole.segments[0].control_point(0)).norm() < 1e-9;
+      const RationalCubic& other = forwards ? joined.segments[j] : joined.segments[count - 1 - j].reversed();
+      ASSERT_LE((other.point(0.3) - whole.segments[j].point(0.3)).norm(), 1e-13);
+    }
+  }
+}
+
+TEST(BezierPathTest, JoiningClosesGapsMidwayAndReportsTheShift) {
+  const std::vector<NurbsCurve> curves{line({0, 0, 0}, {1, 0, 0}), line({1, 2e-6, 0}, {1, 1, 0})};
+  const BezierPath path = join(curves, find_chains(curves, 1e-5).front(), 1e-9);
+  EXPECT_LE((path.segments[0].control_point(3) - Eigen::Vector3d(1, 1e-6, 0)).norm(), 1e-15);
+  EXPECT_EQ(path.segments[0].control_point(3), path.segments[1].control_point(0));
+  EXPECT_NEAR(path.deviation, 1e-6, 1e-15);
+  EXPECT_NEAR(path.corners(0.1).at(0).angle, pi / 2, 1e-12);
+  EXPECT_EQ(path.breaks, (std::vector<double>{0, 1, 2}));
+}
+
+TEST(BezierPathTest, JoiningAClosedChainClosesItsLastGapToo) {
+  const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(1, 1, 0);
+  const std::vector<NurbsCurve> curves{line(a, b), line(b, c), line(c, {0, 2e-6, 0})};
+  const BezierPath path = join(curves, find_chains(curves, 1e-5).front(), 1e-9);
+  EXPECT_EQ(path.segments[0].control_point(0), path.segments[2].control_point(3));
+  EXPECT_NEAR(path.deviation, 1e-6, 1e-15);
+}
+
+}  // namespace
+}  // namespace nurbeam
