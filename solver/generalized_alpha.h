@@ -1,5 +1,5 @@
 #pragma once
-#include <limits>
+#include <utility>
 
 #include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
@@ -11,45 +11,102 @@ struct GeneralizedAlpha {
   double rho_infinity = 0.8;        ///< spectral radius at infinite frequency, [0,1]
   double newton_tolerance = 1e-10;  ///< on the scaled correction and residual, relative
   int max_iterations = 12;
-  int max_halvings = 12;            ///< of a failed step, before giving up
-  double tolerance = 0;             ///< relative local error per step; 0: fixed steps
+  int max_halvings = 12;  ///< of a failed step, before giving up
+  double tolerance = 0;   ///< relative local error per step; 0: fixed steps
 };
 
 enum class StepStatus { converged, not_converged, singular_matrix, inadmissible };
 
 struct StepReport {
   StepStatus status = StepStatus::converged;
-  double step = 0;             ///< the step taken [s] (may be shorter than asked)
-  double next_step = 0;        ///< what error control would take next [s]; the asked step without it
-  int newton_iterations = 0;   ///< over all attempts
-  int rejected = 0;            ///< attempts thrown away
-  double residual_norm = 0;    ///< scaled, last attempt
-  double local_error = 0;      ///< estimated, relative
+  double step = 0;            ///< the step taken [s] (may be shorter than asked)
+  double next_step = 0;       ///< what error control would take next [s]; the asked step without it
+  int newton_iterations = 0;  ///< over all attempts
+  int rejected = 0;           ///< attempts thrown away
+  double residual_norm = 0;   ///< scaled, last attempt
+  double local_error = 0;     ///< estimated, relative
 };
 
-/// Advances one state; keeps the method's own acceleration variable and the factorisation between steps.
+/// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
+/// and the symbolic factorisation between steps.
+///
+///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
+///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
+///   M a' + G'lambda' = f(q', v', t'), g(q', t') = 0,
+///
+/// Arnold & Bruels (2007), with their optimal parameters. Differs from it in two ways. Scaling: the dynamic
+/// rows are multiplied by beta h^2 / (mass scale) and lambda by the inverse, so the iteration matrix tends to
+/// [(1 - alpha_m)/(1 - alpha_f) M / (mass scale), G'; G, 0] as h -> 0. Step changes: alg stands for a at
+/// t + (alpha_m - alpha_f) h, so a new step h_new moves it by (alpha_m - alpha_f)(h_new - h) d3q/dt3, the
+/// derivative taken from alg over the last step; a step more than four times the last one starts afresh with
+/// alg = a.
+///
+/// Order two in q and v for any steps; in lambda for equal steps, once the start (alg = a) is forgotten like
+/// rho_infinity^k. A change of step disturbs lambda and a by O(h_new - h), likewise forgotten; where that
+/// matters, make_accelerations_consistent on a copy of the state gives both to second order from q and v.
+///
+/// In an exact position constraint lambda carries the round-off of q divided by h^2: a caller that must land
+/// on a time should divide the rest evenly rather than take one tiny step.
 class GeneralizedAlphaIntegrator {
  public:
   /// `start` must be consistent (a and lambda too); the method's own acceleration variable is set to a.
+  /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range and for a
+  /// start of the wrong size.
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
 
   const State& state() const { return state_; }
   /// The method's own acceleration variable (for a restart point).
   const Eigen::VectorXd& algorithmic_acceleration() const { return algorithmic_acceleration_; }
   void set_algorithmic_acceleration(Eigen::VectorXd value) { algorithmic_acceleration_ = std::move(value); }
+  /// (n+m) x (n+m) the scaled matrix of the last Newton iteration.
+  const Eigen::SparseMatrix<double>& iteration_matrix() const { return kkt_; }
 
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
-  /// On any status but `converged` the state is unchanged.
+  /// On any status but `converged` the state is unchanged. A `step` or step limit that is not positive and
+  /// finite, or too small to change t, is `inadmissible`.
   [[nodiscard]] StepReport advance(double step);
 
  private:
+  struct Parameters {
+    double alpha_m;
+    double alpha_f;
+    double beta;
+    double gamma;
+    double position_error;  ///< of one step, in units of h^3 d3q/dt3
+  };
+  static Parameters parameters(double rho_infinity);
+
+  StepStatus attempt(double step, StepReport& report);
+  void predict(double step);
+  void evaluate_force_level();
+  void evaluate_residual(double step);
+  void measure_reference(double step);
+  void correct(double step);
+  double local_error(double step) const;
+  double next_step(double step, const StepReport& report) const;
+  void accept(double step);
+
   GeneralizedAlpha settings_;
+  Parameters parameters_;
   const SecondOrderSystem* system_;
   State state_;
   Eigen::VectorXd algorithmic_acceleration_;
+  Eigen::VectorXd jerk_;  ///< d3q/dt3 over the last step
   double last_step_ = 0;
+  double last_error_ = 0;
+  double mass_scale_ = 1;
   KktSolver solver_;
   Eigen::SparseMatrix<double> kkt_;
+
+  // The attempt under way.
+  State trial_;
+  Eigen::VectorXd start_algorithmic_;  ///< algorithmic_acceleration_ moved to the step of the attempt
+  Eigen::VectorXd trial_algorithmic_;
+  Eigen::VectorXd force_;       ///< (n) f at the predictor
+  Eigen::VectorXd residual_;    ///< (n+m) scaled
+  Eigen::VectorXd correction_;  ///< (n+m) scaled
+  Eigen::VectorXd reference_;   ///< (n+m) what the scaled residual is compared with
+  Eigen::VectorXd scale_;       ///< (n) coordinate scale
 };
 
 }  // namespace nurbeam

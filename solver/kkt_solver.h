@@ -12,8 +12,10 @@ class KktSolver {
   KktSolver(KktSolver&&) noexcept;
   KktSolver& operator=(KktSolver&&) noexcept;
 
-  /// Analyses the pattern on first use (or when its size or number of entries changed), then factorises.
-  /// Returns whether the matrix is numerically non-singular.
+  /// Analyses the pattern on first use (and when its size or its index arrays changed), then factorises the
+  /// compressed, square `matrix`.
+  /// Returns whether the matrix is finite and numerically non-singular: smallest over largest pivot of the
+  /// row-scaled factors above 1e-15.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix);
   /// x with matrix x = rhs. Precondition: factorise returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;

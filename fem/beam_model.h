@@ -1,0 +1,98 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/reference_curve.h"
+#include "fem/section.h"
+#include "fem/time_table.h"
+
+namespace nurbeam {
+
+enum class WeightRule {
+  material,  ///< ALE-RANCF, weights follow the material: one chart and one W per CAD segment
+  constant,  ///< ALE-RANCF, the paper's: four weights that stay with the element
+  ones       ///< ALE-ANCF: plain cubics in reference arc length
+};
+enum class MergeRule {
+  standard,  ///< material weights: none to choose; constant weights: the paper's rule
+  paper,     ///< Eqs. 31-38 of Ding & Ouyang
+  ones       ///< all ones
+};
+
+/// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.
+struct HomeNode {
+  double s;   ///< reference arc length [m]
+  bool late;  ///< a break of the drawing or a support: removed only while a sliding node is very near
+};
+
+struct Beam {
+  std::string name;
+  ReferenceCurve curve;
+  BeamProperties properties;
+  bool straight = false;  ///< stress-free shape without curvature
+  WeightRule weights = WeightRule::material;
+  MergeRule merge = MergeRule::standard;
+  std::vector<HomeNode> home;  ///< s increasing, from 0 to the length
+};
+
+struct Body {
+  std::string name;
+  double mass;  ///< [kg]
+};
+
+struct Support {
+  int beam;
+  double s;      ///< [m]
+  bool clamped;  ///< position and direction of the slope; its magnitude stays free
+};
+
+struct PointLoad {
+  enum class Kind { force, moment } kind = Kind::force;
+  int beam = 0;
+  double s = 0;                                     ///< place at t = 0 [m]
+  double speed = 0;                                 ///< ds/dt of the place [m/s]
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N] or [N m]
+  bool follower = false;                            ///< turns with the tangent
+  TimeTable time;
+};
+
+struct LineLoad {
+  int beam = 0;
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N/m] of reference arc length
+  TimeTable time;
+};
+
+/// Ties a body to a moving place on the beam.
+struct SlidingJoint {
+  int body;
+  int beam;
+  double s;                         ///< at t = 0 [m]
+  double speed = 0;                 ///< at t = 0 [m/s]
+  std::optional<TimeTable> motion;  ///< prescribed s(t) [m]
+  bool continuous_slope = true;
+  bool leave_at_end = true;  ///< else it stops there
+};
+
+/// Elements' home places, supports, bodies, loads and joints: all that does not change during a run.
+///
+/// Coordinates are the model's own frame: for dimension 2 the plane of the model (third components zero).
+struct BeamModel {
+  int dimension = 3;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  std::vector<Beam> beams;
+  std::vector<Body> bodies;
+  std::vector<Support> supports;
+  std::vector<PointLoad> point_loads;
+  std::vector<LineLoad> line_loads;
+  std::vector<SlidingJoint> joints;
+};
+
+/// Home nodes for a beam: breaks of the drawing and supports, each interval between them divided evenly in
+/// arc length so that `count` elements result, spread in proportion to length. Throws std::invalid_argument,
+/// naming the smallest count, when there are more intervals than elements.
+std::vector<HomeNode> divide_evenly(const ReferenceCurve& curve, const std::vector<double>& support_places,
+                                    int count);
+
+}  // namespace nurbeam

@@ -1,0 +1,346 @@
+#include "fem/length_control.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "fem/inertia.h"
+#include "solver/consistent.h"
+
+namespace nurbeam {
+
+namespace {
+
+double position_of(const MeshNode& node, const Eigen::VectorXd& q) {
+  return node.place >= 0 ? q[node.place] : node.s;
+}
+
+// The rules of length control for one joint, seen from its two neighbours.
+template <int D>
+class JointRules {
+ public:
+  JointRules(const BeamSystem<D>& system, const State& state, const LengthControl& control, int joint,
+             NextPlan& next)
+      : mesh_(system.mesh()), state_(state), control_(control), joint_(joint), next_(next) {
+    beam_ = system.model().joints[joint].beam;
+    home_ = &system.model().beams[beam_].home;
+    s_ = *system.place(state, joint);
+    rate_ = system.place_rate(state, joint);
+  }
+
+  bool apply() {
+    if (mesh_.plan.modes[joint_] == JointMode::point) return leave_end();
+    if (mesh_.plan.modes[joint_] != JointMode::node) return false;
+    const auto& nodes = mesh_.nodes[beam_];
+    const int i = mesh_.joints[joint_].node;
+    left_ = &nodes[i - 1];
+    right_ = &nodes[i + 1];
+    return enter_end() || move_late_nodes() || exchange_nodes();
+  }
+
+ private:
+  double at(int h) const { return (*home_)[h].s; }
+  int last() const { return static_cast<int>(home_->size()) - 1; }
+  bool present(int h) const { return next_.plan.present[beam_][h]; }
+  // Length of the home interval that holds s.
+  double spacing(double s) const {
+    int h = 1;
+    while (h < last() && at(h) <= s) ++h;
+    return at(h) - at(h - 1);
+  }
+  bool change(MeshChange kind) {
+    next_.change = kind;
+    next_.joint = joint_;
+    return true;
+  }
+  void insert(int h) { next_.plan.present[beam_][h] = true; }
+  void remove(int h) { next_.plan.present[beam_][h] = false; }
+
+  bool leave_end() {
+    const double from_end = std::min(s_, at(last()) - s_);
+    if (from_end < 2 * end_zone * spacing(s_)) return false;
+    next_.plan.modes[joint_] = JointMode::node;
+    return change(MeshChange::becomes_node);
+  }
+
+  bool enter_end() {
+    for (const MeshNode* node : {left_, right_}) {
+      if (node->home != 0 && node->home != last()) continue;
+      const bool approaching = (node == right_) == (rate_ > 0);
+      if (!approaching || std::abs(node->s - s_) > end_zone * spacing(s_)) continue;
+      next_.plan.modes[joint_] = JointMode::point;
+      for (int h = 0; h <= last(); ++h)
+        if (at(h) > position_of(*left_, state_.q) && at(h) < position_of(*right_, state_.q)) insert(h);
+      return change(MeshChange::becomes_point);
+    }
+    return false;
+  }
+
+  bool hidden(int h) const {
+    return !present(h) && at(h) > position_of(*left_, state_.q) && at(h) < position_of(*right_, state_.q);
+  }
+
+  bool move_late_nodes() {
+    for (int h = 1; h < last(); ++h) {
+      if (!(*home_)[h].late) continue;
+      const double distance = std::abs(at(h) - s_);
+      const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      if (hidden(h) && distance > late_return * gap) {
+        insert(h);
+        return change(MeshChange::merge);  // charts change too: velocities are projected
+      }
+      const bool neighbour = h == left_->home || h == right_->home;
+      const bool approaching = (at(h) > s_) == (rate_ > 0);
+      if (neighbour && approaching && distance < late_removal * gap) {
+        remove(h);
+        return change(MeshChange::merge);
+      }
+    }
+    return false;
+  }
+
+  // Returns whether a hidden home node comes back in the element towards `far`.
+  bool insert_towards(const MeshNode& far) {
+    if (far.home < 0) return insert_between_joints(far);
+    for (int h = 1; h < last(); ++h) {
+      if (!hidden(h) || (*home_)[h].late || (at(h) > s_) != (far.s > s_)) continue;
+      if (std::abs(far.s - s_) <= control_.max * std::abs(far.s - at(h))) continue;
+      insert(h);
+      return true;
+    }
+    return false;
+  }
+
+  // The far end is another moving node: a hidden node returns when it is half a standard length from both.
+  bool insert_between_joints(const MeshNode& far) {
+    const double other = position_of(far, state_.q);
+    for (int h = 1; h < last(); ++h) {
+      if (!hidden(h) || (*home_)[h].late || (at(h) > s_) != (other > s_)) continue;
+      const double margin = (control_.max - 1) * spacing(at(h));
+      if (std::abs(at(h) - s_) <= margin || std::abs(at(h) - other) <= margin) continue;
+      insert(h);
+      return true;
+    }
+    return false;
+  }
+
+  bool remove_at(const MeshNode& near) {
+    const int h = near.home;
+    if (h <= 0 || h >= last() || (*home_)[h].late) return false;
+    const int beyond = near.s < s_ ? h - 1 : h + 1;
+    if (!present(beyond)) return false;
+    const double distance = std::abs(near.s - s_);
+    const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
+                 behind = std::abs(at(beyond) - at(h));
+    if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
+    for (int k = 1; k < last(); ++k)
+      if (hidden(k) && !(*home_)[k].late) return false;
+    remove(h);
+    return true;
+  }
+
+  bool exchange_nodes() {
+    const bool inserted = insert_towards(*left_) || insert_towards(*right_);
+    const bool removed = remove_at(*left_) || remove_at(*right_);
+    if (removed) return change(MeshChange::merge);
+    return inserted && change(MeshChange::split);
+  }
+
+  const Mesh<D>& mesh_;
+  const State& state_;
+  const LengthControl& control_;
+  int joint_, beam_;
+  NextPlan& next_;
+  const std::vector<HomeNode>* home_;
+  double s_, rate_;
+  const MeshNode *left_ = nullptr, *right_ = nullptr;
+};
+
+// Weights that stay with their elements: kept, split (Eq. 21) or merged (Eqs. 31-38).
+template <int D>
+void carry_weights(const BeamSystem<D>& system, const State& state, MeshPlan& plan) {
+  using Vector = Eigen::Matrix<double, D, 1>;
+  plan.weights.clear();
+  const BeamModel& model = system.model();
+  const Mesh<D>& old = system.mesh();
+  const Mesh<D> fresh = make_mesh<D>(model, plan);
+  for (const MeshElement<D>& e : fresh.elements) {
+    const Beam& beam = model.beams[e.beam];
+    if (beam.weights != WeightRule::constant) continue;
+    const double inset = 1e-9 * (e.s_b - e.s_a);
+    const auto& first = old.elements[find_element<D>(model, old, state.q, e.beam, e.s_a + inset)];
+    const auto& last = old.elements[find_element<D>(model, old, state.q, e.beam, e.s_b - inset)];
+    const int segment = e.element.chart().segment;
+    const auto u = [&](double s) { return segment < 0 ? s : beam.curve.parameter(segment, s); };
+    std::array<double, 4> w{1, 1, 1, 1};
+    if (&first == &last) {
+      const auto q = gather<D>(first, state.q, state.v, state.v).q;
+      Eigen::Matrix4d line = Eigen::Matrix4d::Zero();
+      line.row(3) = first.element.bezier_weights(q).transpose();
+      const double u0 = u(q[4 * D]), u1 = u(q[4 * D + 1]);
+      const Eigen::Matrix4d part = RationalCubic(line)
+                                       .piece(std::clamp((u(e.s_a) - u0) / (u1 - u0), 0.0, 1.0),
+                                              std::clamp((u(e.s_b) - u0) / (u1 - u0), 0.0, 1.0))
+                                       .points();
+      w = {part(3, 0), part(3, 1), part(3, 2), part(3, 3)};
+    } else if (beam.merge != MergeRule::ones) {
+      const double s_h = position_of(old.nodes[e.beam][first.node_b], state.q);
+      const auto a = material_point<D>(first, state.q, state.v, e.s_a);
+      const auto h = material_point<D>(first, state.q, state.v, s_h);
+      const auto b = material_point<D>(last, state.q, state.v, e.s_b);
+      const double l = u(e.s_b) - u(e.s_a);
+      const double J_a = segment < 0 ? 1 : beam.curve.geometry(segment, u(e.s_a)).stretch[0];
+      const double J_b = segment < 0 ? 1 : beam.curve.geometry(segment, u(e.s_b)).stretch[0];
+      w = merged_weights<D>(a.r, Vector(l * J_a * a.rs), b.r, Vector(l * J_b * b.rs), h.r,
+                            (u(s_h) - u(e.s_a)) / l);
+    }
+    plan.weights.push_back({e.beam, e.s_a, e.s_b, w});
+  }
+}
+
+template <int D>
+const MeshNode* same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted) {
+  for (const MeshNode& node : nodes)
+    if (node.home == wanted.home && node.joint == wanted.joint) return &node;
+  return nullptr;
+}
+
+// int rho A N' v_old ds over the new elements, N = dr/dq at fixed material, plus the bodies' momenta.
+template <int D>
+Eigen::VectorXd momentum_on(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to,
+                            const State& next) {
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(to.coordinate_count());
+  const BeamModel& model = to.model();
+  const Mesh<D>& mesh = to.mesh();
+  for (const MeshElement<D>& e : mesh.elements) {
+    const Beam& beam = model.beams[e.beam];
+    std::vector<double> parts{e.s_a, e.s_b};
+    const auto add = [&](double s) {
+      if (s > e.s_a && s < e.s_b) parts.push_back(s);
+    };
+    for (const MeshNode& node : from.mesh().nodes[e.beam]) add(position_of(node, state.q));
+    for (double s : beam.curve.breaks()) add(s);
+    std::sort(parts.begin(), parts.end());
+    const ElementState<D> x = gather<D>(e, next.q, next.v, next.v);
+    const Eigen::Matrix<double, D, 4> nodes = Eigen::Map<const Eigen::Matrix<double, D, 4>>(x.q.data());
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+      for (int g = 0; g < GaussRule::size; ++g) {
+        const double length = parts[i + 1] - parts[i], s = parts[i] + length * GaussRule::points[g];
+        const auto& old = from.mesh().elements[find_element<D>(model, from.mesh(), state.q, e.beam, s)];
+        const auto velocity = material_point<D>(old, state.q, state.v, s).velocity;
+        const PointField<D> r(e.element.shape_series(x.q, s).value, nodes);
+        const double mass = beam.properties.mass_per_length * length * GaussRule::weights[g];
+        for (int k = 0; k < element_size<D>; ++k)
+          if (e.dofs[k] >= 0) p[e.dofs[k]] += mass * r.gradient.col(k).dot(velocity);
+      }
+  }
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j)
+    p.segment<D>(mesh.joints[j].r) +=
+        model.bodies[model.joints[j].body].mass * state.v.segment<D>(from.mesh().joints[j].r);
+  return p;
+}
+
+}  // namespace
+
+template <int D>
+std::array<double, 4> merged_weights(const Eigen::Matrix<double, D, 1>& r_a,
+                                     const Eigen::Matrix<double, D, 1>& slope_a,
+                                     const Eigen::Matrix<double, D, 1>& r_b,
+                                     const Eigen::Matrix<double, D, 1>& slope_b,
+                                     const Eigen::Matrix<double, D, 1>& r_h, double u) {
+  const double v = 1 - u;
+  Eigen::Matrix<double, D, 3> A;
+  A.col(0) = v * v * v * (r_a - r_h) + u * v * v * slope_a;
+  A.col(1) = 3 * u * v * v * (r_a - r_h);
+  A.col(2) = 3 * u * u * v * (r_b - r_h);
+  const Eigen::Matrix<double, D, 1> B = u * u * v * slope_b - u * u * u * (r_b - r_h) - A.rowwise().sum();
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  svd.setThreshold(1e-2);
+  const Eigen::Vector3d x = svd.solve(Eigen::VectorXd(B));
+  if ((x.array() + 1 <= 0).any()) return {1, 1, 1, 1};
+  return {x[0] + 1, x[1] + 1, x[2] + 1, 1};
+}
+
+template <int D>
+NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control) {
+  NextPlan next;
+  next.plan = system.mesh().plan;
+  for (std::size_t j = 0; j < next.plan.places.size(); ++j)
+    if (const auto s = system.place(state, static_cast<int>(j))) next.plan.places[j] = *s;
+  for (std::size_t j = 0; j < next.plan.places.size(); ++j)
+    if (JointRules<D>(system, state, control, static_cast<int>(j), next).apply()) {
+      carry_weights<D>(system, state, next.plan);
+      return next;
+    }
+  return next;
+}
+
+template <int D>
+std::optional<State> transfer(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to,
+                              bool exact) {
+  State next = to.drawn_state();
+  next.t = state.t;
+  const Mesh<D>&old = from.mesh(), &mesh = to.mesh();
+  for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
+    for (const MeshNode& node : mesh.nodes[b]) {
+      if (const MeshNode* kept = same_node<D>(old.nodes[b], node)) {
+        const auto copy = [&](int target, int source, int n) {
+          next.q.segment(target, n) = state.q.segment(source, n);
+          next.v.segment(target, n) = state.v.segment(source, n);
+        };
+        copy(node.r, kept->r, D);
+        copy(node.slope_left, kept->slope_left, D);
+        copy(node.slope_right, kept->slope_right, D);
+        if (node.place >= 0) copy(node.place, kept->place, 1);
+        continue;
+      }
+      const auto& e = old.elements[find_element<D>(from.model(), old, state.q, b, node.s)];
+      const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, node.s);
+      const double rate = node.joint >= 0 ? from.place_rate(state, node.joint) : 0;
+      next.q.segment<D>(node.r) = p.r;
+      next.v.segment<D>(node.r) = p.velocity + rate * p.rs;
+      for (int slope : {node.slope_left, node.slope_right}) {
+        next.q.segment<D>(slope) = p.rs;
+        next.v.segment<D>(slope) = p.velocity_s + rate * p.rss;
+      }
+      if (node.place >= 0) {
+        next.q[node.place] = node.s;
+        next.v[node.place] = rate;
+      }
+    }
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    next.q.segment<D>(mesh.joints[j].r) = state.q.segment<D>(old.joints[j].r);
+    next.v.segment<D>(mesh.joints[j].r) = state.v.segment<D>(old.joints[j].r);
+    if (mesh.joints[j].place >= 0 && old.joints[j].place >= 0) {
+      next.q[mesh.joints[j].place] = state.q[old.joints[j].place];
+      next.v[mesh.joints[j].place] = state.v[old.joints[j].place];
+    }
+  }
+  if (exact) return next;
+
+  // A body on a point must lie on the curve, which the removal of its node has moved a little.
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    if (mesh.plan.modes[j] != JointMode::point) continue;
+    const double s = next.q[mesh.joints[j].place];
+    const int beam = to.model().joints[j].beam;
+    const auto& e = mesh.elements[find_element<D>(to.model(), mesh, next.q, beam, s)];
+    next.q.segment<D>(mesh.joints[j].r) = material_point<D>(e, next.q, next.v, s).r;
+  }
+  Eigen::VectorXd impulse;
+  const Eigen::VectorXd momentum = momentum_on<D>(from, state, to, next);
+  if (!velocities_from_momentum(to, momentum, next, impulse)) return std::nullopt;
+  return next;
+}
+
+template NextPlan next_plan<2>(const BeamSystem<2>&, const State&, const LengthControl&);
+template NextPlan next_plan<3>(const BeamSystem<3>&, const State&, const LengthControl&);
+template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&, bool);
+template std::optional<State> transfer<3>(const BeamSystem<3>&, const State&, const BeamSystem<3>&, bool);
+template std::array<double, 4> merged_weights<2>(const Eigen::Vector2d&, const Eigen::Vector2d&,
+                                                 const Eigen::Vector2d&, const Eigen::Vector2d&,
+                                                 const Eigen::Vector2d&, double);
+template std::array<double, 4> merged_weights<3>(const Eigen::Vector3d&, const Eigen::Vector3d&,
+                                                 const Eigen::Vector3d&, const Eigen::Vector3d&,
+                                                 const Eigen::Vector3d&, double);
+
+}  // namespace nurbeam

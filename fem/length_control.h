@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "fem/beam_system.h"
+
+namespace nurbeam {
+
+/// Thresholds in standard (home) element lengths (Figure 7 of Ding & Ouyang).
+struct LengthControl {
+  double min = 0.5;
+  double max = 1.5;
+};
+
+enum class MeshChange {
+  none,
+  split,          ///< nodes inserted only: exact in position and velocity
+  merge,          ///< at least one node removed: velocities by L2 projection
+  becomes_point,  ///< a joint near a beam end is carried on a fixed mesh
+  becomes_node    ///< a joint has come away from the end
+};
+
+/// What the mesh should be now; `change` is none when it may stay.
+struct NextPlan {
+  MeshChange change = MeshChange::none;
+  int joint = -1;
+  MeshPlan plan;
+};
+
+/// Applies the paper's rule near each joint: where an element beside the moving node is longer than max
+/// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
+/// (unless it is a beam end, or late and not very near). Late nodes (breaks, supports) go at `late_removal`
+/// and return at `late_return`; within `end_zone` of a beam end the joint becomes a point of the fixed mesh.
+template <int D>
+NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control);
+
+/// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them from the old curve;
+/// velocities are interpolated after a split and otherwise the L2 projection of the material velocity field.
+/// t, q and v are set; a and lambda are zero. Returns nullopt when the projection is singular.
+template <int D>
+std::optional<State> transfer(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to,
+                              bool exact);
+
+/// Weights (k_0, k_1, k_2, 1) of Eqs. 31-38 of Ding & Ouyang: the minimum-norm change from ones that leads
+/// the merged curve through r_H at parameter u; all ones if any is not positive. Pseudo-inverse tolerance
+/// 1e-2 (relative). slope_a, slope_b: dr/du at the ends [m].
+template <int D>
+std::array<double, 4> merged_weights(const Eigen::Matrix<double, D, 1>& r_a,
+                                     const Eigen::Matrix<double, D, 1>& slope_a,
+                                     const Eigen::Matrix<double, D, 1>& r_b,
+                                     const Eigen::Matrix<double, D, 1>& slope_b,
+                                     const Eigen::Matrix<double, D, 1>& r_h, double u);
+
+extern template NextPlan next_plan<2>(const BeamSystem<2>&, const State&, const LengthControl&);
+extern template NextPlan next_plan<3>(const BeamSystem<3>&, const State&, const LengthControl&);
+extern template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&,
+                                                 bool);
+extern template std::optional<State> transfer<3>(const BeamSystem<3>&, const State&, const BeamSystem<3>&,
+                                                 bool);
+
+}  // namespace nurbeam

@@ -1,0 +1,169 @@
+#include "fem/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fem/inertia.h"
+
+namespace nurbeam {
+
+namespace {
+
+double spacing_near(const std::vector<HomeNode>& home, double s) {
+  std::size_t i = 1;
+  while (i + 1 < home.size() && home[i].s <= s) ++i;
+  return home[i].s - home[i - 1].s;
+}
+
+// Interior home node that gives way to a moving node at s, or -1.
+int node_to_replace(const std::vector<HomeNode>& home, double s) {
+  int nearest = -1;
+  for (int i = 1; i + 1 < static_cast<int>(home.size()); ++i)
+    if (nearest < 0 || std::abs(home[i].s - s) < std::abs(home[nearest].s - s)) nearest = i;
+  if (nearest < 0) return -1;
+  const double gap =
+      home[nearest].s < s ? home[nearest + 1].s - home[nearest].s : home[nearest].s - home[nearest - 1].s;
+  const double reach = home[nearest].late ? late_removal : 0.5;
+  return std::abs(home[nearest].s - s) <= reach * gap ? nearest : -1;
+}
+
+// Whether a break of the drawing that has no node lies strictly between two places.
+bool spans_break(const Beam& beam, double s_a, double s_b) {
+  const double near = 1e-12 * beam.curve.length();
+  const auto& breaks = beam.curve.breaks();
+  return std::any_of(breaks.begin() + 1, breaks.end() - 1,
+                     [&](double s) { return s > s_a + near && s < s_b - near; });
+}
+
+std::array<double, 4> drawn_weights(const ReferenceCurve& curve, int segment, double s_a, double s_b) {
+  const Eigen::Matrix4d points =
+      curve.segment(segment)
+          .piece(std::max(0.0, curve.parameter(segment, s_a)), std::min(1.0, curve.parameter(segment, s_b)))
+          .points();
+  return {points(3, 0), points(3, 1), points(3, 2), points(3, 3)};
+}
+
+Chart choose_chart(const Beam& beam, const MeshPlan& plan, int beam_index, double s_a, double s_b,
+                   bool arc_length) {
+  Chart chart;
+  if (beam.weights == WeightRule::ones) return chart;
+  if (!arc_length) chart.segment = beam.curve.segment_at((s_a + s_b) / 2);
+  if (beam.weights == WeightRule::material) return chart;
+  for (const MeshPlan::Weights& w : plan.weights)
+    if (w.beam == beam_index && w.s_a == s_a && w.s_b == s_b) chart.constant_weights = w.w;
+  if (!chart.constant_weights && !arc_length)
+    chart.constant_weights = drawn_weights(beam.curve, chart.segment, s_a, s_b);
+  return chart;
+}
+
+}  // namespace
+
+MeshPlan initial_plan(const BeamModel& model) {
+  MeshPlan plan;
+  for (const Beam& beam : model.beams) plan.present.emplace_back(beam.home.size(), true);
+  for (const SlidingJoint& joint : model.joints) {
+    const Beam& beam = model.beams[joint.beam];
+    const double from_end = std::min(joint.s, beam.curve.length() - joint.s);
+    const bool at_end = from_end < end_zone * spacing_near(beam.home, joint.s);
+    plan.modes.push_back(at_end ? JointMode::point : JointMode::node);
+    plan.places.push_back(joint.s);
+    if (at_end) continue;
+    const int replaced = node_to_replace(beam.home, joint.s);
+    if (replaced >= 0) plan.present[joint.beam][replaced] = false;
+  }
+  return plan;
+}
+
+template <int D>
+Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
+  Mesh<D> mesh;
+  int next = 0;
+  const auto take = [&next](int n) { return std::exchange(next, next + n); };
+  mesh.joints.assign(model.joints.size(), MeshJoint{-1, -1, -1});
+  for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) {
+    const Beam& beam = model.beams[b];
+    std::vector<MeshNode> nodes;
+    for (int h = 0; h < static_cast<int>(beam.home.size()); ++h)
+      if (plan.present[b][h]) nodes.push_back({beam.home[h].s, h, -1, 0, 0, 0, -1});
+    for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
+      if (model.joints[j].beam == b && plan.modes[j] == JointMode::node)
+        nodes.push_back({plan.places[j], -1, j, 0, 0, 0, -1});
+    std::sort(nodes.begin(), nodes.end(), [](const MeshNode& x, const MeshNode& y) { return x.s < y.s; });
+
+    for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+      MeshNode& node = nodes[i];
+      node.r = take(D);
+      node.slope_left = node.slope_right = take(D);
+      if (node.joint < 0) continue;
+      if (!model.joints[node.joint].continuous_slope) node.slope_right = take(D);
+      node.place = take(1);
+      mesh.joints[node.joint] = {node.r, node.place, i};
+    }
+
+    mesh.first_element.push_back(static_cast<int>(mesh.elements.size()));
+    for (int i = 0; i + 1 < static_cast<int>(nodes.size()); ++i) {
+      const MeshNode &a = nodes[i], &b_node = nodes[i + 1];
+      // Both elements beside a moving node are plain cubics in arc length while it hides a break.
+      const double left = a.joint >= 0 ? nodes[i - 1].s : a.s;
+      const double right = b_node.joint >= 0 ? nodes[i + 2].s : b_node.s;
+      std::array<int, element_size<D>> dofs;
+      for (int d = 0; d < D; ++d) {
+        dofs[d] = a.r + d;
+        dofs[D + d] = a.slope_right + d;
+        dofs[2 * D + d] = b_node.r + d;
+        dofs[3 * D + d] = b_node.slope_left + d;
+      }
+      dofs[4 * D] = a.place;
+      dofs[4 * D + 1] = b_node.place;
+      Chart chart = choose_chart(beam, plan, b, a.s, b_node.s, spans_break(beam, left, right));
+      mesh.elements.push_back({b, i, i + 1, a.s, b_node.s, dofs,
+                               BeamElement<D>(beam.curve, beam.properties, std::move(chart), a.s, b_node.s,
+                                              a.place < 0 && b_node.place < 0, beam.straight)});
+    }
+    mesh.nodes.push_back(std::move(nodes));
+  }
+  mesh.first_element.push_back(static_cast<int>(mesh.elements.size()));
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (plan.modes[j] == JointMode::node) continue;
+    mesh.joints[j].r = take(D);
+    if (plan.modes[j] != JointMode::free) mesh.joints[j].place = take(1);
+  }
+  mesh.coordinate_count = next;
+  mesh.plan = std::move(plan);
+  return mesh;
+}
+
+template <int D>
+int find_element(const BeamModel&, const Mesh<D>& mesh, const Eigen::VectorXd& q, int beam, double s) {
+  const int last = mesh.first_element[beam + 1] - 1;
+  for (int i = mesh.first_element[beam]; i < last; ++i) {
+    const MeshElement<D>& e = mesh.elements[i];
+    const int dof = e.dofs[4 * D + 1];
+    if (s < (dof >= 0 ? q[dof] : e.s_b)) return i;
+  }
+  return last;
+}
+
+template <int D>
+MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                double s) {
+  using Nodes = Eigen::Matrix<double, D, 4>;
+  const ElementState<D> x = gather<D>(e, q, v, v);
+  const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, s);
+  const Nodes nodes = Eigen::Map<const Nodes>(x.q.data()), rates = Eigen::Map<const Nodes>(x.v.data());
+  const std::array<double, 2> w{x.v[4 * D], x.v[4 * D + 1]};
+  const PointField<D> r(shape.value, nodes), rs(shape.d1, nodes), rss(shape.d2, nodes);
+  return {r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w)};
+}
+
+template Mesh<2> make_mesh<2>(const BeamModel&, MeshPlan);
+template Mesh<3> make_mesh<3>(const BeamModel&, MeshPlan);
+template int find_element<2>(const BeamModel&, const Mesh<2>&, const Eigen::VectorXd&, int, double);
+template int find_element<3>(const BeamModel&, const Mesh<3>&, const Eigen::VectorXd&, int, double);
+template MaterialPoint<2> material_point<2>(const MeshElement<2>&, const Eigen::VectorXd&,
+                                            const Eigen::VectorXd&, double);
+template MaterialPoint<3> material_point<3>(const MeshElement<3>&, const Eigen::VectorXd&,
+                                            const Eigen::VectorXd&, double);
+
+}  // namespace nurbeam

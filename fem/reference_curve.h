@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "nurbs/arc_length.h"
+#include "nurbs/rational_cubic.h"
+
+namespace nurbeam {
+
+/// What a chart needs to know of the drawn curve at one parameter u of one segment.
+struct ChartGeometry {
+  std::array<double, 4> stretch;    ///< J0 = |r_u| and its first three u-derivatives
+  std::array<double, 4> weight;     ///< W and its first three u-derivatives
+  std::array<double, 4> curvature;  ///< kappa_0 and its first two u-derivatives (the fourth entry is 0)
+};
+
+/// The drawn, undeformed curve as a function of reference arc length s in [0, length]; immutable.
+///
+/// It is a chain of segments (rational cubics); segment j covers [breaks()[j], breaks()[j+1]] and has its own
+/// parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is signed,
+/// positive where the curve turns from the first axis to the second; in space kappa_0 >= 0.
+class ReferenceCurve {
+ public:
+  /// Throws std::invalid_argument when there is no segment, the dimension is not 2 or 3, or the speed
+  /// vanishes.
+  ReferenceCurve(std::vector<RationalCubic> segments, int dimension);
+
+  int dimension() const { return dimension_; }
+  int segment_count() const { return static_cast<int>(segments_.size()); }
+  const RationalCubic& segment(int j) const { return segments_[j]; }
+  /// segment_count() + 1 reference arc lengths [m].
+  const std::vector<double>& breaks() const { return breaks_; }
+  double length() const { return breaks_.back(); }
+
+  /// The segment that covers s; at a break the one before it when `from_left`, else the one after it.
+  int segment_at(double s, bool from_left = false) const;
+  /// u of segment j at s [m]; slightly outside it extrapolates.
+  double parameter(int j, double s) const { return maps_[j].parameter(s - breaks_[j]); }
+  ChartGeometry geometry(int j, double u) const;
+  /// Position at s, 3 [m] (third coordinate 0 in a planar model).
+  Eigen::Vector3d position(double s) const;
+  /// Unit tangent at s, 3 [-].
+  Eigen::Vector3d tangent(double s) const;
+  /// Largest |kappa_0| over the sampled curve [1/m].
+  double largest_curvature() const;
+
+ private:
+  std::vector<RationalCubic> segments_;
+  std::vector<ArcLengthMap> maps_;
+  std::vector<double> breaks_;
+  int dimension_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,91 @@
+#include "solver/consistent.h"
+
+#include "solver/kkt_solver.h"
+#include "solver/mass_scale.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// [M G'; G 0] at one state, factorised with the mass divided by its scale.
+class MassMatrix {
+ public:
+  MassMatrix(const SecondOrderSystem& system, const State& state)
+      : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system.tangent_pattern()) {
+    scale_ = mass_scale(system, state, kkt_);
+    system.tangent(state, {.mass = 1 / scale_}, kkt_);
+    regular_ = solver_.factorise(kkt_);
+  }
+
+  bool regular() const { return regular_; }
+
+  /// (m) G x.
+  Eigen::VectorXd constraint_product(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd padded = Eigen::VectorXd::Zero(n_ + m_);
+    padded.head(n_) = x;
+    return (kkt_ * padded).tail(m_);
+  }
+
+  /// (n+m) [x; y] with M x + G'y = top (n), G x = bottom (m). Precondition: regular().
+  Eigen::VectorXd solve(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom) const {
+    Eigen::VectorXd rhs(n_ + m_);
+    rhs << top / scale_, bottom;
+    Eigen::VectorXd solution = solver_.solve(rhs);
+    solution.tail(m_) *= scale_;
+    return solution;
+  }
+
+ private:
+  int n_;
+  int m_;
+  Eigen::SparseMatrix<double> kkt_;
+  double scale_ = 1;
+  KktSolver solver_;
+  bool regular_ = false;
+};
+
+/// (n) f(q, v, t): what is left of minus the dynamics without acceleration and multipliers.
+Eigen::VectorXd force(const SecondOrderSystem& system, State state) {
+  state.a.setZero(system.coordinate_count());
+  state.lambda.setZero(system.constraint_count());
+  Eigen::VectorXd dynamics(system.coordinate_count());
+  Eigen::VectorXd constraints(system.constraint_count());
+  system.residual(state, dynamics, constraints);
+  return -dynamics;
+}
+
+}  // namespace
+
+bool make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
+  const MassMatrix mass(system, state);
+  if (!mass.regular()) return false;
+  const Eigen::VectorXd solution = mass.solve(force(system, state), -system.constraint_curvature(state));
+  if (!solution.allFinite()) return false;
+  state.a = solution.head(system.coordinate_count());
+  state.lambda = solution.tail(system.constraint_count());
+  return true;
+}
+
+bool project_velocities(const SecondOrderSystem& system, State& state, Eigen::VectorXd& impulse) {
+  const MassMatrix mass(system, state);
+  if (!mass.regular()) return false;
+  const Eigen::VectorXd excess = mass.constraint_product(state.v) + system.constraint_rate(state);
+  const Eigen::VectorXd solution = mass.solve(Eigen::VectorXd::Zero(state.v.size()), -excess);
+  if (!solution.allFinite()) return false;
+  state.v += solution.head(system.coordinate_count());
+  impulse = solution.tail(system.constraint_count());
+  return true;
+}
+
+bool velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum, State& state,
+                              Eigen::VectorXd& impulse) {
+  const MassMatrix mass(system, state);
+  if (!mass.regular()) return false;
+  const Eigen::VectorXd solution = mass.solve(momentum, -system.constraint_rate(state));
+  if (!solution.allFinite()) return false;
+  state.v = solution.head(system.coordinate_count());
+  impulse = solution.tail(system.constraint_count());
+  return true;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,240 @@
+#include "solver/generalized_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "solver/mass_scale.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr double largest_growth = 2;     ///< of the step under error control
+constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
+constexpr double safety = 0.9;
+constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
+
+void require(bool rule, const std::string& message) {
+  if (!rule) throw std::invalid_argument("generalized-alpha: " + message);
+}
+
+void check(const GeneralizedAlpha& settings) {
+  require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1,
+          "rho_infinity " + std::to_string(settings.rho_infinity) + " is not in [0, 1]");
+  require(settings.newton_tolerance > 0,
+          "newton_tolerance " + std::to_string(settings.newton_tolerance) + " is not positive");
+  require(settings.max_iterations > 0,
+          "max_iterations " + std::to_string(settings.max_iterations) + " is not positive");
+  require(settings.max_halvings >= 0,
+          "max_halvings " + std::to_string(settings.max_halvings) + " is negative");
+  require(settings.tolerance >= 0, "tolerance " + std::to_string(settings.tolerance) + " is negative");
+}
+
+void check_size(const char* name, Eigen::Index size, Eigen::Index expected) {
+  require(size == expected, std::string(name) + " has " + std::to_string(size) + " entries, the system " +
+                                std::to_string(expected));
+}
+
+bool all_finite(const State& state) {
+  return state.q.allFinite() && state.v.allFinite() && state.a.allFinite() && state.lambda.allFinite();
+}
+
+}  // namespace
+
+GeneralizedAlphaIntegrator::Parameters GeneralizedAlphaIntegrator::parameters(double rho_infinity) {
+  const double alpha_m = (2 * rho_infinity - 1) / (rho_infinity + 1);
+  const double alpha_f = rho_infinity / (rho_infinity + 1);
+  const double gamma = 0.5 + alpha_f - alpha_m;
+  const double beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+  // alg stands for a at t + (alpha_m - alpha_f) h: with it and the exact q and v, the formula for q' is wrong
+  // by position_error h^3 d3q/dt3.
+  const double position_error = 1.0 / 6 - 0.5 * (alpha_m - alpha_f) - beta;
+  return {alpha_m, alpha_f, beta, gamma, position_error};
+}
+
+GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
+                                                       const SecondOrderSystem& system, State start)
+    : settings_(settings), system_(&system), state_(std::move(start)) {
+  check(settings_);
+  const int n = system.coordinate_count();
+  const int m = system.constraint_count();
+  check_size("q", state_.q.size(), n);
+  check_size("v", state_.v.size(), n);
+  check_size("a", state_.a.size(), n);
+  check_size("lambda", state_.lambda.size(), m);
+  parameters_ = parameters(settings_.rho_infinity);
+  algorithmic_acceleration_ = state_.a;
+  jerk_ = Eigen::VectorXd::Zero(n);
+  kkt_ = system.tangent_pattern();
+  mass_scale_ = mass_scale(system, state_, kkt_);
+  trial_ = state_;
+  force_.resize(n);
+  residual_.resize(n + m);
+  reference_.resize(n + m);
+}
+
+StepReport GeneralizedAlphaIntegrator::advance(double step) {
+  StepReport report{.status = StepStatus::inadmissible, .next_step = step};
+  const double limit = system_->step_limit(state_);
+  if (!(step > 0) || !(limit > 0)) return report;
+  double h = std::min(step, limit);
+  scale_ = system_->coordinate_scale();
+  for (int i = 0; i <= settings_.max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
+    report.status = attempt(h, report);
+    double shorter = 0.5;
+    if (report.status == StepStatus::converged) {
+      report.local_error = local_error(h);
+      if (settings_.tolerance == 0 || report.local_error <= settings_.tolerance) {
+        report.step = h;
+        if (settings_.tolerance > 0) report.next_step = next_step(h, report);
+        last_error_ = report.local_error;
+        accept(h);
+        return report;
+      }
+      report.status = StepStatus::not_converged;
+      shorter = std::max(0.2, safety * std::cbrt(settings_.tolerance / report.local_error));
+    }
+    ++report.rejected;
+    h *= shorter;
+  }
+  return report;
+}
+
+StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) {
+  predict(step);
+  if (!all_finite(trial_)) return StepStatus::not_converged;
+  if (!system_->admissible(trial_)) return StepStatus::inadmissible;
+  evaluate_force_level();
+  evaluate_residual(step);
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double scaling = beta * step * step / mass_scale_;
+  const TangentWeights weights{.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
+                               .damping = gamma * step / mass_scale_,
+                               .stiffness = scaling};
+  double last_correction = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < settings_.max_iterations; ++i) {
+    if (!residual_.allFinite()) return StepStatus::not_converged;
+    system_->tangent(trial_, weights, kkt_);
+    ++report.newton_iterations;
+    if (!solver_.factorise(kkt_)) return StepStatus::singular_matrix;
+    correct(step);
+    if (!all_finite(trial_)) return StepStatus::not_converged;
+    if (!system_->admissible(trial_)) return StepStatus::inadmissible;
+    evaluate_residual(step);
+    measure_reference(step);
+    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
+    const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+    const double tolerance = settings_.newton_tolerance;
+    // Two small corrections running are convergence too: the residual then sits on its own round-off.
+    if (residual_.allFinite() && correction <= tolerance &&
+        (report.residual_norm <= tolerance || last_correction <= tolerance))
+      return StepStatus::converged;
+    last_correction = correction;
+  }
+  return StepStatus::not_converged;
+}
+
+/// The trial state whose true acceleration and multipliers are those of the last state.
+void GeneralizedAlphaIntegrator::predict(double step) {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double h = step;
+  start_algorithmic_ = algorithmic_acceleration_;
+  if (last_step_ > 0 && step <= largest_rescaling * last_step_)
+    start_algorithmic_ += (alpha_m - alpha_f) * (h - last_step_) * jerk_;
+  else if (last_step_ > 0)
+    start_algorithmic_ = state_.a;
+  const Eigen::VectorXd& alg = start_algorithmic_;
+  trial_algorithmic_ = (state_.a - alpha_m * alg) / (1 - alpha_m);
+  trial_.t = state_.t + h;
+  trial_.q = state_.q + h * state_.v + h * h * ((0.5 - beta) * alg + beta * trial_algorithmic_);
+  trial_.v = state_.v + h * ((1 - gamma) * alg + gamma * trial_algorithmic_);
+  trial_.a = state_.a;
+  trial_.lambda = state_.lambda;
+}
+
+void GeneralizedAlphaIntegrator::evaluate_force_level() {
+  State unaccelerated = trial_;
+  unaccelerated.a.setZero();
+  unaccelerated.lambda.setZero();
+  Eigen::VectorXd constraints(trial_.lambda.size());
+  system_->residual(unaccelerated, force_, constraints);
+}
+
+void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
+  const Eigen::Index n = trial_.q.size();
+  const Eigen::Index m = trial_.lambda.size();
+  system_->residual(trial_, residual_.head(n), residual_.tail(m));
+  residual_.head(n) *= parameters_.beta * step * step / mass_scale_;
+}
+
+/// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
+/// rows: what the accelerations move the constraint in the step. Both: the round-off of the matrix times the
+/// unknowns, weighted so that it passes the tolerance.
+void GeneralizedAlphaIntegrator::measure_reference(double step) {
+  const Eigen::Index n = trial_.q.size();
+  const Eigen::Index m = trial_.lambda.size();
+  const double scaling = parameters_.beta * step * step;
+  const double floor = round_off / settings_.newton_tolerance;
+  Eigen::VectorXd constraint_force = Eigen::VectorXd::Zero(n);
+  reference_.setConstant(std::numeric_limits<double>::min());
+  for (Eigen::Index column = 0; column < n + m; ++column) {
+    const bool is_multiplier = column >= n;
+    const double size = is_multiplier ? std::abs(trial_.lambda[column - n]) * scaling / mass_scale_
+                                      : std::abs(trial_.q[column]) + scale_[column];
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt_, column); entry; ++entry) {
+      const Eigen::Index row = entry.row();
+      reference_[row] += floor * std::abs(entry.value()) * size;
+      if (row >= n && !is_multiplier)
+        reference_[row] += scaling * std::abs(entry.value() * trial_.a[column]);
+      else if (row < n && is_multiplier)
+        constraint_force[row] += entry.value() * trial_.lambda[column - n];
+    }
+  }
+  const double work =
+      scale_.cwiseProduct(force_.cwiseAbs().cwiseMax(constraint_force.cwiseAbs())).lpNorm<Eigen::Infinity>();
+  reference_.head(n) += scaling / mass_scale_ * work * scale_.cwiseInverse();
+}
+
+/// One Newton correction of the trial state: of q directly, of v, a and alg as the method's formulas follow
+/// it.
+void GeneralizedAlphaIntegrator::correct(double step) {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  correction_ = solver_.solve(-residual_);
+  const auto dq = correction_.head(trial_.q.size());
+  const double acceleration = 1 / (beta * step * step);
+  trial_.q += dq;
+  trial_.v += gamma / (beta * step) * dq;
+  trial_.a += (1 - alpha_m) / (1 - alpha_f) * acceleration * dq;
+  trial_algorithmic_ += acceleration * dq;
+  trial_.lambda += mass_scale_ * acceleration * correction_.tail(trial_.lambda.size());
+}
+
+/// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate
+/// scale.
+double GeneralizedAlphaIntegrator::local_error(double step) const {
+  const Eigen::VectorXd change = trial_algorithmic_ - start_algorithmic_;
+  return std::abs(parameters_.position_error) * step * step *
+         change.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+}
+
+/// A proportional-integral controller for a local error of third degree; no growth right after a rejection.
+double GeneralizedAlphaIntegrator::next_step(double step, const StepReport& report) const {
+  const double smallest = 1e-12 * settings_.tolerance;
+  const double relative = std::max(report.local_error, smallest) / settings_.tolerance;
+  const double last = std::max(last_error_, smallest) / settings_.tolerance;
+  const double integral = last_error_ > 0 ? std::pow(last, 0.4 / 3) : 1;
+  const double growth = safety * std::pow(relative, -0.7 / 3) * integral;
+  return step * std::clamp(growth, 0.2, report.rejected > 0 ? 1.0 : largest_growth);
+}
+
+void GeneralizedAlphaIntegrator::accept(double step) {
+  jerk_ = (trial_algorithmic_ - start_algorithmic_) / step;
+  std::swap(state_, trial_);
+  std::swap(algorithmic_acceleration_, trial_algorithmic_);
+  last_step_ = step;
+}
+
+}  // namespace nurbeam

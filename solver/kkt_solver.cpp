@@ -1,0 +1,71 @@
+#include "solver/kkt_solver.h"
+
+#include <Eigen/KLUSupport>
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace nurbeam {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// A few machine epsilons: what cancellation leaves of a pivot that is zero in exact arithmetic.
+constexpr double smallest_reciprocal_condition = 1e-15;
+
+/// KLU's own estimate of the reciprocal condition, smallest over largest pivot of the row-scaled factors.
+class Klu : public Eigen::KLU<Matrix> {
+ public:
+  double reciprocal_condition() {
+    klu_rcond(m_symbolic, m_numeric, &m_common);
+    return m_common.rcond;
+  }
+};
+
+bool all_finite(const Matrix& matrix) {
+  return Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite();
+}
+
+}  // namespace
+
+struct KktSolver::Implementation {
+  Klu klu;
+  std::vector<int> column_starts;
+  std::vector<int> row_indices;
+
+  bool has_pattern_of(const Matrix& matrix) const {
+    const auto columns = static_cast<std::size_t>(matrix.cols());
+    const auto entries = static_cast<std::size_t>(matrix.nonZeros());
+    return column_starts.size() == columns + 1 && row_indices.size() == entries &&
+           std::equal(column_starts.begin(), column_starts.end(), matrix.outerIndexPtr()) &&
+           std::equal(row_indices.begin(), row_indices.end(), matrix.innerIndexPtr());
+  }
+
+  void analyse(const Matrix& matrix) {
+    column_starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
+    row_indices.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+    klu.analyzePattern(matrix);
+    structurally_regular = klu.info() == Eigen::Success;
+  }
+
+  bool structurally_regular = false;
+};
+
+KktSolver::KktSolver() : implementation_(std::make_unique<Implementation>()) {}
+KktSolver::~KktSolver() = default;
+KktSolver::KktSolver(KktSolver&&) noexcept = default;
+KktSolver& KktSolver::operator=(KktSolver&&) noexcept = default;
+
+bool KktSolver::factorise(const Matrix& matrix) {
+  assert(matrix.isCompressed() && matrix.rows() == matrix.cols());
+  Implementation& self = *implementation_;
+  if (!self.has_pattern_of(matrix)) self.analyse(matrix);
+  if (!self.structurally_regular || !all_finite(matrix)) return false;
+  self.klu.factorize(matrix);
+  return self.klu.info() == Eigen::Success && self.klu.reciprocal_condition() > smallest_reciprocal_condition;
+}
+
+Eigen::VectorXd KktSolver::solve(const Eigen::VectorXd& rhs) const { return implementation_->klu.solve(rhs); }
+
+}  // namespace nurbeam

@@ -1,0 +1,99 @@
+#include "solver/consistent.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/small_systems.h"
+
+namespace nurbeam {
+namespace {
+
+using testing::CartesianPendulum;
+using testing::DrivenSlider;
+
+/// The same constraint twice: its mass matrix is singular.
+class DoublyHeldMass : public testing::DenseSystem {
+ public:
+  int coordinate_count() const override { return 2; }
+  int constraint_count() const override { return 2; }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const override {
+    dynamics = state.a + constraint_jacobian(state).transpose() * state.lambda;
+    constraints = constraint_jacobian(state) * state.q;
+  }
+
+ protected:
+  Eigen::MatrixXd mass(const State&) const override { return Eigen::Matrix2d::Identity(); }
+  Eigen::MatrixXd stiffness(const State&) const override { return Eigen::Matrix2d::Zero(); }
+  Eigen::MatrixXd constraint_jacobian(const State&) const override {
+    return (Eigen::Matrix2d() << 1, 3, 1, 3).finished();
+  }
+};
+
+TEST(Consistent, AccelerationAndMultiplierOfAPendulumAreThoseOfItsClosedForm) {
+  const CartesianPendulum pendulum;
+  const State expected = pendulum.at_angle(0, 0.7, 1.3);
+  State state = expected;
+  state.a.setZero();
+  state.lambda.setZero();
+  ASSERT_TRUE(make_accelerations_consistent(pendulum, state));
+  EXPECT_LT((state.a - expected.a).norm(), 1e-13 * expected.a.norm());
+  EXPECT_NEAR(state.lambda[0], expected.lambda[0], 1e-13 * expected.lambda[0]);
+}
+
+TEST(Consistent, AMovingConstraintIsFollowedInVelocityAndAcceleration) {
+  const DrivenSlider slider;
+  const State expected = slider.exact(0.4);
+  State state = expected;
+  state.v[0] = 0;
+  Eigen::VectorXd impulse;
+  ASSERT_TRUE(project_velocities(slider, state, impulse));
+  EXPECT_NEAR(state.v[0], expected.v[0], 1e-14);
+  EXPECT_DOUBLE_EQ(state.v[1], expected.v[1]);
+  EXPECT_NEAR(impulse[0], -slider.first_mass * expected.v[0], 1e-13);
+  ASSERT_TRUE(make_accelerations_consistent(slider, state));
+  EXPECT_LT((state.a - expected.a).norm(), 1e-13);
+  EXPECT_NEAR(state.lambda[0], expected.lambda[0], 1e-13);
+}
+
+TEST(Consistent, ProjectionTakesOutTheRadialVelocityAndItsMomentumIsTheImpulse) {
+  const CartesianPendulum pendulum;
+  const State swinging = pendulum.at_angle(0, 0.7, 1.3);
+  State state = swinging;
+  state.v += 0.25 * state.q;
+  Eigen::VectorXd impulse;
+  ASSERT_TRUE(project_velocities(pendulum, state, impulse));
+  EXPECT_LT((state.v - swinging.v).norm(), 1e-14);
+  EXPECT_NEAR(impulse[0], 0.25 * pendulum.point_mass, 1e-14);
+}
+
+TEST(Consistent, TheVelocityOfAMomentumKeepsItsTangentialPart) {
+  const CartesianPendulum pendulum;
+  const State swinging = pendulum.at_angle(0, 0.7, 1.3);
+  State state = swinging;
+  state.v.setZero();
+  Eigen::VectorXd impulse;
+  const Eigen::VectorXd momentum = pendulum.point_mass * swinging.v + 3 * swinging.q;
+  ASSERT_TRUE(velocities_from_momentum(pendulum, momentum, state, impulse));
+  EXPECT_LT((state.v - swinging.v).norm(), 1e-14);
+  EXPECT_NEAR(impulse[0], 3, 1e-13);
+}
+
+TEST(Consistent, RedundantConstraintsAreReportedAndLeaveTheStateAlone) {
+  const DoublyHeldMass system;
+  State state{.t = 0,
+              .q = Eigen::Vector2d::Zero(),
+              .v = Eigen::Vector2d(1, 2),
+              .a = Eigen::Vector2d(3, 4),
+              .lambda = Eigen::Vector2d(5, 6)};
+  const State before = state;
+  Eigen::VectorXd impulse;
+  EXPECT_FALSE(make_accelerations_consistent(system, state));
+  EXPECT_FALSE(project_velocities(system, state, impulse));
+  EXPECT_FALSE(velocities_from_momentum(system, state.v, state, impulse));
+  EXPECT_EQ(state.v, before.v);
+  EXPECT_EQ(state.a, before.a);
+  EXPECT_EQ(state.lambda, before.lambda);
+}
+
+}  // namespace
+}  // namespace nurbeam
