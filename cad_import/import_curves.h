@@ -18,7 +18,9 @@ struct ImportOptions {
 ///
 /// Read by OpenCASCADE in a child process under the limits; a crash, a time-out or an unreadable file is a
 /// Diagnostic of severity error in the report (never an exception, never harm to this process). Every curve is
-/// validated at the border (finite, non-decreasing knots, positive weights, length > 0).
+/// validated at the border (finite, non-decreasing knots, positive weights, length > 0). The order is that of the
+/// file's shapes and the same in every run.
+/// Throws std::invalid_argument unless options.tolerance > 0.
 ImportReport import_curves(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace nurbeam

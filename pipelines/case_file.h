@@ -18,13 +18,16 @@ struct Place {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m] for near
 };
 
+/// Curves of a CAD file.
+struct AxisFile {
+  std::filesystem::path path;  ///< absolute
+  std::optional<std::string> curve_name;
+  std::optional<int> curve_index;  ///< from 1
+  bool chain = false;
+};
+
 struct CaseAxis {
-  struct File {
-    std::filesystem::path path;  ///< absolute
-    std::optional<std::string> curve_name;
-    std::optional<int> curve_index;  ///< from 1
-    bool chain = false;
-  };
+  using File = AxisFile;
   using Polyline = std::vector<Eigen::Vector3d>;
   struct Arc {
     Eigen::Vector3d center, start, end, normal;

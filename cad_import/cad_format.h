@@ -1,0 +1,17 @@
+#pragma once
+#include <optional>
+#include <string>
+
+namespace nurbeam {
+
+enum class CadFormat { step, iges };
+
+/// The format of a file with this content: STEP begins with "ISO-10303-21", IGES has an 'S' in column 73 of
+/// its first line; nothing for any other content.
+std::optional<CadFormat> format_of(const std::string& content);
+
+/// Why the content is not a whole file of the format ("" if it is): STEP ends with END-ISO-10303-21, IGES
+/// with a line that has a 'T' in column 73.
+std::string incompleteness(const std::string& content, CadFormat format);
+
+}  // namespace nurbeam

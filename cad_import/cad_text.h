@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cad_import/export_curves.h"
+
+namespace nurbeam {
+
+/// The text of a STEP file (AP214) with the curves as a geometric curve set, each a B_SPLINE_CURVE_WITH_KNOTS
+/// (rational where its weights differ) that carries the name. Every double is written so that it reads back
+/// as itself. Throws std::runtime_error when OpenCASCADE refuses a curve (its degree above 25, knots closer
+/// than rounding). Not to be called by two threads at once: OpenCASCADE's translators share global state.
+std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit);
+
+/// The text of an IGES 5.3 file with the curves as entities 126, the name in a Name property (406 form 15)
+/// and its first eight characters in the label. Else as step_text.
+std::string iges_text(const std::vector<NamedCurve>& curves, LengthUnit unit);
+
+}  // namespace nurbeam

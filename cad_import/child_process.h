@@ -1,0 +1,35 @@
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace nurbeam {
+
+/// What a child process may use.
+struct ChildLimits {
+  std::chrono::seconds time{30};  ///< wall and CPU time
+  std::size_t memory_bytes = 0;   ///< address space; 0: no limit
+};
+
+/// How a child process ended, and what it sent.
+struct ChildResult {
+  enum class Status { finished, failed, out_of_memory, timed_out, crashed, not_started };
+
+  Status status;
+  std::string output;     ///< what `work` returned when finished
+  std::string complaint;  ///< the exception text when failed, the signal's name when crashed, errno's when
+                          ///< not started
+};
+
+/// Whether this build can limit the address space (a build with the address sanitizer cannot).
+bool can_limit_memory();
+
+/// The string that `work` returns when run in a forked child process under the limits.
+///
+/// The child is silent (standard streams are /dev/null), owns no other descriptor of this process, dies with
+/// it and never returns into it. No zombie and no descriptor is left behind, however the child ends. Never
+/// throws for what happens in the child.
+ChildResult run_in_child(const std::function<std::string()>& work, const ChildLimits& limits);
+
+}  // namespace nurbeam

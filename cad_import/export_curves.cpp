@@ -1,0 +1,94 @@
+#include "cad_import/export_curves.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <mutex>
+#include <stdexcept>
+#include <system_error>
+
+#include "cad_import/cad_text.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool is_step_name(const fs::path& file) {
+  const std::string extension = lower(file.extension().string());
+  if (extension == ".step" || extension == ".stp") return true;
+  if (extension == ".igs" || extension == ".iges") return false;
+  throw std::invalid_argument("the extension '" + extension + "' of " + file.string() +
+                              " names no CAD format; known are .step .stp .igs .iges");
+}
+
+// A control character would break a line of the file, and with it the columns of IGES.
+void check_name(const std::string& name) {
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); })) {
+    throw std::invalid_argument("the curve name '" + name + "' holds a control character; it must hold none");
+  }
+}
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+  throw std::runtime_error("cannot write " + file.string() + ": " + what);
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) fail(file, std::generic_category().message(errno));
+}
+
+// A reader of `file` sees the old content or the whole of the new one.
+void write_at_once(const fs::path& file, const std::string& text) {
+  fs::path temporary = file;
+  temporary += ".part" + std::to_string(getpid());
+  std::error_code ignored;
+  try {
+    write_text(temporary, text);
+    fs::rename(temporary, file);
+  } catch (const fs::filesystem_error& e) {
+    fs::remove(temporary, ignored);
+    fail(file, e.code().message());
+  } catch (const std::runtime_error&) {
+    fs::remove(temporary, ignored);
+    throw;
+  }
+}
+
+// OpenCASCADE's translators share global state.
+std::string cad_text(bool step, const std::vector<NamedCurve>& curves, LengthUnit unit) {
+  static std::mutex opencascade;
+  const std::lock_guard lock(opencascade);
+  return step ? step_text(curves, unit) : iges_text(curves, unit);
+}
+
+}  // namespace
+
+LengthUnit parse_length_unit(const std::string& text) {
+  if (text == "m") return LengthUnit::metre;
+  if (text == "mm") return LengthUnit::millimetre;
+  if (text == "inch" || text == "in") return LengthUnit::inch;
+  throw std::invalid_argument("'" + text + "' is no length unit for export; known are m, mm, inch (in)");
+}
+
+void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit) {
+  const bool step = is_step_name(file);
+  if (curves.empty())
+    throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
+  for (const NamedCurve& curve : curves) check_name(curve.name);
+  write_at_once(file, cad_text(step, curves, unit));
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,121 @@
+#include <IGESBasic_Name.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESData_BasicEditor.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESData_IGESWriter.hxx>
+#include <IGESData_Protocol.hxx>
+#include <IGESGeom_BSplineCurve.hxx>
+#include <IGESSelect_WorkLibrary.hxx>
+#include <Interface_Static.hxx>
+#include <Standard_Failure.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_HArray1OfXYZ.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <sstream>
+#include <stdexcept>
+
+#include "cad_import/cad_text.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr std::size_t kLabelLength = 8;
+constexpr int kVersion5_3 = 11;
+
+struct IgesUnit {
+  int flag;
+  const char* name;
+  double per_metre;
+};
+
+IgesUnit iges_unit(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::metre:
+      return {6, "M", 1};
+    case LengthUnit::millimetre:
+      return {2, "MM", 1000};
+    case LengthUnit::inch:
+      return {1, "INCH", 1 / 0.0254};
+  }
+  throw std::invalid_argument("unknown length unit");
+}
+
+Handle(TCollection_HAsciiString) hollerith(const std::string& text) {
+  return new TCollection_HAsciiString(text.c_str());
+}
+
+// The entity itself, made without OpenCASCADE's translator, which takes every shape for one in millimetres.
+Handle(IGESGeom_BSplineCurve) entity126(const NurbsCurve& curve, double units_per_metre) {
+  const int degree = curve.degree();
+  const std::vector<double>& values = curve.knots().knots();
+  const int knot_count = static_cast<int>(values.size());
+  const Handle(TColStd_HArray1OfReal) knots = new TColStd_HArray1OfReal(-degree, knot_count - degree - 1);
+  for (int i = 0; i < knot_count; ++i) knots->SetValue(i - degree, values[i]);
+  const Eigen::Matrix4Xd& points = curve.control_points();
+  const int last = static_cast<int>(points.cols()) - 1;
+  const Handle(TColStd_HArray1OfReal) weights = new TColStd_HArray1OfReal(0, last);
+  const Handle(TColgp_HArray1OfXYZ) poles = new TColgp_HArray1OfXYZ(0, last);
+  for (int i = 0; i <= last; ++i) {
+    const Eigen::Vector3d pole = points.col(i).head<3>() / points(3, i) * units_per_metre;
+    poles->SetValue(i, gp_XYZ(pole.x(), pole.y(), pole.z()));
+    weights->SetValue(i, points(3, i));
+  }
+  const Handle(IGESGeom_BSplineCurve) entity = new IGESGeom_BSplineCurve;
+  entity->Init(last, degree, /*aPlanar=*/Standard_False, is_closed(curve, 0), !curve.is_rational(),
+               /*aPeriodic=*/Standard_False, knots, weights, poles, curve.knots().start(),
+               curve.knots().end(), gp_XYZ(0, 0, 0));
+  return entity;
+}
+
+void add(const NamedCurve& named, double units_per_metre, IGESData_IGESModel& model) {
+  const Handle(IGESGeom_BSplineCurve) entity = entity126(named.curve, units_per_metre);
+  model.AddEntity(entity);
+  if (named.name.empty()) return;
+  const Handle(IGESBasic_Name) name = new IGESBasic_Name;
+  name->Init(1, hollerith(named.name));
+  entity->SetLabel(hollerith(named.name.substr(0, kLabelLength)));
+  entity->AddProperty(name);
+  model.AddEntity(name);
+}
+
+void set_global_section(const IgesUnit& unit, IGESData_IGESModel& model) {
+  IGESData_GlobalSection global = model.GlobalSection();
+  global.SetUnitFlag(unit.flag);
+  global.SetUnitName(hollerith(unit.name));
+  global.SetSystemId(hollerith("nurbeam"));
+  global.SetSendName(hollerith("curves"));
+  global.SetFileName(hollerith("curves"));
+  global.SetIGESVersion(kVersion5_3);
+  global.SetResolution(1e-9 * unit.per_metre);
+  model.SetGlobalSection(global);
+}
+
+std::string text(const Handle(IGESData_IGESModel) & model) {
+  const Handle(IGESData_Protocol) protocol = IGESSelect_WorkLibrary::DefineProtocol();
+  IGESData_BasicEditor(model, protocol).ComputeStatus();
+  IGESData_IGESWriter out(model);
+  out.FloatWriter().SetFormat("%.17E");
+  out.FloatWriter().SetZeroSuppress(Standard_False);
+  out.SendModel(protocol);
+  std::ostringstream stream;
+  if (!out.Print(stream)) throw std::runtime_error("OpenCASCADE did not print the IGES model");
+  return stream.str();
+}
+
+}  // namespace
+
+std::string iges_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
+  try {
+    IGESControl_Controller::Init();
+    const IgesUnit in_file = iges_unit(unit);
+    const Handle(IGESData_IGESModel) model = new IGESData_IGESModel;
+    set_global_section(in_file, *model);
+    for (const NamedCurve& curve : curves) add(curve, in_file.per_metre, *model);
+    return text(model);
+  } catch (const Standard_Failure& e) {
+    throw std::runtime_error(std::string("OpenCASCADE cannot write a curve: ") + e.GetMessageString());
+  }
+}
+
+}  // namespace nurbeam

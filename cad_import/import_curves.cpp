@@ -1,0 +1,99 @@
+#include "cad_import/import_curves.h"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "cad_import/child_process.h"
+#include "cad_import/read_cad_file.h"
+#include "cad_import/report_bytes.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+ImportReport error_report(const fs::path& file, const std::string& message) {
+  ImportReport report;
+  report.file = file.string();
+  report.diagnostics.push_back({Severity::error, report.file, message});
+  return report;
+}
+
+// Why the path cannot hold a CAD file at all; "" if it may.
+std::string unusable(const fs::path& file) {
+  constexpr const char* kExpected = "; expected a STEP or IGES file";
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) return std::string("there is no such file") + kExpected;
+  if (error) return error.message() + kExpected;
+  if (fs::is_directory(status)) return std::string("it is a directory") + kExpected;
+  if (!fs::is_regular_file(status)) return std::string("it is not a regular file") + kExpected;
+  if (fs::file_size(file, error) == 0) return std::string("the file is empty") + kExpected;
+  return "";
+}
+
+ImportReport read_in_child(const fs::path& file, double tolerance) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream stream;
+  stream << in.rdbuf();
+  if (!in || !stream) return error_report(file, "the file cannot be read; check its permissions");
+  const std::string content = stream.str();
+  const std::optional<CadFormat> format = format_of(content);
+  if (!format) {
+    return error_report(
+        file,
+        "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
+        "first line); export the curves as STEP AP214 or IGES");
+  }
+  const std::string missing = incompleteness(content, *format);
+  if (!missing.empty()) return error_report(file, missing);
+  return read_cad_file(file, content, *format, tolerance);
+}
+
+std::string megabytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
+
+ImportReport report_of(const ChildResult& result, const fs::path& file, const ImportOptions& options) {
+  switch (result.status) {
+    case ChildResult::Status::finished:
+      return report_from_bytes(result.output);
+    case ChildResult::Status::failed:
+      return error_report(file, "the reader failed: " + result.complaint);
+    case ChildResult::Status::out_of_memory:
+      return error_report(file, "reading it needs more than the memory limit of " +
+                                    megabytes(options.memory_limit_bytes) +
+                                    "; the file is damaged, or raise memory_limit_bytes");
+    case ChildResult::Status::timed_out:
+      return error_report(file, "reading it takes longer than the time limit of " +
+                                    std::to_string(options.time_limit.count()) +
+                                    " s; the file is damaged, or raise time_limit");
+    case ChildResult::Status::crashed:
+      return error_report(file, "the reader crashed on it (" + result.complaint +
+                                    "); the file is damaged or too deeply nested; export it again");
+    case ChildResult::Status::not_started:
+      return error_report(file, "no process to read it in: " + result.complaint);
+  }
+  throw std::logic_error("unknown status of a child process");
+}
+
+}  // namespace
+
+ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
+  if (!(options.tolerance > 0)) {
+    throw std::invalid_argument("tolerance is " + std::to_string(options.tolerance) +
+                                " m; it must be positive");
+  }
+  const std::string reason = unusable(file);
+  if (!reason.empty()) return error_report(file, reason);
+  const ChildResult result = run_in_child([&] { return to_bytes(read_in_child(file, options.tolerance)); },
+                                          {options.time_limit, options.memory_limit_bytes});
+  try {
+    return report_of(result, file, options);
+  } catch (const std::exception& e) {
+    return error_report(file,
+                        std::string("the reader was damaged by it and sent no valid report: ") + e.what());
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,362 @@
+#include "cad_import/read_cad_file.h"
+
+#include <BRep_Tool.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <OSD.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_ErrorHandler.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_EdgeCurve.hxx>
+#include <StepShape_GeometricSet.hxx>
+#include <TColStd_HSequenceOfTransient.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_TShape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <array>
+#include <cmath>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "cad_import/edge_curve.h"
+#include "cad_import/iges_global.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr double kMetresPerMillimetre = 1e-3;
+constexpr int kMostReportedFailures = 20;
+
+/// The entity of the file that an edge came from.
+struct Origin {
+  std::string name;
+  std::string label;
+};
+// By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
+using Origins = std::unordered_map<const TopoDS_TShape*, Origin>;
+
+std::string text(const Handle(TCollection_HAsciiString) & value) {
+  if (value.IsNull()) return "";
+  std::string result = value->ToCString();
+  result.erase(0, result.find_first_not_of(' '));
+  return result.erase(result.find_last_not_of(' ') + 1);
+}
+
+void add(ImportReport& report, Severity severity, const std::string& entity, const std::string& message) {
+  const std::string where = entity.empty() ? report.file : report.file + ": " + entity;
+  report.diagnostics.push_back({severity, where, message});
+}
+
+std::string step_name(const Handle(Standard_Transient) & entity) {
+  const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
+  if (item.IsNull()) return "";
+  const std::string own = text(item->Name());
+  if (!own.empty()) return own;
+  if (const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity)) return step_name(edge->EdgeGeometry());
+  if (const auto curve = Handle(StepGeom_TrimmedCurve)::DownCast(entity))
+    return step_name(curve->BasisCurve());
+  return "";
+}
+
+std::string iges_name(const IGESData_IGESEntity& entity) {
+  if (entity.HasName()) return text(entity.NameValue());
+  return entity.HasShortLabel() ? text(entity.ShortLabel()) : "";
+}
+
+std::string entity_name(const Handle(Standard_Transient) & entity) {
+  if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity)) return iges_name(*iges);
+  return step_name(entity);
+}
+
+// "#17 TrimmedCurve" in STEP, "D15 BSplineCurve" in IGES.
+std::string entity_label(const Interface_InterfaceModel& model, const Handle(Standard_Transient) & entity) {
+  const std::string_view type = entity->DynamicType()->Name();
+  return text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
+}
+
+void add_origins(const TopoDS_Shape& shape, const Origin& origin, Origins& origins) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    Origin& known = origins[edges(i).TShape().get()];
+    if (known.label.empty()) known.label = origin.label;
+    if (known.name.empty()) known.name = origin.name;
+  }
+}
+
+// Whether a name of the entity is one of each of its edges: curves and sets of curves, not solids.
+bool names_its_edges(const Handle(Standard_Transient) & entity, const TopoDS_Shape& result) {
+  return result.ShapeType() >= TopAbs_WIRE || entity->IsKind(STANDARD_TYPE(StepShape_GeometricSet));
+}
+
+// An edge's own entity first, then the wire or set that holds it.
+Origins origins_of_edges(const XSControl_Reader& reader) {
+  Origins origins;
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (const bool single_edges : {true, false}) {
+    for (int i = 1; i <= process->NbMapped(); ++i) {
+      const Handle(Standard_Transient) entity = process->Mapped(i);
+      const TopoDS_Shape result = TransferBRep::ShapeResult(process, entity);
+      if (result.IsNull() || (result.ShapeType() == TopAbs_EDGE) != single_edges) continue;
+      if (!names_its_edges(entity, result)) continue;
+      add_origins(result, {entity_name(entity), entity_label(*reader.Model(), entity)}, origins);
+    }
+  }
+  return origins;
+}
+
+std::string edge_label(int number, const Origin& origin) {
+  std::string label = "edge " + std::to_string(number);
+  if (!origin.name.empty()) label += " '" + origin.name + "'";
+  return origin.label.empty() ? label : label + " (" + origin.label + ")";
+}
+
+void note_approximation(const ImportedCurve& curve, const std::string& label, double tolerance,
+                        ImportReport& report) {
+  if (curve.exact) return;
+  const Severity severity = curve.deviation <= tolerance ? Severity::note : Severity::warning;
+  add(report, severity, label,
+      "a curve of kind '" + curve.entity +
+          "' has no exact NURBS form; approximated by a cubic with a deviation of " +
+          std::to_string(curve.deviation / kMetresPerMillimetre) + " mm");
+}
+
+void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, const Origin& origin,
+              double tolerance, ImportReport& report) {
+  try {
+    OCC_CATCH_SIGNALS
+    ImportedCurve curve = imported_curve(edge, tolerance);
+    curve.name = origin.name;
+    curve.free = free;
+    note_approximation(curve, label, tolerance, report);
+    report.curves.push_back(std::move(curve));
+  } catch (const Standard_Failure& e) {
+    add(report, Severity::warning, label, std::string("skipped, no valid curve: ") + e.GetMessageString());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    add(report, Severity::warning, label, std::string("skipped, no valid curve: ") + e.what());
+  }
+}
+
+void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+  const TopoDS_Shape shape = reader.OneShape();
+  if (shape.IsNull()) return;
+  const Origins origins = origins_of_edges(reader);
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+  for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edges.FindKey(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const auto known = origins.find(edge.TShape().get());
+    const Origin origin = known == origins.end() ? Origin{} : known->second;
+    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, tolerance, report);
+  }
+}
+
+// What OpenCASCADE failed to read or to translate.
+void add_failures(const Interface_CheckIterator& checks, const Interface_InterfaceModel& model,
+                  ImportReport& report) {
+  Interface_CheckIterator failures = checks.Extract(Interface_CheckFail);
+  int count = 0;
+  for (failures.Start(); failures.More(); failures.Next()) {
+    if (++count > kMostReportedFailures) continue;
+    const auto entity = model.NbEntities() >= failures.Number() && failures.Number() > 0
+                            ? model.Value(failures.Number())
+                            : Handle(Standard_Transient)();
+    add(report, Severity::warning, entity.IsNull() ? "" : entity_label(model, entity),
+        std::string("OpenCASCADE: ") + failures.Value()->CFail(1));
+  }
+  if (count > kMostReportedFailures) {
+    add(report, Severity::warning, "", std::to_string(count - kMostReportedFailures) + " more such failures");
+  }
+}
+
+void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
+  reader.TransferRoots();
+  add_edges(reader, tolerance, report);
+  const Handle(XSControl_WorkSession) session = reader.WS();
+  add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(),
+               report);
+}
+
+void read(XSControl_Reader& reader, const std::filesystem::path& file) {
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull()) {
+    throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
+  }
+}
+
+// -------------------------------------------------------------------------------------------------------
+// units
+
+struct NamedUnit {
+  std::string_view name;
+  double in_metres;
+};
+constexpr std::array<NamedUnit, 9> kNamedUnits{{{"m", 1},
+                                                {"mm", 1e-3},
+                                                {"cm", 1e-2},
+                                                {"inch", 0.0254},
+                                                {"ft", 0.3048},
+                                                {"um", 1e-6},
+                                                {"km", 1e3},
+                                                {"mile", 1609.344},
+                                                {"mil", 2.54e-5}}};
+
+bool nearly_equal(double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); }
+
+void report_unit(double in_metres, ImportReport& report) {
+  report.unit_in_metres = in_metres;
+  report.unit = std::to_string(in_metres) + " m";
+  for (const NamedUnit& unit : kNamedUnits) {
+    if (!nearly_equal(in_metres, unit.in_metres)) continue;
+    report.unit = unit.name;
+    report.unit_in_metres = unit.in_metres;
+  }
+}
+
+// -------------------------------------------------------------------------------------------------------
+// STEP
+
+Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transient) & entity) {
+  if (const auto context =
+          Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(entity)) {
+    return context->GlobalUnitAssignedContext();
+  }
+  if (const auto context =
+          Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(entity)) {
+    return context->GlobalUnitAssignedContext();
+  }
+  return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
+}
+
+// The length units of all representation contexts of the file [m].
+std::set<double> length_units(const Interface_InterfaceModel& model) {
+  std::set<double> units;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(StepRepr_GlobalUnitAssignedContext) context = units_of(model.Value(i));
+    if (context.IsNull()) continue;
+    STEPConstruct_UnitContext factors;
+    factors.ComputeFactors(context);
+    if (factors.LengthDone()) units.insert(factors.LengthFactor() * kMetresPerMillimetre);
+  }
+  return units;
+}
+
+void report_step_unit(const Interface_InterfaceModel& model, ImportReport& report) {
+  const std::set<double> units = length_units(model);
+  if (units.empty()) {
+    add(report, Severity::warning, "", "the file declares no length unit; millimetres are assumed");
+  }
+  if (units.size() > 1) {
+    add(report, Severity::note, "",
+        "the file has parts in different length units; each is scaled by its own");
+  }
+  report_unit(units.empty() ? kMetresPerMillimetre : *units.begin(), report);
+}
+
+void read_step(const std::filesystem::path& file, double tolerance, ImportReport& report) {
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  STEPControl_Reader reader;
+  read(reader, file);
+  report_step_unit(*reader.Model(), report);
+  transfer(reader, tolerance, report);
+}
+
+// -------------------------------------------------------------------------------------------------------
+// IGES
+
+void compare_units(const IgesGlobal& ours, const IGESData_GlobalSection& theirs) {
+  const double in_metres = theirs.UnitValue() * kMetresPerMillimetre;
+  if (nearly_equal(in_metres, ours.unit_in_metres)) return;
+  throw std::runtime_error("the Global section says that the length unit is " +
+                           std::to_string(ours.unit_in_metres) + " m, but OpenCASCADE takes it for " +
+                           std::to_string(in_metres) +
+                           " m; correct the Global section (Hollerith counts, parameters 14 and 15)");
+}
+
+void read_iges(const std::filesystem::path& file, const std::string& content, double tolerance,
+               ImportReport& report) {
+  const IgesGlobal global = parse_iges_global(content);
+  report_unit(global.unit_in_metres, report);
+  if (global.scale != 1) {
+    add(report, Severity::note, "",
+        "the model space scale " + std::to_string(global.scale) + " (drawing scale) is not applied");
+  }
+  IGESControl_Controller::Init();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
+  if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0)) {
+    throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
+  }
+  IGESControl_Reader reader;
+  read(reader, file);
+  compare_units(global, reader.IGESModel()->GlobalSection());
+  transfer(reader, tolerance, report);
+}
+
+void read_format(const std::filesystem::path& file, const std::string& content, CadFormat format,
+                 double tolerance, ImportReport& report) {
+  if (format == CadFormat::step) {
+    read_step(file, tolerance, report);
+  } else {
+    read_iges(file, content, tolerance, report);
+  }
+}
+
+}  // namespace
+
+ImportReport read_cad_file(const std::filesystem::path& file, const std::string& content, CadFormat format,
+                           double tolerance) {
+  ImportReport report;
+  report.file = file.string();
+  OSD::SetSignal(Standard_False);
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+  try {
+    OCC_CATCH_SIGNALS
+    read_format(file, content, format, tolerance, report);
+  } catch (const Standard_Failure& e) {
+    add(report, Severity::error, "",
+        std::string("OpenCASCADE failed (") + e.DynamicType()->Name() + " " + e.GetMessageString() +
+            "); the file is damaged or uses what OpenCASCADE cannot read; export it again");
+  } catch (const std::runtime_error& e) {
+    add(report, Severity::error, "", e.what());
+  }
+  if (report.ok() && report.curves.empty()) {
+    add(report, Severity::error, "",
+        "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)");
+  }
+  return report;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+
+#include "cad_import/cad_format.h"
+#include "cad_import/import_report.h"
+
+namespace nurbeam {
+
+/// All curves of a file, read by OpenCASCADE in this very process, with the deviation of approximated ones
+/// within `tolerance` [m].
+///
+/// For the child process of import_curves only: a bad file may crash it, it changes the process's signal
+/// handlers and OpenCASCADE's printers, and two threads must not be in it at once.
+ImportReport read_cad_file(const std::filesystem::path& file, const std::string& content, CadFormat format,
+                           double tolerance);
+
+}  // namespace nurbeam

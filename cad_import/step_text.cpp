@@ -1,0 +1,189 @@
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
+#include <StepGeom_Curve.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
+#include <StepShape_GeometricSet.hxx>
+#include <StepShape_GeometricSetSelect.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "cad_import/cad_text.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr double kMillimetresPerMetre = 1000;
+
+/// No printer of OpenCASCADE writes to stdout while this lives.
+class SilentMessenger {
+ public:
+  SilentMessenger() { Message::DefaultMessenger()->ChangePrinters().Clear(); }
+  ~SilentMessenger() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
+  SilentMessenger(const SilentMessenger&) = delete;
+  SilentMessenger& operator=(const SilentMessenger&) = delete;
+
+ private:
+  Message_SequenceOfPrinters printers_ = Message::DefaultMessenger()->Printers();
+};
+
+void set(const char* parameter, const char* value) {
+  if (!Interface_Static::SetCVal(parameter, value)) {
+    throw std::runtime_error(std::string("OpenCASCADE refuses ") + parameter + " = " + value);
+  }
+}
+
+const char* step_unit(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::metre:
+      return "M";
+    case LengthUnit::millimetre:
+      return "MM";
+    case LengthUnit::inch:
+      return "INCH";
+  }
+  throw std::invalid_argument("unknown length unit");
+}
+
+// Global state of OpenCASCADE, which anything in the process may have changed.
+void set_parameters(LengthUnit unit) {
+  STEPControl_Controller::Init();
+  set("xstep.cascade.unit", "MM");
+  set("write.step.unit", step_unit(unit));
+  set("write.step.schema", "AP214IS");
+  set("write.step.assembly", "Off");
+  set("write.step.product.name", "curves");
+}
+
+Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
+  const std::vector<double> breaks = [&] {
+    std::vector<double> values = curve.knots().knots();
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }();
+  const int break_count = static_cast<int>(breaks.size());
+  TColStd_Array1OfReal knots(1, break_count);
+  TColStd_Array1OfInteger multiplicities(1, break_count);
+  for (int i = 0; i < break_count; ++i) {
+    knots(i + 1) = breaks[i];
+    multiplicities(i + 1) = curve.knots().multiplicity(breaks[i]);
+  }
+  const Eigen::Matrix4Xd& points = curve.control_points();
+  const int count = static_cast<int>(points.cols());
+  TColgp_Array1OfPnt poles(1, count);
+  TColStd_Array1OfReal weights(1, count);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * kMillimetresPerMetre;
+    poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
+    weights(i + 1) = points(3, i);
+  }
+  return new Geom_BSplineCurve(poles, weights, knots, multiplicities, curve.degree());
+}
+
+TopoDS_Edge edge(const NamedCurve& named) {
+  BRepBuilderAPI_MakeEdge maker(bspline(named.curve));
+  if (!maker.IsDone())
+    throw std::runtime_error("OpenCASCADE makes no edge of the curve '" + named.name + "'");
+  return maker.Edge();
+}
+
+TopoDS_Compound compound(const std::vector<NamedCurve>& curves) {
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const NamedCurve& curve : curves) builder.Add(all, edge(curve));
+  return all;
+}
+
+// Characters outside ASCII in hexadecimal, 8 digits each (ISO 10303-21, 6.4.3.3). They occur in names only,
+// whose backslashes OpenCASCADE has doubled by then.
+std::string step_encoded(std::string_view utf8) {
+  std::ostringstream out;
+  for (std::size_t i = 0; i < utf8.size();) {
+    const auto lead = static_cast<unsigned char>(utf8[i++]);
+    if (lead < 0x80) {
+      out << static_cast<char>(lead);
+      continue;
+    }
+    std::uint32_t code = lead & (lead >= 0xF0 ? 0x07U : lead >= 0xE0 ? 0x0FU : 0x1FU);
+    for (; i < utf8.size() && (utf8[i] & 0xC0) == 0x80; ++i) code = code << 6 | (utf8[i] & 0x3FU);
+    out << "\\X4\\" << std::hex << std::uppercase;
+    out.width(8);
+    out.fill('0');
+    out << code << "\\X0\\";
+  }
+  return out.str();
+}
+
+// The translated curves, in order: OpenCASCADE makes one set of curves of each edge.
+std::vector<Handle(StepGeom_Curve)> curves_of(const StepData_StepModel& model) {
+  std::vector<Handle(StepGeom_Curve)> curves;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto set_of_curves = Handle(StepShape_GeometricSet)::DownCast(model.Value(i));
+    const int count = set_of_curves.IsNull() ? 0 : set_of_curves->NbElements();
+    for (int k = 1; k <= count; ++k) curves.push_back(set_of_curves->ElementsValue(k).Curve());
+  }
+  return curves;
+}
+
+// The name on the curve itself and on the trimmed curve that stands for it in the set.
+void give_names(const StepData_StepModel& model, const std::vector<NamedCurve>& curves) {
+  const std::vector<Handle(StepGeom_Curve)> translated = curves_of(model);
+  if (translated.size() != curves.size())
+    throw std::runtime_error("OpenCASCADE did not translate all curves to STEP");
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const Handle(TCollection_HAsciiString) name = new TCollection_HAsciiString(curves[i].name.c_str());
+    translated[i]->SetName(name);
+    if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(translated[i])) {
+      trimmed->BasisCurve()->SetName(name);
+    }
+  }
+}
+
+std::string text(STEPControl_Writer& writer) {
+  StepData_StepWriter out(writer.Model());
+  out.FloatWriter().SetFormat("%.17E");
+  out.FloatWriter().SetZeroSuppress(Standard_False);
+  out.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
+  std::ostringstream stream;
+  if (!out.Print(stream)) throw std::runtime_error("OpenCASCADE did not print the STEP model");
+  return step_encoded(stream.str());
+}
+
+}  // namespace
+
+std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
+  try {
+    const SilentMessenger silence;
+    set_parameters(unit);
+    STEPControl_Writer writer;
+    if (writer.Transfer(compound(curves), STEPControl_GeometricCurveSet) != IFSelect_RetDone) {
+      throw std::runtime_error("OpenCASCADE cannot translate the curves to STEP");
+    }
+    give_names(*writer.Model(), curves);
+    return text(writer);
+  } catch (const Standard_Failure& e) {
+    throw std::runtime_error(std::string("OpenCASCADE cannot write a curve: ") + e.GetMessageString());
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,232 @@
+#include "pipelines/case_shape.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace nurbeam {
+
+namespace {
+
+using Kind = Shape::Kind;
+constexpr bool required = true;
+
+Range positive(std::string reason = {}) { return {.lower = 0, .open = true, .reason = std::move(reason)}; }
+Range not_negative() { return {.lower = 0}; }
+Range from(double lower) { return {.lower = lower}; }
+
+Shape object(std::vector<Key> keys, std::vector<Alternatives> alternatives = {}) {
+  return {.kind = Kind::object, .keys = std::move(keys), .alternatives = std::move(alternatives)};
+}
+Shape array(Shape item, int min_items = 0) {
+  return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
+}
+Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::move(a), std::move(b)}}; }
+Shape choice(std::vector<std::string> choices, std::vector<std::string> planned = {}) {
+  return {.kind = Kind::choice, .choices = std::move(choices), .planned = std::move(planned)};
+}
+Shape text() { return {.kind = Kind::text}; }
+Shape name() { return {.kind = Kind::name}; }
+Shape boolean() { return {.kind = Kind::boolean}; }
+Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(range)}; }
+Shape quantity(Dimension dimension, Range range = {}) {
+  return {.kind = Kind::quantity, .dimension = dimension, .range = std::move(range)};
+}
+Shape vector(Dimension dimension) { return {.kind = Kind::vector, .dimension = dimension}; }
+Shape table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension}; }
+Shape unavailable(std::string hint) { return {.kind = Kind::unavailable, .hint = std::move(hint)}; }
+
+Shape place() {
+  return either(
+      choice({"start", "end"}),
+      object({{"length", quantity(Dimension::length, not_negative()),
+               "reference arc length from the beam's start"},
+              {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+               "fraction of the beam's reference length"},
+              {"near", vector(Dimension::length), "the place of the drawn axis nearest to this point"}},
+             {{{"length", "fraction", "near"}, required}}));
+}
+
+Shape axis() {
+  const Shape nurbs = object({{"degree", integer(from(1)), "degree of the curve", required},
+                              {"knots", array(quantity(Dimension::number), 4),
+                               "full non-decreasing knots, both ends included", required},
+                              {"control_points", array(vector(Dimension::length), 2),
+                               "plain (not weighted) control points", required},
+                              {"weights", array(quantity(Dimension::number, positive()), 2),
+                               "one per control point; 1 when omitted"}});
+  const Shape arc =
+      object({{"center", vector(Dimension::length), "centre of the circle", required},
+              {"start", vector(Dimension::length), "start point", required},
+              {"end", vector(Dimension::length), "end point", required},
+              {"normal", vector(Dimension::number), "the arc turns by the right hand about it", required}});
+  return object(
+      {{"file", text(), "STEP or IGES file, relative to the case file"},
+       {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
+        false, "file"},
+       {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "file"},
+       {"nurbs", nurbs, "an inline NURBS curve"},
+       {"polyline", array(vector(Dimension::length), 2), "straight pieces through these points"},
+       {"arc", arc, "a circular arc"}},
+      {{{"file", "nurbs", "polyline", "arc"}, required}});
+}
+
+Shape section() {
+  return object(
+      {{"radius", quantity(Dimension::length, positive()), "radius of a round solid section"},
+       {"area", quantity(Dimension::area, positive()), "cross-section area", false, "second_moment"},
+       {"second_moment", quantity(Dimension::second_moment, positive()), "second moment of area", false,
+        "area"},
+       {"profile", unavailable("give \"radius\", or \"area\" and \"second_moment\""),
+        "section drawn in a CAD file"}},
+      {{{"radius", "area", "profile"}, required}});
+}
+
+Shape elements() {
+  return object(
+      {{"count", integer(from(1)), "number of elements of the beam"},
+       {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
+       {"per_segment", integer(from(1)), "elements per cubic segment of the axis"},
+       {"grading",
+        quantity(Dimension::number,
+                 {.lower = 0, .upper = 0, .reason = "graded subdivision is not available in this version"}),
+        "grading of the subdivision", false, "per_segment"}},
+      {{{"count", "max_length", "per_segment"}, false}});
+}
+
+Shape beam() {
+  const Shape material =
+      object({{"density", quantity(Dimension::density, positive()), "mass per volume", required},
+              {"youngs_modulus", quantity(Dimension::pressure, positive()), "Young's modulus", required},
+              {"damping", quantity(Dimension::time, not_negative()), "stiffness-proportional damping time"}});
+  return object(
+      {{"name", name(), "name of the beam", required},
+       {"axis", axis(), "the beam's axis as drawn", required},
+       {"section", section(), "cross-section", required},
+       {"material", material, "material", required},
+       {"elements", elements(), "how the axis is divided"},
+       {"element", choice({"ale-rancf", "ale-ancf"}), "rational elements, or all weights 1"},
+       {"weights", choice({"material", "constant"}), "whether weights follow the material"},
+       {"merge", choice({"default", "paper", "ones"}), "weights of a merged element"},
+       {"metric", choice({"reference"}, {"none"}), "metric of the material coordinate"},
+       {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}), "the unstressed shape"},
+       {"curvature", choice({"material", "spatial"}), "curvature measure"},
+       {"form", choice({"variational"}, {"virtual-work"}), "form of the elastic forces"},
+       {"corners", choice({"error", "allow"}), "whether the axis may have rigid corners"},
+       {"approximation_tolerance", quantity(Dimension::length, positive()),
+        "greatest deviation of the cubics from an axis of degree above 3"}});
+}
+
+Shape load() {
+  const Shape moves = object({{"speed", quantity(Dimension::speed), "speed along the beam", required}});
+  return object(
+      {{"beam", name(), "the loaded beam", required},
+       {"at", place(), "where the force or moment acts"},
+       {"force", vector(Dimension::force), "point force, fixed in space", false, "at"},
+       {"moment", vector(Dimension::moment), "point moment", false, "at"},
+       {"force_per_length", vector(Dimension::force_per_length), "per metre of reference arc length"},
+       {"follower", boolean(), "the force turns with the section", false, "force"},
+       {"moves", moves, "a force that moves along the beam", false, "force"},
+       {"time", table(Dimension::number), "factor over time, linear between rows, constant outside"}},
+      {{{"force", "moment", "force_per_length"}, required}, {{"at", "force_per_length"}, false}});
+}
+
+Shape support() {
+  return object({{"beam", name(), "the supported beam", required},
+                 {"at", place(), "where", required},
+                 {"type", choice({"clamped", "pinned"}), "clamped or pinned", required}});
+}
+
+Shape sliding_joint() {
+  const Shape motion = object({{"speed", quantity(Dimension::speed), "constant speed along the beam"},
+                               {"table", table(Dimension::length), "reference arc length over time"}},
+                              {{{"speed", "table"}, required}});
+  return object({{"body", name(), "the sliding body", required},
+                 {"beam", name(), "the beam it slides on", required},
+                 {"at", place(), "where it starts", required},
+                 {"speed", quantity(Dimension::speed), "initial speed in reference arc length"},
+                 {"motion", motion, "prescribes the body's place on the beam"},
+                 {"slope", choice({"continuous", "discontinuous"}), "slope of the beam at the body"},
+                 {"at_beam_end", choice({"leave", "stop"}), "what happens at the beam's end"}},
+                {{{"speed", "motion"}, false}});
+}
+
+Shape analysis() {
+  const Shape integrator = object({{"type", choice({"generalized-alpha"}, {"ida", "rk4"}), "time integrator"},
+                                   {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+                                    "spectral radius at infinity"}});
+  const Shape length_control =
+      object({{"min", quantity(Dimension::number, {.lower = 0, .upper = 1, .open = true}),
+               "a shorter element is merged"},
+              {"max", quantity(Dimension::number, {.lower = 1, .open = true}), "a longer element is split"}});
+  return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium"},
+                 {"initial", choice({"as-drawn", "equilibrium"}), "state at time 0"},
+                 {"end_time", quantity(Dimension::time, positive()), "end of the motion"},
+                 {"step", quantity(Dimension::time, positive()), "fixed step"},
+                 {"tolerance", quantity(Dimension::number, positive()), "local error of adaptive steps"},
+                 {"integrator", integrator, "time integrator"},
+                 {"length_control", length_control, "in multiples of the standard element length"}},
+                {{{"step", "tolerance"}, false}});
+}
+
+Shape output() {
+  const Shape cad = object({{"formats", array(choice({"step", "iges"}), 1), "file formats"},
+                            {"times", array(quantity(Dimension::time, not_negative())), "times to write"},
+                            {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files"}});
+  const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
+                              {"beam", name(), "the probed beam", required},
+                              {"at", place(), "where", required}});
+  return object({{"every", quantity(Dimension::time, positive()), "time between stored frames"},
+                 {"cad", cad, "deformed axes as CAD files"},
+                 {"probes", array(probe), "points whose motion is stored"},
+                 {"paraview", boolean(), "ParaView files"},
+                 {"report", boolean(), "HTML report"}});
+}
+
+Shape body() {
+  return object(
+      {{"name", name(), "name of the body", required},
+       {"mass",
+        quantity(Dimension::mass,
+                 positive("a sliding body without mass has no inertia: its row of the equations of motion "
+                          "would be empty")),
+        "mass", required}});
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return open ? value > lower && value < upper : value >= lower && value <= upper;
+}
+
+std::string Range::rule() const {
+  std::ostringstream rule;
+  if (lower == upper) {
+    rule << lower;
+  } else if (std::isfinite(lower) && std::isfinite(upper)) {
+    rule << "between " << lower << " and " << upper << (open ? " (both excluded)" : "");
+  } else if (std::isfinite(lower)) {
+    rule << (open ? "greater than " : "at least ") << lower;
+  } else {
+    rule << (open ? "less than " : "at most ") << upper;
+  }
+  return rule.str();
+}
+
+const Shape& case_shape() {
+  static const Shape shape = object(
+      {{"$schema", text(), "for editors; ignored"},
+       {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
+        "version of the case-file format", required},
+       {"name", text(), "title of the case; the file's name when omitted"},
+       {"gravity", vector(Dimension::acceleration), "acceleration of gravity; [0, 0, -9.81] when omitted"},
+       {"beams", array(beam(), 1), "the beams", required},
+       {"bodies", array(body()), "point masses that slide on beams"},
+       {"loads", array(load()), "forces and moments"},
+       {"supports", array(support()), "where beams are held"},
+       {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+       {"analysis", analysis(), "what to compute", required},
+       {"output", output(), "what to store"}});
+  return shape;
+}
+
+}  // namespace nurbeam

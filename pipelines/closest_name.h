@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nurbeam {
+
+/// Number of single-character insertions, deletions and replacements between two texts, letter case ignored.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The ending of a message about an unknown name: `; did you mean "x"? Known: "x", "y"`. The question is left
+/// out when no known name is near (at most a third of the text's characters, at least 2, differ).
+std::string known_names(std::string_view unknown, const std::vector<std::string>& known);
+
+/// `"a"`.
+std::string in_quotes(std::string_view text);
+
+/// `"a", "b"`.
+std::string quoted_list(const std::vector<std::string>& names);
+
+}  // namespace nurbeam

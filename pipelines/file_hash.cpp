@@ -1,0 +1,54 @@
+#include "pipelines/file_hash.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+namespace nurbeam {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
+  throw std::runtime_error(file.string() + ": " + reason);
+}
+
+std::string hexadecimal(const unsigned char* bytes, unsigned count) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (unsigned i = 0; i < count; ++i) {
+    text += {digits[bytes[i] / 16], digits[bytes[i] % 16]};
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    fail(file, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  bool good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  std::array<char, 1 << 16> buffer;
+  while (good && stream) {
+    stream.read(buffer.data(), buffer.size());
+    good = EVP_DigestUpdate(context.get(), buffer.data(), stream.gcount()) == 1;
+  }
+  if (stream.bad()) {
+    fail(file, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned size = 0;
+  if (!good || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1) {
+    fail(file, "OpenSSL offers no SHA-256");
+  }
+  return hexadecimal(digest.data(), size);
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nurbeam {
+
+/// What a number of the case file measures.
+enum class Dimension {
+  number,
+  length,
+  area,
+  second_moment,
+  mass,
+  density,
+  time,
+  speed,
+  acceleration,
+  force,
+  moment,
+  force_per_length,
+  pressure
+};
+
+/// "length", "force per length", ...
+std::string dimension_name(Dimension dimension);
+/// The SI unit: "m", "N/m", ...; "" for a plain number.
+std::string si_unit(Dimension dimension);
+/// Units a user may write, as a list: "m, mm, cm, km, in, ft".
+std::string unit_examples(Dimension dimension);
+
+/// A quantity in SI units, or why the text is not one.
+struct ParsedQuantity {
+  std::optional<double> value;
+  std::string error;  ///< empty when there is a value
+};
+
+/// Reads "5 mm", "7200 kg/m^3", "2 N m", "20 km/h": a number and a product of units with integer powers
+/// (m2, m^2 and m² are the same), whose dimension must be the expected one.
+ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
+
+}  // namespace nurbeam

@@ -1,0 +1,91 @@
+#include "pipelines/run_summary.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace nurbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json to_json(const RunEvent& event) {
+  return {{"time [s]", event.time},
+          {"kind", event.kind},
+          {"beam", event.beam},
+          {"body", event.body},
+          {"s [m]", event.s ? Json(*event.s) : Json()},
+          {"energy_before [J]", event.energy_before},
+          {"energy_after [J]", event.energy_after},
+          {"momentum_before [kg m/s]", to_json(event.momentum_before)},
+          {"momentum_after [kg m/s]", to_json(event.momentum_after)},
+          {"length_before [m]", event.length_before},
+          {"length_after [m]", event.length_after}};
+}
+
+Json to_json(const Diagnostic& diagnostic) {
+  constexpr const char* severities[] = {"note", "warning", "error"};
+  return {{"severity", severities[static_cast<int>(diagnostic.severity)]},
+          {"where", diagnostic.where},
+          {"message", diagnostic.message}};
+}
+
+Json to_json(const RunInput& input) { return {{"file", input.file.string()}, {"sha256", input.sha256}}; }
+Json to_json(const std::filesystem::path& path) { return path.string(); }
+
+template <class Item>
+Json list(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) {
+    list.push_back(to_json(item));
+  }
+  return list;
+}
+
+Json to_json(const RunSummary& summary) {
+  const PhaseTimes& wall = summary.wall_times;
+  return {{"nurbeam", summary.version},
+          {"case", summary.case_name},
+          {"status", summary.status},
+          {"end_time [s]", summary.end_time},
+          {"steps", summary.steps},
+          {"rejected_steps", summary.rejected_steps},
+          {"newton_iterations", summary.newton_iterations},
+          {"energy_drift [J]", summary.energy_drift},
+          {"wall_times [s]",
+           {{"import", wall.import},
+            {"model", wall.model},
+            {"motion", wall.motion},
+            {"length_control", wall.length_control},
+            {"output", wall.output}}},
+          {"inputs", list(summary.inputs)},
+          {"events", list(summary.events)},
+          {"diagnostics", list(summary.diagnostics)},
+          {"files", list(summary.files)}};
+}
+
+}  // namespace
+
+void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
+  const std::filesystem::path temporary = file.string() + ".part";
+  std::ofstream stream(temporary);
+  // Names from files need not be valid UTF-8: what is not is replaced.
+  stream << to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, file, error);
+  if (error) {
+    throw std::runtime_error(file.string() +
+                             ": cannot be renamed from its temporary name: " + error.message());
+  }
+}
+
+}  // namespace nurbeam

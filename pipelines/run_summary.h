@@ -1,0 +1,59 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cad_import/import_report.h"
+
+namespace nurbeam {
+
+/// A file a run has read; `sha256` as sha256_of_file() gives it.
+struct RunInput {
+  std::filesystem::path file;
+  std::string sha256;
+};
+
+/// Wall times [s].
+struct PhaseTimes {
+  double import = 0;  ///< reading the case and CAD files
+  double model = 0;   ///< building the model and its initial state
+  double motion = 0;  ///< integration or equilibrium
+  double length_control = 0;
+  double output = 0;
+};
+
+/// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...
+struct RunEvent {
+  double time = 0;   ///< [s]
+  std::string kind;  ///< "split", "merge", "left the beam", ...
+  std::string beam, body;
+  std::optional<double> s;                     ///< reference arc length of the body [m]
+  double energy_before = 0, energy_after = 0;  ///< [J]
+  Eigen::Vector3d momentum_before = Eigen::Vector3d::Zero(),
+                  momentum_after = Eigen::Vector3d::Zero();  ///< [kg m/s]
+  double length_before = 0, length_after = 0;                ///< deformed length of the beam [m]
+};
+
+/// What run.json says about a run.
+struct RunSummary {
+  std::string version;
+  std::string case_name;
+  std::vector<RunInput> inputs;
+  std::string status;  ///< "done", or why the run ended before its end
+  PhaseTimes wall_times;
+  double end_time = 0;  ///< simulated time reached [s]
+  long steps = 0, rejected_steps = 0, newton_iterations = 0;
+  std::vector<RunEvent> events;
+  double energy_drift =
+      0;  ///< largest departure of the total energy, with the dissipated, from its start [J]
+  std::vector<Diagnostic> diagnostics;
+  std::vector<std::filesystem::path> files;  ///< written, relative to the results directory
+};
+
+/// Writes the summary as JSON, to a temporary name that is renamed. Numbers that are not finite become null.
+/// Throws std::runtime_error (file and reason).
+void write_run_summary(const std::filesystem::path& file, const RunSummary& summary);
+
+}  // namespace nurbeam
