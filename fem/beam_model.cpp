@@ -6,45 +6,39 @@
 
 namespace nurbeam {
 
-namespace {
+std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places) {
+  const double near = 1e-9 * curve.length();
+  std::vector<double> places = curve.breaks();
+  for (double s : support_places)
+    if (std::none_of(places.begin(), places.end(), [&](double x) { return std::abs(x - s) < near; }))
+      places.push_back(s);
+  std::sort(places.begin(), places.end());
+  return places;
+}
 
-// Largest-remainder rule: at least one element for each interval, the rest where elements are longest.
-std::vector<int> spread(const std::vector<double>& lengths, int count) {
-  std::vector<int> parts(lengths.size(), 1);
-  for (int left = count - static_cast<int>(lengths.size()); left > 0; --left) {
-    std::size_t longest = 0;
-    for (std::size_t i = 1; i < lengths.size(); ++i)
-      if (lengths[i] / parts[i] > lengths[longest] / parts[longest] * (1 + 1e-12)) longest = i;
+std::vector<int> spread_elements(const std::vector<double>& places, int count) {
+  const int intervals = static_cast<int>(places.size()) - 1;
+  if (count < intervals)
+    throw std::invalid_argument(std::to_string(count) + " elements are fewer than the " + std::to_string(intervals) +
+                                " intervals between CAD segments and supports; the smallest count is " +
+                                std::to_string(intervals));
+  std::vector<int> parts(intervals, 1);
+  const auto part_length = [&](int i) { return (places[i + 1] - places[i]) / parts[i]; };
+  for (int left = count - intervals; left > 0; --left) {
+    int longest = 0;
+    for (int i = 1; i < intervals; ++i)
+      if (part_length(i) > part_length(longest) * (1 + 1e-12)) longest = i;
     ++parts[longest];
   }
   return parts;
 }
 
-}  // namespace
-
-std::vector<HomeNode> divide_evenly(const ReferenceCurve& curve, const std::vector<double>& support_places,
-                                    int count) {
-  const double near = 1e-9 * curve.length();
-  std::vector<double> fixed = curve.breaks();
-  for (double s : support_places)
-    if (std::none_of(fixed.begin(), fixed.end(), [&](double x) { return std::abs(x - s) < near; }))
-      fixed.push_back(s);
-  std::sort(fixed.begin(), fixed.end());
-
-  const int intervals = static_cast<int>(fixed.size()) - 1;
-  if (count < intervals)
-    throw std::invalid_argument(
-        std::to_string(count) + " elements are fewer than the " + std::to_string(intervals) +
-        " intervals between CAD segments and supports; the smallest count is " + std::to_string(intervals));
-  std::vector<double> lengths;
-  for (int i = 0; i < intervals; ++i) lengths.push_back(fixed[i + 1] - fixed[i]);
-  const std::vector<int> parts = spread(lengths, count);
-
+std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts) {
   std::vector<HomeNode> home;
-  for (int i = 0; i < intervals; ++i)
+  for (std::size_t i = 0; i < parts.size(); ++i)
     for (int k = 0; k < parts[i]; ++k)
-      home.push_back({fixed[i] + lengths[i] * k / parts[i], k == 0 && i > 0});
-  home.push_back({curve.length(), false});
+      home.push_back({places[i] + (places[i + 1] - places[i]) * k / parts[i], k == 0 && i > 0});
+  home.push_back({places.back(), false});
   return home;
 }
 

@@ -89,10 +89,12 @@ struct BeamModel {
   std::vector<SlidingJoint> joints;
 };
 
-/// Home nodes for a beam: breaks of the drawing and supports, each interval between them divided evenly in
-/// arc length so that `count` elements result, spread in proportion to length. Throws std::invalid_argument,
+/// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and supports.
+std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places);
+/// How many elements each interval gets when `count` are spread in proportion to length. Throws std::invalid_argument,
 /// naming the smallest count, when there are more intervals than elements.
-std::vector<HomeNode> divide_evenly(const ReferenceCurve& curve, const std::vector<double>& support_places,
-                                    int count);
+std::vector<int> spread_elements(const std::vector<double>& places, int count);
+/// Home nodes: each interval divided evenly in arc length into its number of parts; interior places are late nodes.
+std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts);
 
 }  // namespace nurbeam

@@ -496,26 +496,33 @@ State BeamSystem<D>::drawn_state() const {
     if (mesh_.plan.modes[j] == JointMode::free) continue;
     const ReferenceCurve& curve = model_->beams[joint.beam].curve;
     const double s = mesh_.plan.places[j];
-    const double speed = joint.motion ? value_and_slope(*joint.motion, 0).second : joint.speed;
     state.q.segment<D>(at.r) = curve.position(s).head<D>();
     state.q[at.place] = s;
-    state.v.segment<D>(at.r) = speed * curve.tangent(s).head<D>();
-    state.v[at.place] = speed;
   }
-  // Slopes at a moving node: the material is at rest, so r_s changes by what the node meets.
-  for (int b = 0; b < static_cast<int>(mesh_.nodes.size()); ++b)
-    for (int i = 0; i < static_cast<int>(mesh_.nodes[b].size()); ++i) {
-      const MeshNode& node = mesh_.nodes[b][i];
-      if (node.place < 0) continue;
-      const int first = mesh_.first_element[b];
-      const double speed = state.v[node.place];
-      const Vector left = material_point<D>(mesh_.elements[first + i - 1], state.q, state.v, node.s).rss;
-      const Vector right = material_point<D>(mesh_.elements[first + i], state.q, state.v, node.s).rss;
-      const bool shared = node.slope_left == node.slope_right;
-      state.v.segment<D>(node.slope_left) = speed * (shared ? Vector((left + right) / 2) : left);
-      if (!shared) state.v.segment<D>(node.slope_right) = speed * right;
-    }
   return state;
+}
+
+template <int D>
+void BeamSystem<D>::start_joints(State& state) const {
+  state.v.setZero();
+  for (std::size_t j = 0; j < mesh_.joints.size(); ++j) {
+    const MeshJoint& at = mesh_.joints[j];
+    if (mesh_.plan.modes[j] == JointMode::free) continue;
+    const SlidingJoint& joint = model_->joints[j];
+    const double speed = joint.motion ? value_and_slope(*joint.motion, state.t).second : joint.speed;
+    const double s = state.q[at.place];
+    const int index = find_element<D>(*model_, mesh_, state.q, joint.beam, s);
+    const MaterialPoint<D> right = material_point<D>(mesh_.elements[index], state.q, state.v, s);
+    state.v.segment<D>(at.r) = speed * right.rs;
+    state.v[at.place] = speed;
+    if (at.node < 0) continue;
+    // The material is at rest, so the slopes at the moving node change by what the node meets.
+    const MaterialPoint<D> left = material_point<D>(mesh_.elements[index - 1], state.q, state.v, s);
+    const MeshNode& node = mesh_.nodes[joint.beam][at.node];
+    const bool shared = node.slope_left == node.slope_right;
+    state.v.segment<D>(node.slope_left) = speed * (shared ? Vector((left.rss + right.rss) / 2) : left.rss);
+    if (!shared) state.v.segment<D>(node.slope_right) = speed * right.rss;
+  }
 }
 
 template class BeamSystem<2>;

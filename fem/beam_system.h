@@ -57,8 +57,10 @@ class BeamSystem final : public SecondOrderSystem {
   std::optional<double> place(const State& state, int joint) const;
   double place_rate(const State& state, int joint) const;
 
-  /// The drawn shape at rest, joints moving with their initial speeds; accelerations and multipliers zero.
+  /// The drawn shape; velocities, accelerations and multipliers zero.
   State drawn_state() const;
+  /// Sets velocities: the material at rest, each joint's body moving along the beam with its initial speed.
+  void start_joints(State& state) const;
 
  private:
   using Vector = Eigen::Matrix<double, D, 1>;

@@ -38,6 +38,8 @@ class ReferenceCurve {
   int segment_at(double s, bool from_left = false) const;
   /// u of segment j at s [m]; slightly outside it extrapolates.
   double parameter(int j, double s) const { return maps_[j].parameter(s - breaks_[j]); }
+  /// Reference arc length [m] at parameter u of segment j, the inverse of parameter().
+  double arc_length(int j, double u) const { return breaks_[j] + maps_[j].arc_length(u); }
   ChartGeometry geometry(int j, double u) const;
   /// Position at s, 3 [m] (third coordinate 0 in a planar model).
   Eigen::Vector3d position(double s) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cad_import/import_report.h"
+#include "fem/beam_model.h"
 
 namespace nurbeam {
 
@@ -53,10 +54,7 @@ struct CaseElements {
 };
 
 enum class ElementKind { ale_rancf, ale_ancf };
-enum class WeightRule { material, constant };
-enum class MergeRule { standard, paper, ones };
 enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
-enum class CurvatureMeasure { material, spatial };
 
 struct CaseBeam {
   std::string name;
@@ -79,7 +77,6 @@ struct CaseBody {
   double mass = 0;  ///< [kg]
 };
 
-using TimeTable = std::vector<std::pair<double, double>>;  ///< (t [s], value), t increasing; linear between, constant outside
 
 struct CaseLoad {
   enum class Kind { force, moment, force_per_length } kind = Kind::force;

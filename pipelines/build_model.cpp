@@ -1,0 +1,458 @@
+#include "pipelines/build_model.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "cad_import/import_curves.h"
+#include "nurbs/bezier_path.h"
+#include "nurbs/closest_point.h"
+
+namespace nurbeam {
+
+namespace {
+
+// Angle above which a joint of two curves is a corner [rad].
+constexpr double corner_angle = 1e-4;
+
+std::string text(double value) {
+  std::ostringstream stream;
+  stream.precision(10);
+  stream << value;
+  return stream.str();
+}
+
+std::string text(const Eigen::Vector3d& p) {
+  return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") m";
+}
+
+RationalCubic straight_cubic(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Matrix4d points;
+  for (int i = 0; i < 4; ++i) points.col(i) << a + (b - a) * (i / 3.0), 1;
+  return RationalCubic(points);
+}
+
+// Circular arc about `normal` from start to end in pieces of at most 90 degrees (Eq. 43 of Ding & Ouyang).
+std::vector<RationalCubic> arc_cubics(const CaseAxis::Arc& arc) {
+  const Eigen::Vector3d n = arc.normal.normalized(), a = arc.start - arc.center, b = arc.end - arc.center;
+  double angle = std::atan2(n.dot(a.cross(b)), a.dot(b));
+  if (angle <= 1e-12) angle += 2 * M_PI;
+  const int pieces = static_cast<int>(std::ceil(angle / (M_PI / 2) - 1e-9));
+  const double step = angle / pieces, w1 = (1 + 2 * std::cos(step / 2)) / 3;
+  const auto at = [&](double theta) -> Eigen::Vector3d { return a * std::cos(theta) + n.cross(a) * std::sin(theta); };
+  std::vector<RationalCubic> cubics;
+  for (int i = 0; i < pieces; ++i) {
+    const double theta = i * step;
+    const Eigen::Vector3d p0 = at(theta), p3 = i + 1 == pieces ? Eigen::Vector3d(b) : at(theta + step);
+    // Control points of the elevated quadratic: w1 P1 = (P0 + 2 w C)/3 with the tangents' intersection C.
+    const Eigen::Vector3d tip = at(theta + step / 2) / std::cos(step / 2);
+    const double wc = std::cos(step / 2);
+    Eigen::Matrix4d points;
+    points.col(0) << p0 + arc.center, 1;
+    points.col(1) << (p0 + 2 * wc * tip) / 3 + w1 * arc.center, w1;
+    points.col(2) << (p3 + 2 * wc * tip) / 3 + w1 * arc.center, w1;
+    points.col(3) << p3 + arc.center, 1;
+    cubics.emplace_back(points);
+  }
+  return cubics;
+}
+
+class Builder {
+ public:
+  explicit Builder(const CaseFile& case_file) : case_(case_file) {}
+
+  BuildReport build() {
+    for (const CaseBeam& beam : case_.beams) paths_.push_back(axis_of(beam));
+    if (!failed()) {
+      choose_frame();
+      for (std::size_t b = 0; b < case_.beams.size() && !failed(); ++b) add_beam(static_cast<int>(b));
+    }
+    if (!failed()) {
+      add_loads();
+      add_joints();
+      for (const CaseProbe& probe : case_.output.probes) {
+        const int beam = beam_index(probe.beam);
+        built_.probes.push_back({probe.name, beam, place(probe.at, beam, "output.probes")});
+      }
+    }
+    BuildReport report;
+    const bool ok = !failed();
+    report.diagnostics = std::move(diagnostics_);
+    if (ok) report.value = std::move(built_);
+    return report;
+  }
+
+ private:
+  void error(const std::string& where, const std::string& message) {
+    diagnostics_.push_back({Severity::error, case_.path.string() + ": " + where, message});
+  }
+  void warn(const std::string& where, const std::string& message) {
+    diagnostics_.push_back({Severity::warning, case_.path.string() + ": " + where, message});
+  }
+  bool failed() const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [](const Diagnostic& d) { return d.severity == Severity::error; });
+  }
+  int beam_index(const std::string& name) const {
+    for (std::size_t b = 0; b < case_.beams.size(); ++b)
+      if (case_.beams[b].name == name) return static_cast<int>(b);
+    return 0;  // names were checked with the case file
+  }
+
+  const ImportReport& imported(const std::filesystem::path& file) {
+    if (const auto found = imports_.find(file); found != imports_.end()) return found->second;
+    const auto start = std::chrono::steady_clock::now();
+    ImportReport report = import_curves(file);
+    built_.import_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    built_.inputs.push_back(file);
+    diagnostics_.insert(diagnostics_.end(), report.diagnostics.begin(), report.diagnostics.end());
+    return imports_.emplace(file, std::move(report)).first->second;
+  }
+
+  static std::string list_of(const std::vector<ImportedCurve>& curves) {
+    std::string names;
+    for (std::size_t i = 0; i < curves.size() && i < 20; ++i)
+      names += (i ? ", " : "") + std::to_string(i + 1) + (curves[i].name.empty() ? "" : " \"" + curves[i].name + "\"");
+    return names + (curves.size() > 20 ? ", ..." : "");
+  }
+
+  // Index of the curve that the case names, -1 with a diagnostic when there is none or several.
+  int chosen_curve(const CaseBeam& beam, const AxisFile& axis, const std::vector<ImportedCurve>& curves) {
+    const std::string where = beam.path + ".axis.curve";
+    if (axis.curve_index) {
+      if (*axis.curve_index >= 1 && *axis.curve_index <= static_cast<int>(curves.size())) return *axis.curve_index - 1;
+      error(where, "index " + std::to_string(*axis.curve_index) + " is out of range: " + axis.path.string() + " has " +
+                       std::to_string(curves.size()) + " curves: " + list_of(curves));
+      return -1;
+    }
+    std::vector<int> found;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i].name == *axis.curve_name) found.push_back(static_cast<int>(i));
+    if (found.size() == 1) return found[0];
+    error(where, (found.empty() ? "no curve is named \"" : "several curves are named \"") + *axis.curve_name + "\" in " +
+                     axis.path.string() + "; its curves (index and name): " + list_of(curves));
+    return -1;
+  }
+
+  std::vector<RationalCubic> axis_from_file(const CaseBeam& beam, const AxisFile& axis) {
+    const ImportReport& report = imported(axis.path);
+    if (!report.ok()) return {};
+    std::vector<NurbsCurve> curves;
+    double size = 0;
+    for (const ImportedCurve& c : report.curves) {
+      curves.push_back(c.curve);
+      size = std::max(size, length(c.curve));
+    }
+    const double gap = 1e-6 * size;
+    Chain chain;
+    std::string name;
+    if (axis.curve_name || axis.curve_index) {
+      const int chosen = chosen_curve(beam, axis, report.curves);
+      if (chosen < 0) return {};
+      name = report.curves[chosen].name;
+      chain = {{chosen}, {false}, false};
+      if (axis.chain) chain = smooth_chain_around(curves, chosen, gap);
+    } else {
+      const std::vector<Chain> chains = find_chains(curves, gap);
+      if (chains.size() != 1) {
+        error(beam.path + ".axis", axis.path.string() + " has " + std::to_string(chains.size()) +
+                                       " separate chains of curves; choose one with \"curve\": " +
+                                       list_of(report.curves));
+        return {};
+      }
+      chain = chains[0];
+      name = report.curves[chain.curves[0]].name;
+    }
+    built_.curve_names.back() = name.empty() ? beam.name : name;
+    const BezierPath path = join(curves, chain, beam.approximation_tolerance);
+    if (path.deviation > 0)
+      warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
+                                    text(path.deviation) + " m");
+    return path.segments;
+  }
+
+  // The connected curves that continue without a corner on both sides of one curve.
+  Chain smooth_chain_around(const std::vector<NurbsCurve>& curves, int chosen, double gap) {
+    for (const Chain& chain : find_chains(curves, gap)) {
+      const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
+      if (at == chain.curves.end()) continue;
+      const auto tangent = [&](std::size_t i, bool at_end) -> Eigen::Vector3d {
+        const NurbsCurve curve = chain.reversed[i] ? curves[chain.curves[i]].reversed() : curves[chain.curves[i]];
+        return curve.derivatives(at_end ? curve.knots().end() : curve.knots().start(), 1).col(1).normalized();
+      };
+      const auto smooth = [&](std::size_t i) { return (tangent(i, true) - tangent(i + 1, false)).norm() < corner_angle; };
+      std::size_t first = at - chain.curves.begin(), last = first;
+      while (first > 0 && smooth(first - 1)) --first;
+      while (last + 1 < chain.curves.size() && smooth(last)) ++last;
+      Chain part;
+      part.curves.assign(chain.curves.begin() + first, chain.curves.begin() + last + 1);
+      part.reversed.assign(chain.reversed.begin() + first, chain.reversed.begin() + last + 1);
+      return part;
+    }
+    return {{chosen}, {false}, false};
+  }
+
+  std::vector<RationalCubic> axis_of(const CaseBeam& beam) {
+    built_.curve_names.push_back(beam.name);
+    std::vector<RationalCubic> segments;
+    try {
+      segments = std::visit(
+          [&](const auto& source) -> std::vector<RationalCubic> {
+            using Source = std::decay_t<decltype(source)>;
+            if constexpr (std::is_same_v<Source, AxisFile>) return axis_from_file(beam, source);
+            if constexpr (std::is_same_v<Source, NurbsCurve>)
+              return BezierPath::from_nurbs(source, beam.approximation_tolerance).segments;
+            if constexpr (std::is_same_v<Source, CaseAxis::Arc>) return arc_cubics(source);
+            if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
+              std::vector<RationalCubic> cubics;
+              for (std::size_t i = 0; i + 1 < source.size(); ++i)
+                cubics.push_back(straight_cubic(source[i], source[i + 1]));
+              return cubics;
+            }
+          },
+          beam.axis.source);
+    } catch (const std::invalid_argument& problem) {
+      error(beam.path + ".axis", problem.what());
+    }
+    for (const Corner& corner : BezierPath{segments, {}, 0}.corners(corner_angle))
+      error(beam.path + ".axis", "the axis has a corner of " + text(corner.angle * 180 / M_PI) + " degrees at " +
+                                     text(corner.point) +
+                                     "; a beam needs a smooth axis: round the corner or model two beams");
+    return segments;
+  }
+
+  // The model is planar when axes, gravity and loads lie in one plane and moments are normal to it.
+  void choose_frame() {
+    std::vector<Eigen::Vector3d> in_plane, moments;
+    const Eigen::Vector3d origin = paths_.front().front().control_point(0);
+    double size = 0;
+    for (const auto& path : paths_)
+      for (const RationalCubic& cubic : path)
+        for (int i = 0; i < 4; ++i) size = std::max(size, (cubic.control_point(i) - origin).norm());
+    for (const auto& path : paths_)
+      for (const RationalCubic& cubic : path)
+        for (int i = 0; i < 4; ++i) in_plane.push_back((cubic.control_point(i) - origin) / size);
+    const auto add_direction = [](std::vector<Eigen::Vector3d>& to, const Eigen::Vector3d& v) {
+      if (v.norm() > 0) to.push_back(v.normalized());
+    };
+    add_direction(in_plane, case_.gravity);
+    for (const CaseLoad& load : case_.loads)
+      add_direction(load.kind == CaseLoad::Kind::moment ? moments : in_plane, load.value);
+
+    const Eigen::Vector3d normal = plane_normal(in_plane, moments);
+    constexpr double flat = 1e-9;
+    const auto off_plane = [&](const Eigen::Vector3d& v) { return std::abs(v.dot(normal)) > flat; };
+    const auto off_normal = [&](const Eigen::Vector3d& v) { return v.cross(normal).norm() > flat; };
+    const bool planar = std::none_of(in_plane.begin(), in_plane.end(), off_plane) &&
+                        std::none_of(moments.begin(), moments.end(), off_normal);
+    built_.model.dimension = planar ? 2 : 3;
+    if (planar) {
+      const Eigen::Vector3d ahead = std::abs(normal.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+      const Eigen::Vector3d e1 = (ahead - ahead.dot(normal) * normal).normalized();
+      built_.frame.rotation.row(0) = e1;
+      built_.frame.rotation.row(1) = normal.cross(e1);
+      built_.frame.rotation.row(2) = normal;
+      built_.frame.origin = origin.dot(normal) * normal;
+    }
+    built_.model.gravity = built_.frame.rotation * case_.gravity;
+    if (planar) built_.model.gravity.z() = 0;
+  }
+
+  static Eigen::Vector3d plane_normal(const std::vector<Eigen::Vector3d>& in_plane,
+                                      const std::vector<Eigen::Vector3d>& moments) {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& v : in_plane) spread += v * v.transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU);
+    const bool line = svd.singularValues()[1] < 1e-18 * svd.singularValues()[0];
+    Eigen::Vector3d normal = svd.matrixU().col(2);
+    if (line) {
+      // Everything on one line: any plane through it; the one a moment asks for, else the one nearest to x-y.
+      const Eigen::Vector3d along = svd.matrixU().col(0);
+      Eigen::Vector3d wanted = moments.empty() ? Eigen::Vector3d::UnitZ() : moments.front();
+      if (wanted.cross(along).norm() < 1e-6) wanted = Eigen::Vector3d::UnitY();
+      normal = (wanted - wanted.dot(along) * along).normalized();
+    }
+    // Clean round-off so that a plane of two axes is exactly that plane.
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(normal[i]) < 1e-12) normal[i] = 0;
+    normal.normalize();
+    int largest;
+    normal.cwiseAbs().maxCoeff(&largest);
+    return normal[largest] > 0 ? normal : Eigen::Vector3d(-normal);
+  }
+
+  RationalCubic to_local(const RationalCubic& cubic) const {
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      Eigen::Vector3d p = built_.frame.to_local(cubic.control_point(i));
+      if (built_.model.dimension == 2) p.z() = 0;
+      points.col(i) << cubic.weight(i) * p, cubic.weight(i);
+    }
+    return RationalCubic(points);
+  }
+
+  void add_beam(int b) {
+    const CaseBeam& from = case_.beams[b];
+    std::vector<RationalCubic> local;
+    for (const RationalCubic& cubic : paths_[b]) local.push_back(to_local(cubic));
+    Beam beam{from.name, ReferenceCurve(local, built_.model.dimension), {}, false, from.weights, from.merge, {}};
+    if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
+    beam.properties.axial_stiffness = from.material.youngs_modulus * from.section.area;
+    beam.properties.bending_stiffness = from.material.youngs_modulus * from.section.second_moment;
+    beam.properties.mass_per_length = from.material.density * from.section.area;
+    beam.properties.damping = from.material.damping;
+    beam.properties.curvature = from.curvature;
+    beam.straight = is_straight(from, beam.curve);
+    built_.model.beams.push_back(std::move(beam));
+
+    Beam& added = built_.model.beams.back();
+    std::vector<double> supported;
+    for (const CaseSupport& support : case_.supports) {
+      if (beam_index(support.beam) != b) continue;
+      const double s = place(support.at, b, support.path);
+      supported.push_back(s);
+      built_.model.supports.push_back({b, s, support.type == CaseSupport::Type::clamped});
+    }
+    const std::vector<double> places = fixed_places(added.curve, supported);
+    try {
+      added.home = home_nodes(places, parts(from, places));
+    } catch (const std::invalid_argument& problem) {
+      error(from.path + ".elements.count", problem.what());
+    }
+  }
+
+  bool is_straight(const CaseBeam& from, const ReferenceCurve& curve) {
+    if (built_.model.dimension == 2 || from.stress_free == StressFree::straight)
+      return from.stress_free == StressFree::straight;
+    const bool curved = curve.largest_curvature() * curve.length() > 1e-9;
+    if (from.stress_free == StressFree::as_drawn_without_torsion) return false;
+    if (from.stress_free == StressFree::as_drawn && curved)
+      error(from.path + ".stress_free",
+            "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model, which this element has not; "
+            "use \"straight\" (exact for cables) or \"as-drawn-without-torsion\" (the limit of no torsional "
+            "stiffness)");
+    return true;
+  }
+
+  static std::vector<int> parts(const CaseBeam& from, const std::vector<double>& places) {
+    const int intervals = static_cast<int>(places.size()) - 1;
+    if (from.elements.per_segment) return std::vector<int>(intervals, *from.elements.per_segment);
+    if (from.elements.max_length) {
+      std::vector<int> counts;
+      for (int i = 0; i < intervals; ++i)
+        counts.push_back(static_cast<int>(
+            std::max(1.0, std::ceil((places[i + 1] - places[i]) / *from.elements.max_length * (1 - 1e-12)))));
+      return counts;
+    }
+    constexpr int default_count = 20;
+    return spread_elements(places, from.elements.count.value_or(std::max(default_count, intervals)));
+  }
+
+  double place(const Place& at, int b, const std::string& where) {
+    const ReferenceCurve& curve = built_.model.beams[b].curve;
+    const double L = curve.length();
+    double s = 0;
+    switch (at.kind) {
+      case Place::Kind::start: s = 0; break;
+      case Place::Kind::end: s = L; break;
+      case Place::Kind::length: s = at.value; break;
+      case Place::Kind::fraction: s = at.value * L; break;
+      case Place::Kind::near: {
+        const ClosestPoint found = closest_point(BezierPath{paths_[b], {}, 0}, at.point);
+        constexpr double reach = 0.01;
+        if (found.distance > reach * L)
+          error(where + ".at.near", text(at.point) + " is " + text(found.distance) + " m from beam \"" +
+                                        case_.beams[b].name + "\"; the limit is " + text(reach * L) +
+                                        " m and the closest point of the axis " + text(found.point));
+        s = curve.arc_length(found.segment, found.u);
+        break;
+      }
+    }
+    if (!(s >= -1e-9 * L && s <= L * (1 + 1e-9)))
+      error(where + ".at", text(s) + " m is not on beam \"" + case_.beams[b].name + "\", which is " + text(L) +
+                               " m long");
+    if (s < 1e-9 * L) return 0;
+    return s > L * (1 - 1e-9) ? L : s;
+  }
+
+  Eigen::Vector3d local_direction(const Eigen::Vector3d& world, bool is_moment) const {
+    Eigen::Vector3d local = built_.frame.rotation * world;
+    if (built_.model.dimension == 2) {
+      if (is_moment)
+        local.head<2>().setZero();
+      else
+        local.z() = 0;
+    }
+    return local;
+  }
+
+  void add_loads() {
+    for (const CaseLoad& load : case_.loads) {
+      const int b = beam_index(load.beam);
+      const bool is_moment = load.kind == CaseLoad::Kind::moment;
+      const Eigen::Vector3d value = local_direction(load.value, is_moment);
+      if (load.kind == CaseLoad::Kind::force_per_length) {
+        built_.model.line_loads.push_back({b, value, load.time});
+        continue;
+      }
+      const double s = place(load.at, b, load.path);
+      const Eigen::Vector3d along = built_.model.beams[b].curve.tangent(s);
+      if (is_moment && std::abs(value.dot(along)) > 1e-9 * value.norm())
+        error(load.path + ".moment", "the moment has a component of " + text(value.dot(along)) +
+                                         " N m along the beam, which has no torsion; leave only the part across it");
+      built_.model.point_loads.push_back({is_moment ? PointLoad::Kind::moment : PointLoad::Kind::force, b, s,
+                                          load.moving_speed.value_or(0), value, load.follower, load.time});
+    }
+  }
+
+  void add_joints() {
+    for (const CaseBody& body : case_.bodies) {
+      built_.model.bodies.push_back({body.name, body.mass});
+      const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };
+      const auto count = std::count_if(case_.sliding_joints.begin(), case_.sliding_joints.end(), carries);
+      if (count != 1)
+        error("bodies", "body \"" + body.name + "\" is in " + std::to_string(count) +
+                            " sliding joints; a body needs exactly one");
+    }
+    for (const CaseSlidingJoint& joint : case_.sliding_joints) {
+      const int b = beam_index(joint.beam);
+      SlidingJoint added{0, b, place(joint.at, b, joint.path), joint.speed, std::nullopt, joint.continuous_slope,
+                         joint.leave_at_end};
+      for (std::size_t i = 0; i < case_.bodies.size(); ++i)
+        if (case_.bodies[i].name == joint.body) added.body = static_cast<int>(i);
+      if (!joint.motion_table.empty()) {
+        added.motion = joint.motion_table;
+        added.s = joint.motion_table.front().second;
+      }
+      if (joint.motion_speed) {
+        const double speed = *joint.motion_speed, L = built_.model.beams[b].curve.length();
+        const double end = speed > 0 ? L : 0;
+        added.motion = speed == 0 ? TimeTable{{0, added.s}, {1, added.s}}
+                                  : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
+      }
+      const bool supported_end =
+          std::any_of(built_.model.supports.begin(), built_.model.supports.end(), [&](const Support& support) {
+            return support.beam == b && (support.s == 0 || support.s == built_.model.beams[b].curve.length());
+          });
+      if (joint.leave_at_end && supported_end)
+        warn(joint.path + ".at_beam_end", "\"leave\" acts like \"stop\" at an end that is supported");
+      built_.model.joints.push_back(std::move(added));
+    }
+  }
+
+  const CaseFile& case_;
+  BuiltModel built_;
+  std::vector<Diagnostic> diagnostics_;
+  std::vector<std::vector<RationalCubic>> paths_;
+  std::map<std::filesystem::path, ImportReport> imports_;
+};
+
+}  // namespace
+
+BuildReport build_model(const CaseFile& case_file) { return Builder(case_file).build(); }
+
+}  // namespace nurbeam

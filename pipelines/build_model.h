@@ -1,0 +1,47 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fem/beam_model.h"
+#include "pipelines/case_file.h"
+
+namespace nurbeam {
+
+/// The model's own frame: local = rotation * (world - origin). For a planar model the plane is local z = 0.
+struct ModelFrame {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d to_local(const Eigen::Vector3d& world) const { return rotation * (world - origin); }
+  Eigen::Vector3d to_world(const Eigen::Vector3d& local) const { return rotation.transpose() * local + origin; }
+  Eigen::Vector3d direction_to_world(const Eigen::Vector3d& local) const { return rotation.transpose() * local; }
+};
+
+/// A place where results are recorded.
+struct Probe {
+  std::string name;
+  int beam;
+  double s;  ///< [m]
+};
+
+/// A case as a model: everything resolved and in place.
+struct BuiltModel {
+  BeamModel model;
+  ModelFrame frame;
+  std::vector<std::string> curve_names;  ///< per beam, for export
+  std::vector<Probe> probes;
+  std::vector<std::filesystem::path> inputs;  ///< CAD files read
+  double import_seconds = 0;
+};
+
+struct BuildReport {
+  std::optional<BuiltModel> value;  ///< empty when any diagnostic is an error
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Reads the curves of a case and makes its model: axes to segments, plane detection, elements, places.
+BuildReport build_model(const CaseFile& case_file);
+
+}  // namespace nurbeam

@@ -1,0 +1,246 @@
+#include "pipelines/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "cad_import/export_curves.h"
+#include "pipelines/build_model.h"
+#include "pipelines/file_hash.h"
+#include "pipelines/print_diagnostics.h"
+#include "pipelines/progress.h"
+#include "pipelines/results.h"
+#include "pipelines/run_summary.h"
+#include "pipelines/simulation.h"
+#include "pipelines/stored_curves.h"
+
+namespace nurbeam {
+
+namespace {
+
+enum ExitCode { done = 0, bad_input = 2, not_converged = 3, not_written = 4, interrupted = 130 };
+
+volatile std::sig_atomic_t interrupts = 0;
+
+// Ctrl-C once ends after the step, twice at once.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    interrupts = 0;
+    previous_ = std::signal(SIGINT, [](int) {
+      interrupts = interrupts + 1;
+      if (interrupts > 1) std::_Exit(interrupted);
+    });
+  }
+  ~InterruptGuard() { std::signal(SIGINT, previous_); }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  void (*previous_)(int);
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<double> output_times(const CaseFile& c) {
+  const double end = c.analysis.end_time;
+  std::vector<double> times;
+  const double every = c.output.every.value_or(end / 100);
+  for (int k = 0; k * every < end * (1 - 1e-9); ++k) times.push_back(k * every);
+  times.push_back(end);
+  for (double t : c.output.cad_times)
+    if (t >= 0 && t <= end) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  const double same = 1e-9 * end;
+  times.erase(std::unique(times.begin(), times.end(), [=](double a, double b) { return b - a < same; }), times.end());
+  return times;
+}
+
+SimulationOptions simulation_options(const CaseFile& c) {
+  SimulationOptions options;
+  const CaseAnalysis& a = c.analysis;
+  options.statics = a.type == CaseAnalysis::Type::statics;
+  options.start_from_equilibrium = a.start_from_equilibrium;
+  options.end_time = a.end_time;
+  options.step = a.step;
+  options.integrator.rho_infinity = a.rho_infinity;
+  if (!a.step) options.integrator.tolerance = a.tolerance.value_or(1e-4);
+  options.length_control = {a.length_control_min, a.length_control_max};
+  if (!options.statics) options.output_times = output_times(c);
+  return options;
+}
+
+void to_world(const ModelFrame& f, PointRecord& p) {
+  p.position = f.to_world(p.position);
+  p.velocity = f.direction_to_world(p.velocity);
+}
+
+Frame to_world(const ModelFrame& f, Frame frame) {
+  for (PointRecord& p : frame.probes) to_world(f, p);
+  for (BodyRecord& body : frame.bodies) {
+    to_world(f, body.point);
+    body.joint_force = f.direction_to_world(body.joint_force);
+  }
+  for (BeamRecord& beam : frame.beams) {
+    for (ElementRecord& e : beam.elements)
+      for (int i = 0; i < 4; ++i) {
+        const double w = e.control_points(3, i);
+        const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
+        e.control_points.col(i).head<3>() = w * p;
+      }
+    for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
+    for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
+  }
+  return frame;
+}
+
+// Writes deformed curves at the frames whose times the case asks for.
+class CadOutput {
+ public:
+  CadOutput(const CaseFile& c, const BuiltModel& built, const std::filesystem::path& directory)
+      : case_(c), built_(built), directory_(directory) {}
+
+  void write(const Frame& frame, std::vector<std::filesystem::path>& files) const {
+    const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
+    const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
+    const bool asked = std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
+                                   [&](double t) { return std::abs(t - frame.time) < same; });
+    if (!asked && !statics) return;
+    std::vector<NamedCurve> curves;
+    for (std::size_t b = 0; b < frame.beams.size(); ++b)
+      curves.push_back({built_.curve_names[b], stored_curve(frame.beams[b].elements)});
+    for (const std::string& format : case_.output.cad_formats) {
+      std::ostringstream name;
+      name << "deformed";
+      if (!statics) name << "_t" << frame.time;
+      name << (format == "iges" ? ".igs" : ".step");
+      export_curves(directory_ / name.str(), curves, parse_length_unit(case_.output.cad_unit));
+      files.emplace_back(name.str());
+    }
+  }
+
+ private:
+  const CaseFile& case_;
+  const BuiltModel& built_;
+  std::filesystem::path directory_;
+};
+
+FrameNames frame_names(const CaseFile& c) {
+  FrameNames names;
+  for (const CaseProbe& probe : c.output.probes) names.probes.push_back(probe.name);
+  for (const CaseBody& body : c.bodies) names.bodies.push_back(body.name);
+  for (const CaseBeam& beam : c.beams) names.beams.push_back(beam.name);
+  return names;
+}
+
+std::string status_text(SimulationStatus status, const std::string& message) {
+  return status == SimulationStatus::done ? "done" : message;
+}
+
+ExitCode exit_code(SimulationStatus status) {
+  switch (status) {
+    case SimulationStatus::done: return done;
+    case SimulationStatus::not_converged: return not_converged;
+    case SimulationStatus::interrupted: return interrupted;
+  }
+  return not_converged;
+}
+
+}  // namespace
+
+int run_case(const CaseFile& c, const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const BuildReport report = build_model(c);
+  print_diagnostics(std::cerr, report.diagnostics);
+  if (!report.value) return bad_input;
+  const BuiltModel& built = *report.value;
+
+  RunSummary summary;
+  summary.version = NURBEAM_VERSION;
+  summary.case_name = c.name;
+  summary.diagnostics = report.diagnostics;
+  summary.wall_times.import = built.import_seconds;
+  summary.wall_times.model = seconds_since(start) - built.import_seconds;
+  summary.inputs.push_back({c.path, sha256_of_file(c.path)});
+  for (const auto& file : built.inputs) summary.inputs.push_back({file, sha256_of_file(file)});
+
+  try {
+    std::filesystem::create_directories(options.out);
+    ResultsWriter results(options.out, frame_names(c), c.name);
+    const CadOutput cad(c, built, options.out);
+    Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
+    std::vector<ProbePlace> probes;
+    for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
+
+    const InterruptGuard guard;
+    SimulationObserver observer;
+    observer.interrupted = [] { return interrupts > 0; };
+    observer.progress = [&](double t) { progress.update(t); };
+    observer.frame = [&](const Frame& local) {
+      const auto output_start = std::chrono::steady_clock::now();
+      const Frame frame = to_world(built.frame, local);
+      results.write(frame);
+      cad.write(frame, summary.files);
+      summary.wall_times.output += seconds_since(output_start);
+    };
+    const SimulationReport simulated = simulate(built.model, probes, simulation_options(c), observer);
+    progress.finish();
+    results.finish();
+
+    summary.status = status_text(simulated.status, simulated.message);
+    summary.wall_times.motion = simulated.motion_seconds - summary.wall_times.output;
+    summary.wall_times.length_control = simulated.length_control_seconds;
+    summary.end_time = simulated.time;
+    summary.steps = simulated.steps;
+    summary.rejected_steps = simulated.rejected_steps;
+    summary.newton_iterations = simulated.newton_iterations;
+    summary.energy_drift = simulated.energy_drift;
+    summary.events = simulated.events;
+    for (RunEvent& event : summary.events) {
+      event.momentum_before = built.frame.direction_to_world(event.momentum_before);
+      event.momentum_after = built.frame.direction_to_world(event.momentum_after);
+    }
+    for (const char* name : {"histories.csv", "results.nc", "run.json"}) summary.files.emplace_back(name);
+    write_run_summary(options.out / "run.json", summary);
+    if (simulated.status != SimulationStatus::done)
+      std::cerr << c.path.string() << ": error: " << simulated.message << "\n";
+    return exit_code(simulated.status);
+  } catch (const std::runtime_error& problem) {
+    std::cerr << "error: " << problem.what() << "\n";
+    return not_written;
+  }
+}
+
+int check_case(const CaseFile& c) {
+  const BuildReport report = build_model(c);
+  print_diagnostics(std::cerr, report.diagnostics);
+  if (!report.value) return bad_input;
+  const BeamModel& model = report.value->model;
+  const MeshPlan plan = initial_plan(model);
+  const int dofs = model.dimension == 2 ? make_mesh<2>(model, plan).coordinate_count
+                                        : make_mesh<3>(model, plan).coordinate_count;
+  std::printf("case      %s\n", c.name.c_str());
+  std::printf("model     %s, %d coordinates\n", model.dimension == 2 ? "planar" : "spatial", dofs);
+  for (const Beam& beam : model.beams) {
+    const double L = beam.curve.length();
+    std::printf("beam      %s: length %.9g m, mass %.6g kg, %d CAD segments, %zu elements, EA %.6g N, EI %.6g N m^2, "
+                "stress-free %s\n",
+                beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
+                beam.home.size() - 1, beam.properties.axial_stiffness, beam.properties.bending_stiffness,
+                beam.straight ? "straight" : "as drawn");
+  }
+  for (const SlidingJoint& joint : model.joints)
+    std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
+                model.bodies[joint.body].mass, model.beams[joint.beam].name.c_str(), joint.s);
+  std::printf("supports  %zu, point loads %zu, distributed loads %zu\n", model.supports.size(),
+              model.point_loads.size(), model.line_loads.size());
+  return done;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,484 @@
+#include "pipelines/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "solver/consistent.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string text(double x) {
+  std::ostringstream stream;
+  stream.precision(8);
+  stream << x;
+  return stream.str();
+}
+
+const char* kind_of(MeshChange change) {
+  switch (change) {
+    case MeshChange::split: return "split";
+    case MeshChange::merge: return "merge";
+    case MeshChange::becomes_point: return "reached the end zone";
+    case MeshChange::becomes_node: return "left the end zone";
+    case MeshChange::none: break;
+  }
+  return "none";
+}
+
+const char* reason_of(StepStatus status) {
+  switch (status) {
+    case StepStatus::not_converged: return "Newton's iteration does not converge";
+    case StepStatus::singular_matrix: return "the iteration matrix is singular";
+    case StepStatus::inadmissible: return "an element would turn inside out";
+    case StepStatus::converged: break;
+  }
+  return "converged";
+}
+
+template <int D>
+Eigen::Vector3d widened(const Eigen::VectorXd& x, int first) {
+  Eigen::Vector3d y = Eigen::Vector3d::Zero();
+  y.head<D>() = x.segment<D>(first);
+  return y;
+}
+
+template <int D>
+class Simulation {
+ public:
+  Simulation(const BeamModel& model, const std::vector<ProbePlace>& probes, const SimulationOptions& options,
+             const SimulationObserver& observer)
+      : model_(model), probes_(probes), options_(options), observer_(observer) {}
+
+  SimulationReport run() {
+    const auto start = Clock::now();
+    plan_ = initial_plan(model_);
+    if (options_.statics)
+      find_rest();
+    else if (start_motion())
+      move();
+    report_.time = state_.t;
+    report_.motion_seconds = seconds_since(start) - report_.length_control_seconds;
+    return report_;
+  }
+
+ private:
+  const std::string& body_name(int joint) const { return model_.bodies[model_.joints[joint].body].name; }
+  double beam_length_of(int joint) const { return model_.beams[model_.joints[joint].beam].curve.length(); }
+
+  void fail(SimulationStatus status, std::string message) {
+    report_.status = status;
+    report_.message = std::move(message);
+  }
+
+  // --- Statics -------------------------------------------------------------------------------------------------
+
+  // Equilibrium of the present plan with the given joints held, from state_; the state is kept on failure.
+  bool solve_statics(const std::vector<bool>& held) {
+    system_ = std::make_unique<BeamSystem<D>>(model_, plan_, held);
+    state_.lambda = Eigen::VectorXd::Zero(system_->constraint_count());
+    state_.v = state_.a = Eigen::VectorXd::Zero(system_->coordinate_count());
+    const StaticReport found = find_static_equilibrium(
+        StaticEquilibrium{}, *system_, [this](double factor) { system_->set_load_factor(factor); }, state_);
+    report_.newton_iterations += found.newton_iterations;
+    report_.steps += found.load_steps;
+    if (found.status == StaticStatus::converged) return true;
+    fail(SimulationStatus::not_converged,
+         std::string("no static equilibrium was found: ") +
+             (found.status == StaticStatus::singular_matrix ? "the tangent is singular (is the model held everywhere?)"
+                                                            : "the solver does not converge") +
+             "; load factor reached " + text(found.load_factor));
+    return false;
+  }
+
+  // Moves held joints by ds, with the curve as it stands, and carries length control along.
+  void move_places(const std::vector<double>& ds) {
+    for (std::size_t j = 0; j < ds.size(); ++j) {
+      const MeshJoint& at = system_->mesh().joints[j];
+      if (at.place < 0 || ds[j] == 0) continue;
+      const double s = state_.q[at.place] + ds[j];
+      const int beam = model_.joints[j].beam;
+      const auto& e =
+          system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, beam, s)];
+      const MaterialPoint<D> p = material_point<D>(e, state_.q, state_.v, s);
+      state_.q.template segment<D>(at.r) = p.r;
+      if (at.node >= 0)
+        for (int slope : {system_->mesh().nodes[beam][at.node].slope_left, system_->mesh().nodes[beam][at.node].slope_right})
+          state_.q.template segment<D>(slope) = p.rs;
+      state_.q[at.place] = s;
+      state_.v[at.place] = ds[j];  // length control looks at the direction
+    }
+    while (change_mesh(false)) {
+    }
+    for (std::size_t j = 0; j < ds.size(); ++j)
+      if (const auto s = system_->place(state_, static_cast<int>(j))) plan_.places[j] = *s;
+    state_.v.setZero();
+  }
+
+  double home_spacing(int joint) const {
+    return beam_length_of(joint) / (static_cast<double>(model_.beams[model_.joints[joint].beam].home.size()) - 1);
+  }
+
+  // Sliding bodies come to rest: they are held, let down the slope in bounded moves that halve where the force along
+  // the beam changes sign, and freed for the last digits.
+  void find_rest() {
+    system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
+    state_ = system_->drawn_state();
+    const std::size_t n = model_.joints.size();
+    const std::vector<bool> held(n, true);
+    if (!solve_statics(held)) return;
+    std::vector<double> move(n), force(n);
+    for (std::size_t j = 0; j < n; ++j) move[j] = model_.joints[j].motion ? 0 : home_spacing(static_cast<int>(j)) / 4;
+    const auto still_far = [&] {
+      for (std::size_t j = 0; j < n; ++j)
+        if (move[j] > 1e-6 * home_spacing(static_cast<int>(j))) return true;
+      return false;
+    };
+    for (int guard = 0; still_far(); ++guard) {
+      if (guard > 2000) return fail(SimulationStatus::not_converged, "a sliding body finds no resting place");
+      if (observer_.interrupted()) return fail(SimulationStatus::interrupted, "interrupted");
+      std::vector<double> ds(n);
+      for (std::size_t j = 0; j < n; ++j) {
+        const int joint = static_cast<int>(j);
+        if (move[j] == 0) continue;
+        const double now = system_->holding_force(state_, joint);  // what keeps it: it wants to go the other way
+        if (force[j] * now < 0) move[j] /= 2;
+        force[j] = now;
+        const double s = *system_->place(state_, joint), L = beam_length_of(joint);
+        ds[j] = std::clamp(now < 0 ? move[j] : -move[j], -s, L - s);
+        if (now == 0) ds[j] = 0;
+        if (ds[j] == 0) move[j] = 0;  // rests against the end
+      }
+      move_places(ds);
+      if (!solve_statics(held)) return;
+    }
+    write_frame();
+  }
+
+  // --- Motion --------------------------------------------------------------------------------------------------
+
+  bool start_motion() {
+    system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
+    state_ = system_->drawn_state();
+    if (options_.start_from_equilibrium) {
+      if (!solve_statics(std::vector<bool>(model_.joints.size(), true))) return false;
+      system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
+      state_.lambda = Eigen::VectorXd::Zero(system_->constraint_count());
+    }
+    system_->start_joints(state_);
+    Eigen::VectorXd impulse;
+    if (!project_velocities(*system_, state_, impulse)) {
+      fail(SimulationStatus::not_converged, "the initial velocities cannot be made consistent with the supports");
+      return false;
+    }
+    return restart();
+  }
+
+  // New integrator from state_, with consistent accelerations.
+  bool restart() {
+    if (!make_accelerations_consistent(*system_, state_)) {
+      fail(SimulationStatus::not_converged, "the mass matrix is singular at t = " + text(state_.t) + " s");
+      return false;
+    }
+    integrator_.emplace(options_.integrator, *system_, state_);
+    return true;
+  }
+
+  double total_energy() const {
+    const SystemEnergy e = system_->energy(state_);
+    return e.mechanical() + dissipated_;
+  }
+
+  void move() {
+    start_energy_ = total_energy();
+    std::size_t next_output = 0;
+    const auto& times = options_.output_times;
+    const double resolution = 1e-12 * std::max(1.0, options_.end_time);
+    const auto write_due = [&] {
+      while (next_output < times.size() && times[next_output] <= state_.t + resolution) {
+        write_frame();
+        ++next_output;
+      }
+    };
+    while (change_mesh(true)) {
+    }
+    if (report_.status != SimulationStatus::done) return;
+    write_due();
+    bool complete = true;
+    double suggested = options_.step.value_or(1e-4);
+    while (state_.t < options_.end_time - resolution) {
+      if (observer_.interrupted()) {
+        fail(SimulationStatus::interrupted, "interrupted at t = " + text(state_.t) + " s");
+        complete = false;
+        break;
+      }
+      const double target = next_output < times.size() ? times[next_output] : options_.end_time;
+      const double rest = target - state_.t;
+      const double wanted = options_.step ? *options_.step : suggested;
+      const double step = rest / std::max(1.0, std::ceil(rest / wanted - 1e-9));
+      if (!advance(step, suggested)) {
+        complete = false;
+        break;
+      }
+      if (std::abs(state_.t - target) < resolution) state_.t = target;
+      write_due();
+      observer_.progress(state_.t);
+    }
+    if (!complete && (times.empty() || state_.t > last_written_)) write_frame();
+  }
+
+  // One accepted step and what follows from it. Returns false when the run cannot go on.
+  bool advance(double step, double& suggested) {
+    const State before = state_;
+    const Eigen::VectorXd algorithmic = integrator_->algorithmic_acceleration();
+    const double power_before = damped() ? system_->energy(state_).dissipation : 0;
+    const StepReport taken = integrator_->advance(step);
+    report_.newton_iterations += taken.newton_iterations;
+    report_.rejected_steps += taken.rejected;
+    if (taken.status != StepStatus::converged) {
+      fail(SimulationStatus::not_converged, "the step from t = " + text(state_.t) + " s failed: " +
+                                                reason_of(taken.status) + " even with a step of " + text(taken.step) +
+                                                " s" + places_text());
+      return false;
+    }
+    suggested = taken.next_step;
+    ++report_.steps;
+    last_step_ = taken.step;
+    state_ = integrator_->state();
+    if (const int joint = joint_beyond_end(); joint >= 0 && !land_on_end(joint, before, algorithmic, taken.step))
+      return false;
+    if (damped()) dissipated_ += (state_.t - before.t) * (power_before + system_->energy(state_).dissipation) / 2;
+    if (!separate_bodies()) return false;
+    while (change_mesh(true)) {
+    }
+    return report_.status == SimulationStatus::done;
+  }
+
+  bool damped() const {
+    return std::any_of(model_.beams.begin(), model_.beams.end(),
+                       [](const Beam& beam) { return beam.properties.damping > 0; });
+  }
+
+  std::string places_text() const {
+    std::string places;
+    for (std::size_t j = 0; j < model_.joints.size(); ++j)
+      if (const auto s = system_->place(state_, static_cast<int>(j)))
+        places += "; \"" + body_name(static_cast<int>(j)) + "\" is at s = " + text(*s) + " m of beam \"" +
+                  model_.beams[model_.joints[j].beam].name + "\" with ds/dt = " +
+                  text(system_->place_rate(state_, static_cast<int>(j))) + " m/s";
+    return places;
+  }
+
+  // --- The ends of a beam --------------------------------------------------------------------------------------
+
+  double beyond_end(const State& state, int joint) const {
+    const double s = *system_->place(state, joint);
+    return std::max(-s, s - beam_length_of(joint));
+  }
+
+  int joint_beyond_end() const {
+    for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j)
+      if (system_->mesh().plan.modes[j] == JointMode::point && beyond_end(state_, j) > 0) return j;
+    return -1;
+  }
+
+  // Repeats the last step with a length for which the body lands on the end, then lets it leave or stop.
+  bool land_on_end(int joint, const State& before, const Eigen::VectorXd& algorithmic, double step) {
+    const double near = 1e-10 * beam_length_of(joint);
+    double lo = 0, f_lo = beyond_end(before, joint), hi = step, f_hi = beyond_end(state_, joint);
+    for (int i = 0; i < 40 && std::abs(beyond_end(state_, joint)) > near && hi - lo > 1e-14; ++i) {
+      const double fraction = f_lo < 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
+      const double trial = lo + fraction * (hi - lo);
+      integrator_.emplace(options_.integrator, *system_, before);
+      integrator_->set_algorithmic_acceleration(algorithmic);
+      const StepReport taken = integrator_->advance(trial);
+      if (taken.status != StepStatus::converged || taken.step < trial * (1 - 1e-9)) break;
+      state_ = integrator_->state();
+      const double f = beyond_end(state_, joint);
+      (f > 0 ? hi : lo) = trial;
+      (f > 0 ? f_hi : f_lo) = f;
+    }
+    return end_sliding(joint);
+  }
+
+  bool end_is_supported(int joint) const {
+    const bool at_end = state_.q[system_->mesh().joints[joint].place] > beam_length_of(joint) / 2;
+    const double s = at_end ? beam_length_of(joint) : 0;
+    return std::any_of(model_.supports.begin(), model_.supports.end(), [&](const Support& support) {
+      return support.beam == model_.joints[joint].beam && support.s == s;
+    });
+  }
+
+  bool end_sliding(int joint) {
+    const bool leaves = model_.joints[joint].leave_at_end && !end_is_supported(joint);
+    RunEvent event = event_before(leaves ? "left the beam" : "stopped at the end", joint);
+    plan_ = system_->mesh().plan;
+    for (std::size_t j = 0; j < plan_.places.size(); ++j)
+      if (const auto s = system_->place(state_, static_cast<int>(j))) plan_.places[j] = *s;
+    plan_.places[joint] = plan_.places[joint] > beam_length_of(joint) / 2 ? beam_length_of(joint) : 0;
+    plan_.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
+    auto next = std::make_unique<BeamSystem<D>>(model_, plan_);
+    std::optional<State> moved = transfer<D>(*system_, state_, *next, true);
+    if (!leaves) {
+      moved->q[next->mesh().joints[joint].place] = plan_.places[joint];
+      Eigen::VectorXd impulse;
+      if (!project_velocities(*next, *moved, impulse)) {
+        fail(SimulationStatus::not_converged, "the impact of \"" + body_name(joint) + "\" at the end is singular");
+        return false;
+      }
+    }
+    system_ = std::move(next);
+    state_ = std::move(*moved);
+    if (!restart()) return false;
+    finish_event(event);
+    return true;
+  }
+
+  // Two bodies that meet on one beam end the run.
+  bool separate_bodies() {
+    for (const auto& nodes : system_->mesh().nodes)
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        if (nodes[i].joint < 0 || nodes[i + 1].joint < 0) continue;
+        const double gap = state_.q[nodes[i + 1].place] - state_.q[nodes[i].place];
+        if (gap > end_zone * home_spacing(nodes[i].joint)) continue;
+        fail(SimulationStatus::not_converged, "\"" + body_name(nodes[i].joint) + "\" and \"" +
+                                                  body_name(nodes[i + 1].joint) + "\" meet on beam \"" +
+                                                  model_.beams[model_.joints[nodes[i].joint].beam].name +
+                                                  "\" at s = " + text(state_.q[nodes[i].place]) + " m, t = " +
+                                                  text(state_.t) + " s; contact between bodies is not modelled");
+        return false;
+      }
+    return true;
+  }
+
+  // --- Length control ------------------------------------------------------------------------------------------
+
+  // Applies one change of the mesh if one is due. In motion the integrator is restarted and the event recorded.
+  bool change_mesh(bool in_motion) {
+    if (report_.status != SimulationStatus::done) return false;
+    const auto start = Clock::now();
+    NextPlan next = next_plan<D>(*system_, state_, options_.length_control);
+    if (next.change == MeshChange::none) return false;
+    RunEvent event = in_motion ? event_before(kind_of(next.change), next.joint) : RunEvent{};
+    const bool exact = next.change == MeshChange::split || next.change == MeshChange::becomes_node;
+    const std::vector<bool> held(model_.joints.size(), !in_motion);
+    auto to = std::make_unique<BeamSystem<D>>(model_, next.plan, held);
+    std::optional<State> moved = transfer<D>(*system_, state_, *to, exact || !in_motion);
+    if (!moved) {
+      fail(SimulationStatus::not_converged, "velocities cannot be projected at t = " + text(state_.t) + " s" + places_text());
+      return false;
+    }
+    plan_ = std::move(next.plan);
+    system_ = std::move(to);
+    state_ = std::move(*moved);
+    if (in_motion) {
+      if (!restart()) return false;
+      state_ = integrator_->state();
+      finish_event(event);
+    }
+    report_.length_control_seconds += seconds_since(start);
+    return true;
+  }
+
+  RunEvent event_before(const std::string& kind, int joint) const {
+    RunEvent event;
+    event.time = state_.t;
+    event.kind = kind;
+    event.beam = model_.beams[model_.joints[joint].beam].name;
+    event.body = body_name(joint);
+    event.s = system_->place(state_, joint);
+    event.energy_before = system_->energy(state_).mechanical();
+    event.momentum_before = system_->momentum(state_);
+    event.length_before = system_->beam_length(state_, model_.joints[joint].beam);
+    return event;
+  }
+
+  void finish_event(RunEvent& event) {
+    event.energy_after = system_->energy(state_).mechanical();
+    event.momentum_after = system_->momentum(state_);
+    for (std::size_t b = 0; b < model_.beams.size(); ++b)
+      if (model_.beams[b].name == event.beam) event.length_after = system_->beam_length(state_, static_cast<int>(b));
+    report_.events.push_back(std::move(event));
+  }
+
+  // --- Output --------------------------------------------------------------------------------------------------
+
+  BeamRecord beam_record(int b) const {
+    const Mesh<D>& mesh = system_->mesh();
+    BeamRecord record;
+    for (int i = mesh.first_element[b]; i < mesh.first_element[b + 1]; ++i) {
+      const MeshElement<D>& e = mesh.elements[i];
+      const auto q = gather<D>(e, state_.q, state_.v, state_.v).q;
+      const auto [l, J_a, J_b] = e.element.chart_lengths(q);
+      NodalCoordinates nodal = NodalCoordinates::Zero();
+      for (int k = 0; k < 4; ++k) nodal.col(k).template head<D>() = q.template segment<D>(k * D);
+      nodal.col(1) *= J_a;
+      nodal.col(3) *= J_b;
+      record.elements.push_back({to_bezier(nodal, e.element.bezier_weights(q), l).points(), q[4 * D], q[4 * D + 1]});
+    }
+    for (const MeshNode& node : mesh.nodes[b]) {
+      record.node_positions.push_back(widened<D>(state_.q, node.r));
+      record.node_slopes.push_back(widened<D>(state_.q, node.slope_left));
+      record.node_s.push_back(node.place >= 0 ? state_.q[node.place] : node.s);
+    }
+    record.length = system_->beam_length(state_, b);
+    return record;
+  }
+
+  void write_frame() {
+    Frame frame;
+    frame.time = state_.t;
+    for (const ProbePlace& probe : probes_) {
+      const auto& e =
+          system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, probe.beam, probe.s)];
+      const MaterialPoint<D> p = material_point<D>(e, state_.q, state_.v, probe.s);
+      frame.probes.push_back({widened<D>(p.r, 0), widened<D>(p.velocity, 0)});
+    }
+    frame.bodies.resize(model_.bodies.size());
+    for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+      const int r = system_->mesh().joints[j].r, joint = static_cast<int>(j);
+      frame.bodies[model_.joints[j].body] = {{widened<D>(state_.q, r), widened<D>(state_.v, r)},
+                                             system_->place(state_, joint),
+                                             system_->joint_force(state_, joint)};
+    }
+    for (std::size_t b = 0; b < model_.beams.size(); ++b) frame.beams.push_back(beam_record(static_cast<int>(b)));
+    const SystemEnergy e = system_->energy(state_);
+    frame.energy = {e.kinetic, e.gravity, e.axial, e.bending, dissipated_, e.mechanical() + dissipated_};
+    frame.step = last_step_;
+    frame.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
+    iterations_written_ = report_.newton_iterations;
+    if (!options_.statics)
+      report_.energy_drift = std::max(report_.energy_drift, std::abs(frame.energy.total - start_energy_));
+    last_written_ = state_.t;
+    observer_.frame(frame);
+  }
+
+  const BeamModel& model_;
+  const std::vector<ProbePlace>& probes_;
+  const SimulationOptions& options_;
+  const SimulationObserver& observer_;
+  SimulationReport report_;
+  MeshPlan plan_;
+  std::unique_ptr<BeamSystem<D>> system_;
+  State state_;
+  std::optional<GeneralizedAlphaIntegrator> integrator_;
+  double dissipated_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
+  long iterations_written_ = 0;
+};
+
+}  // namespace
+
+SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
+                          const SimulationOptions& options, const SimulationObserver& observer) {
+  if (model.dimension == 2) return Simulation<2>(model, probes, options, observer).run();
+  return Simulation<3>(model, probes, options, observer).run();
+}
+
+}  // namespace nurbeam
