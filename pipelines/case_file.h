@@ -156,7 +156,7 @@ struct CaseFileReport {
 
 /// Reads, checks and resolves a case file: comments allowed, unit strings ("5 mm"), unknown keys are errors
 /// that name the closest known key, all errors at once, each with its JSON path. `overrides`: "path=value"
-/// (--set).
+/// (--set), applied before the checks; the value is JSON or else a text, and null removes the key.
 CaseFileReport read_case_file(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides = {});
 
