@@ -8,7 +8,7 @@ function(nurbeam_room name)
   add_library(nurbeam::${name} ALIAS nurbeam_${name})
   set_target_properties(nurbeam_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_features(nurbeam_${name} PUBLIC cxx_std_20)
-  target_compile_options(nurbeam_${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_compile_options(nurbeam_${name} PRIVATE -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
   target_sources(nurbeam_${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
   install(TARGETS nurbeam_${name} EXPORT nurbeam-targets

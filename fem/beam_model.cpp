@@ -19,9 +19,9 @@ std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<
 std::vector<int> spread_elements(const std::vector<double>& places, int count) {
   const int intervals = static_cast<int>(places.size()) - 1;
   if (count < intervals)
-    throw std::invalid_argument(std::to_string(count) + " elements are fewer than the " + std::to_string(intervals) +
-                                " intervals between CAD segments and supports; the smallest count is " +
-                                std::to_string(intervals));
+    throw std::invalid_argument(
+        std::to_string(count) + " elements are fewer than the " + std::to_string(intervals) +
+        " intervals between CAD segments and supports; the smallest count is " + std::to_string(intervals));
   std::vector<int> parts(intervals, 1);
   const auto part_length = [&](int i) { return (places[i + 1] - places[i]) / parts[i]; };
   for (int left = count - intervals; left > 0; --left) {

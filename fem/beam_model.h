@@ -89,12 +89,14 @@ struct BeamModel {
   std::vector<SlidingJoint> joints;
 };
 
-/// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and supports.
+/// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and
+/// supports.
 std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places);
-/// How many elements each interval gets when `count` are spread in proportion to length. Throws std::invalid_argument,
-/// naming the smallest count, when there are more intervals than elements.
+/// How many elements each interval gets when `count` are spread in proportion to length. Throws
+/// std::invalid_argument, naming the smallest count, when there are more intervals than elements.
 std::vector<int> spread_elements(const std::vector<double>& places, int count);
-/// Home nodes: each interval divided evenly in arc length into its number of parts; interior places are late nodes.
+/// Home nodes: each interval divided evenly in arc length into its number of parts; interior places are late
+/// nodes.
 std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts);
 
 }  // namespace nurbeam

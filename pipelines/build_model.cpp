@@ -43,7 +43,9 @@ std::vector<RationalCubic> arc_cubics(const CaseAxis::Arc& arc) {
   if (angle <= 1e-12) angle += 2 * M_PI;
   const int pieces = static_cast<int>(std::ceil(angle / (M_PI / 2) - 1e-9));
   const double step = angle / pieces, w1 = (1 + 2 * std::cos(step / 2)) / 3;
-  const auto at = [&](double theta) -> Eigen::Vector3d { return a * std::cos(theta) + n.cross(a) * std::sin(theta); };
+  const auto at = [&](double theta) -> Eigen::Vector3d {
+    return a * std::cos(theta) + n.cross(a) * std::sin(theta);
+  };
   std::vector<RationalCubic> cubics;
   for (int i = 0; i < pieces; ++i) {
     const double theta = i * step;
@@ -116,7 +118,8 @@ class Builder {
   static std::string list_of(const std::vector<ImportedCurve>& curves) {
     std::string names;
     for (std::size_t i = 0; i < curves.size() && i < 20; ++i)
-      names += (i ? ", " : "") + std::to_string(i + 1) + (curves[i].name.empty() ? "" : " \"" + curves[i].name + "\"");
+      names += (i ? ", " : "") + std::to_string(i + 1) +
+               (curves[i].name.empty() ? "" : " \"" + curves[i].name + "\"");
     return names + (curves.size() > 20 ? ", ..." : "");
   }
 
@@ -124,17 +127,18 @@ class Builder {
   int chosen_curve(const CaseBeam& beam, const AxisFile& axis, const std::vector<ImportedCurve>& curves) {
     const std::string where = beam.path + ".axis.curve";
     if (axis.curve_index) {
-      if (*axis.curve_index >= 1 && *axis.curve_index <= static_cast<int>(curves.size())) return *axis.curve_index - 1;
-      error(where, "index " + std::to_string(*axis.curve_index) + " is out of range: " + axis.path.string() + " has " +
-                       std::to_string(curves.size()) + " curves: " + list_of(curves));
+      if (*axis.curve_index >= 1 && *axis.curve_index <= static_cast<int>(curves.size()))
+        return *axis.curve_index - 1;
+      error(where, "index " + std::to_string(*axis.curve_index) + " is out of range: " + axis.path.string() +
+                       " has " + std::to_string(curves.size()) + " curves: " + list_of(curves));
       return -1;
     }
     std::vector<int> found;
     for (std::size_t i = 0; i < curves.size(); ++i)
       if (curves[i].name == *axis.curve_name) found.push_back(static_cast<int>(i));
     if (found.size() == 1) return found[0];
-    error(where, (found.empty() ? "no curve is named \"" : "several curves are named \"") + *axis.curve_name + "\" in " +
-                     axis.path.string() + "; its curves (index and name): " + list_of(curves));
+    error(where, (found.empty() ? "no curve is named \"" : "several curves are named \"") + *axis.curve_name +
+                     "\" in " + axis.path.string() + "; its curves (index and name): " + list_of(curves));
     return -1;
   }
 
@@ -159,9 +163,9 @@ class Builder {
     } else {
       const std::vector<Chain> chains = find_chains(curves, gap);
       if (chains.size() != 1) {
-        error(beam.path + ".axis", axis.path.string() + " has " + std::to_string(chains.size()) +
-                                       " separate chains of curves; choose one with \"curve\": " +
-                                       list_of(report.curves));
+        error(beam.path + ".axis",
+              axis.path.string() + " has " + std::to_string(chains.size()) +
+                  " separate chains of curves; choose one with \"curve\": " + list_of(report.curves));
         return {};
       }
       chain = chains[0];
@@ -170,8 +174,8 @@ class Builder {
     built_.curve_names.back() = name.empty() ? beam.name : name;
     const BezierPath path = join(curves, chain, beam.approximation_tolerance);
     if (path.deviation > 0)
-      warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
-                                    text(path.deviation) + " m");
+      warn(beam.path + ".axis",
+           "a curve of degree above 3 was approximated; largest deviation " + text(path.deviation) + " m");
     return path.segments;
   }
 
@@ -181,10 +185,13 @@ class Builder {
       const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
       if (at == chain.curves.end()) continue;
       const auto tangent = [&](std::size_t i, bool at_end) -> Eigen::Vector3d {
-        const NurbsCurve curve = chain.reversed[i] ? curves[chain.curves[i]].reversed() : curves[chain.curves[i]];
+        const NurbsCurve curve =
+            chain.reversed[i] ? curves[chain.curves[i]].reversed() : curves[chain.curves[i]];
         return curve.derivatives(at_end ? curve.knots().end() : curve.knots().start(), 1).col(1).normalized();
       };
-      const auto smooth = [&](std::size_t i) { return (tangent(i, true) - tangent(i + 1, false)).norm() < corner_angle; };
+      const auto smooth = [&](std::size_t i) {
+        return (tangent(i, true) - tangent(i + 1, false)).norm() < corner_angle;
+      };
       std::size_t first = at - chain.curves.begin(), last = first;
       while (first > 0 && smooth(first - 1)) --first;
       while (last + 1 < chain.curves.size() && smooth(last)) ++last;
@@ -219,8 +226,8 @@ class Builder {
       error(beam.path + ".axis", problem.what());
     }
     for (const Corner& corner : BezierPath{segments, {}, 0}.corners(corner_angle))
-      error(beam.path + ".axis", "the axis has a corner of " + text(corner.angle * 180 / M_PI) + " degrees at " +
-                                     text(corner.point) +
+      error(beam.path + ".axis", "the axis has a corner of " + text(corner.angle * 180 / M_PI) +
+                                     " degrees at " + text(corner.point) +
                                      "; a beam needs a smooth axis: round the corner or model two beams");
     return segments;
   }
@@ -251,7 +258,8 @@ class Builder {
                         std::none_of(moments.begin(), moments.end(), off_normal);
     built_.model.dimension = planar ? 2 : 3;
     if (planar) {
-      const Eigen::Vector3d ahead = std::abs(normal.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+      const Eigen::Vector3d ahead =
+          std::abs(normal.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
       const Eigen::Vector3d e1 = (ahead - ahead.dot(normal) * normal).normalized();
       built_.frame.rotation.row(0) = e1;
       built_.frame.rotation.row(1) = normal.cross(e1);
@@ -299,7 +307,8 @@ class Builder {
     const CaseBeam& from = case_.beams[b];
     std::vector<RationalCubic> local;
     for (const RationalCubic& cubic : paths_[b]) local.push_back(to_local(cubic));
-    Beam beam{from.name, ReferenceCurve(local, built_.model.dimension), {}, false, from.weights, from.merge, {}};
+    Beam beam{from.name, ReferenceCurve(local, built_.model.dimension), {}, false, from.weights, from.merge,
+              {}};
     if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
     beam.properties.axial_stiffness = from.material.youngs_modulus * from.section.area;
     beam.properties.bending_stiffness = from.material.youngs_modulus * from.section.second_moment;
@@ -332,7 +341,8 @@ class Builder {
     if (from.stress_free == StressFree::as_drawn_without_torsion) return false;
     if (from.stress_free == StressFree::as_drawn && curved)
       error(from.path + ".stress_free",
-            "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model, which this element has not; "
+            "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model, which this element "
+            "has not; "
             "use \"straight\" (exact for cables) or \"as-drawn-without-torsion\" (the limit of no torsional "
             "stiffness)");
     return true;
@@ -357,10 +367,18 @@ class Builder {
     const double L = curve.length();
     double s = 0;
     switch (at.kind) {
-      case Place::Kind::start: s = 0; break;
-      case Place::Kind::end: s = L; break;
-      case Place::Kind::length: s = at.value; break;
-      case Place::Kind::fraction: s = at.value * L; break;
+      case Place::Kind::start:
+        s = 0;
+        break;
+      case Place::Kind::end:
+        s = L;
+        break;
+      case Place::Kind::length:
+        s = at.value;
+        break;
+      case Place::Kind::fraction:
+        s = at.value * L;
+        break;
       case Place::Kind::near: {
         const ClosestPoint found = closest_point(BezierPath{paths_[b], {}, 0}, at.point);
         constexpr double reach = 0.01;
@@ -373,8 +391,8 @@ class Builder {
       }
     }
     if (!(s >= -1e-9 * L && s <= L * (1 + 1e-9)))
-      error(where + ".at", text(s) + " m is not on beam \"" + case_.beams[b].name + "\", which is " + text(L) +
-                               " m long");
+      error(where + ".at",
+            text(s) + " m is not on beam \"" + case_.beams[b].name + "\", which is " + text(L) + " m long");
     if (s < 1e-9 * L) return 0;
     return s > L * (1 - 1e-9) ? L : s;
   }
@@ -402,8 +420,9 @@ class Builder {
       const double s = place(load.at, b, load.path);
       const Eigen::Vector3d along = built_.model.beams[b].curve.tangent(s);
       if (is_moment && std::abs(value.dot(along)) > 1e-9 * value.norm())
-        error(load.path + ".moment", "the moment has a component of " + text(value.dot(along)) +
-                                         " N m along the beam, which has no torsion; leave only the part across it");
+        error(load.path + ".moment",
+              "the moment has a component of " + text(value.dot(along)) +
+                  " N m along the beam, which has no torsion; leave only the part across it");
       built_.model.point_loads.push_back({is_moment ? PointLoad::Kind::moment : PointLoad::Kind::force, b, s,
                                           load.moving_speed.value_or(0), value, load.follower, load.time});
     }
@@ -420,7 +439,12 @@ class Builder {
     }
     for (const CaseSlidingJoint& joint : case_.sliding_joints) {
       const int b = beam_index(joint.beam);
-      SlidingJoint added{0, b, place(joint.at, b, joint.path), joint.speed, std::nullopt, joint.continuous_slope,
+      SlidingJoint added{0,
+                         b,
+                         place(joint.at, b, joint.path),
+                         joint.speed,
+                         std::nullopt,
+                         joint.continuous_slope,
                          joint.leave_at_end};
       for (std::size_t i = 0; i < case_.bodies.size(); ++i)
         if (case_.bodies[i].name == joint.body) added.body = static_cast<int>(i);
@@ -434,8 +458,8 @@ class Builder {
         added.motion = speed == 0 ? TimeTable{{0, added.s}, {1, added.s}}
                                   : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
       }
-      const bool supported_end =
-          std::any_of(built_.model.supports.begin(), built_.model.supports.end(), [&](const Support& support) {
+      const bool supported_end = std::any_of(
+          built_.model.supports.begin(), built_.model.supports.end(), [&](const Support& support) {
             return support.beam == b && (support.s == 0 || support.s == built_.model.beams[b].curve.length());
           });
       if (joint.leave_at_end && supported_end)

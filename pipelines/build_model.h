@@ -15,8 +15,12 @@ struct ModelFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d to_local(const Eigen::Vector3d& world) const { return rotation * (world - origin); }
-  Eigen::Vector3d to_world(const Eigen::Vector3d& local) const { return rotation.transpose() * local + origin; }
-  Eigen::Vector3d direction_to_world(const Eigen::Vector3d& local) const { return rotation.transpose() * local; }
+  Eigen::Vector3d to_world(const Eigen::Vector3d& local) const {
+    return rotation.transpose() * local + origin;
+  }
+  Eigen::Vector3d direction_to_world(const Eigen::Vector3d& local) const {
+    return rotation.transpose() * local;
+  }
 };
 
 /// A place where results are recorded.

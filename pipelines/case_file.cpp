@@ -686,6 +686,19 @@ void for_each_item(const Json& object, const char* key, const std::string& path,
   }
 }
 
+std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
+  static const std::set<std::string> extensions = {".step", ".stp", ".iges", ".igs",
+                                                   ".STEP", ".STP", ".IGES", ".IGS"};
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+    if (extensions.contains(entry.path().extension().string())) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  return names;
+}
+
 CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& directory,
                               const std::string& path, Findings& findings) {
   CaseAxis::File file;
@@ -701,12 +714,9 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
   }
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file.path, ignored)) {
-    std::vector<std::string> siblings;
-    for (const auto& entry : std::filesystem::directory_iterator(file.path.parent_path(), ignored)) {
-      siblings.push_back(entry.path().filename().string());
-    }
-    findings.error(child(path, "file"), "there is no file " + in_quotes(file.path.string()) +
-                                            known_names(file.path.filename().string(), siblings));
+    findings.error(child(path, "file"),
+                   "there is no file " + in_quotes(file.path.string()) +
+                       known_names(file.path.filename().string(), cad_files_in(file.path.parent_path())));
   }
   return file;
 }

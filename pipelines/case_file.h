@@ -77,7 +77,6 @@ struct CaseBody {
   double mass = 0;  ///< [kg]
 };
 
-
 struct CaseLoad {
   enum class Kind { force, moment, force_per_length } kind = Kind::force;
   std::string path;
@@ -85,8 +84,8 @@ struct CaseLoad {
   Place at;                                         ///< for force and moment
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N], [N m] or [N/m]
   bool follower = false;
-  std::optional<double> moving_speed;               ///< along the beam from `at` [m/s]
-  TimeTable time;                                   ///< factor; empty: 1
+  std::optional<double> moving_speed;  ///< along the beam from `at` [m/s]
+  TimeTable time;                      ///< factor; empty: 1
 };
 
 struct CaseSupport {
@@ -104,7 +103,7 @@ struct CaseSlidingJoint {
   std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
   TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
   bool continuous_slope = true;
-  bool leave_at_end = true;            ///< false: stop
+  bool leave_at_end = true;  ///< false: stop
 };
 
 struct CaseAnalysis {
@@ -123,9 +122,9 @@ struct CaseProbe {
 };
 
 struct CaseOutput {
-  std::optional<double> every;  ///< [s]
+  std::optional<double> every;           ///< [s]
   std::vector<std::string> cad_formats;  ///< "step", "iges"
-  std::vector<double> cad_times;         ///< [s]
+  std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   std::string cad_unit = "mm";
   std::vector<CaseProbe> probes;
 };
@@ -150,9 +149,11 @@ struct CaseFileReport {
   std::vector<Diagnostic> diagnostics;
 };
 
-/// Reads, checks and resolves a case file: comments allowed, unit strings ("5 mm"), unknown keys are errors that
-/// name the closest known key, all errors at once, each with its JSON path. `overrides`: "path=value" (--set).
-CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// Reads, checks and resolves a case file: comments allowed, unit strings ("5 mm"), unknown keys are errors
+/// that name the closest known key, all errors at once, each with its JSON path. `overrides`: "path=value"
+/// (--set), applied before the checks; the value is JSON or else a text, and null removes the key.
+CaseFileReport read_case_file(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides = {});
 
 /// The JSON schema of the case file.
 std::string case_file_schema();

@@ -11,7 +11,7 @@ namespace nurbeam {
 struct Range {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  bool open = false;   ///< whether the finite ends themselves are excluded
+  bool open = false;        ///< whether the finite ends themselves are excluded
   std::string reason = {};  ///< why, for the message; may be empty
 
   bool contains(double value) const;

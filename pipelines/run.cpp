@@ -10,13 +10,13 @@
 
 #include "cad_import/export_curves.h"
 #include "pipelines/build_model.h"
+#include "pipelines/export_results.h"
 #include "pipelines/file_hash.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/progress.h"
 #include "pipelines/results.h"
 #include "pipelines/run_summary.h"
 #include "pipelines/simulation.h"
-#include "pipelines/stored_curves.h"
 
 namespace nurbeam {
 
@@ -58,7 +58,8 @@ std::vector<double> output_times(const CaseFile& c) {
     if (t >= 0 && t <= end) times.push_back(t);
   std::sort(times.begin(), times.end());
   const double same = 1e-9 * end;
-  times.erase(std::unique(times.begin(), times.end(), [=](double a, double b) { return b - a < same; }), times.end());
+  times.erase(std::unique(times.begin(), times.end(), [=](double a, double b) { return b - a < same; }),
+              times.end());
   return times;
 }
 
@@ -114,7 +115,7 @@ class CadOutput {
     if (!asked && !statics) return;
     std::vector<NamedCurve> curves;
     for (std::size_t b = 0; b < frame.beams.size(); ++b)
-      curves.push_back({built_.curve_names[b], stored_curve(frame.beams[b].elements)});
+      curves.push_back({built_.curve_names[b], deformed_curve(frame.beams[b].elements)});
     for (const std::string& format : case_.output.cad_formats) {
       std::ostringstream name;
       name << "deformed";
@@ -145,9 +146,12 @@ std::string status_text(SimulationStatus status, const std::string& message) {
 
 ExitCode exit_code(SimulationStatus status) {
   switch (status) {
-    case SimulationStatus::done: return done;
-    case SimulationStatus::not_converged: return not_converged;
-    case SimulationStatus::interrupted: return interrupted;
+    case SimulationStatus::done:
+      return done;
+    case SimulationStatus::not_converged:
+      return not_converged;
+    case SimulationStatus::interrupted:
+      return interrupted;
   }
   return not_converged;
 }
@@ -229,11 +233,12 @@ int check_case(const CaseFile& c) {
   std::printf("model     %s, %d coordinates\n", model.dimension == 2 ? "planar" : "spatial", dofs);
   for (const Beam& beam : model.beams) {
     const double L = beam.curve.length();
-    std::printf("beam      %s: length %.9g m, mass %.6g kg, %d CAD segments, %zu elements, EA %.6g N, EI %.6g N m^2, "
-                "stress-free %s\n",
-                beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
-                beam.home.size() - 1, beam.properties.axial_stiffness, beam.properties.bending_stiffness,
-                beam.straight ? "straight" : "as drawn");
+    std::printf(
+        "beam      %s: length %.9g m, mass %.6g kg, %d CAD segments, %zu elements, EA %.6g N, EI %.6g N m^2, "
+        "stress-free %s\n",
+        beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
+        beam.home.size() - 1, beam.properties.axial_stiffness, beam.properties.bending_stiffness,
+        beam.straight ? "straight" : "as drawn");
   }
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/print_diagnostics.h"
+
 namespace nurbeam {
 
 namespace {
@@ -28,11 +30,8 @@ Json to_json(const RunEvent& event) {
           {"length_after [m]", event.length_after}};
 }
 
-Json to_json(const Diagnostic& diagnostic) {
-  constexpr const char* severities[] = {"note", "warning", "error"};
-  return {{"severity", severities[static_cast<int>(diagnostic.severity)]},
-          {"where", diagnostic.where},
-          {"message", diagnostic.message}};
+Json to_json(const Diagnostic& d) {
+  return {{"severity", severity_name(d.severity)}, {"where", d.where}, {"message", d.message}};
 }
 
 Json to_json(const RunInput& input) { return {{"file", input.file.string()}, {"sha256", input.sha256}}; }

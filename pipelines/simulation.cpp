@@ -13,7 +13,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 std::string text(double x) {
   std::ostringstream stream;
@@ -24,21 +26,30 @@ std::string text(double x) {
 
 const char* kind_of(MeshChange change) {
   switch (change) {
-    case MeshChange::split: return "split";
-    case MeshChange::merge: return "merge";
-    case MeshChange::becomes_point: return "reached the end zone";
-    case MeshChange::becomes_node: return "left the end zone";
-    case MeshChange::none: break;
+    case MeshChange::split:
+      return "split";
+    case MeshChange::merge:
+      return "merge";
+    case MeshChange::becomes_point:
+      return "reached the end zone";
+    case MeshChange::becomes_node:
+      return "left the end zone";
+    case MeshChange::none:
+      break;
   }
   return "none";
 }
 
 const char* reason_of(StepStatus status) {
   switch (status) {
-    case StepStatus::not_converged: return "Newton's iteration does not converge";
-    case StepStatus::singular_matrix: return "the iteration matrix is singular";
-    case StepStatus::inadmissible: return "an element would turn inside out";
-    case StepStatus::converged: break;
+    case StepStatus::not_converged:
+      return "Newton's iteration does not converge";
+    case StepStatus::singular_matrix:
+      return "the iteration matrix is singular";
+    case StepStatus::inadmissible:
+      return "an element would turn inside out";
+    case StepStatus::converged:
+      break;
   }
   return "converged";
 }
@@ -78,7 +89,8 @@ class Simulation {
     report_.message = std::move(message);
   }
 
-  // --- Statics -------------------------------------------------------------------------------------------------
+  // --- Statics
+  // -------------------------------------------------------------------------------------------------
 
   // Equilibrium of the present plan with the given joints held, from state_; the state is kept on failure.
   bool solve_statics(const std::vector<bool>& held) {
@@ -90,11 +102,11 @@ class Simulation {
     report_.newton_iterations += found.newton_iterations;
     report_.steps += found.load_steps;
     if (found.status == StaticStatus::converged) return true;
-    fail(SimulationStatus::not_converged,
-         std::string("no static equilibrium was found: ") +
-             (found.status == StaticStatus::singular_matrix ? "the tangent is singular (is the model held everywhere?)"
-                                                            : "the solver does not converge") +
-             "; load factor reached " + text(found.load_factor));
+    fail(SimulationStatus::not_converged, std::string("no static equilibrium was found: ") +
+                                              (found.status == StaticStatus::singular_matrix
+                                                   ? "the tangent is singular (is the model held everywhere?)"
+                                                   : "the solver does not converge") +
+                                              "; load factor reached " + text(found.load_factor));
     return false;
   }
 
@@ -105,12 +117,12 @@ class Simulation {
       if (at.place < 0 || ds[j] == 0) continue;
       const double s = state_.q[at.place] + ds[j];
       const int beam = model_.joints[j].beam;
-      const auto& e =
-          system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, beam, s)];
+      const auto& e = system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, beam, s)];
       const MaterialPoint<D> p = material_point<D>(e, state_.q, state_.v, s);
       state_.q.template segment<D>(at.r) = p.r;
       if (at.node >= 0)
-        for (int slope : {system_->mesh().nodes[beam][at.node].slope_left, system_->mesh().nodes[beam][at.node].slope_right})
+        for (int slope : {system_->mesh().nodes[beam][at.node].slope_left,
+                          system_->mesh().nodes[beam][at.node].slope_right})
           state_.q.template segment<D>(slope) = p.rs;
       state_.q[at.place] = s;
       state_.v[at.place] = ds[j];  // length control looks at the direction
@@ -123,11 +135,12 @@ class Simulation {
   }
 
   double home_spacing(int joint) const {
-    return beam_length_of(joint) / (static_cast<double>(model_.beams[model_.joints[joint].beam].home.size()) - 1);
+    return beam_length_of(joint) /
+           (static_cast<double>(model_.beams[model_.joints[joint].beam].home.size()) - 1);
   }
 
-  // Sliding bodies come to rest: they are held, let down the slope in bounded moves that halve where the force along
-  // the beam changes sign, and freed for the last digits.
+  // Sliding bodies come to rest: they are held, let down the slope in bounded moves that halve where the
+  // force along the beam changes sign, and freed for the last digits.
   void find_rest() {
     system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
     state_ = system_->drawn_state();
@@ -135,7 +148,8 @@ class Simulation {
     const std::vector<bool> held(n, true);
     if (!solve_statics(held)) return;
     std::vector<double> move(n), force(n);
-    for (std::size_t j = 0; j < n; ++j) move[j] = model_.joints[j].motion ? 0 : home_spacing(static_cast<int>(j)) / 4;
+    for (std::size_t j = 0; j < n; ++j)
+      move[j] = model_.joints[j].motion ? 0 : home_spacing(static_cast<int>(j)) / 4;
     const auto still_far = [&] {
       for (std::size_t j = 0; j < n; ++j)
         if (move[j] > 1e-6 * home_spacing(static_cast<int>(j))) return true;
@@ -148,7 +162,8 @@ class Simulation {
       for (std::size_t j = 0; j < n; ++j) {
         const int joint = static_cast<int>(j);
         if (move[j] == 0) continue;
-        const double now = system_->holding_force(state_, joint);  // what keeps it: it wants to go the other way
+        const double now =
+            system_->holding_force(state_, joint);  // what keeps it: it wants to go the other way
         if (force[j] * now < 0) move[j] /= 2;
         force[j] = now;
         const double s = *system_->place(state_, joint), L = beam_length_of(joint);
@@ -162,7 +177,8 @@ class Simulation {
     write_frame();
   }
 
-  // --- Motion --------------------------------------------------------------------------------------------------
+  // --- Motion
+  // --------------------------------------------------------------------------------------------------
 
   bool start_motion() {
     system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
@@ -175,7 +191,8 @@ class Simulation {
     system_->start_joints(state_);
     Eigen::VectorXd impulse;
     if (!project_velocities(*system_, state_, impulse)) {
-      fail(SimulationStatus::not_converged, "the initial velocities cannot be made consistent with the supports");
+      fail(SimulationStatus::not_converged,
+           "the initial velocities cannot be made consistent with the supports");
       return false;
     }
     return restart();
@@ -243,18 +260,20 @@ class Simulation {
     report_.newton_iterations += taken.newton_iterations;
     report_.rejected_steps += taken.rejected;
     if (taken.status != StepStatus::converged) {
-      fail(SimulationStatus::not_converged, "the step from t = " + text(state_.t) + " s failed: " +
-                                                reason_of(taken.status) + " even with a step of " + text(taken.step) +
-                                                " s" + places_text());
+      fail(SimulationStatus::not_converged,
+           "the step from t = " + text(state_.t) + " s failed: " + reason_of(taken.status) +
+               " even with a step of " + text(taken.step) + " s" + places_text());
       return false;
     }
     suggested = taken.next_step;
     ++report_.steps;
     last_step_ = taken.step;
     state_ = integrator_->state();
-    if (const int joint = joint_beyond_end(); joint >= 0 && !land_on_end(joint, before, algorithmic, taken.step))
+    if (const int joint = joint_beyond_end();
+        joint >= 0 && !land_on_end(joint, before, algorithmic, taken.step))
       return false;
-    if (damped()) dissipated_ += (state_.t - before.t) * (power_before + system_->energy(state_).dissipation) / 2;
+    if (damped())
+      dissipated_ += (state_.t - before.t) * (power_before + system_->energy(state_).dissipation) / 2;
     if (!separate_bodies()) return false;
     while (change_mesh(true)) {
     }
@@ -271,12 +290,13 @@ class Simulation {
     for (std::size_t j = 0; j < model_.joints.size(); ++j)
       if (const auto s = system_->place(state_, static_cast<int>(j)))
         places += "; \"" + body_name(static_cast<int>(j)) + "\" is at s = " + text(*s) + " m of beam \"" +
-                  model_.beams[model_.joints[j].beam].name + "\" with ds/dt = " +
-                  text(system_->place_rate(state_, static_cast<int>(j))) + " m/s";
+                  model_.beams[model_.joints[j].beam].name +
+                  "\" with ds/dt = " + text(system_->place_rate(state_, static_cast<int>(j))) + " m/s";
     return places;
   }
 
-  // --- The ends of a beam --------------------------------------------------------------------------------------
+  // --- The ends of a beam
+  // --------------------------------------------------------------------------------------
 
   double beyond_end(const State& state, int joint) const {
     const double s = *system_->place(state, joint);
@@ -330,7 +350,8 @@ class Simulation {
       moved->q[next->mesh().joints[joint].place] = plan_.places[joint];
       Eigen::VectorXd impulse;
       if (!project_velocities(*next, *moved, impulse)) {
-        fail(SimulationStatus::not_converged, "the impact of \"" + body_name(joint) + "\" at the end is singular");
+        fail(SimulationStatus::not_converged,
+             "the impact of \"" + body_name(joint) + "\" at the end is singular");
         return false;
       }
     }
@@ -348,19 +369,21 @@ class Simulation {
         if (nodes[i].joint < 0 || nodes[i + 1].joint < 0) continue;
         const double gap = state_.q[nodes[i + 1].place] - state_.q[nodes[i].place];
         if (gap > end_zone * home_spacing(nodes[i].joint)) continue;
-        fail(SimulationStatus::not_converged, "\"" + body_name(nodes[i].joint) + "\" and \"" +
-                                                  body_name(nodes[i + 1].joint) + "\" meet on beam \"" +
-                                                  model_.beams[model_.joints[nodes[i].joint].beam].name +
-                                                  "\" at s = " + text(state_.q[nodes[i].place]) + " m, t = " +
-                                                  text(state_.t) + " s; contact between bodies is not modelled");
+        fail(SimulationStatus::not_converged,
+             "\"" + body_name(nodes[i].joint) + "\" and \"" + body_name(nodes[i + 1].joint) +
+                 "\" meet on beam \"" + model_.beams[model_.joints[nodes[i].joint].beam].name +
+                 "\" at s = " + text(state_.q[nodes[i].place]) + " m, t = " + text(state_.t) +
+                 " s; contact between bodies is not modelled");
         return false;
       }
     return true;
   }
 
-  // --- Length control ------------------------------------------------------------------------------------------
+  // --- Length control
+  // ------------------------------------------------------------------------------------------
 
-  // Applies one change of the mesh if one is due. In motion the integrator is restarted and the event recorded.
+  // Applies one change of the mesh if one is due. In motion the integrator is restarted and the event
+  // recorded.
   bool change_mesh(bool in_motion) {
     if (report_.status != SimulationStatus::done) return false;
     const auto start = Clock::now();
@@ -372,7 +395,8 @@ class Simulation {
     auto to = std::make_unique<BeamSystem<D>>(model_, next.plan, held);
     std::optional<State> moved = transfer<D>(*system_, state_, *to, exact || !in_motion);
     if (!moved) {
-      fail(SimulationStatus::not_converged, "velocities cannot be projected at t = " + text(state_.t) + " s" + places_text());
+      fail(SimulationStatus::not_converged,
+           "velocities cannot be projected at t = " + text(state_.t) + " s" + places_text());
       return false;
     }
     plan_ = std::move(next.plan);
@@ -404,11 +428,13 @@ class Simulation {
     event.energy_after = system_->energy(state_).mechanical();
     event.momentum_after = system_->momentum(state_);
     for (std::size_t b = 0; b < model_.beams.size(); ++b)
-      if (model_.beams[b].name == event.beam) event.length_after = system_->beam_length(state_, static_cast<int>(b));
+      if (model_.beams[b].name == event.beam)
+        event.length_after = system_->beam_length(state_, static_cast<int>(b));
     report_.events.push_back(std::move(event));
   }
 
-  // --- Output --------------------------------------------------------------------------------------------------
+  // --- Output
+  // --------------------------------------------------------------------------------------------------
 
   BeamRecord beam_record(int b) const {
     const Mesh<D>& mesh = system_->mesh();
@@ -421,7 +447,8 @@ class Simulation {
       for (int k = 0; k < 4; ++k) nodal.col(k).template head<D>() = q.template segment<D>(k * D);
       nodal.col(1) *= J_a;
       nodal.col(3) *= J_b;
-      record.elements.push_back({to_bezier(nodal, e.element.bezier_weights(q), l).points(), q[4 * D], q[4 * D + 1]});
+      record.elements.push_back(
+          {to_bezier(nodal, e.element.bezier_weights(q), l).points(), q[4 * D], q[4 * D + 1]});
     }
     for (const MeshNode& node : mesh.nodes[b]) {
       record.node_positions.push_back(widened<D>(state_.q, node.r));
@@ -448,7 +475,8 @@ class Simulation {
                                              system_->place(state_, joint),
                                              system_->joint_force(state_, joint)};
     }
-    for (std::size_t b = 0; b < model_.beams.size(); ++b) frame.beams.push_back(beam_record(static_cast<int>(b)));
+    for (std::size_t b = 0; b < model_.beams.size(); ++b)
+      frame.beams.push_back(beam_record(static_cast<int>(b)));
     const SystemEnergy e = system_->energy(state_);
     frame.energy = {e.kinetic, e.gravity, e.axial, e.bending, dissipated_, e.mechanical() + dissipated_};
     frame.step = last_step_;

@@ -45,13 +45,14 @@ struct ProbePlace {
 
 /// What happens on the way.
 struct SimulationObserver {
-  std::function<void(const Frame&)> frame;   ///< at every output time, in the model's own coordinates
-  std::function<void(double)> progress;      ///< simulated time after every step
-  std::function<bool()> interrupted;         ///< true asks to end after the current step
+  std::function<void(const Frame&)> frame;  ///< at every output time, in the model's own coordinates
+  std::function<void(double)> progress;     ///< simulated time after every step
+  std::function<bool()> interrupted;        ///< true asks to end after the current step
 };
 
-/// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies that leave
-/// or stop at a beam's end. A static analysis ends with one frame at time 0; sliding bodies come to rest.
+/// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies
+/// that leave or stop at a beam's end. A static analysis ends with one frame at time 0; sliding bodies come
+/// to rest.
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer);
 

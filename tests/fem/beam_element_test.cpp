@@ -24,8 +24,8 @@ RationalCubic random_cubic(std::mt19937& random, int dimension, double bend = 0.
   return RationalCubic(points);
 }
 
-// Everything below computes the Lagrangian from its definition, with dual numbers and Bernstein polynomials, and
-// shares no formula with the element but the places of the Gauss points.
+// Everything below computes the Lagrangian from its definition, with dual numbers and Bernstein polynomials,
+// and shares no formula with the element but the places of the Gauss points.
 template <class T>
 T bernstein(const std::array<T, 4>& c, const T& u) {
   const T v = T(1.0) - u;
@@ -111,8 +111,8 @@ struct Witness {
     std::array<T, D> r;
     for (int d = 0; d < D; ++d) {
       const T rua = l * Ja * q[D + d], rub = l * Jb * q[3 * D + d];
-      r[d] = bernstein<T>({w[0] * q[d], w[1] * q[d] + w[0] * rua / T(3.0), w[2] * q[2 * D + d] - w[3] * rub / T(3.0),
-                           w[3] * q[2 * D + d]},
+      r[d] = bernstein<T>({w[0] * q[d], w[1] * q[d] + w[0] * rua / T(3.0),
+                           w[2] * q[2 * D + d] - w[3] * rub / T(3.0), w[3] * q[2 * D + d]},
                           xi) /
              W;
     }
@@ -193,7 +193,8 @@ struct Witness {
       for (int d = 0; d < D; ++d) rs2 = rs2 + r[1][d] * r[1][d];
       const T eps = (rs2 - T(1.0)) / T(2.0), bend = curvature<T>(r[1], r[2]) - drawn_curvature<T>(s);
       T bending = T(properties.bending_stiffness / 2) * bend * bend;
-      if (D == 3) bending = bending - T(properties.bending_stiffness * curvature_rounding * curvature_rounding / 2);
+      if (D == 3)
+        bending = bending - T(properties.bending_stiffness * curvature_rounding * curvature_rounding / 2);
       sum = sum + weight * (T(properties.mass_per_length / 2) * speed2 + load_r -
                             T(properties.axial_stiffness / 2) * eps * eps - bending);
     });
@@ -220,7 +221,8 @@ struct Witness {
   }
 
   // d/dt(dL/dv) - dL/dq + dR/dv, and its derivative along a direction (dq, dv, da).
-  std::pair<Eigen::VectorXd, Eigen::VectorXd> force(const ElementState<D>& x, const ElementState<D>& direction) const {
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> force(const ElementState<D>& x,
+                                                    const ElementState<D>& direction) const {
     using A = Dual<double>;  // along the direction
     using B = Dual<A>;       // along coordinate i
     using C = Dual<B>;       // along time
@@ -327,13 +329,14 @@ TEST_P(ElementForces, AndTangentsAreTheEulerLagrangeExpressionsOfTheSpatialLagra
 
 INSTANTIATE_TEST_SUITE_P(
     Variants, ElementForces,
-    ::testing::Values(Variant{"MaterialWeights", 0, false, false, 0, CurvatureMeasure::material},
-                      Variant{"MaterialWeightsSpatialCurvature", 0, false, false, 0, CurvatureMeasure::spatial},
-                      Variant{"MaterialWeightsStraightDamped", 0, false, true, 0.3, CurvatureMeasure::material},
-                      Variant{"MaterialWeightsAsDrawnDamped", 0, false, false, 0.2, CurvatureMeasure::spatial},
-                      Variant{"ConstantWeights", 0, true, false, 0.1, CurvatureMeasure::material},
-                      Variant{"ArcLengthCubic", -1, false, false, 0.1, CurvatureMeasure::material},
-                      Variant{"ArcLengthConstantWeights", -1, true, false, 0, CurvatureMeasure::spatial}),
+    ::testing::Values(
+        Variant{"MaterialWeights", 0, false, false, 0, CurvatureMeasure::material},
+        Variant{"MaterialWeightsSpatialCurvature", 0, false, false, 0, CurvatureMeasure::spatial},
+        Variant{"MaterialWeightsStraightDamped", 0, false, true, 0.3, CurvatureMeasure::material},
+        Variant{"MaterialWeightsAsDrawnDamped", 0, false, false, 0.2, CurvatureMeasure::spatial},
+        Variant{"ConstantWeights", 0, true, false, 0.1, CurvatureMeasure::material},
+        Variant{"ArcLengthCubic", -1, false, false, 0.1, CurvatureMeasure::material},
+        Variant{"ArcLengthConstantWeights", -1, true, false, 0, CurvatureMeasure::spatial}),
     name_of);
 
 }  // namespace

@@ -1,0 +1,13 @@
+#pragma once
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace nurbeam {
+
+/// Runs the command `nurbeam ARGUMENTS...` (without the program's name). Data goes to `out`, messages to
+/// `err`. Returns the exit code: 0 done, 1 a comparison failed, 2 bad input, 3 the solver did not converge, 4
+/// results could not be written, 130 interrupted.
+int run_command_line(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
+
+}  // namespace nurbeam

@@ -1,0 +1,16 @@
+#pragma once
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "cad_import/import_report.h"
+
+namespace nurbeam {
+
+/// "note", "warning" or "error".
+std::string severity_name(Severity severity);
+
+/// One line each: "error: where: message".
+void print_diagnostics(std::ostream& stream, const std::vector<Diagnostic>& diagnostics);
+
+}  // namespace nurbeam
