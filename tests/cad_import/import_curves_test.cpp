@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
@@ -197,6 +199,20 @@ TEST(ImportCurves, AModelSpaceScaleThatIsNotAppliedIsNoted) {
   ASSERT_EQ(report.diagnostics.size(), 1U);
   EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
   EXPECT_NE(report.diagnostics[0].message.find("scale"), std::string::npos);
+}
+
+TEST(ImportCurves, ManyThreadsMayReadAtOnce) {
+  std::vector<std::size_t> counts(4 * 5);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < 4; ++t) {
+    threads.emplace_back([&counts, t] {
+      for (std::size_t i = 0; i < 5; ++i) {
+        counts[5 * t + i] = import_curves(corpus_file("igesio-sample-curves.igs")).curves.size();
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(counts, std::vector<std::size_t>(4 * 5, 12));
 }
 
 TEST(ImportCurves, AToleranceThatIsNotPositiveIsRefused) {
