@@ -266,11 +266,35 @@ void check_syntax(const Interface_InterfaceModel& model) {
   }
 }
 
-void read(XSControl_Reader& reader, const std::filesystem::path& file) {
+// Whether numbers of a curve may be lost with what OpenCASCADE could not read in the entity: not with a name.
+bool matters(const Standard_Transient& entity, std::string_view failure) {
+  const bool step = !entity.IsKind(STANDARD_TYPE(IGESData_IGESEntity));
+  const bool geometry = std::string_view(entity.DynamicType()->Name()).starts_with("StepGeom_");
+  return !step || (geometry && failure.find("(name)") == std::string_view::npos);
+}
+
+// Entities that are there in part only: OpenCASCADE goes on with zeros.
+void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& report) {
+  int count = 0;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(Interface_Check) check = model.Check(i, /*syntactic=*/Standard_True);
+    if (!check->HasFailed() || !matters(*model.Value(i), check->CFail(1))) continue;
+    if (++count > kMostReportedFailures) continue;
+    add(report, Severity::warning, entity_label(model, model.Value(i)),
+        std::string("damaged, and curves made of it may be wrong: ") + check->CFail(1));
+  }
+  if (count > kMostReportedFailures) {
+    add(report, Severity::warning, "",
+        std::to_string(count - kMostReportedFailures) + " more damaged entities");
+  }
+}
+
+void read(XSControl_Reader& reader, const std::filesystem::path& file, ImportReport& report) {
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull()) {
     throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
   }
   check_syntax(*reader.Model());
+  add_damaged_entities(*reader.Model(), report);
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -346,7 +370,7 @@ void read_step(const std::filesystem::path& file, double tolerance, ImportReport
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   STEPControl_Reader reader;
-  read(reader, file);
+  read(reader, file, report);
   report_step_unit(*reader.Model(), report);
   transfer(reader, tolerance, report);
 }
@@ -371,6 +395,8 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
     add(report, Severity::note, "",
         "the model space scale " + std::to_string(global.scale) + " (drawing scale) is not applied");
   }
+  const std::string miscounted = miscounted_lines(content);
+  if (!miscounted.empty()) add(report, Severity::warning, "", miscounted);
   IGESControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
@@ -378,7 +404,7 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
   }
   IGESControl_Reader reader;
-  read(reader, file);
+  read(reader, file, report);
   compare_units(global, reader.IGESModel()->GlobalSection());
   transfer(reader, tolerance, report);
 }

@@ -142,6 +142,26 @@ TEST(HostileFile, DecreasingKnotsInIgesGiveNoCurve) {
   expect_error(import_curves(file), file, "Knots are not in ascending order");
 }
 
+TEST(HostileFile, ALostLineOfAnIgesFileIsAWarning) {
+  const ScratchDirectory scratch;
+  const std::string whole = content_of(corpus_file("igesio-sample-curves.igs"));
+  const fs::path file = scratch.file("lost.igs", with(whole, "13P      9", "13X      9"));
+  const ImportReport report = import_curves(file);
+  ASSERT_FALSE(report.diagnostics.empty());
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].message.find("section P"), std::string::npos);
+}
+
+TEST(HostileFile, ADegreeThatIsNoNumberIsAWarningThatNamesTheEntity) {
+  const ScratchDirectory scratch;
+  const std::string whole = content_of(corpus_file("igesio-sample-curves.igs"));
+  const fs::path file = scratch.file("word.igs", with(whole, "126,3,3,", "126,3,x,"));
+  const ImportReport report = import_curves(file);
+  ASSERT_FALSE(report.diagnostics.empty());
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].where.find("D1 BSplineCurve"), std::string::npos);
+}
+
 TEST(HostileFile, NegativeWeightsGiveNoCurve) {
   const ScratchDirectory scratch;
   const std::string whole = content_of(corpus_file("iges-126-bsplines.igs"));
