@@ -7,11 +7,11 @@
 #include <IGESData_Protocol.hxx>
 #include <IGESGeom_BSplineCurve.hxx>
 #include <IGESSelect_WorkLibrary.hxx>
-#include <Interface_Static.hxx>
 #include <Standard_Failure.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColgp_HArray1OfXYZ.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -45,6 +45,10 @@ Handle(TCollection_HAsciiString) hollerith(const std::string& text) {
   return new TCollection_HAsciiString(text.c_str());
 }
 
+bool is_ascii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x80; });
+}
+
 // The entity itself, made without OpenCASCADE's translator, which takes every shape for one in millimetres.
 Handle(IGESGeom_BSplineCurve) entity126(const NurbsCurve& curve, double units_per_metre) {
   const int degree = curve.degree();
@@ -74,7 +78,7 @@ void add(const NamedCurve& named, double units_per_metre, IGESData_IGESModel& mo
   if (named.name.empty()) return;
   const Handle(IGESBasic_Name) name = new IGESBasic_Name;
   name->Init(1, hollerith(named.name));
-  entity->SetLabel(hollerith(named.name.substr(0, kLabelLength)));
+  if (is_ascii(named.name)) entity->SetLabel(hollerith(named.name.substr(0, kLabelLength)));
   entity->AddProperty(name);
   model.AddEntity(name);
 }

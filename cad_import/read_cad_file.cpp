@@ -8,6 +8,8 @@
 #include <IGESData_IGESModel.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Graph.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -45,10 +47,13 @@
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "cad_import/edge_curve.h"
 #include "cad_import/iges_global.h"
+#include "cad_import/spline_defect.h"
 
 namespace nurbeam {
 namespace {
@@ -60,6 +65,7 @@ constexpr int kMostReportedFailures = 20;
 struct Origin {
   std::string name;
   std::string label;
+  bool defective = false;
 };
 // By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
 using Origins = std::unordered_map<const TopoDS_TShape*, Origin>;
@@ -110,6 +116,7 @@ void add_origins(const TopoDS_Shape& shape, const Origin& origin, Origins& origi
     Origin& known = origins[edges(i).TShape().get()];
     if (known.label.empty()) known.label = origin.label;
     if (known.name.empty()) known.name = origin.name;
+    known.defective |= origin.defective && shape.ShapeType() != TopAbs_COMPOUND;
   }
 }
 
@@ -118,9 +125,44 @@ bool names_its_edges(const Handle(Standard_Transient) & entity, const TopoDS_Sha
   return result.ShapeType() >= TopAbs_WIRE || entity->IsKind(STANDARD_TYPE(StepShape_GeometricSet));
 }
 
+using Entities = std::unordered_set<const Standard_Transient*>;
+
+// The B-spline curves of the file that cannot be, with a warning for each.
+Entities defective_splines(const Interface_InterfaceModel& model, ImportReport& report) {
+  Entities defective;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model.Value(i);
+    const std::string defect = spline_defect(*entity);
+    if (defect.empty()) continue;
+    defective.insert(entity.get());
+    add(report, Severity::warning, entity_label(model, entity),
+        "skipped with all that is made of it: " + defect);
+  }
+  return defective;
+}
+
+// Whether the entity is one of `wanted`, or refers to one, directly or not.
+bool refers_to(const Handle(Standard_Transient) & start, const Entities& wanted,
+               const Interface_Graph& graph) {
+  if (wanted.empty()) return false;
+  Entities seen;
+  std::vector<Handle(Standard_Transient)> open{start};
+  while (!open.empty()) {
+    const Handle(Standard_Transient) entity = open.back();
+    open.pop_back();
+    if (wanted.contains(entity.get())) return true;
+    if (!seen.insert(entity.get()).second) continue;
+    Interface_EntityIterator next = graph.Shareds(entity);
+    for (next.Start(); next.More(); next.Next()) open.push_back(next.Value());
+  }
+  return false;
+}
+
 // An edge's own entity first, then the wire or set that holds it.
-Origins origins_of_edges(const XSControl_Reader& reader) {
+Origins origins_of_edges(const XSControl_Reader& reader, ImportReport& report) {
   Origins origins;
+  const Entities defective = defective_splines(*reader.Model(), report);
+  const Interface_Graph& graph = reader.WS()->Graph();
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   for (const bool single_edges : {true, false}) {
     for (int i = 1; i <= process->NbMapped(); ++i) {
@@ -128,7 +170,9 @@ Origins origins_of_edges(const XSControl_Reader& reader) {
       const TopoDS_Shape result = TransferBRep::ShapeResult(process, entity);
       if (result.IsNull() || (result.ShapeType() == TopAbs_EDGE) != single_edges) continue;
       if (!names_its_edges(entity, result)) continue;
-      add_origins(result, {entity_name(entity), entity_label(*reader.Model(), entity)}, origins);
+      const Origin origin{entity_name(entity), entity_label(*reader.Model(), entity),
+                          refers_to(entity, defective, graph)};
+      add_origins(result, origin, origins);
     }
   }
   return origins;
@@ -171,7 +215,7 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
 void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return;
-  const Origins origins = origins_of_edges(reader);
+  const Origins origins = origins_of_edges(reader, report);
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -179,6 +223,7 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     if (BRep_Tool::Degenerated(edge)) continue;
     const auto known = origins.find(edge.TShape().get());
     const Origin origin = known == origins.end() ? Origin{} : known->second;
+    if (origin.defective) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, tolerance, report);
   }
 }
@@ -209,10 +254,47 @@ void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) 
                report);
 }
 
-void read(XSControl_Reader& reader, const std::filesystem::path& file) {
+// OpenCASCADE goes on after an error of syntax, with other numbers than those of the file.
+void check_syntax(const Interface_InterfaceModel& model) {
+  const Handle(Interface_Check) check = model.GlobalCheck(/*syntactic=*/Standard_True);
+  for (int i = 1; i <= check->NbFails(); ++i) {
+    const std::string_view failure = check->CFail(i);
+    const std::size_t at = failure.find("Line ");
+    if (failure.find("Incorrect syntax") == std::string_view::npos) continue;
+    throw std::runtime_error(std::string(failure.substr(at == std::string_view::npos ? 0 : at)) +
+                             "; the file is damaged; export or copy it again");
+  }
+}
+
+// Whether numbers of a curve may be lost with what OpenCASCADE could not read in the entity: not with a name.
+bool matters(const Standard_Transient& entity, std::string_view failure) {
+  const bool step = !entity.IsKind(STANDARD_TYPE(IGESData_IGESEntity));
+  const bool geometry = std::string_view(entity.DynamicType()->Name()).starts_with("StepGeom_");
+  return !step || (geometry && failure.find("(name)") == std::string_view::npos);
+}
+
+// Entities that are there in part only: OpenCASCADE goes on with zeros.
+void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& report) {
+  int count = 0;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(Interface_Check) check = model.Check(i, /*syntactic=*/Standard_True);
+    if (!check->HasFailed() || !matters(*model.Value(i), check->CFail(1))) continue;
+    if (++count > kMostReportedFailures) continue;
+    add(report, Severity::warning, entity_label(model, model.Value(i)),
+        std::string("damaged, and curves made of it may be wrong: ") + check->CFail(1));
+  }
+  if (count > kMostReportedFailures) {
+    add(report, Severity::warning, "",
+        std::to_string(count - kMostReportedFailures) + " more damaged entities");
+  }
+}
+
+void read(XSControl_Reader& reader, const std::filesystem::path& file, ImportReport& report) {
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull()) {
     throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
   }
+  check_syntax(*reader.Model());
+  add_damaged_entities(*reader.Model(), report);
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -288,7 +370,7 @@ void read_step(const std::filesystem::path& file, double tolerance, ImportReport
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   STEPControl_Reader reader;
-  read(reader, file);
+  read(reader, file, report);
   report_step_unit(*reader.Model(), report);
   transfer(reader, tolerance, report);
 }
@@ -313,6 +395,8 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
     add(report, Severity::note, "",
         "the model space scale " + std::to_string(global.scale) + " (drawing scale) is not applied");
   }
+  const std::string miscounted = miscounted_lines(content);
+  if (!miscounted.empty()) add(report, Severity::warning, "", miscounted);
   IGESControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
@@ -320,7 +404,7 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
   }
   IGESControl_Reader reader;
-  read(reader, file);
+  read(reader, file, report);
   compare_units(global, reader.IGESModel()->GlobalSection());
   transfer(reader, tolerance, report);
 }

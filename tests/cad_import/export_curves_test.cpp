@@ -1,0 +1,187 @@
+#include "cad_import/export_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include "cad_import/import_curves.h"
+#include "tests/cad_import/scratch_directory.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Target {
+  std::string extension;
+  LengthUnit unit;
+  std::string unit_name;
+};
+
+void PrintTo(const Target& target, std::ostream* out) {
+  *out << target.extension << " in " << target.unit_name;
+}
+
+const std::vector<Target> kTargets{
+    {".step", LengthUnit::metre, "m"},       {".stp", LengthUnit::millimetre, "mm"},
+    {".step", LengthUnit::inch, "inch"},     {".igs", LengthUnit::metre, "m"},
+    {".iges", LengthUnit::millimetre, "mm"}, {".igs", LengthUnit::inch, "inch"}};
+
+// All curves of the corpus up to degree 3, each under a name of its own.
+std::vector<NamedCurve> corpus_curves() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(corpus_file(""))) {
+    const std::string extension = entry.path().extension().string();
+    if (extension.starts_with(".s") || extension.starts_with(".i")) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<NamedCurve> curves;
+  for (const fs::path& file : files) {
+    for (const ImportedCurve& curve : import_curves(file).curves) {
+      const std::string name = file.stem().string() + " " + std::to_string(curves.size());
+      if (curve.curve.degree() <= 3) curves.push_back({name, curve.curve});
+    }
+  }
+  return curves;
+}
+
+NurbsCurve quarter_circle(double radius) {
+  Eigen::Matrix3Xd points(3, 3);
+  points << radius, radius, 0, 0, radius, radius, 1, 1, 1;
+  return make_nurbs_curve(KnotVector(2, {0, 0, 0, 1, 1, 1}), points, Eigen::Vector3d(1, std::sqrt(0.5), 1));
+}
+
+int entries(const fs::path& directory) {
+  return static_cast<int>(std::distance(fs::directory_iterator(directory), {}));
+}
+
+class RoundTrip : public testing::TestWithParam<Target> {};
+
+TEST_P(RoundTrip, GivesEveryCubicOfTheCorpusBackUnderItsName) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / ("curves" + GetParam().extension);
+  const std::vector<NamedCurve> written = corpus_curves();
+  ASSERT_GT(written.size(), 250U);
+  export_curves(file, written, GetParam().unit);
+  const ImportReport report = import_curves(file);
+  EXPECT_TRUE(report.diagnostics.empty());
+  EXPECT_EQ(report.unit, GetParam().unit_name);
+  ASSERT_EQ(report.curves.size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const NurbsCurve& before = written[i].curve;
+    const NurbsCurve& after = report.curves[i].curve;
+    EXPECT_EQ(report.curves[i].name, written[i].name);
+    EXPECT_EQ(after.knots(), before.knots());
+    ASSERT_EQ(after.control_points().cols(), before.control_points().cols());
+    const double size = before.control_points().cwiseAbs().maxCoeff();
+    EXPECT_LE((after.control_points() - before.control_points()).cwiseAbs().maxCoeff(), 1e-15 * size)
+        << written[i].name;
+  }
+}
+
+TEST_P(RoundTrip, KeepsNamesWithQuotesAndForeignLetters) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / ("curves" + GetParam().extension);
+  const std::vector<std::string> names{"O'Brien \\ \"cable\"",
+                                       "Drahtseil \xC3\x84\xC3\xB6\xC3\x9F \xF0\x9F\x98\x80",
+                                       std::string(200, 'n'),
+                                       "a,b;(c)",
+                                       "X",
+                                       ""};
+  std::vector<NamedCurve> curves;
+  for (const std::string& name : names) curves.push_back({name, quarter_circle(1 + 0.1 * curves.size())});
+  export_curves(file, curves, GetParam().unit);
+  const ImportReport report = import_curves(file);
+  ASSERT_EQ(report.curves.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(report.curves[i].name, names[i]);
+}
+
+TEST_P(RoundTrip, KeepsTheShapeOfACurveWithUnclampedEnds) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / ("curves" + GetParam().extension);
+  Eigen::Matrix3Xd points(3, 6);
+  points << 0, 1, 2, 3, 4, 5, 0, 1, 0, -1, 0, 2, 0, 0, 1, 1, 0, 0;
+  const KnotVector knots(3, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  const NurbsCurve curve = make_nurbs_curve(knots, points, Eigen::VectorXd::Ones(6));
+  export_curves(file, {{"uniform", curve}}, GetParam().unit);
+  const ImportReport report = import_curves(file);
+  ASSERT_EQ(report.curves.size(), 1U);
+  const NurbsCurve& back = report.curves[0].curve;
+  EXPECT_EQ(back.knots().start(), 3);
+  EXPECT_EQ(back.knots().end(), 6);
+  for (double u = 3; u <= 6; u += 0.25) EXPECT_LT((back.point(u) - curve.point(u)).norm(), 1e-14);
+}
+
+TEST_P(RoundTrip, PrintsNothing) {
+  const ScratchDirectory scratch;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  export_curves(scratch.path() / ("a" + GetParam().extension), {{"a", quarter_circle(1)}}, GetParam().unit);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(kTargets), [](const auto& test) {
+  return test.param.extension.substr(1) + "_" + test.param.unit_name;
+});
+
+TEST(ExportCurves, ReplacesAnOldFileAndLeavesNoOther) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.file("curve.step", "old");
+  export_curves(file, {{"a", quarter_circle(1)}}, LengthUnit::metre);
+  EXPECT_EQ(import_curves(file).curves.size(), 1U);
+  EXPECT_EQ(entries(scratch.path()), 1);
+}
+
+TEST(ExportCurves, LeavesNoPartOfAFileWhenItFails) {
+  const ScratchDirectory scratch;
+  const std::vector<NamedCurve> curves{{"a", quarter_circle(1)}};
+  const fs::path occupied = scratch.path() / "directory.step";
+  fs::create_directory(occupied);
+  EXPECT_THROW(export_curves(occupied, curves, LengthUnit::metre), std::runtime_error);
+  EXPECT_THROW(export_curves(scratch.path() / "missing" / "a.igs", curves, LengthUnit::metre),
+               std::runtime_error);
+  EXPECT_EQ(entries(scratch.path()), 1);
+}
+
+TEST(ExportCurves, RefusesAnUnknownExtensionAndNamesTheKnownOnes) {
+  try {
+    export_curves("curve.dxf", {{"a", quarter_circle(1)}}, LengthUnit::metre);
+    FAIL();
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find(".dxf"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find(".step .stp .igs .iges"), std::string::npos);
+  }
+}
+
+TEST(ExportCurves, RefusesNoCurvesAndNamesWithControlCharacters) {
+  EXPECT_THROW(export_curves("a.step", {}, LengthUnit::metre), std::invalid_argument);
+  EXPECT_THROW(export_curves("a.step", {{"a\nb", quarter_circle(1)}}, LengthUnit::metre),
+               std::invalid_argument);
+}
+
+TEST(ExportCurves, SaysThatACurveIsBeyondStep) {
+  const ScratchDirectory scratch;
+  const int degree = 26;
+  std::vector<double> knots(degree + 1, 0);
+  knots.resize(2 * degree + 2, 1);
+  const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, degree + 1);
+  const NurbsCurve curve =
+      make_nurbs_curve(KnotVector(degree, knots), points, Eigen::VectorXd::Ones(degree + 1));
+  EXPECT_THROW(export_curves(scratch.path() / "a.step", {{"a", curve}}, LengthUnit::metre),
+               std::runtime_error);
+  EXPECT_EQ(entries(scratch.path()), 0);
+}
+
+TEST(LengthUnit, IsParsedFromItsNames) {
+  EXPECT_EQ(parse_length_unit("m"), LengthUnit::metre);
+  EXPECT_EQ(parse_length_unit("mm"), LengthUnit::millimetre);
+  EXPECT_EQ(parse_length_unit("inch"), LengthUnit::inch);
+  EXPECT_EQ(parse_length_unit("in"), LengthUnit::inch);
+  EXPECT_THROW(parse_length_unit("furlong"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,225 @@
+#include "cad_import/import_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_text_of.h"
+
+namespace nurbeam {
+namespace {
+
+using std::numbers::pi;
+
+ImportReport import_text(const std::string& text, const ImportOptions& options = {}) {
+  const ScratchDirectory scratch;
+  return import_curves(scratch.file("curves.step", text), options);
+}
+
+ImportedCurve only_curve(const std::string& text) {
+  const ImportReport report = import_text(text);
+  if (report.curves.size() != 1) throw std::runtime_error("expected one curve");
+  return report.curves[0];
+}
+
+// The conic between two of its parameters; `sense` is .T. or .F.
+std::string trimmed(const std::string& conic, double first, double last, const std::string& sense = ".T.") {
+  return "#100 = TRIMMED_CURVE('arc',#101,(PARAMETER_VALUE(" + std::to_string(first) +
+         ")),(PARAMETER_VALUE(" + std::to_string(last) + "))," + sense + ",.PARAMETER.);\n#101 = " + conic +
+         ";";
+}
+
+Eigen::Vector3d start_of(const NurbsCurve& curve) { return curve.point(curve.knots().start()); }
+Eigen::Vector3d end_of(const NurbsCurve& curve) { return curve.point(curve.knots().end()); }
+
+template <class Function>
+void at_many_points(const NurbsCurve& curve, const Function& check) {
+  const double first = curve.knots().start();
+  const double last = curve.knots().end();
+  for (int i = 0; i <= 500; ++i) check(curve.point(first + (last - first) * i / 500));
+}
+
+TEST(ImportCurves, ACircleIsARationalQuadraticWithItsRadiusToRoundOff) {
+  const ImportedCurve circle = only_curve(step_text_of("#100", "#100 = CIRCLE('ring',#11,2000.);"));
+  EXPECT_EQ(circle.entity, "circle");
+  EXPECT_EQ(circle.name, "ring");
+  EXPECT_EQ(circle.curve.degree(), 2);
+  EXPECT_NEAR(length(circle.curve), 4 * pi, 1e-12);
+  at_many_points(circle.curve, [](const Eigen::Vector3d& r) { EXPECT_NEAR(r.norm(), 2, 6e-15); });
+}
+
+TEST(ImportCurves, AnEllipseSatisfiesItsEquation) {
+  const ImportedCurve arc =
+      only_curve(step_text_of("#100", trimmed("ELLIPSE('',#11,3000.,1000.)", 0.5, 4.0)));
+  EXPECT_EQ(arc.entity, "ellipse");
+  EXPECT_TRUE(arc.exact);
+  EXPECT_LT((start_of(arc.curve) - Eigen::Vector3d(3 * std::cos(0.5), std::sin(0.5), 0)).norm(), 1e-14);
+  EXPECT_LT((end_of(arc.curve) - Eigen::Vector3d(3 * std::cos(4.0), std::sin(4.0), 0)).norm(), 1e-14);
+  at_many_points(arc.curve,
+                 [](const Eigen::Vector3d& r) { EXPECT_NEAR(r.x() * r.x() / 9 + r.y() * r.y(), 1, 1e-14); });
+}
+
+TEST(ImportCurves, AParabolaSatisfiesItsEquation) {
+  const ImportedCurve arc = only_curve(step_text_of("#100", trimmed("PARABOLA('',#11,500.)", -1, 2)));
+  EXPECT_EQ(arc.entity, "parabola");
+  EXPECT_EQ(arc.curve.degree(), 2);
+  EXPECT_FALSE(arc.curve.is_rational());
+  // y^2 = 4 f x with f = 0.5 m
+  at_many_points(arc.curve, [](const Eigen::Vector3d& r) { EXPECT_NEAR(r.y() * r.y(), 2 * r.x(), 1e-14); });
+}
+
+TEST(ImportCurves, AHyperbolaSatisfiesItsEquation) {
+  const ImportedCurve arc =
+      only_curve(step_text_of("#100", trimmed("HYPERBOLA('',#11,2000.,1000.)", -0.5, 1.5)));
+  EXPECT_EQ(arc.entity, "hyperbola");
+  EXPECT_EQ(arc.curve.degree(), 2);
+  at_many_points(arc.curve,
+                 [](const Eigen::Vector3d& r) { EXPECT_NEAR(r.x() * r.x() / 4 - r.y() * r.y(), 1, 1e-13); });
+}
+
+TEST(ImportCurves, ALineHasDegreeOne) {
+  const std::string line = trimmed("LINE('',#12,#102)", 0, 2000) + "#102 = VECTOR('',#14,1.);";
+  const ImportedCurve curve = only_curve(step_text_of("#100", line));
+  EXPECT_EQ(curve.entity, "line");
+  EXPECT_EQ(curve.curve.degree(), 1);
+  EXPECT_LT((start_of(curve.curve) - Eigen::Vector3d(0, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((end_of(curve.curve) - Eigen::Vector3d(2, 0, 0)).norm(), 1e-15);
+}
+
+TEST(ImportCurves, AnArcAgainstTheSenseOfItsCircleRunsBackwards) {
+  const std::string forward = trimmed("CIRCLE('',#11,1000.)", 0.25, 1.25);
+  const std::string backward = trimmed("CIRCLE('',#11,1000.)", 1.25, 0.25, ".F.");
+  const NurbsCurve a = only_curve(step_text_of("#100", forward)).curve;
+  const NurbsCurve b = only_curve(step_text_of("#100", backward)).curve;
+  const Eigen::Vector3d from(std::cos(0.25), std::sin(0.25), 0);
+  const Eigen::Vector3d to(std::cos(1.25), std::sin(1.25), 0);
+  EXPECT_LT((start_of(a) - from).norm(), 1e-14);
+  EXPECT_LT((end_of(a) - to).norm(), 1e-14);
+  EXPECT_LT((start_of(b) - to).norm(), 1e-14);
+  EXPECT_LT((end_of(b) - from).norm(), 1e-14);
+}
+
+TEST(ImportCurves, APieceOfABSplineIsExact) {
+  const std::string spline =
+      R"(#100 = TRIMMED_CURVE('piece',#101,(PARAMETER_VALUE(0.5)),(PARAMETER_VALUE(2.25)),.T.,
+.PARAMETER.);
+#101 = B_SPLINE_CURVE_WITH_KNOTS('',3,(#110,#111,#112,#113,#114,#115),.UNSPECIFIED.,.F.,.F.,(4,1,1,4),(0.,1.,2.,3.),
+.UNSPECIFIED.);
+#110 = CARTESIAN_POINT('',(0.,0.,0.));
+#111 = CARTESIAN_POINT('',(1000.,2000.,0.));
+#112 = CARTESIAN_POINT('',(2000.,-1000.,500.));
+#113 = CARTESIAN_POINT('',(3000.,0.,1000.));
+#114 = CARTESIAN_POINT('',(4000.,500.,0.));
+#115 = CARTESIAN_POINT('',(5000.,0.,0.));)";
+  Eigen::Matrix3Xd points(3, 6);
+  points << 0, 1, 2, 3, 4, 5, 0, 2, -1, 0, 0.5, 0, 0, 0, 0.5, 1, 0, 0;
+  const KnotVector knots(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3});
+  const NurbsCurve whole = make_nurbs_curve(knots, points, Eigen::VectorXd::Ones(6));
+  const NurbsCurve piece = only_curve(step_text_of("#100", spline)).curve;
+  EXPECT_EQ(piece.knots().breaks(), (std::vector<double>{0.5, 1, 2, 2.25}));
+  for (double u = 0.5; u <= 2.25; u += 0.125) EXPECT_LT((piece.point(u) - whole.point(u)).norm(), 1e-14);
+}
+
+TEST(ImportCurves, AnOffsetCurveIsApproximatedWithItsMeasuredDeviation) {
+  const std::string offset = R"(#100 = OFFSET_CURVE_3D('wide',#101,250.,.F.,#13);
+#101 = ELLIPSE('',#11,3000.,1000.);)";
+  const ImportReport report = import_text(step_text_of("#100", offset));
+  ASSERT_EQ(report.curves.size(), 1U);
+  const ImportedCurve& curve = report.curves[0];
+  EXPECT_EQ(curve.entity, "offset");
+  EXPECT_FALSE(curve.exact);
+  EXPECT_GT(curve.deviation, 0);
+  EXPECT_LE(curve.deviation, ImportOptions{}.tolerance);
+  // A parallel curve of a convex one is longer by 2 pi times the distance, outside or inside.
+  const double ellipse =
+      length(only_curve(step_text_of("#100", "#100 = ELLIPSE('',#11,3000.,1000.);")).curve);
+  EXPECT_NEAR(std::abs(length(curve.curve) - ellipse), 2 * pi * 0.25, 1e-6);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
+  EXPECT_NE(report.diagnostics[0].where.find("wide"), std::string::npos);
+}
+
+TEST(ImportCurves, ACurveWithoutANameTakesThatOfItsSet) {
+  EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "zipline")).name, "zipline");
+  EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('own',#11,1.);", "zipline")).name, "own");
+  EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('',#11,1.);")).name, "");
+}
+
+TEST(ImportCurves, EncodedLettersInStepNamesAreDecoded) {
+  EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('K\\X2\\00E4\\X0\\se',#11,1.);")).name,
+            "K\xC3\xA4se");
+}
+
+TEST(ImportCurves, TheLengthUnitOfAStepFileIsReportedAndApplied) {
+  struct Case {
+    std::string entity, name;
+    double in_metres;
+  };
+  for (const Case& unit : {Case{"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.) )", "m", 1},
+                           Case{"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.CENTI.,.METRE.) )", "cm", 0.01},
+                           Case{"( CONVERSION_BASED_UNIT('INCH',#40) LENGTH_UNIT() NAMED_UNIT(#41) );\n"
+                                "#40 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#42);\n"
+                                "#41 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n"
+                                "#42 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )",
+                                "inch", 0.0254}}) {
+    const ImportReport report =
+        import_text(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "", unit.entity));
+    ASSERT_EQ(report.curves.size(), 1U);
+    EXPECT_EQ(report.unit, unit.name);
+    EXPECT_DOUBLE_EQ(report.unit_in_metres, unit.in_metres);
+    EXPECT_NEAR(length(report.curves[0].curve), 2 * pi * unit.in_metres, 1e-13);
+  }
+}
+
+TEST(ImportCurves, TheFormatIsFoundByContentNotByName) {
+  const ScratchDirectory scratch;
+  const auto step_named_iges = scratch.file("a.igs", content_of(corpus_file("dealii-line.step")));
+  const auto iges_named_text = scratch.file("b.txt", content_of(corpus_file("dealii-line.iges")));
+  EXPECT_EQ(import_curves(step_named_iges).curves.size(), 1U);
+  EXPECT_EQ(import_curves(iges_named_text).curves.size(), 1U);
+}
+
+TEST(ImportCurves, AWrongHollerithCountIsAnErrorNotASilentInch) {
+  const ScratchDirectory scratch;
+  const std::string text = content_of(corpus_file("igesio-sample-curves.igs"));
+  const ImportReport report = import_curves(scratch.file("a.igs", with(text, "18HIGESio", "17HIGESio")));
+  EXPECT_FALSE(report.ok());
+  EXPECT_TRUE(report.curves.empty());
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_NE(report.diagnostics[0].message.find("Hollerith"), std::string::npos);
+}
+
+TEST(ImportCurves, AModelSpaceScaleThatIsNotAppliedIsNoted) {
+  const ImportReport report = import_curves(corpus_file("iges-126-bsplines.igs"));
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
+  EXPECT_NE(report.diagnostics[0].message.find("scale"), std::string::npos);
+}
+
+TEST(ImportCurves, ManyThreadsMayReadAtOnce) {
+  std::vector<std::size_t> counts(4 * 5);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < 4; ++t) {
+    threads.emplace_back([&counts, t] {
+      for (std::size_t i = 0; i < 5; ++i) {
+        counts[5 * t + i] = import_curves(corpus_file("igesio-sample-curves.igs")).curves.size();
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(counts, std::vector<std::size_t>(4 * 5, 12));
+}
+
+TEST(ImportCurves, AToleranceThatIsNotPositiveIsRefused) {
+  EXPECT_THROW(import_curves(corpus_file("dealii-line.step"), {.tolerance = 0}), std::invalid_argument);
+  EXPECT_THROW(import_curves(corpus_file("dealii-line.step"), {.tolerance = std::nan("")}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nurbeam
