@@ -458,12 +458,10 @@ class Builder {
         added.motion = speed == 0 ? TimeTable{{0, added.s}, {1, added.s}}
                                   : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
       }
-      const bool supported_end = std::any_of(
-          built_.model.supports.begin(), built_.model.supports.end(), [&](const Support& support) {
-            return support.beam == b && (support.s == 0 || support.s == built_.model.beams[b].curve.length());
-          });
-      if (joint.leave_at_end && supported_end)
-        warn(joint.path + ".at_beam_end", "\"leave\" acts like \"stop\" at an end that is supported");
+      for (const Support& support : built_.model.supports)
+        if (joint.leave_at_end && support.beam == b && (support.s == 0 || support.s == built_.model.beams[b].curve.length()))
+          warn(joint.path + ".at_beam_end", std::string("the ") + (support.s == 0 ? "start" : "end") + " of beam \"" +
+                                                joint.beam + "\" is supported: there \"leave\" acts like \"stop\"");
       built_.model.joints.push_back(std::move(added));
     }
   }
