@@ -25,6 +25,7 @@ enum class MergeRule {
 struct HomeNode {
   double s;   ///< reference arc length [m]
   bool late;  ///< a break of the drawing or a support: removed only while a sliding node is very near
+  bool hinge = false;  ///< the slopes on both sides are free of each other; never removed
 };
 
 struct Beam {

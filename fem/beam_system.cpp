@@ -486,7 +486,7 @@ State BeamSystem<D>::drawn_state() const {
     for (const MeshNode& node : mesh_.nodes[b]) {
       const ReferenceCurve& curve = model_->beams[b].curve;
       state.q.segment<D>(node.r) = curve.position(node.s).head<D>();
-      state.q.segment<D>(node.slope_left) = curve.tangent(node.s).head<D>();
+      state.q.segment<D>(node.slope_left) = curve.tangent(node.s, true).head<D>();
       state.q.segment<D>(node.slope_right) = curve.tangent(node.s).head<D>();
       if (node.place >= 0) state.q[node.place] = node.s;
     }

@@ -31,7 +31,8 @@ ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Mat
   ElasticResponse<D> e;
   e.energy.axial = EA * eps.value * eps.value / 2;
   e.energy.bending = EI * bend * bend / 2;
-  if constexpr (D == 3) e.energy.bending -= EI * curvature_rounding * curvature_rounding / 2;
+  if constexpr (D == 3)
+    if (kappa0 == 0) e.energy.bending -= EI * curvature_rounding * curvature_rounding / 2;
   e.moment = EI * bend;
   e.moment_gradient = EI * K.gradient;
   e.gradient = EA * eps.value * eps.gradient + e.moment * K.gradient;

@@ -95,8 +95,10 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
       MeshNode& node = nodes[i];
       node.r = take(D);
       node.slope_left = node.slope_right = take(D);
+      const bool hinge =
+          node.joint < 0 ? beam.home[node.home].hinge : !model.joints[node.joint].continuous_slope;
+      if (hinge) node.slope_right = take(D);
       if (node.joint < 0) continue;
-      if (!model.joints[node.joint].continuous_slope) node.slope_right = take(D);
       node.place = take(1);
       mesh.joints[node.joint] = {node.r, node.place, i};
     }

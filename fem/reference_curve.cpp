@@ -67,8 +67,8 @@ Eigen::Vector3d ReferenceCurve::position(double s) const {
   return segments_[j].point(parameter(j, s));
 }
 
-Eigen::Vector3d ReferenceCurve::tangent(double s) const {
-  const int j = segment_at(s);
+Eigen::Vector3d ReferenceCurve::tangent(double s, bool from_left) const {
+  const int j = segment_at(s, from_left);
   return segments_[j].derivatives(parameter(j, s)).col(1).normalized();
 }
 

@@ -43,8 +43,8 @@ class ReferenceCurve {
   ChartGeometry geometry(int j, double u) const;
   /// Position at s, 3 [m] (third coordinate 0 in a planar model).
   Eigen::Vector3d position(double s) const;
-  /// Unit tangent at s, 3 [-].
-  Eigen::Vector3d tangent(double s) const;
+  /// Unit tangent at s, 3 [-]; at a break that of the segment after it, or before it when `from_left`.
+  Eigen::Vector3d tangent(double s, bool from_left = false) const;
   /// Largest |kappa_0| over the sampled curve [1/m].
   double largest_curvature() const;
 

@@ -225,10 +225,21 @@ class Builder {
     } catch (const std::invalid_argument& problem) {
       error(beam.path + ".axis", problem.what());
     }
-    for (const Corner& corner : BezierPath{segments, {}, 0}.corners(corner_angle))
-      error(beam.path + ".axis", "the axis has a corner of " + text(corner.angle * 180 / M_PI) +
-                                     " degrees at " + text(corner.point) +
-                                     "; a beam needs a smooth axis: round the corner or model two beams");
+    hinges_.emplace_back();
+    for (const Corner& corner : BezierPath{segments, {}, 0}.corners(corner_angle)) {
+      hinges_.back().push_back(corner.after_segment + 1);
+      const bool slides = std::any_of(case_.sliding_joints.begin(), case_.sliding_joints.end(),
+                                      [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
+      const std::string place = "the axis has a corner of " + text(corner.angle * 180 / M_PI) +
+                                " degrees at " + text(corner.point) + "; ";
+      if (!beam.hinged_corners)
+        error(beam.path + ".axis",
+              place +
+                  "a beam needs a smooth axis: round the corner, or make it a hinge with "
+                  "\"corners\": \"hinge\"");
+      else if (slides)
+        error(beam.path + ".corners", place + "a body cannot slide over a hinge: round the corner");
+    }
     return segments;
   }
 
@@ -330,8 +341,11 @@ class Builder {
     try {
       added.home = home_nodes(places, parts(from, places));
     } catch (const std::invalid_argument& problem) {
-      error(from.path + ".elements.count", problem.what());
+      return error(from.path + ".elements.count", problem.what());
     }
+    for (int corner : hinges_[b])
+      for (HomeNode& node : added.home)
+        if (node.s == added.curve.breaks()[corner]) node.hinge = true;
   }
 
   bool is_straight(const CaseBeam& from, const ReferenceCurve& curve) {
@@ -459,9 +473,11 @@ class Builder {
                                   : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
       }
       for (const Support& support : built_.model.supports)
-        if (joint.leave_at_end && support.beam == b && (support.s == 0 || support.s == built_.model.beams[b].curve.length()))
-          warn(joint.path + ".at_beam_end", std::string("the ") + (support.s == 0 ? "start" : "end") + " of beam \"" +
-                                                joint.beam + "\" is supported: there \"leave\" acts like \"stop\"");
+        if (joint.leave_at_end && support.beam == b &&
+            (support.s == 0 || support.s == built_.model.beams[b].curve.length()))
+          warn(joint.path + ".at_beam_end", std::string("the ") + (support.s == 0 ? "start" : "end") +
+                                                " of beam \"" + joint.beam +
+                                                "\" is supported: there \"leave\" acts like \"stop\"");
       built_.model.joints.push_back(std::move(added));
     }
   }
@@ -470,6 +486,7 @@ class Builder {
   BuiltModel built_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::vector<RationalCubic>> paths_;
+  std::vector<std::vector<int>> hinges_;  // per beam: breaks that are corners
   std::map<std::filesystem::path, ImportReport> imports_;
 };
 

@@ -829,7 +829,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .max_length = optional_number(elements, "max_length"),
                    .per_segment = optional_integer(elements, "per_segment")};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
-  beam.allow_corners = text(json, "corners") == "allow";
+  beam.hinged_corners = text(json, "corners") == "hinge";
   beam.element = chosen<ElementKind>(
       json, "element", {{"ale-rancf", ElementKind::ale_rancf}, {"ale-ancf", ElementKind::ale_ancf}});
   beam.weights = chosen<WeightRule>(json, "weights",

@@ -61,7 +61,7 @@ struct CaseBeam {
   std::string path;  ///< JSON path of this object, for messages
   CaseAxis axis;
   double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
-  bool allow_corners = false;             ///< "corners": "allow" keeps a G0 corner as a rigid one
+  bool hinged_corners = false;            ///< a corner of the axis is a hinge; else it is an error
   CaseSection section;
   CaseMaterial material;
   CaseElements elements;

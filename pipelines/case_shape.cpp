@@ -111,7 +111,7 @@ Shape beam() {
        {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}), "the unstressed shape"},
        {"curvature", choice({"material", "spatial"}), "curvature measure"},
        {"form", choice({"variational"}, {"virtual-work"}), "form of the elastic forces"},
-       {"corners", choice({"error", "allow"}), "whether the axis may have rigid corners"},
+       {"corners", choice({"error", "hinge"}), "what a corner of the axis is"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
         "greatest deviation of the cubics from an axis of degree above 3"}});
 }

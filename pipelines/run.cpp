@@ -140,6 +140,26 @@ FrameNames frame_names(const CaseFile& c) {
   return names;
 }
 
+// A model without sources of energy should keep what it has.
+void warn_of_drift(const BeamModel& model, const SimulationReport& simulated,
+                   std::vector<Diagnostic>& diagnostics) {
+  constexpr double tolerated = 0.02;  // of the largest kinetic energy
+  const bool driven = !model.point_loads.empty() || !model.line_loads.empty() ||
+                      std::any_of(model.joints.begin(), model.joints.end(),
+                                  [](const SlidingJoint& joint) { return joint.motion.has_value(); });
+  const bool stopped = std::any_of(simulated.events.begin(), simulated.events.end(),
+                                   [](const RunEvent& event) { return event.kind == "stopped at the end"; });
+  if (driven || stopped || simulated.energy_drift <= tolerated * simulated.peak_kinetic) return;
+  std::ostringstream message;
+  message
+      << "the total energy departs from its start by " << simulated.energy_drift << " J, "
+      << 100 * simulated.energy_drift / simulated.peak_kinetic
+      << " % of the largest kinetic energy: take more elements or smaller steps, or, for a cable that hardly "
+         "resists bending, \"slope\": \"discontinuous\"";
+  diagnostics.push_back({Severity::warning, "run", message.str()});
+  print_diagnostics(std::cerr, {diagnostics.back()});
+}
+
 std::string status_text(SimulationStatus status, const std::string& message) {
   return status == SimulationStatus::done ? "done" : message;
 }
@@ -210,6 +230,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
       event.momentum_before = built.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built.frame.direction_to_world(event.momentum_after);
     }
+    warn_of_drift(built.model, simulated, summary.diagnostics);
     for (const char* name : {"histories.csv", "results.nc", "run.json"}) summary.files.emplace_back(name);
     write_run_summary(options.out / "run.json", summary);
     if (simulated.status != SimulationStatus::done)

@@ -488,6 +488,7 @@ class Simulation {
     frame.step = last_step_;
     frame.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
     iterations_written_ = report_.newton_iterations;
+    report_.peak_kinetic = std::max(report_.peak_kinetic, e.kinetic);
     if (!options_.statics)
       report_.energy_drift = std::max(report_.energy_drift, std::abs(frame.energy.total - start_energy_));
     last_written_ = state_.t;

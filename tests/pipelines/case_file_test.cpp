@@ -104,7 +104,7 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(cable.merge, MergeRule::paper);
   EXPECT_EQ(cable.stress_free, StressFree::straight);
   EXPECT_EQ(cable.curvature, CurvatureMeasure::spatial);
-  EXPECT_TRUE(cable.allow_corners);
+  EXPECT_TRUE(cable.hinged_corners);
   EXPECT_DOUBLE_EQ(cable.approximation_tolerance, 1e-6);
   const auto& arc = std::get<CaseAxis::Arc>(c.beams.at(1).axis.source);
   EXPECT_EQ(arc.end, Eigen::Vector3d::UnitY());
@@ -226,7 +226,7 @@ TEST_F(CaseFileTest, WrongTypesNameWhatIsExpected) {
   expect_error({"beams={}"}, "beams", {"an object", "an array"});
   expect_error({"beams[0].section.radius=true"}, "beams[0].section.radius", {"true", "a number in m"});
   expect_error({"supports[0].at=3"}, "supports[0].at", {"the number 3", "\"start\"", "\"fraction\""});
-  expect_error({"beams[0].corners=1"}, "beams[0].corners", {"\"allow\""});
+  expect_error({"beams[0].corners=1"}, "beams[0].corners", {"\"hinge\""});
   expect_error({"beams[0].name=1"}, "beams[0].name", {"a text in quotes"});
   expect_error({"output.report=1"}, "output.report", {"true or false"});
   expect_text_error("[1, 2]", "", {"an array", "an object"});
