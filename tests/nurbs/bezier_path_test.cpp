@@ -219,7 +219,7 @@ TEST(BezierPathTest, AToleranceBelowRoundOffStillEnds) {
   EXPECT_LT(path.segments.size(), 5000u);
 }
 
-TEST(BezierPathTest, ATolerancePositiveIsAskedOfHigherDegreesOnly) {
+TEST(BezierPathTest, APositiveToleranceIsAskedOfHigherDegreesOnly) {
   EXPECT_THROW(BezierPath::from_nurbs(quartic(), 0), std::invalid_argument);
   EXPECT_THROW(BezierPath::from_nurbs(quartic(), std::nan("")), std::invalid_argument);
   EXPECT_NO_THROW(BezierPath::from_nurbs(unit_circle(), 0));
@@ -263,6 +263,14 @@ TEST(BezierPathTest, EndsFurtherApartThanTheToleranceDoNotMeet) {
   const std::vector<NurbsCurve> curves{line({0, 0, 0}, {1, 0, 0}), line({1, 1e-4, 0}, {2, 0, 0})};
   EXPECT_EQ(find_chains(curves, 2e-4).size(), 1u);
   EXPECT_EQ(find_chains(curves, 5e-5).size(), 2u);
+}
+
+TEST(BezierPathTest, AnEndThatMeetsTwoOthersJoinsNeitherThoughTheyDoNotMeet) {
+  const std::vector<NurbsCurve> curves{line({-1, 0, 0}, {0, 0, 0}), line({0.8, 0, 0}, {0.8, 5, 0}),
+                                       line({1.6, 0, 0}, {9, 0, 0})};
+  const std::vector<Chain> chains = find_chains(curves, 0.9);
+  ASSERT_EQ(chains.size(), 3u);
+  for (const Chain& chain : chains) EXPECT_FALSE(chain.closed);
 }
 
 TEST(BezierPathTest, RandomlyTurnedPiecesOfOneCurveAreJoinedAgain) {
