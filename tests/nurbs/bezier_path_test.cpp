@@ -310,6 +310,14 @@ TEST(BezierPathTest, JoiningClosesGapsMidwayAndReportsTheShift) {
   EXPECT_EQ(path.breaks, (std::vector<double>{0, 1, 2}));
 }
 
+TEST(BezierPathTest, AGapOfRoundOffIsLeftAlone) {
+  const double next = std::nextafter(2, 3);
+  const std::vector<NurbsCurve> curves{line({1, 2, 2}, {2, 2, 2}), line({next, 2, 2}, {3, 3, 2})};
+  const BezierPath path = join(curves, find_chains(curves, 1e-9).front(), 1e-9);
+  EXPECT_EQ(path.deviation, 0);
+  EXPECT_EQ(path.segments[1].control_point(0), Eigen::Vector3d(next, 2, 2));
+}
+
 TEST(BezierPathTest, JoiningAClosedChainClosesItsLastGapToo) {
   const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(1, 1, 0);
   const std::vector<NurbsCurve> curves{line(a, b), line(b, c), line(c, {0, 2e-6, 0})};
