@@ -106,14 +106,16 @@ std::pair<Eigen::Matrix4Xd, Eigen::Matrix4Xd> split(Eigen::Matrix4Xd right, doub
 void approximate(BezierPath& path, const Eigen::Matrix4Xd& bezier, double a, double b, double tolerance) {
   const Eigen::Matrix4d points = hermite_cubic(bezier);
   if (points.row(3).minCoeff() > 0) {
-    const RationalCubic cubic(points);
+    const BezierPath cubic{{RationalCubic(points)}, {0, 1}, 0};
     const auto source = [&bezier](double u) -> Eigen::Vector3d {
       return split(bezier, u).second.col(0).hnormalized();
     };
-    const double deviation = largest_distance(source, BezierPath{{cubic}, {0, 1}, 0});
+    // The middle is where Hermite interpolation errs most: it turns most hopeless cubics down at once.
+    double deviation = closest_point(cubic, source(0.5)).distance;
+    if (deviation <= tolerance) deviation = largest_distance(source, cubic);
     if (deviation <= tolerance) {
       path.deviation = std::max(path.deviation, deviation);
-      append(path, cubic, a, b);
+      append(path, cubic.segments.front(), a, b);
       return;
     }
   }

@@ -26,7 +26,8 @@ struct BezierPath {
   /// Knot insertion to full multiplicity, degree elevation in homogeneous coordinates: exact (1e-15) up to
   /// degree 3. Above, C1 Hermite interpolation in homogeneous coordinates, bisected until the measured
   /// deviation is below `tolerance` [m]. Throws std::invalid_argument for tolerance <= 0 when degree > 3.
-  /// Every rational piece that turns by more than 90 degrees is split until it does not.
+  /// A tolerance below 1e-14 of the coordinates' size is taken as that; `deviation` tells what was reached.
+  /// Every rational piece that turns by more than 90 degrees is split until it does not (a cusp: ten times).
   static BezierPath from_nurbs(const NurbsCurve& curve, double tolerance);
 
   /// One cubic NURBS curve through all segments with triple interior knots at `breaks`, segment weights
@@ -35,7 +36,7 @@ struct BezierPath {
 
   /// Total length [m], to a relative error of about 1e-13.
   double length() const;
-  /// All breaks where the tangent turns by more than `angle` [rad].
+  /// All interior breaks where the tangent turns by more than `angle` [rad].
   std::vector<Corner> corners(double angle) const;
 };
 
@@ -52,6 +53,8 @@ struct Chain {
 std::vector<Chain> find_chains(const std::vector<NurbsCurve>& curves, double tolerance);
 
 /// The cubics of the curves of a chain one after another as one path (breaks: cumulative over the curves).
+/// Where two ends do not quite meet both are moved to the point midway, end directions kept; `deviation`
+/// includes the largest such shift.
 BezierPath join(const std::vector<NurbsCurve>& curves, const Chain& chain, double tolerance);
 
 }  // namespace nurbeam

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -145,6 +146,7 @@ double largest_value(const Function& f) {
 }  // namespace
 
 ClosestPoint closest_point(const BezierPath& path, const Eigen::Vector3d& point) {
+  assert(!path.segments.empty());
   return Search(path, point).result();
 }
 

@@ -15,7 +15,7 @@ struct ClosestPoint {
 };
 
 /// Global closest point: candidates by bounding boxes of the control points (convex hull property) with
-/// subdivision, digits by Newton.
+/// subdivision, digits by Newton. The path has at least one segment.
 ClosestPoint closest_point(const BezierPath& path, const Eigen::Vector3d& point);
 
 /// Largest distance from the points curve(u), u in [0,1], to a path [m]: sampled at 33 places and refined at

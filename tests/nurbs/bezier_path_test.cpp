@@ -219,7 +219,7 @@ TEST(BezierPathTest, AToleranceBelowRoundOffStillEnds) {
   EXPECT_LT(path.segments.size(), 5000u);
 }
 
-TEST(BezierPathTest, ATolerancePositiveIsAskedOfHigherDegreesOnly) {
+TEST(BezierPathTest, APositiveToleranceIsAskedOfHigherDegreesOnly) {
   EXPECT_THROW(BezierPath::from_nurbs(quartic(), 0), std::invalid_argument);
   EXPECT_THROW(BezierPath::from_nurbs(quartic(), std::nan("")), std::invalid_argument);
   EXPECT_NO_THROW(BezierPath::from_nurbs(unit_circle(), 0));
@@ -265,6 +265,14 @@ TEST(BezierPathTest, EndsFurtherApartThanTheToleranceDoNotMeet) {
   EXPECT_EQ(find_chains(curves, 5e-5).size(), 2u);
 }
 
+TEST(BezierPathTest, AnEndThatMeetsTwoOthersJoinsNeitherThoughTheyDoNotMeet) {
+  const std::vector<NurbsCurve> curves{line({-1, 0, 0}, {0, 0, 0}), line({0.8, 0, 0}, {0.8, 5, 0}),
+                                       line({1.6, 0, 0}, {9, 0, 0})};
+  const std::vector<Chain> chains = find_chains(curves, 0.9);
+  ASSERT_EQ(chains.size(), 3u);
+  for (const Chain& chain : chains) EXPECT_FALSE(chain.closed);
+}
+
 TEST(BezierPathTest, RandomlyTurnedPiecesOfOneCurveAreJoinedAgain) {
   Generator generator(36);
   for (int i = 0; i < 200; ++i) {
@@ -300,6 +308,14 @@ TEST(BezierPathTest, JoiningClosesGapsMidwayAndReportsTheShift) {
   EXPECT_NEAR(path.deviation, 1e-6, 1e-15);
   EXPECT_NEAR(path.corners(0.1).at(0).angle, pi / 2, 1e-12);
   EXPECT_EQ(path.breaks, (std::vector<double>{0, 1, 2}));
+}
+
+TEST(BezierPathTest, AGapOfRoundOffIsLeftAlone) {
+  const double next = std::nextafter(2, 3);
+  const std::vector<NurbsCurve> curves{line({1, 2, 2}, {2, 2, 2}), line({next, 2, 2}, {3, 3, 2})};
+  const BezierPath path = join(curves, find_chains(curves, 1e-9).front(), 1e-9);
+  EXPECT_EQ(path.deviation, 0);
+  EXPECT_EQ(path.segments[1].control_point(0), Eigen::Vector3d(next, 2, 2));
 }
 
 TEST(BezierPathTest, JoiningAClosedChainClosesItsLastGapToo) {

@@ -56,6 +56,17 @@ TEST(ClosestPointTest, APointOnTheCurveIsItsOwnClosest) {
   }
 }
 
+TEST(ClosestPointTest, ACurveThatIsASinglePointUpToRoundOffIsThatPoint) {
+  Generator generator(44);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d place = random_point(generator), point = random_point(generator);
+    Eigen::Matrix4d points = random_cubic(generator).points();
+    points.topRows<3>() = place * points.row(3);
+    for (const Eigen::Vector3d& from : {point, place})
+      ASSERT_NEAR(closest_point(single(RationalCubic(points)), from).distance, (place - from).norm(), 1e-15);
+  }
+}
+
 TEST(ClosestPointTest, TheSecondOfTwoBranchesIsFoundWhenItIsCloser) {
   // A hairpin: the nearest end control points belong to the other branch.
   const BezierPath hairpin = BezierPath::from_nurbs(circular_arc(1, 3), 0);
