@@ -7,9 +7,11 @@ namespace nurbeam {
 /// Returns false when the matrix is singular (state unchanged).
 [[nodiscard]] bool make_accelerations_consistent(const SecondOrderSystem& system, State& state);
 
-/// The velocity nearest to `v` in the mass norm with G v + rate = 0; `impulse` (m) is the constraint impulse that
-/// makes it so: M (v_new - v) + G' impulse = 0 [N s]. Returns false when the matrix is singular (state unchanged).
-[[nodiscard]] bool project_velocities(const SecondOrderSystem& system, State& state, Eigen::VectorXd& impulse);
+/// The velocity nearest to `v` in the mass norm with G v + rate = 0; `impulse` (m) is the constraint impulse
+/// that makes it so: M (v_new - v) + G' impulse = 0 [N s]. Returns false when the matrix is singular (state
+/// unchanged).
+[[nodiscard]] bool project_velocities(const SecondOrderSystem& system, State& state,
+                                      Eigen::VectorXd& impulse);
 
 /// The velocity with M v + G' mu = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
 /// Returns false when the matrix is singular (state unchanged).
