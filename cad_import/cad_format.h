@@ -14,8 +14,8 @@ std::optional<CadFormat> format_of(const std::string& content);
 /// with a line that has a 'T' in column 73.
 std::string incompleteness(const std::string& content, CadFormat format);
 
-/// How the lines of an IGES file differ from the numbers of lines in its Terminate section ("" if they agree):
-/// OpenCASCADE passes over entities whose lines are damaged.
+/// How the lines of an IGES file differ from the numbers of lines in its Terminate section ("" if they
+/// agree): OpenCASCADE passes over entities whose lines are damaged.
 std::string miscounted_lines(const std::string& content);
 
 }  // namespace nurbeam

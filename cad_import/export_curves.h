@@ -18,8 +18,9 @@ LengthUnit parse_length_unit(const std::string& text);
 
 /// Writes the curves, one B-spline curve entity each, under their names, in the unit, at full (17 digits)
 /// precision; STEP or IGES by the extension (.step .stp .igs .iges). Written to a temporary name and renamed.
-/// Throws std::invalid_argument for an unknown extension (naming the known ones), for no curves and for a name with
-/// a control character; std::runtime_error when the file cannot be written (it is then as it was before).
+/// Throws std::invalid_argument for an unknown extension (naming the known ones), for no curves and for a
+/// name with a control character; std::runtime_error when the file cannot be written (it is then as it was
+/// before).
 void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
 
 }  // namespace nurbeam

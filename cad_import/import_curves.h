@@ -9,18 +9,18 @@ namespace nurbeam {
 
 /// Limits on the child process that reads one file.
 struct ImportOptions {
-  std::chrono::seconds time_limit{30};                 ///< wall and CPU time
+  std::chrono::seconds time_limit{30};                    ///< wall and CPU time
   std::size_t memory_limit_bytes = std::size_t{2} << 30;  ///< address space; 0: no limit (sanitizer builds)
-  double tolerance = 1e-7;                             ///< for entities that have no exact NURBS form [m]
+  double tolerance = 1e-7;                                ///< for entities that have no exact NURBS form [m]
 };
 
-/// All curves of a STEP or IGES file (by its content, not its name): edges of shapes and free curves, each once.
+/// All curves of a STEP or IGES file (by its content, not its name): edges of shapes and free curves, each
+/// once.
 ///
 /// Read by OpenCASCADE in a child process under the limits; a crash, a time-out or an unreadable file is a
-/// Diagnostic of severity error in the report (never an exception, never harm to this process). Every curve is
-/// validated at the border (finite, non-decreasing knots, positive weights, length > 0). The order is that of the
-/// file's shapes and the same in every run.
-/// Throws std::invalid_argument unless options.tolerance > 0.
+/// Diagnostic of severity error in the report (never an exception, never harm to this process). Every curve
+/// is validated at the border (finite, non-decreasing knots, positive weights, length > 0). The order is that
+/// of the file's shapes and the same in every run. Throws std::invalid_argument unless options.tolerance > 0.
 ImportReport import_curves(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace nurbeam

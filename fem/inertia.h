@@ -4,6 +4,7 @@
 
 #include "fem/jet.h"
 #include "fem/rancf_basis.h"
+#include "solver/second_order_system.h"
 
 namespace nurbeam {
 

@@ -16,8 +16,8 @@ struct TangentWeights {
 
 /// M(q) a + G'lambda = f(q, v, t), g(q, t) = 0, and their tangents: the only thing an integrator may know.
 ///
-/// n = coordinate_count(), m = constraint_count(); G = dg/dq (m x n). All calls are const and without side effect;
-/// none allocates once the output arguments have their sizes.
+/// n = coordinate_count(), m = constraint_count(); G = dg/dq (m x n). All calls are const and without side
+/// effect; none allocates once the output arguments have their sizes.
 class SecondOrderSystem {
  public:
   virtual ~SecondOrderSystem() = default;
@@ -28,13 +28,14 @@ class SecondOrderSystem {
   virtual void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                         Eigen::Ref<Eigen::VectorXd> constraints) const = 0;
 
-  /// An (n+m) x (n+m) compressed matrix with the fixed pattern of `tangent` (diagonal of the (2,2) block included
-  /// as explicit zeros), values zero.
+  /// An (n+m) x (n+m) compressed matrix with the fixed pattern of `tangent` (diagonal of the (2,2) block
+  /// included as explicit zeros), values zero.
   virtual Eigen::SparseMatrix<double> tangent_pattern() const = 0;
 
   /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, G'], [G, 0]], F = dynamics at `state`
   /// (lambda included), into a matrix made by tangent_pattern().
-  virtual void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const = 0;
+  virtual void tangent(const State& state, const TangentWeights& w,
+                       Eigen::SparseMatrix<double>& kkt) const = 0;
 
   /// (m) dg/dt at fixed q: a consistent velocity satisfies G v + rate = 0.
   virtual Eigen::VectorXd constraint_rate(const State& state) const = 0;

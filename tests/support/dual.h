@@ -3,7 +3,8 @@
 
 namespace nurbeam::testing {
 
-/// x + x' eps with eps^2 = 0 over any scalar, itself a Dual if need be: derivatives by arithmetic, as a witness.
+/// x + x' eps with eps^2 = 0 over any scalar, itself a Dual if need be: derivatives by arithmetic, as a
+/// witness.
 template <class T>
 struct Dual {
   T x{};
