@@ -267,10 +267,19 @@ class Simulation {
     ++report_.steps;
     last_step_ = taken.step;
     state_ = integrator_->state();
-    if (const int joint = joint_beyond_end();
-        joint >= 0 && !land_on_end(joint, before, algorithmic, taken.step))
-      return false;
+    const std::optional<BreakCrossing> crossing = first_crossing(before);
+    if (crossing)
+      land(before, algorithmic, taken.step, crossing->joint, [&](const State& state) {
+        const double s = *system_->place(state, crossing->joint);
+        return crossing->forward ? s - crossing->s : crossing->s - s;
+      });
+    const int ending = joint_beyond_end();
+    if (ending >= 0)
+      land(before, algorithmic, state_.t - before.t, ending,
+           [&](const State& state) { return beyond_end(state, ending); });
     if (damped()) dissipated_ += dissipated_between(before, state_);
+    if (ending >= 0 && !end_sliding(ending)) return false;
+    if (crossing && ending < 0 && !restart()) return false;
     if (!separate_bodies()) return false;
     while (change_mesh(true)) {
     }
@@ -315,11 +324,15 @@ class Simulation {
     return -1;
   }
 
-  // Repeats the last step with a length for which the body lands on the end, then lets it leave or stop.
-  bool land_on_end(int joint, const State& before, const Eigen::VectorXd& algorithmic, double step) {
+  // Repeats the last step with a length for which the joint lands just beyond a place: `distance` of the
+  // state from there is negative before it.
+  template <class Distance>
+  void land(const State& before, const Eigen::VectorXd& algorithmic, double step, int joint,
+            const Distance& distance) {
     const double near = 1e-10 * beam_length_of(joint);
-    double lo = 0, f_lo = beyond_end(before, joint), hi = step, f_hi = beyond_end(state_, joint);
-    for (int i = 0; i < 40 && std::abs(beyond_end(state_, joint)) > near && hi - lo > 1e-14; ++i) {
+    const auto missed = [&](const State& state) { return distance(state) - near / 2; };
+    double lo = 0, f_lo = missed(before), hi = step, f_hi = missed(state_);
+    for (int i = 0; i < 40 && std::abs(missed(state_)) > near / 2 && hi - lo > 1e-14; ++i) {
       const double fraction = f_lo < 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
       const double trial = lo + fraction * (hi - lo);
       integrator_.emplace(options_.integrator, *system_, before);
@@ -327,11 +340,33 @@ class Simulation {
       const StepReport taken = integrator_->advance(trial);
       if (taken.status != StepStatus::converged || taken.step < trial * (1 - 1e-9)) break;
       state_ = integrator_->state();
-      const double f = beyond_end(state_, joint);
+      const double f = missed(state_);
       (f > 0 ? hi : lo) = trial;
       (f > 0 ? f_hi : f_lo) = f;
     }
-    return end_sliding(joint);
+  }
+
+  struct BreakCrossing {
+    int joint;
+    double s;  // of the break
+    bool forward;
+  };
+
+  // The first crossing of a break of the drawing by a moving node since `before`. The drawn curvature may
+  // jump there and with it the force along the beam, which a step across it would meet to first order only.
+  std::optional<BreakCrossing> first_crossing(const State& before) const {
+    std::optional<BreakCrossing> first;
+    double earliest = 1;
+    for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j) {
+      if (system_->mesh().plan.modes[j] != JointMode::node) continue;
+      const double from = *system_->place(before, j), to = *system_->place(state_, j);
+      for (double s : model_.beams[model_.joints[j].beam].curve.breaks()) {
+        if ((s - from) * (s - to) >= 0 || (s - from) / (to - from) >= earliest) continue;
+        earliest = (s - from) / (to - from);
+        first = BreakCrossing{j, s, to > from};
+      }
+    }
+    return first;
   }
 
   bool end_is_supported(int joint) const {

@@ -1,0 +1,78 @@
+#pragma once
+#include <random>
+
+#include "fem/beam_system.h"
+#include "tests/support/models.h"
+
+namespace nurbeam::testing {
+
+/// Two rational cubics that meet smoothly, with uneven weights, about 2 m long together.
+inline std::vector<RationalCubic> uneven_axis(std::mt19937& random, int dimension) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&](double x) {
+    return Eigen::Vector3d(x, 0.15 * unit(random), dimension == 3 ? 0.15 * unit(random) : 0);
+  };
+  std::array<Eigen::Vector3d, 7> p;
+  for (int i = 0; i < 7; ++i) p[i] = point(i / 3.0);
+  p[3] = (p[2] + p[4]) / 2;
+  std::vector<RationalCubic> axis;
+  for (int j = 0; j < 2; ++j) {
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double w = std::exp(0.3 * unit(random));
+      points.col(i) << w * p[3 * j + i], w;
+    }
+    axis.push_back(RationalCubic(points));
+  }
+  return axis;
+}
+
+/// A state near the drawn shape with random displacements, rates and multipliers; places of joints stay.
+template <int D>
+State disturbed_state(const BeamSystem<D>& system, std::mt19937& random, double amount = 0.05) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  State state = system.drawn_state();
+  for (Eigen::Index i = 0; i < state.q.size(); ++i) {
+    state.q[i] += amount * unit(random);
+    state.v[i] = unit(random);
+    state.a[i] = unit(random);
+  }
+  for (Eigen::Index i = 0; i < state.lambda.size(); ++i) state.lambda[i] = unit(random);
+  for (const MeshJoint& joint : system.mesh().joints)
+    if (joint.place >= 0) state.q[joint.place] = system.drawn_state().q[joint.place];
+  return state;
+}
+
+/// A beam of two uneven segments, clamped and pinned, with loads of every kind, a joint on a moving node, one
+/// near the end and one with a prescribed motion.
+inline BeamModel model_with_everything(std::mt19937& random, int dimension) {
+  BeamModel model = one_beam(uneven_axis(random, dimension), dimension, {300, 2, 0.7, 0.02, {}}, 8,
+                             {{0, true}, {1.4, false}});
+  const double L = model.beams[0].curve.length();
+  add_slider(model, 0.8, 0.33 * L);
+  add_slider(model, 0.5, 0.995 * L);
+  add_slider(model, 0.4, 0.55 * L);
+  model.joints[0].continuous_slope = false;
+  model.joints[2].motion = TimeTable{{0, 0.55 * L}, {1, 0.55 * L + 0.3}};
+  const Eigen::Vector3d force = dimension == 3 ? Eigen::Vector3d(1, -2, 0.7) : Eigen::Vector3d(1, -2, 0);
+  using Kind = PointLoad::Kind;
+  const TimeTable ramp{{0, 0.5}, {1, 2}};
+  model.point_loads = {{Kind::force, 0, 0.9 * L, 0, force, false, ramp},
+                       {Kind::force, 0, 0.3 * L, 0, force, true, {}},
+                       {Kind::force, 0, 0.1 * L, 0.8, force, false, {}},
+                       {Kind::force, 0, 0.2 * L, 0.8, force, true, {}}};
+  for (double s : {0.35 * L, L}) {
+    Eigen::Vector3d moment(0, 0, 1.3);
+    if (dimension == 3) {
+      const Eigen::Vector3d along = model.beams[0].curve.tangent(s);
+      moment = Eigen::Vector3d(0.4, 1, -0.6);
+      moment -= along.dot(moment) * along;
+    }
+    for (bool follower : {false, true})
+      model.point_loads.push_back({Kind::moment, 0, s, 0, moment, follower, {}});
+  }
+  model.line_loads = {{0, force, ramp}};
+  return model;
+}
+
+}  // namespace nurbeam::testing
