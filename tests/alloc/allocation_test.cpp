@@ -1,0 +1,74 @@
+// Counts the allocations in what a time step repeats.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/fem/random_models.h"
+
+namespace {
+long allocations = 0;
+}
+
+// Both operator new and Eigen end in malloc. The address sanitizer has a malloc of its own, and no test here.
+#ifndef __SANITIZE_ADDRESS__
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+#endif
+
+namespace nurbeam {
+namespace {
+
+using testing::disturbed_state;
+using testing::model_with_everything;
+
+template <class Work>
+long allocations_in(const Work& work) {
+  const long before = allocations;
+  work();
+  return allocations - before;
+}
+
+template <int D>
+void check() {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer counts for itself";
+#endif
+  std::mt19937 random(1);
+  const BeamModel model = model_with_everything(random, D);
+  const BeamSystem<D> system(model, initial_plan(model));
+  const State state = disturbed_state(system, random);
+  Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  const TangentWeights all{1, 1, 1};
+  for (const MeshElement<D>& e : system.mesh().elements) {
+    const ElementState<D> x = gather<D>(e, state.q, state.v, state.a);
+    ElementResponse<D> response;
+    EXPECT_EQ(
+        allocations_in([&] { e.element.respond(x, Eigen::Matrix<double, D, 1>::Ones(), &all, response); }),
+        0);
+  }
+  EXPECT_EQ(allocations_in([&] { system.residual(state, dynamics, constraints); }), 0);
+  EXPECT_EQ(allocations_in([&] { system.tangent(state, all, kkt); }), 0);
+  EXPECT_EQ(allocations_in([&] { system.admissible(state); }), 0);
+}
+
+#ifndef __SANITIZE_ADDRESS__
+TEST(AllocationCount, SeesBothNewAndEigen) {
+  std::vector<double> list;
+  Eigen::VectorXd vector;
+  EXPECT_EQ(allocations_in([&] { list.resize(100); }), 1);
+  EXPECT_EQ(allocations_in([&] { vector.resize(100); }), 1);
+}
+#endif
+
+TEST(ElementAndAssembly, DoNotAllocateInThePlane) { check<2>(); }
+TEST(ElementAndAssembly, DoNotAllocateInSpace) { check<3>(); }
+
+}  // namespace
+}  // namespace nurbeam
