@@ -1,9 +1,15 @@
-# nurbeam_room(<name>): the library of one top-level folder, made of every .cpp and .h in it (main.cpp apart).
-# Includes go from the root ("nurbs/knot_vector.h"); each public header must compile alone.
+# nurbeam_room(<name> [PRIVATE <header>...]): the library of one top-level folder, made of every .cpp and .h in it
+# (main.cpp apart). Includes go from the root ("nurbs/knot_vector.h"). Each public header must compile alone (target
+# all_verify_interface_header_sets); PRIVATE headers, which show a library that the room hides, are not installed.
 function(nurbeam_room name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  cmake_parse_arguments(PARSE_ARGV 1 room "" "" PRIVATE)
+  list(TRANSFORM room_PRIVATE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  if(room_PRIVATE)
+    list(REMOVE_ITEM headers ${room_PRIVATE})
+  endif()
   add_library(nurbeam_${name} STATIC ${sources})
   add_library(nurbeam::${name} ALIAS nurbeam_${name})
   set_target_properties(nurbeam_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)

@@ -72,6 +72,7 @@ class Simulation {
   SimulationReport run() {
     const auto start = Clock::now();
     plan_ = initial_plan(model_);
+    step_ = options_.step.value_or(step_);
     if (options_.statics)
       find_rest();
     else if (start_motion())
@@ -237,7 +238,7 @@ class Simulation {
 
   // New integrator from state_, with consistent accelerations.
   bool restart() {
-    if (!make_accelerations_consistent(*system_, state_)) {
+    if (!make_accelerations_smooth(*system_, step_, state_)) {
       fail(SimulationStatus::not_converged, "the mass matrix is singular at t = " + text(state_.t) + " s");
       return false;
     }
@@ -266,7 +267,6 @@ class Simulation {
     if (report_.status != SimulationStatus::done) return;
     write_due();
     bool complete = true;
-    double suggested = options_.step.value_or(1e-4);
     while (state_.t < options_.end_time - resolution) {
       if (observer_.interrupted()) {
         fail(SimulationStatus::interrupted, "interrupted at t = " + text(state_.t) + " s");
@@ -275,9 +275,8 @@ class Simulation {
       }
       const double target = next_output < times.size() ? times[next_output] : options_.end_time;
       const double rest = target - state_.t;
-      const double wanted = options_.step ? *options_.step : suggested;
-      const double step = rest / std::max(1.0, std::ceil(rest / wanted - 1e-9));
-      if (!advance(step, suggested)) {
+      const double step = rest / std::max(1.0, std::ceil(rest / step_ - 1e-9));
+      if (!advance(step)) {
         complete = false;
         break;
       }
@@ -289,7 +288,7 @@ class Simulation {
   }
 
   // One accepted step and what follows from it. Returns false when the run cannot go on.
-  bool advance(double step, double& suggested) {
+  bool advance(double step) {
     const State before = state_;
     const Eigen::VectorXd algorithmic = integrator_->algorithmic_acceleration();
     const StepReport taken = integrator_->advance(step);
@@ -302,7 +301,7 @@ class Simulation {
                "; a shorter \"step\" from the start, or a \"tolerance\", may help");
       return false;
     }
-    suggested = taken.next_step;
+    if (!options_.step) step_ = taken.next_step;
     ++report_.steps;
     last_step_ = taken.step;
     state_ = integrator_->state();
@@ -536,6 +535,7 @@ class Simulation {
   std::unique_ptr<BeamSystem<D>> system_;
   State state_;
   std::optional<GeneralizedAlphaIntegrator> integrator_;
+  double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
   double dissipated_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
   long iterations_written_ = 0;
 };

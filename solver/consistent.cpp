@@ -7,13 +7,14 @@ namespace nurbeam {
 
 namespace {
 
-/// [M G'; G 0] at one state, factorised with the mass divided by its scale.
+/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, factorised with the mass divided by its scale.
 class MassMatrix {
  public:
-  MassMatrix(const SecondOrderSystem& system, const State& state)
+  MassMatrix(const SecondOrderSystem& system, const State& state, double h = 0)
       : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system.tangent_pattern()) {
     scale_ = mass_scale(system, state, kkt_);
-    system.tangent(state, {.mass = 1 / scale_}, kkt_);
+    system.tangent(state, {.mass = 1 / scale_, .damping = h / 2 / scale_, .stiffness = h * h / 4 / scale_},
+                   kkt_);
     regular_ = solver_.factorise(kkt_);
   }
 
@@ -56,14 +57,21 @@ Eigen::VectorXd force(const SecondOrderSystem& system, State state) {
 
 }  // namespace
 
-bool make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
-  const MassMatrix mass(system, state);
+bool make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
+  State at_rest = state;
+  at_rest.a.setZero(system.coordinate_count());
+  at_rest.lambda.setZero(system.constraint_count());
+  const MassMatrix mass(system, at_rest, h);
   if (!mass.regular()) return false;
   const Eigen::VectorXd solution = mass.solve(force(system, state), -system.constraint_curvature(state));
   if (!solution.allFinite()) return false;
   state.a = solution.head(system.coordinate_count());
   state.lambda = solution.tail(system.constraint_count());
   return true;
+}
+
+bool make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
+  return make_accelerations_smooth(system, 0, state);
 }
 
 bool project_velocities(const SecondOrderSystem& system, State& state, Eigen::VectorXd& impulse) {

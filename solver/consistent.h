@@ -7,9 +7,17 @@ namespace nurbeam {
 /// Returns false when the matrix is singular (state unchanged).
 [[nodiscard]] bool make_accelerations_consistent(const SecondOrderSystem& system, State& state);
 
-/// The velocity nearest to `v` in the mass norm with G v + rate = 0; `impulse` (m) is the constraint impulse that
-/// makes it so: M (v_new - v) + G' impulse = 0 [N s]. Returns false when the matrix is singular (state unchanged).
-[[nodiscard]] bool project_velocities(const SecondOrderSystem& system, State& state, Eigen::VectorXd& impulse);
+/// The same, averaged over a step h: [M + (h/2) D + (h^2/4) K, G'; G 0][a; lambda] = [f; -curvature]. Motions
+/// slow against h keep their acceleration to O(h^2); those much faster, which an event may have left out of
+/// balance, lose theirs. Exact accelerations of such motions would make the first step overshoot by (omega
+/// h)^2.
+[[nodiscard]] bool make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state);
+
+/// The velocity nearest to `v` in the mass norm with G v + rate = 0; `impulse` (m) is the constraint impulse
+/// that makes it so: M (v_new - v) + G' impulse = 0 [N s]. Returns false when the matrix is singular (state
+/// unchanged).
+[[nodiscard]] bool project_velocities(const SecondOrderSystem& system, State& state,
+                                      Eigen::VectorXd& impulse);
 
 /// The velocity with M v + G' mu = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
 /// Returns false when the matrix is singular (state unchanged).

@@ -1,0 +1,6 @@
+#pragma once
+#include <kinsol/kinsol.h>
+#include <boost/version.hpp>
+
+#include "fem/no_such_header.h"
+#include "tests/support/dual.h"

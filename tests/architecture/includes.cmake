@@ -1,0 +1,79 @@
+# cmake -DROOT=<source tree> -P includes.cmake: fails on an #include that the drawing of the rooms does not have, and
+# on a library's header outside its home.
+#
+#   cad_import --> nurbs <-- fem --> solver        pipelines --> all of them        nothing --> pipelines, tests, samples
+
+cmake_minimum_required(VERSION 3.25)
+set(rooms cad_import fem nurbs pipelines solver)
+set(nurbs_may_include nurbs)
+set(solver_may_include solver)
+set(fem_may_include fem nurbs solver)
+set(cad_import_may_include cad_import nurbs)
+set(pipelines_may_include pipelines cad_import fem nurbs solver)
+
+# Where which header in <> may stand: pairs of what is included and which files may include it.
+set(homes
+  "[a-z_]+"                                                                       ".*"  # the standard library
+  "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseCore)"         ".*"
+  "(fcntl|poll|signal|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
+  "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|edge_curve\\.h)"
+  "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/.*\\.cpp"
+  "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
+  "nlohmann/.*"                                                                   "pipelines/(case_file|inspect|run_summary)\\.cpp"
+  "netcdf\\.h"                                                                    "pipelines/results\\.cpp"
+  "openssl/.*"                                                                    "pipelines/file_hash\\.cpp")
+
+set_property(GLOBAL PROPERTY complaints 0)
+function(complain file included reason)
+  message("${file} includes ${included}: ${reason}")
+  get_property(complaints GLOBAL PROPERTY complaints)
+  math(EXPR complaints "${complaints} + 1")
+  set_property(GLOBAL PROPERTY complaints ${complaints})
+endfunction()
+
+function(check_own_header room file path)
+  string(REGEX MATCH "^[a-z_]+" included_room "${path}")
+  if(NOT included_room IN_LIST rooms OR NOT included_room IN_LIST ${room}_may_include)
+    complain(${file} ${path} "${room} may include only ${${room}_may_include}")
+  elseif(NOT EXISTS ${ROOT}/${path})
+    complain(${file} ${path} "includes go from the root, as in \"nurbs/knot_vector.h\"")
+  endif()
+endfunction()
+
+function(check_library_header file path)
+  set(pairs ${homes})
+  while(pairs)
+    list(POP_FRONT pairs header home)
+    if(path MATCHES "^${header}$")
+      if(NOT file MATCHES "^${home}$")
+        complain(${file} "<${path}>" "its home is ${home}")
+      endif()
+      return()
+    endif()
+  endwhile()
+  complain(${file} "<${path}>" "this library has no home yet; give it one in tests/architecture/includes.cmake")
+endfunction()
+
+set(count 0)
+foreach(room IN LISTS rooms)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
+  foreach(file IN LISTS files)
+    file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+    foreach(line IN LISTS lines)
+      math(EXPR count "${count} + 1")
+      if(line MATCHES "\"([^\"]+)\"")
+        check_own_header(${room} ${file} ${CMAKE_MATCH_1})
+      elseif(line MATCHES "<([^>]+)>")
+        check_library_header(${file} ${CMAKE_MATCH_1})
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+if(count EQUAL 0)
+  message(FATAL_ERROR "no #include found under ${ROOT}")
+endif()
+get_property(complaints GLOBAL PROPERTY complaints)
+if(complaints)
+  message(FATAL_ERROR "${complaints} of ${count} includes break the rule")
+endif()
+message(STATUS "${count} includes read")
