@@ -83,12 +83,12 @@ StepReport GeneralizedAlphaIntegrator::advance(double step) {
   double h = std::min(step, limit);
   scale_ = system_->coordinate_scale();
   for (int i = 0; i <= settings_.max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
-    report.step = h;
     report.status = attempt(h, report);
     double shorter = 0.5;
     if (report.status == StepStatus::converged) {
       report.local_error = local_error(h);
       if (settings_.tolerance == 0 || report.local_error <= settings_.tolerance) {
+        report.step = h;
         if (settings_.tolerance > 0) report.next_step = next_step(h, report);
         last_error_ = report.local_error;
         accept(h);

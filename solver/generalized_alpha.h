@@ -19,7 +19,7 @@ enum class StepStatus { converged, not_converged, singular_matrix, inadmissible 
 
 struct StepReport {
   StepStatus status = StepStatus::converged;
-  double step = 0;            ///< the step taken, else last tried [s] (may be shorter than asked)
+  double step = 0;            ///< the step taken [s] (may be shorter than asked)
   double next_step = 0;       ///< what error control would take next [s]; the asked step without it
   int newton_iterations = 0;  ///< over all attempts
   int rejected = 0;           ///< attempts thrown away
