@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "cad_import/export_curves.h"
@@ -140,6 +141,21 @@ FrameNames frame_names(const CaseFile& c) {
   return names;
 }
 
+/// A warning when energy changes between events in a run where nothing does work but the weight.
+std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
+  constexpr double noticed = 0.05;  // of the largest kinetic energy
+  const bool driven = !c.loads.empty() ||
+                      std::any_of(c.sliding_joints.begin(), c.sliding_joints.end(), [](const auto& joint) {
+                        return joint.motion_speed || !joint.motion_table.empty();
+                      });
+  if (driven || run.integration_error <= noticed * run.peak_kinetic_energy) return {};
+  std::ostringstream message;
+  message << "the total energy changed by " << run.integration_error
+          << " J, with a largest kinetic energy of " << run.peak_kinetic_energy
+          << " J: do not trust the result; take a shorter \"step\" or a \"tolerance\"";
+  return Diagnostic{Severity::warning, c.path.string() + ": analysis", message.str()};
+}
+
 std::string status_text(SimulationStatus status, const std::string& message) {
   return status == SimulationStatus::done ? "done" : message;
 }
@@ -211,6 +227,10 @@ int run_case(const CaseFile& c, const RunOptions& options) {
       event.momentum_after = built.frame.direction_to_world(event.momentum_after);
     }
     for (const char* name : {"histories.csv", "results.nc", "run.json"}) summary.files.emplace_back(name);
+    if (const auto warning = energy_warning(c, simulated)) {
+      print_diagnostics(std::cerr, {*warning});
+      summary.diagnostics.push_back(*warning);
+    }
     write_run_summary(options.out / "run.json", summary);
     if (simulated.status != SimulationStatus::done)
       std::cerr << c.path.string() << ": error: " << simulated.message << "\n";

@@ -296,8 +296,8 @@ class Simulation {
     report_.rejected_steps += taken.rejected;
     if (taken.status != StepStatus::converged) {
       fail(SimulationStatus::not_converged,
-           "the step from t = " + text(state_.t) + " s failed: " + reason_of(taken.status) +
-               " even with a step of " + text(taken.step) + " s" + places_text() +
+           "the step from t = " + text(state_.t) +
+               " s failed, and shorter ones too: " + reason_of(taken.status) + places_text() +
                "; a shorter \"step\" from the start, or a \"tolerance\", may help");
       return false;
     }
@@ -520,8 +520,13 @@ class Simulation {
     frame.step = last_step_;
     frame.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
     iterations_written_ = report_.newton_iterations;
-    if (!options_.statics)
-      report_.energy_drift = std::max(report_.energy_drift, std::abs(frame.energy.total - start_energy_));
+    if (!options_.statics) {
+      double drift = frame.energy.total - start_energy_;
+      report_.energy_drift = std::max(report_.energy_drift, std::abs(drift));
+      for (const RunEvent& event : report_.events) drift -= event.energy_after - event.energy_before;
+      report_.integration_error = std::max(report_.integration_error, std::abs(drift));
+      report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, e.kinetic);
+    }
     last_written_ = state_.t;
     observer_.frame(frame);
   }
