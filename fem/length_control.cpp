@@ -127,11 +127,12 @@ class JointRules {
   bool remove_at(const MeshNode& near) {
     const int h = near.home;
     if (h <= 0 || h >= last() || (*home_)[h].late) return false;
-    const int beyond = near.s < s_ ? h - 1 : h + 1;
-    if (!present(beyond)) return false;
+    // The next node may be another moving one: then a home node beyond it is hidden by that one.
+    const MeshNode& beyond = near.s < s_ ? *(&near - 1) : *(&near + 1);
+    if (beyond.joint < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
     const double distance = std::abs(near.s - s_);
     const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
-                 behind = std::abs(at(beyond) - at(h));
+                 behind = std::abs(at(near.s < s_ ? h - 1 : h + 1) - at(h));
     if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
     for (int k = 1; k < last(); ++k)
       if (hidden(k) && !(*home_)[k].late) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "solver/consistent.h"
@@ -94,7 +95,7 @@ class Simulation {
   // -------------------------------------------------------------------------------------------------
 
   // Equilibrium of the present plan with the given joints held, from state_; the state is kept on failure.
-  bool solve_statics(const std::vector<bool>& held) {
+  StaticReport find_equilibrium(const std::vector<bool>& held) {
     system_ = std::make_unique<BeamSystem<D>>(model_, plan_, held);
     state_.lambda = Eigen::VectorXd::Zero(system_->constraint_count());
     state_.v = state_.a = Eigen::VectorXd::Zero(system_->coordinate_count());
@@ -102,6 +103,11 @@ class Simulation {
         StaticEquilibrium{}, *system_, [this](double factor) { system_->set_load_factor(factor); }, state_);
     report_.newton_iterations += found.newton_iterations;
     report_.steps += found.load_steps;
+    return found;
+  }
+
+  bool solve_statics(const std::vector<bool>& held) {
+    const StaticReport found = find_equilibrium(held);
     if (found.status == StaticStatus::converged) return true;
     fail(SimulationStatus::not_converged, std::string("no static equilibrium was found: ") +
                                               (found.status == StaticStatus::singular_matrix
@@ -140,15 +146,27 @@ class Simulation {
            (static_cast<double>(model_.beams[model_.joints[joint].beam].home.size()) - 1);
   }
 
+  // From one body to the nearest other one on its beam [m].
+  double distance_to_others(int joint) const {
+    double distance = std::numeric_limits<double>::infinity();
+    for (int other = 0; other < static_cast<int>(model_.joints.size()); ++other) {
+      const auto s = system_->place(state_, other);
+      if (other == joint || !s || model_.joints[other].beam != model_.joints[joint].beam) continue;
+      distance = std::min(distance, std::abs(*s - *system_->place(state_, joint)));
+    }
+    return distance;
+  }
+
   // Sliding bodies come to rest: they are held, let down the slope in bounded moves that halve where the
-  // force along the beam changes sign, and freed for the last digits.
+  // force along the beam changes sign, and freed for the last digits unless they rest against an end.
   void find_rest() {
     system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
     state_ = system_->drawn_state();
     const std::size_t n = model_.joints.size();
     const std::vector<bool> held(n, true);
-    if (!solve_statics(held)) return;
+    if (!separate_bodies() || !solve_statics(held)) return;
     std::vector<double> move(n), force(n);
+    std::vector<bool> at_end(n, false);
     for (std::size_t j = 0; j < n; ++j)
       move[j] = model_.joints[j].motion ? 0 : home_spacing(static_cast<int>(j)) / 4;
     const auto still_far = [&] {
@@ -168,14 +186,32 @@ class Simulation {
         if (force[j] * now < 0) move[j] /= 2;
         force[j] = now;
         const double s = *system_->place(state_, joint), L = beam_length_of(joint);
-        ds[j] = std::clamp(now < 0 ? move[j] : -move[j], -s, L - s);
+        const double room = 0.4 * distance_to_others(joint);
+        ds[j] = std::clamp(std::clamp(now < 0 ? move[j] : -move[j], -room, room), -s, L - s);
+        at_end[j] = ds[j] == 0;
         if (now == 0) ds[j] = 0;
-        if (ds[j] == 0) move[j] = 0;  // rests against the end
+        if (ds[j] == 0) move[j] = 0;
       }
       move_places(ds);
-      if (!solve_statics(held)) return;
+      if (!separate_bodies() || !solve_statics(held)) return;
     }
+    free_bodies(at_end);
     write_frame();
+  }
+
+  // Equilibrium with the joints free that are not held, if there is one nearby; else nothing changes.
+  void free_bodies(const std::vector<bool>& held) {
+    const State resting = state_;
+    std::unique_ptr<BeamSystem<D>> before = std::move(system_);
+    bool near = find_equilibrium(held).status == StaticStatus::converged;
+    for (std::size_t j = 0; near && j < held.size(); ++j) {
+      const int joint = static_cast<int>(j);
+      const auto s = system_->place(state_, joint);
+      near = !s || std::abs(*s - *before->place(resting, joint)) < 1e-3 * home_spacing(joint);
+    }
+    if (near) return;
+    system_ = std::move(before);
+    state_ = resting;
   }
 
   // --- Motion
@@ -184,6 +220,7 @@ class Simulation {
   bool start_motion() {
     system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
     state_ = system_->drawn_state();
+    if (!separate_bodies()) return false;
     if (options_.start_from_equilibrium) {
       if (!solve_statics(std::vector<bool>(model_.joints.size(), true))) return false;
       system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
@@ -259,8 +296,9 @@ class Simulation {
     report_.rejected_steps += taken.rejected;
     if (taken.status != StepStatus::converged) {
       fail(SimulationStatus::not_converged,
-           "the step from t = " + text(state_.t) + " s failed: " + reason_of(taken.status) +
-               " even with a step of " + text(taken.step) + " s" + places_text());
+           "the step from t = " + text(state_.t) +
+               " s failed, and shorter ones too: " + reason_of(taken.status) + places_text() +
+               "; a shorter \"step\" from the start, or a \"tolerance\", may help");
       return false;
     }
     if (!options_.step) step_ = taken.next_step;
@@ -405,18 +443,12 @@ class Simulation {
 
   // Two bodies that meet on one beam end the run.
   bool separate_bodies() {
-    for (const auto& nodes : system_->mesh().nodes)
-      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        if (nodes[i].joint < 0 || nodes[i + 1].joint < 0) continue;
-        const double gap = state_.q[nodes[i + 1].place] - state_.q[nodes[i].place];
-        if (gap > end_zone * home_spacing(nodes[i].joint)) continue;
-        fail(SimulationStatus::not_converged,
-             "\"" + body_name(nodes[i].joint) + "\" and \"" + body_name(nodes[i + 1].joint) +
-                 "\" meet on beam \"" + model_.beams[model_.joints[nodes[i].joint].beam].name +
-                 "\" at s = " + text(state_.q[nodes[i].place]) + " m, t = " + text(state_.t) +
-                 " s; contact between bodies is not modelled");
-        return false;
-      }
+    for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j) {
+      if (!system_->place(state_, j) || distance_to_others(j) > end_zone * home_spacing(j)) continue;
+      fail(SimulationStatus::not_converged, "sliding bodies meet at t = " + text(state_.t) +
+                                                " s; contact between bodies is not modelled" + places_text());
+      return false;
+    }
     return true;
   }
 
@@ -523,9 +555,13 @@ class Simulation {
     frame.step = last_step_;
     frame.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
     iterations_written_ = report_.newton_iterations;
-    report_.peak_kinetic = std::max(report_.peak_kinetic, e.kinetic);
-    if (!options_.statics)
-      report_.energy_drift = std::max(report_.energy_drift, std::abs(frame.energy.total - start_energy_));
+    if (!options_.statics) {
+      double drift = frame.energy.total - start_energy_;
+      report_.energy_drift = std::max(report_.energy_drift, std::abs(drift));
+      for (const RunEvent& event : report_.events) drift -= event.energy_after - event.energy_before;
+      report_.integration_error = std::max(report_.integration_error, std::abs(drift));
+      report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, e.kinetic);
+    }
     last_written_ = state_.t;
     observer_.frame(frame);
   }

@@ -33,8 +33,9 @@ struct SimulationReport {
   double time = 0;      ///< reached [s]
   long steps = 0, rejected_steps = 0, newton_iterations = 0;
   double motion_seconds = 0, length_control_seconds = 0;
-  double energy_drift = 0;  ///< largest departure of the total energy from its start [J]
-  double peak_kinetic = 0;  ///< largest kinetic energy at an output time [J]
+  double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
+  double integration_error = 0;    ///< the same without what events changed [J]
+  double peak_kinetic_energy = 0;  ///< [J]
   std::vector<RunEvent> events;
 };
 

@@ -122,20 +122,21 @@ class ScaledEquations {
     return tangent_.coeffs().allFinite();
   }
 
-  /// Largest scaled residual at `x` and whether each is within `tolerance` or within round-off; a residual
-  /// that cannot be evaluated is infinite.
+  /// Largest scaled residual at `x` and what each may be: `tolerance` and its own round-off; a residual that
+  /// cannot be evaluated is infinite.
   struct Quality {
+    Vector allowed;
     double residual_norm = std::numeric_limits<double>::infinity();
     bool acceptable = false;
   };
   Quality quality(const Vector& x, double tolerance) {
     Vector rows(size());
-    if (!evaluate(x, rows) || !differentiate(x)) return {};
     Vector allowed = Vector::Constant(size(), tolerance);
+    if (!evaluate(x, rows) || !differentiate(x)) return {.allowed = allowed};
     for (int column = 0; column < size(); ++column)
       for (Matrix::InnerIterator entry(tangent_, column); entry; ++entry)
         allowed[entry.row()] += round_off * std::abs(entry.value()) * (std::abs(x[column]) + 1);
-    return {rows.lpNorm<Eigen::Infinity>(), (rows.cwiseAbs().array() <= allowed.array()).all()};
+    return {allowed, rows.lpNorm<Eigen::Infinity>(), (rows.cwiseAbs().array() <= allowed.array()).all()};
   }
 
  private:
@@ -167,7 +168,6 @@ class Kinsol {
         owned(SUNSparseMatrix(size, size, equations.tangent().nonZeros(), CSC_MAT, context_.get())));
     linear_solver_.reset(owned(SUNLinSol_KLU(x_.get(), matrix_.get(), context_.get())));
     memory_.reset(static_cast<KINMemory*>(owned(KINCreate(context_.get()))));
-    N_VConst(1, row_weight_.get());
     map(unknown_weight_.get()).setConstant(multiplier_weight).head(equations.coordinates()).setOnes();
     KINSetErrHandlerFn(memory(), ignore_message, nullptr);
     KINSetUserData(memory(), this);
@@ -179,11 +179,12 @@ class Kinsol {
     check(KINSetMaxNewtonStep(memory(), std::sqrt(static_cast<double>(equations.coordinates()))));
   }
 
-  /// Improves x until the scaled residual is below `tolerance` or no further progress is made.
+  /// Improves x until no scaled residual is above the `allowed` one or no further progress is made.
   /// Returns the number of iterations.
-  int improve(Vector& x, double tolerance, int strategy, int max_iterations) {
+  int improve(Vector& x, const Vector& allowed, int strategy, int max_iterations) {
     map(x_.get()) = x;
-    check(KINSetFuncNormTol(memory(), tolerance));
+    map(row_weight_.get()) = allowed.minCoeff() * allowed.cwiseInverse();
+    check(KINSetFuncNormTol(memory(), allowed.minCoeff()));
     check(KINSetNumMaxIters(memory(), max_iterations));
     // A failed factorisation must not be refactorised.
     check(SUNLinSol_KLUReInit(linear_solver_.get(), matrix_.get(), SUNSparseMatrix_NNZ(matrix_.get()),
@@ -369,18 +370,18 @@ class EquilibriumSearch {
     set_load_factor_(factor);
     equations_.clear_proximity();
     equations_.rescale(trial, largest_force(factor, trial));
-    const auto start = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
-    Outcome outcome{.converged = start.residual_norm <= settings_.tolerance,
-                    .residual_norm = start.residual_norm};
+    auto quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
+    Outcome outcome{.converged = quality.residual_norm <= settings_.tolerance,
+                    .residual_norm = quality.residual_norm};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
     for (const int strategy : strategies) {
       if (outcome.converged) break;
       Vector x = equations_.scaled_unknowns(trial);
-      improve(x, settings_.tolerance, strategy, settings_.max_iterations, outcome);
+      improve(x, quality.allowed, strategy, settings_.max_iterations, outcome);
       const bool better = equations_.quality(x, settings_.tolerance).residual_norm <= outcome.residual_norm;
       if (better) trial = equations_.state_of(x);
       equations_.rescale(trial, largest_force(factor, trial));
-      const auto quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
+      quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
       outcome.residual_norm = quality.residual_norm;
       outcome.converged = quality.acceptable;
     }
@@ -395,15 +396,15 @@ class EquilibriumSearch {
     equations_.set_proximity(proximity, trial.q);
     Vector x = equations_.scaled_unknowns(trial);
     Outcome outcome;
-    improve(x, proximal_tolerance, KIN_NONE, proximal_iterations, outcome);
+    improve(x, Vector::Constant(x.size(), proximal_tolerance), KIN_NONE, proximal_iterations, outcome);
     outcome.converged = equations_.quality(x, proximal_tolerance).acceptable;
     trial = equations_.state_of(x);
     equations_.clear_proximity();
     return outcome;
   }
 
-  void improve(Vector& x, double tolerance, int strategy, int max_iterations, Outcome& outcome) {
-    const int iterations = kinsol_.improve(x, tolerance, strategy, max_iterations);
+  void improve(Vector& x, const Vector& allowed, int strategy, int max_iterations, Outcome& outcome) {
+    const int iterations = kinsol_.improve(x, allowed, strategy, max_iterations);
     outcome.iterations += iterations;
     report_.newton_iterations += iterations;
   }

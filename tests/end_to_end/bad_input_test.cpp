@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam {
+namespace {
+
+using test::CaseRun;
+using test::TemporaryDirectory;
+
+constexpr int done = 0, bad_input = 2, not_converged = 3;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The falling beam, coarser and shorter, with overrides.
+CaseRun run_beam(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = {"beams[0].elements.count=8", "analysis.end_time=0.1", "analysis.step=1e-3"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return test::run_file(test::sample("falling_beam/falling_beam.json"), all);
+}
+
+std::string axis_file(const std::filesystem::path& file, const std::string& curve = "1") {
+  return "beams[0].axis={\"file\":\"" + file.string() + "\",\"curve\":" + curve + "}";
+}
+
+void expect_refused(const CaseRun& run, const std::vector<std::string>& parts) {
+  EXPECT_EQ(run.code, bad_input) << run.messages;
+  EXPECT_TRUE(run.says("error: ")) << run.messages;
+  for (const std::string& part : parts) EXPECT_TRUE(run.says(part)) << part << " is not in: " << run.messages;
+  EXPECT_TRUE(run.files.empty());
+}
+
+void expect_done(const CaseRun& run) {
+  EXPECT_EQ(run.code, done) << run.messages;
+  EXPECT_FALSE(run.left_half_files());
+  ASSERT_FALSE(run.rows.empty());
+  for (const char* column : {"energy.total [J]", "end.x [m]", "end.y [m]"})
+    EXPECT_TRUE(std::isfinite(run.last(column))) << column;
+}
+
+void expect_stopped(const CaseRun& run, const std::vector<std::string>& parts) {
+  EXPECT_EQ(run.code, not_converged) << run.messages;
+  for (const std::string& part : parts) EXPECT_TRUE(run.says(part)) << part << " is not in: " << run.messages;
+  EXPECT_FALSE(run.left_half_files());
+  EXPECT_NE(std::find(run.files.begin(), run.files.end(), "run.json"), run.files.end());
+}
+
+// ---- Files ----
+
+TEST(BadInput, AMissingCaseFile) {
+  expect_refused(test::run_file("absent.json"), {"absent.json: cannot be read"});
+}
+
+TEST(BadInput, AnEmptyCaseFile) {
+  const TemporaryDirectory directory;
+  expect_refused(test::run_file(directory.write("empty.json", "")), {"is empty"});
+}
+
+TEST(BadInput, NotANumberInTheCaseFile) {
+  const TemporaryDirectory directory;
+  std::string text = text_of(test::sample("falling_beam/falling_beam.json"));
+  const std::string mass = "\"mass\": 0.8";
+  text.replace(text.find(mass), mass.size(), "\"mass\": NaN");
+  expect_refused(test::run_file(directory.write("nan.json", text)), {"line ", "NaN is not a number"});
+}
+
+TEST(BadInput, AMissingCadFile) {
+  expect_refused(run_beam({axis_file("absent.step")}), {"beams[0].axis.file", "there is no file"});
+}
+
+TEST(BadInput, AnEmptyCadFile) {
+  const TemporaryDirectory directory;
+  for (const char* name : {"empty.step", "empty.igs"})
+    expect_refused(run_beam({axis_file(directory.write(name, ""))}), {name, "the file is empty"});
+}
+
+TEST(BadInput, ATruncatedCadFile) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path corpus = std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/corpus";
+  const std::string iges = text_of(corpus / "iges-126-bsplines.igs");
+  expect_refused(run_beam({axis_file(directory.write("cut.igs", iges.substr(0, iges.size() / 2)))}),
+                 {"cut.igs", "truncated"});
+  const std::string step = text_of(test::sample("zipline/cable.step"));
+  expect_refused(run_beam({axis_file(directory.write("cut.step", step.substr(0, step.size() / 2)))}),
+                 {"cut.step"});
+}
+
+TEST(BadInput, ACurveThatDoesNotExist) {
+  const std::filesystem::path file = test::sample("zipline/cable.step");
+  expect_refused(run_beam({axis_file(file, "\"Zap\"")}),
+                 {"beams[0].axis.curve", "no curve is named \"Zap\"", "1 \"Zip cable\""});
+  expect_refused(run_beam({axis_file(file, "7")}), {"beams[0].axis.curve", "index 7 is out of range"});
+}
+
+// ---- Values ----
+
+TEST(BadInput, ANegativeRadius) {
+  expect_refused(run_beam({"beams[0].section.radius=-1"}),
+                 {"beams[0].section.radius: is -1 m; must be greater than 0"});
+}
+
+TEST(BadInput, ABodyWithoutMass) {
+  expect_refused(run_beam({"bodies[0].mass=0"}), {"bodies[0].mass: is 0 kg; must be greater than 0"});
+}
+
+TEST(BadInput, FewerElementsThanSegments) {
+  expect_refused(run_beam({"beams[0].axis.polyline=[[0,0,0],[1,0,0],[2,0,0]]", "beams[0].elements.count=1"}),
+                 {"beams[0].elements.count", "the smallest count is 2"});
+}
+
+TEST(BadInput, ACornerInTheAxis) {
+  expect_refused(run_beam({"beams[0].axis.polyline=[[0,0,0],[1,0,0],[1,1,0]]"}),
+                 {"beams[0].axis", "corner of 90 degrees at (1, 0, 0) m"});
+}
+
+TEST(BadInput, APlaceTooFarFromTheBeam) {
+  expect_refused(run_beam({"sliding_joints[0].at={\"near\":[0.5,0.3,0]}"}),
+                 {"sliding_joints[0].at.near", "0.3 m from beam \"beam\"", "closest point"});
+  expect_refused(run_beam({"sliding_joints[0].at={\"length\":1.3}"}), {"sliding_joints[0].at", "1 m long"});
+}
+
+// ---- Runs at the border of what can be run ----
+
+TEST(HardInput, OneElementPerSide) {
+  for (const char* at : {"0.1", "0.5", "0.9"}) {
+    const CaseRun run = run_beam(
+        {"beams[0].elements.count=1", std::string("sliding_joints[0].at={\"fraction\":") + at + "}"});
+    expect_done(run);
+    EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 1e-3);
+  }
+}
+
+TEST(HardInput, ABodyAtTheFreeEndLeavesAtOnceAndFalls) {
+  const CaseRun run = run_beam({"sliding_joints[0].at=\"end\""});
+  expect_done(run);
+  EXPECT_NEAR(run.last("mass.x [m]"), 1, 1e-6);
+  EXPECT_NEAR(run.last("mass.y [m]"), -9.81 * 0.1 * 0.1 / 2, 1e-5);
+  EXPECT_TRUE(std::isnan(run.last("mass.s [m]")));
+}
+
+TEST(HardInput, ABodyAtTheHeldStartStaysThere) {
+  const CaseRun run = run_beam({"sliding_joints[0].at=\"start\""});
+  expect_done(run);
+  EXPECT_NEAR(run.last("mass.s [m]"), 0, 1e-9);
+  EXPECT_NEAR(run.last("mass.y [m]"), 0, 1e-9);
+}
+
+TEST(HardInput, ABodyAtTheVeryStartSlidesIn) {
+  const CaseRun run = run_beam({"sliding_joints[0].at=\"start\"", "sliding_joints[0].speed=1"});
+  expect_done(run);
+  EXPECT_NEAR(run.last("mass.s [m]"), 0.1, 0.01);
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 1e-3);
+}
+
+TEST(HardInput, ABodyLeavesTheFreeEndAndFliesOn) {
+  const CaseRun run = run_beam({"sliding_joints[0].at={\"fraction\":0.9}", "sliding_joints[0].speed=3"});
+  expect_done(run);
+  EXPECT_TRUE(std::isnan(run.last("mass.s [m]")));
+  EXPECT_GT(run.last("mass.x [m]"), 1.1);
+}
+
+TEST(HardInput, TwoBodiesThatMeetEndTheRun) {
+  const std::string bodies = R"(bodies=[{"name":"a","mass":1},{"name":"b","mass":1}])";
+  const CaseRun met = run_beam(
+      {bodies,
+       R"(sliding_joints=[{"body":"a","beam":"beam","at":{"length":0.2},"speed":5},{"body":"b","beam":"beam","at":{"length":0.6}}])"});
+  expect_stopped(
+      met, {"sliding bodies meet at t = ", "\"a\" is at s = ", "contact between bodies is not modelled"});
+  EXPECT_GT(met.last("a.s [m]"), 0.5);
+  const CaseRun same_place = run_beam(
+      {bodies,
+       R"(sliding_joints=[{"body":"a","beam":"beam","at":{"length":0.5}},{"body":"b","beam":"beam","at":{"length":0.5}}])"});
+  expect_stopped(same_place, {"sliding bodies meet at t = 0 s"});
+}
+
+TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
+  const CaseRun run = test::run_file(
+      test::sample("statics/bead_level.json"),
+      {R"(bodies=[{"name":"a","mass":40},{"name":"b","mass":40}])",
+       R"(sliding_joints=[{"body":"a","beam":"cable","at":{"length":20},"slope":"discontinuous","at_beam_end":"stop"},{"body":"b","beam":"cable","at":{"length":90},"slope":"discontinuous","at_beam_end":"stop"}])"});
+  expect_stopped(run, {"sliding bodies meet", "contact between bodies is not modelled"});
+}
+
+TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {
+  const std::vector<std::string> coarse = {"analysis.step=1", "output.every=1", "analysis.end_time=1"};
+  const CaseRun run = run_beam(coarse);
+  if (run.code == done)
+    expect_done(run);
+  else
+    expect_stopped(run, {"the step from t = ", "a shorter \"step\""});
+  EXPECT_TRUE(run.says("the total energy changed by ")) << run.messages;
+  EXPECT_FALSE(run_beam({}).says("the total energy"));
+}
+
+}  // namespace
+}  // namespace nurbeam
