@@ -306,11 +306,19 @@ class Simulation {
     last_step_ = taken.step;
     state_ = integrator_->state();
     const std::optional<BreakCrossing> crossing = first_crossing(before);
-    if (crossing)
-      land(before, algorithmic, taken.step, crossing->joint, [&](const State& state) {
+    if (crossing) {
+      const auto distance = [&](const State& state) {
         const double s = *system_->place(state, crossing->joint);
         return crossing->forward ? s - crossing->s : crossing->s - s;
-      });
+      };
+      land(before, algorithmic, taken.step, crossing->joint, distance);
+      // To the other side, in a time in which nothing else happens.
+      const double gap = landing_tolerance(crossing->joint) - distance(state_);
+      const double instant =
+          std::clamp(gap / std::abs(system_->place_rate(state_, crossing->joint)), 0.0, 1e-6 * taken.step);
+      state_.q += instant * state_.v;
+      state_.t += instant;
+    }
     const int ending = joint_beyond_end();
     if (ending >= 0)
       land(before, algorithmic, state_.t - before.t, ending,
@@ -362,25 +370,34 @@ class Simulation {
     return -1;
   }
 
-  // Repeats the last step with a length for which the joint lands just beyond a place: `distance` of the
-  // state from there is negative before it.
+  double landing_tolerance(int joint) const { return 1e-10 * beam_length_of(joint); }
+
+  // Repeats the last step with a length for which the joint lands just before a place: `distance` of the
+  // state from there is negative before it. Where Newton's iteration stumbles over the place the step is
+  // shortened.
   template <class Distance>
   void land(const State& before, const Eigen::VectorXd& algorithmic, double step, int joint,
             const Distance& distance) {
-    const double near = 1e-10 * beam_length_of(joint);
-    const auto missed = [&](const State& state) { return distance(state) - near / 2; };
+    const double near = landing_tolerance(joint);
+    const auto missed = [&](const State& state) { return distance(state) + near / 2; };
+    GeneralizedAlpha one_attempt = options_.integrator;
+    one_attempt.max_halvings = 0;
+    one_attempt.tolerance = 0;
     double lo = 0, f_lo = missed(before), hi = step, f_hi = missed(state_);
-    for (int i = 0; i < 40 && std::abs(missed(state_)) > near / 2 && hi - lo > 1e-14; ++i) {
-      const double fraction = f_lo < 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
+    while (f_lo < -near / 2 && hi - lo > 1e-7 * step) {
+      const double fraction = f_hi > 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
       const double trial = lo + fraction * (hi - lo);
-      integrator_.emplace(options_.integrator, *system_, before);
+      integrator_.emplace(one_attempt, *system_, before);
       integrator_->set_algorithmic_acceleration(algorithmic);
-      const StepReport taken = integrator_->advance(trial);
-      if (taken.status != StepStatus::converged || taken.step < trial * (1 - 1e-9)) break;
-      state_ = integrator_->state();
-      const double f = missed(state_);
-      (f > 0 ? hi : lo) = trial;
-      (f > 0 ? f_hi : f_lo) = f;
+      if (integrator_->advance(trial).status != StepStatus::converged) {
+        hi = trial;
+        f_hi = 0;
+        continue;
+      }
+      const double f = missed(integrator_->state());
+      (f < near / 2 ? lo : hi) = trial;
+      (f < near / 2 ? f_lo : f_hi) = f;
+      if (f < near / 2) state_ = integrator_->state();
     }
   }
 
@@ -391,7 +408,8 @@ class Simulation {
   };
 
   // The first crossing of a break of the drawing by a moving node since `before`. The drawn curvature may
-  // jump there and with it the force along the beam, which a step across it would meet to first order only.
+  // jump there and with it the force along the beam: a step must end on the near side and the next begin on
+  // the far side, or energy drifts at first order.
   std::optional<BreakCrossing> first_crossing(const State& before) const {
     std::optional<BreakCrossing> first;
     double earliest = 1;
