@@ -193,7 +193,7 @@ struct Witness {
       for (int d = 0; d < D; ++d) rs2 = rs2 + r[1][d] * r[1][d];
       const T eps = (rs2 - T(1.0)) / T(2.0), bend = curvature<T>(r[1], r[2]) - drawn_curvature<T>(s);
       T bending = T(properties.bending_stiffness / 2) * bend * bend;
-      if (D == 3)
+      if (D == 3 && straight)
         bending = bending - T(properties.bending_stiffness * curvature_rounding * curvature_rounding / 2);
       sum = sum + weight * (T(properties.mass_per_length / 2) * speed2 + load_r -
                             T(properties.axial_stiffness / 2) * eps * eps - bending);

@@ -60,7 +60,7 @@ inline const char* const full_case = R"({
       "elements": { "per_segment": 2, "grading": 0.0 },
       "element": "ale-ancf", "weights": "constant", "merge": "paper", "metric": "reference",
       "stress_free": "straight", "curvature": "spatial", "form": "variational",
-      "corners": "allow", "approximation_tolerance": "1 um"
+      "corners": "hinge", "approximation_tolerance": "1 um"
     },
     {
       "name": "arch",
