@@ -57,6 +57,13 @@ Chart choose_chart(const Beam& beam, const MeshPlan& plan, int beam_index, doubl
   return chart;
 }
 
+// The drawn slope before a node minus that after it, for the element before it.
+template <int D>
+Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& node) {
+  if (node.joint >= 0 || node.slope_left != node.slope_right) return Eigen::Matrix<double, D, 1>::Zero();
+  return (beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s)).template head<D>();
+}
+
 }  // namespace
 
 MeshPlan initial_plan(const BeamModel& model) {
@@ -119,7 +126,7 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
       dofs[4 * D] = a.place;
       dofs[4 * D + 1] = b_node.place;
       Chart chart = choose_chart(beam, plan, b, a.s, b_node.s, spans_break(beam, left, right));
-      mesh.elements.push_back({b, i, i + 1, a.s, b_node.s, dofs,
+      mesh.elements.push_back({b, i, i + 1, a.s, b_node.s, dofs, drawn_slope_jump<D>(beam, b_node),
                                BeamElement<D>(beam.curve, beam.properties, std::move(chart), a.s, b_node.s,
                                               a.place < 0 && b_node.place < 0, beam.straight)});
     }

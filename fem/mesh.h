@@ -44,6 +44,10 @@ struct MeshElement {
   int beam, node_a, node_b;               ///< node indices in the beam
   double s_a, s_b;                        ///< of fixed ends; of moving ends when the mesh was made [m]
   std::array<int, element_size<D>> dofs;  ///< global coordinates; -1 where a fixed end has none
+  /// Of the slope at the right end from the node's, which is the one of the element after it: the small angle
+  /// of the drawing there, kept so that the drawn shape is exact. Fixed in space, so only to first order of
+  /// the angle under rotation.
+  Eigen::Matrix<double, D, 1> slope_offset;
   BeamElement<D> element;
 };
 
@@ -88,6 +92,7 @@ ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const 
     x.v[i] = dof >= 0 ? v[dof] : 0;
     x.a[i] = dof >= 0 ? a[dof] : 0;
   }
+  x.q.template segment<D>(3 * D) += e.slope_offset;
   return x;
 }
 

@@ -1,0 +1,88 @@
+// Every curve of every file of the corpus: import, decomposition, elements, export of the undeformed beam, and
+// import again.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "cad_import/export_curves.h"
+#include "cad_import/import_curves.h"
+#include "nurbs/bezier_path.h"
+#include "nurbs/closest_point.h"
+#include "pipelines/export_results.h"
+#include "tests/convergence/run_model.h"
+#include "tests/pipelines/case_text.h"
+#include "tests/support/models.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr double approximation = 1e-6;  // asked for above degree 3 [m]
+
+std::filesystem::path corpus() { return std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/corpus"; }
+
+std::vector<std::string> corpus_files() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(corpus()))
+    if (!std::set<std::string>{"README.md", ".gitattributes"}.contains(entry.path().filename()))
+      names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// The curve of a beam of these cubics with about three elements to a segment, before anything moves it;
+// corners are hinges.
+NurbsCurve undeformed_beam(const BezierPath& path) {
+  const int segments = static_cast<int>(path.segments.size());
+  BeamModel model = testing::one_beam(path.segments, 3, testing::round_bar(1e-3, 7800, 200e9), 3 * segments, {});
+  model.gravity.setZero();
+  Beam& beam = model.beams[0];
+  for (const Corner& corner : path.corners(1e-4))
+    for (HomeNode& node : beam.home)
+      if (node.s == beam.curve.breaks()[corner.after_segment + 1]) node.hinge = true;
+  return deformed_curve(testing::run_model(model, {0}, 1e-6).frames.at(0).beams.at(0).elements);
+}
+
+class CorpusWalk : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(CorpusWalk, ReturnsEveryCurveWhereItWas) {
+  const ImportReport source = import_curves(corpus() / GetParam());
+  ASSERT_FALSE(source.curves.empty());
+  std::vector<NamedCurve> beams;
+  for (const ImportedCurve& curve : source.curves)
+    beams.push_back({curve.name, undeformed_beam(BezierPath::from_nurbs(curve.curve, approximation))});
+
+  const test::TemporaryDirectory directory;
+  for (const auto& [name, unit] : {std::pair{"back.step", LengthUnit::millimetre}, {"back.igs", LengthUnit::inch}}) {
+    export_curves(directory.path() / name, beams, unit);
+    const ImportReport back = import_curves(directory.path() / name);
+    ASSERT_EQ(back.curves.size(), source.curves.size());
+    for (std::size_t i = 0; i < back.curves.size(); ++i) {
+      SCOPED_TRACE(std::string(name) + ", curve " + std::to_string(i + 1));
+      const NurbsCurve& was = source.curves[i].curve;
+      const double size = length(was);
+      const double allowed = was.degree() <= 3 ? 1e-9 * size : approximation;
+      EXPECT_EQ(back.curves[i].name, source.curves[i].name);
+      const BezierPath path = BezierPath::from_nurbs(back.curves[i].curve, approximation);
+      const auto on_source = [&](double t) {
+        return was.point(was.knots().start() + t * (was.knots().end() - was.knots().start()));
+      };
+      EXPECT_LT(largest_distance(on_source, path), allowed);
+      if (was.degree() > 3) continue;
+      EXPECT_NEAR(length(back.curves[i].curve), size, allowed);
+      EXPECT_LT(hausdorff_distance(path, BezierPath::from_nurbs(was, approximation)), allowed);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CorpusWalk, ::testing::ValuesIn(corpus_files()), [](const auto& test) {
+  std::string name = test.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace nurbeam
