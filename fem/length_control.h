@@ -6,10 +6,11 @@
 
 namespace nurbeam {
 
-/// Thresholds in standard (home) element lengths (Figure 7 of Ding & Ouyang).
+/// Thresholds in standard (home) element lengths. Figure 7 of Ding & Ouyang has 0.5 and 1.5; a node that is
+/// removed late leaves less of the shape behind.
 struct LengthControl {
-  double min = 0.5;
-  double max = 1.5;
+  double min = 0.1;
+  double max = 1.15;
 };
 
 enum class MeshChange {
@@ -27,7 +28,7 @@ struct NextPlan {
   MeshPlan plan;
 };
 
-/// Applies the paper's rule near each joint: where an element beside the moving node is longer than max
+/// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
 /// (unless it is a beam end, or late and not very near). Late nodes (breaks, supports) go at `late_removal`
 /// and return at `late_return`; within `end_zone` of a beam end the joint becomes a point of the fixed mesh.

@@ -113,7 +113,7 @@ struct CaseAnalysis {
   std::optional<double> step;       ///< [s]
   std::optional<double> tolerance;  ///< adaptive steps
   double rho_infinity = 0.8;
-  double length_control_min = 0.5, length_control_max = 1.5;  ///< in standard element lengths
+  double length_control_min = 0.1, length_control_max = 1.15;  ///< in standard element lengths
 };
 
 struct CaseProbe {

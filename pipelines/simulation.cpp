@@ -117,28 +117,46 @@ class Simulation {
     return false;
   }
 
-  // Moves held joints by ds, with the curve as it stands, and carries length control along.
-  void move_places(const std::vector<double>& ds) {
-    for (std::size_t j = 0; j < ds.size(); ++j) {
-      const MeshJoint& at = system_->mesh().joints[j];
-      if (at.place < 0 || ds[j] == 0) continue;
-      const double s = state_.q[at.place] + ds[j];
-      const int beam = model_.joints[j].beam;
-      const auto& e = system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, beam, s)];
-      const MaterialPoint<D> p = material_point<D>(e, state_.q, state_.v, s);
-      state_.q.template segment<D>(at.r) = p.r;
-      if (at.node >= 0)
-        for (int slope : {system_->mesh().nodes[beam][at.node].slope_left,
-                          system_->mesh().nodes[beam][at.node].slope_right})
-          state_.q.template segment<D>(slope) = p.rs;
-      state_.q[at.place] = s;
-      state_.v[at.place] = ds[j];  // length control looks at the direction
-    }
-    while (change_mesh(false)) {
+  // Moves held joints by ds, with the curve as it stands, and carries length control along: never past a node
+  // at once.
+  void move_places(std::vector<double> ds) {
+    const auto left = [](double rest) { return rest != 0; };
+    while (std::any_of(ds.begin(), ds.end(), left)) {
+      for (std::size_t j = 0; j < ds.size(); ++j) {
+        const double part = std::clamp(ds[j], -room_to_move(j, -1), room_to_move(j, 1));
+        move_place(j, part);
+        ds[j] -= part;
+      }
+      while (change_mesh(false)) {
+      }
     }
     for (std::size_t j = 0; j < ds.size(); ++j)
       if (const auto s = system_->place(state_, static_cast<int>(j))) plan_.places[j] = *s;
     state_.v.setZero();
+  }
+
+  // How far a joint can move in a direction while its elements keep a fifth of their length [m].
+  double room_to_move(std::size_t joint, int direction) const {
+    const MeshJoint& at = system_->mesh().joints[joint];
+    if (at.node < 0) return std::numeric_limits<double>::infinity();
+    const MeshNode& next = system_->mesh().nodes[model_.joints[joint].beam][at.node + direction];
+    return 0.8 * std::abs((next.place >= 0 ? state_.q[next.place] : next.s) - state_.q[at.place]);
+  }
+
+  void move_place(std::size_t joint, double ds) {
+    const MeshJoint& at = system_->mesh().joints[joint];
+    if (at.place < 0 || ds == 0) return;
+    const double s = state_.q[at.place] + ds;
+    const int beam = model_.joints[joint].beam;
+    const auto& e = system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, beam, s)];
+    const MaterialPoint<D> p = material_point<D>(e, state_.q, state_.v, s);
+    state_.q.template segment<D>(at.r) = p.r;
+    if (at.node >= 0)
+      for (int slope : {system_->mesh().nodes[beam][at.node].slope_left,
+                        system_->mesh().nodes[beam][at.node].slope_right})
+        state_.q.template segment<D>(slope) = p.rs;
+    state_.q[at.place] = s;
+    state_.v[at.place] = ds;  // length control looks at the direction
   }
 
   double home_spacing(int joint) const {

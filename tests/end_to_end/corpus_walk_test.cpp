@@ -1,5 +1,5 @@
-// Every curve of every file of the corpus: import, decomposition, elements, export of the undeformed beam, and
-// import again.
+// Every curve of every file of the corpus: import, decomposition, elements, export of the undeformed beam,
+// and import again.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,8 @@ std::vector<std::string> corpus_files() {
 // corners are hinges.
 NurbsCurve undeformed_beam(const BezierPath& path) {
   const int segments = static_cast<int>(path.segments.size());
-  BeamModel model = testing::one_beam(path.segments, 3, testing::round_bar(1e-3, 7800, 200e9), 3 * segments, {});
+  BeamModel model =
+      testing::one_beam(path.segments, 3, testing::round_bar(1e-3, 7800, 200e9), 3 * segments, {});
   model.gravity.setZero();
   Beam& beam = model.beams[0];
   for (const Corner& corner : path.corners(1e-4))
@@ -55,7 +56,8 @@ TEST_P(CorpusWalk, ReturnsEveryCurveWhereItWas) {
     beams.push_back({curve.name, undeformed_beam(BezierPath::from_nurbs(curve.curve, approximation))});
 
   const test::TemporaryDirectory directory;
-  for (const auto& [name, unit] : {std::pair{"back.step", LengthUnit::millimetre}, {"back.igs", LengthUnit::inch}}) {
+  for (const auto& [name, unit] :
+       {std::pair{"back.step", LengthUnit::millimetre}, {"back.igs", LengthUnit::inch}}) {
     export_curves(directory.path() / name, beams, unit);
     const ImportReport back = import_curves(directory.path() / name);
     ASSERT_EQ(back.curves.size(), source.curves.size());
