@@ -109,6 +109,8 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
 /// Nearness to a beam end, in home element lengths, at which a joint is carried as a point; it becomes a node
 /// again at twice this distance.
 inline constexpr double end_zone = 0.2;
+/// Distance of two joints on a beam, in home element lengths, at which they count as having met.
+inline constexpr double meeting_distance = 0.05;
 /// Nearness to a late home node at which it is removed and (larger) put back, in home element lengths.
 inline constexpr double late_removal = 0.04, late_return = 0.05;
 

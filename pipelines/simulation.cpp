@@ -480,7 +480,7 @@ class Simulation {
   // Two bodies that meet on one beam end the run.
   bool separate_bodies() {
     for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j) {
-      if (!system_->place(state_, j) || distance_to_others(j) > end_zone * home_spacing(j)) continue;
+      if (!system_->place(state_, j) || distance_to_others(j) > meeting_distance * home_spacing(j)) continue;
       fail(SimulationStatus::not_converged, "sliding bodies meet at t = " + text(state_.t) +
                                                 " s; contact between bodies is not modelled" + places_text());
       return false;
