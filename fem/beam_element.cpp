@@ -71,6 +71,8 @@ void BeamElement<D>::respond(const ElementState<D>& x, const Vector<D>& load, co
   if (weights) response.tangent.setZero();
   if (fixed_)
     respond_fixed(x, load, weights, response);
+  else if (properties_->form == Form::virtual_work)
+    respond_virtual_work(x, load, weights, response);
   else
     respond_moving(x, load, weights, response);
 }
@@ -198,6 +200,72 @@ void BeamElement<D>::respond_moving(const ElementState<D>& x, const Vector<D>& l
                      rss.add_hessian(damping.stress.template tail<D>(), k * w, e, K);
                    }
                  });
+}
+
+// f = int { Z' y + N' (rho A d2r/dt2 - load) } ds: y the stress, Z and N the gradients of z = (r_s, r_ss) and
+// r at fixed material point.
+template <int D>
+void BeamElement<D>::respond_virtual_work(const ElementState<D>& x, const Vector<D>& load,
+                                          const TangentWeights* weights, ElementResponse<D>& response) const {
+  using Pair = Eigen::Matrix<double, 2 * D, 1>;
+  using PairGradient = Eigen::Matrix<double, 2 * D, element_size<D>>;
+  const typename PointInertia<D>::Motion motion{nodes<D>(x.q), nodes<D>(x.v), nodes<D>(x.a), ends<D>(x.v),
+                                                ends<D>(x.a)};
+  const Nodes<D>& e = motion.e;
+  auto& K = response.tangent;
+  const double rho = properties_->mass_per_length;
+
+  for_each_point(
+      Jet::variable(x.q[4 * D], 0), Jet::variable(x.q[4 * D + 1], 1),
+      [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
+        const PointField<D> r(shape.value, e), rs(shape.d1, e), rss(shape.d2, e), rsss(shape.d3, e);
+        const double w = weight.value();
+        const PointInertia<D> inertia(shape, s, weight, r, rs, motion);
+        const ElementVector<D>& w_q = inertia.weight_gradient();
+        const ElementVector<D>& s_q = inertia.place_gradient();
+        const double s_rate = inertia.place_rate();
+        const auto& N = inertia.velocity_gradient();
+
+        PairGradient B, z_s_q;
+        B << rs.gradient, rss.gradient;
+        z_s_q << rss.gradient, rsss.gradient;
+        Pair z_s, zeta;
+        z_s << rss.value, rsss.value;
+        zeta << rs.rate(e, motion.e_rate, motion.w), rss.rate(e, motion.e_rate, motion.w);
+        zeta -= z_s * s_rate;
+        const PairGradient Z = B - z_s * s_q.transpose();
+
+        const ElasticResponse<D> elastic =
+            elastic_response<D>(*properties_, rs.value, rss.value, straight_ ? 0 : shape.kappa0.value());
+        const DampingResponse<D> damping = damping_response<D>(*properties_, rs.value, rss.value, zeta);
+        const Pair stress = elastic.gradient + damping.stress;
+        const Vector<D> body = rho * inertia.material_acceleration(rss) - load;
+        const ElementVector<D> density = Z.transpose() * stress + N.transpose() * body;
+        response.force += w * density;
+        if (!weights) return;
+
+        if (weights->mass != 0) K += (weights->mass * w * rho) * N.transpose() * N;
+        if (weights->damping != 0)
+          K +=
+              (weights->damping * w) * (Z.transpose() * damping.by_rate * Z +
+                                        rho * N.transpose() * inertia.material_acceleration_by_velocity(rss));
+        if (weights->stiffness == 0) return;
+        const double k = weights->stiffness;
+        PairGradient zeta_q;
+        zeta_q << rs.rate_gradient(e, motion.e_rate, motion.w), rss.rate_gradient(e, motion.e_rate, motion.w);
+        zeta_q -= s_rate * z_s_q;
+        PairGradient stress_q = (elastic.hessian + damping.by_z) * B + damping.by_rate * zeta_q;
+        if (!straight_)
+          for (int i = 0; i < 2; ++i) stress_q.col(4 * D + i) -= elastic.moment_gradient * shape.kappa0.d(i);
+        const ElementVector<D> place_q = z_s_q.transpose() * stress + rs.gradient.transpose() * body;
+        K += k * (density * w_q.transpose() +
+                  w * (Z.transpose() * stress_q +
+                       rho * N.transpose() * inertia.material_acceleration_by_position(rss) -
+                       s_q * place_q.transpose()));
+        rs.add_hessian(stress.template head<D>(), k * w, e, K);
+        rss.add_hessian(stress.template tail<D>(), k * w, e, K);
+        r.add_hessian(body, k * w, e, K);
+      });
 }
 
 template <int D>

@@ -43,7 +43,7 @@ struct ElementEnergy {
 /// All forces are the Euler-Lagrange expressions of one discrete Lagrangian: T - U of the fields of
 /// ElementBasis, summed over Gauss points that sit at fixed fractions of the element's reference arc length
 /// (of each part, where the element spans breaks of the drawing). With moving ends this is form V of
-/// docs/theory.md.
+/// docs/theory.md; Form::virtual_work is form P.
 template <int D>
 class BeamElement {
  public:
@@ -82,6 +82,8 @@ class BeamElement {
                      const TangentWeights* weights, ElementResponse<D>& response) const;
   void respond_moving(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load,
                       const TangentWeights* weights, ElementResponse<D>& response) const;
+  void respond_virtual_work(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load,
+                            const TangentWeights* weights, ElementResponse<D>& response) const;
 
   const ReferenceCurve* curve_;
   const BeamProperties* properties_;

@@ -163,6 +163,19 @@ class PointInertia {
   const Coordinates& place_gradient() const { return s_q_; }
   const Coordinates& weight_gradient() const { return weight_q_; }
 
+  /// d2r/dt2 at the material point, and its gradients in dq/dt and q; rss: the field r_ss there.
+  Vector material_acceleration(const PointField<D>& rss) const {
+    return acceleration_ - s_rate_ * (rs_rate_ - s_rate_ * rss.value);
+  }
+  Gradient material_acceleration_by_velocity(const PointField<D>& rss) const {
+    return 2 * (r_.rate_gradient(x_.e, x_.e_rate, x_.w) - s_rate_ * rs_.gradient +
+                (s_rate_ * rss.value - rs_rate_) * s_q_.transpose());
+  }
+  Gradient material_acceleration_by_position(const PointField<D>& rss) const {
+    return r2_.gradient - 2 * s_rate_ * rs_.rate_gradient(x_.e, x_.e_rate, x_.w) - s_second_ * rs_.gradient +
+           s_rate_ * s_rate_ * rss.gradient;
+  }
+
   void add_force(double m, Coordinates& f) const {
     f += m * (N_.transpose() * momentum_rate_ + weight_ * L_.transpose() * velocity_ -
               velocity_.squaredNorm() / 2 * weight_q_);

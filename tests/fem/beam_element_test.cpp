@@ -176,6 +176,22 @@ struct Witness {
       visit(q[4 * D] + length * T(GaussRule::points[g]), length * T(GaussRule::weights[g]));
   }
 
+  // Strain energy less the work of the dead load, per reference length.
+  template <class T>
+  T potential(const std::array<T, n>& q, const T& s) const {
+    const auto r = jets<T>(q, s);
+    T rs2(0.0), load_r(0.0);
+    for (int d = 0; d < D; ++d) {
+      rs2 = rs2 + r[1][d] * r[1][d];
+      load_r = load_r + T(load[d]) * r[0][d];
+    }
+    const T eps = (rs2 - T(1.0)) / T(2.0), bend = curvature<T>(r[1], r[2]) - drawn_curvature<T>(s);
+    T bending = T(properties.bending_stiffness / 2) * bend * bend;
+    if (D == 3 && straight)
+      bending = bending - T(properties.bending_stiffness * curvature_rounding * curvature_rounding / 2);
+    return T(properties.axial_stiffness / 2) * eps * eps + bending - load_r;
+  }
+
   template <class T>
   T lagrangian(const std::array<T, n>& q, const std::array<T, n>& v) const {
     T sum(0.0);
@@ -183,20 +199,9 @@ struct Witness {
       std::array<Dual<T>, n> moving;
       for (int i = 0; i < n; ++i) moving[i] = {q[i], v[i]};
       const auto velocity = field<Dual<T>>(moving, lifted(s));
-      T speed2(0.0), load_r(0.0);
-      for (int d = 0; d < D; ++d) {
-        speed2 = speed2 + velocity[d].d * velocity[d].d;
-        load_r = load_r + T(load[d]) * velocity[d].x;
-      }
-      const auto r = jets<T>(q, s);
-      T rs2(0.0);
-      for (int d = 0; d < D; ++d) rs2 = rs2 + r[1][d] * r[1][d];
-      const T eps = (rs2 - T(1.0)) / T(2.0), bend = curvature<T>(r[1], r[2]) - drawn_curvature<T>(s);
-      T bending = T(properties.bending_stiffness / 2) * bend * bend;
-      if (D == 3 && straight)
-        bending = bending - T(properties.bending_stiffness * curvature_rounding * curvature_rounding / 2);
-      sum = sum + weight * (T(properties.mass_per_length / 2) * speed2 + load_r -
-                            T(properties.axial_stiffness / 2) * eps * eps - bending);
+      T speed2(0.0);
+      for (int d = 0; d < D; ++d) speed2 = speed2 + velocity[d].d * velocity[d].d;
+      sum = sum + weight * (T(properties.mass_per_length / 2) * speed2 - potential<T>(q, s));
     });
     return sum;
   }
@@ -218,6 +223,45 @@ struct Witness {
                        T(properties.bending_stiffness) * K_rate * K_rate);
     });
     return sum;
+  }
+
+  // Virtual work at fixed material points, and its derivative along a direction (dq, dv, da).
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> virtual_work(const ElementState<D>& x,
+                                                           const ElementState<D>& direction) const {
+    using A = Dual<double>;  // along the direction
+    using B = Dual<A>;       // along coordinate i, or time
+    std::array<A, n> q, v, work;
+    std::array<Dual<B>, n> motion;
+    for (int k = 0; k < n; ++k) {
+      q[k] = {x.q[k], direction.q[k]};
+      v[k] = {x.v[k], direction.v[k]};
+      motion[k] = {B{q[k], v[k]}, B{v[k], A{x.a[k], direction.a[k]}}};
+      work[k] = A(0.0);
+    }
+    for (int i = 0; i < n; ++i) {
+      std::array<B, n> varied, rates, still;
+      for (int k = 0; k < n; ++k) {
+        const A here(k == i ? 1.0 : 0.0);
+        varied[k] = {q[k], here};
+        rates[k] = {v[k], here};
+        still[k] = {q[k], A(0.0)};
+      }
+      visit_points<A>(q, [&](const A& s, const A& weight) {
+        const auto r = field<Dual<B>>(motion, lifted(lifted(s)));
+        const auto variation = field<B>(varied, lifted(s));
+        A density = potential<B>(varied, lifted(s)).d;
+        for (int d = 0; d < D; ++d)
+          density = density + A(properties.mass_per_length) * r[d].d.d * variation[d].d;
+        work[i] = work[i] + weight * density;
+      });
+      work[i] = work[i] + dissipation<B>(still, rates).d;
+    }
+    Eigen::VectorXd value(n), derivative(n);
+    for (int i = 0; i < n; ++i) {
+      value[i] = work[i].x;
+      derivative[i] = work[i].d;
+    }
+    return {value, derivative};
   }
 
   // d/dt(dL/dv) - dL/dq + dR/dv, and its derivative along a direction (dq, dv, da).
@@ -257,6 +301,7 @@ struct Variant {
   bool constant_weights, straight;
   double damping;
   CurvatureMeasure curvature;
+  Form form = Form::variational;
 };
 
 std::string name_of(const ::testing::TestParamInfo<Variant>& info) { return info.param.name; }
@@ -271,7 +316,7 @@ void check_against_witness(const Variant& variant, int seed) {
   Witness<D> witness{cubic, ArcLengthMap(cubic), {}, {}, variant.straight, {}};
   witness.chart.segment = variant.segment;
   if (variant.constant_weights) witness.chart.constant_weights = {1.0, 1.2, 0.9, 1.1};
-  witness.properties = {300.0, 2.0, 0.7, variant.damping, variant.curvature};
+  witness.properties = {300.0, 2.0, 0.7, variant.damping, variant.curvature, variant.form};
   for (int d = 0; d < D; ++d) witness.load[d] = unit(random);
 
   const ReferenceCurve curve({cubic}, D);
@@ -299,7 +344,8 @@ void check_against_witness(const Variant& variant, int seed) {
   element.respond(x, witness.load, &M, response);
   derivative += response.tangent * direction.a;
 
-  const auto [force, force_derivative] = witness.force(x, direction);
+  const auto [force, force_derivative] =
+      variant.form == Form::virtual_work ? witness.virtual_work(x, direction) : witness.force(x, direction);
   EXPECT_LT((response.force - force).norm(), 1e-11 * force.norm());
   EXPECT_LT((derivative - force_derivative).norm(), 1e-11 * force_derivative.norm());
 
@@ -336,7 +382,10 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"MaterialWeightsAsDrawnDamped", 0, false, false, 0.2, CurvatureMeasure::spatial},
         Variant{"ConstantWeights", 0, true, false, 0.1, CurvatureMeasure::material},
         Variant{"ArcLengthCubic", -1, false, false, 0.1, CurvatureMeasure::material},
-        Variant{"ArcLengthConstantWeights", -1, true, false, 0, CurvatureMeasure::spatial}),
+        Variant{"ArcLengthConstantWeights", -1, true, false, 0, CurvatureMeasure::spatial},
+        Variant{"VirtualWork", 0, false, false, 0.2, CurvatureMeasure::material, Form::virtual_work},
+        Variant{"VirtualWorkConstantWeights", 0, true, true, 0, CurvatureMeasure::spatial,
+                Form::virtual_work}),
     name_of);
 
 }  // namespace
