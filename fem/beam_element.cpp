@@ -1,5 +1,7 @@
 #include "fem/beam_element.h"
 
+#include <stdexcept>
+
 #include "fem/inertia.h"
 
 namespace nurbeam {
@@ -33,9 +35,12 @@ BeamElement<D>::BeamElement(const ReferenceCurve& curve, const BeamProperties& p
     : curve_(&curve), properties_(&properties), chart_(std::move(chart)), fixed_(fixed), straight_(straight) {
   mass_.setZero();
   load_factor_.setZero();
+  if (!fixed_ && curve.metric() == Metric::label)
+    throw std::invalid_argument("an element whose ends move needs the metric of the drawn curve");
   if (!fixed_) return;
-  for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double, double weight) {
-    const FixedPoint p{row(shape.value), row(shape.d1), row(shape.d2), weight, straight_ ? 0 : shape.kappa0};
+  for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double weight) {
+    const FixedPoint p{row(shape.value), row(shape.d1), row(shape.d2), weight, straight_ ? 0 : shape.kappa0,
+                       curve.strain(s)};
     points_.push_back(p);
     mass_ += properties_->mass_per_length * weight * p.S * p.S.transpose();
     load_factor_ += weight * p.S;
@@ -87,7 +92,7 @@ void BeamElement<D>::respond_fixed(const ElementState<D>& x, const Vector<D>& lo
   const bool damped = properties_->damping > 0;
   for (const FixedPoint& p : points_) {
     const Vector<D> rs = e * p.S1, rss = e * p.S2;
-    const ElasticResponse<D> elastic = elastic_response<D>(*properties_, rs, rss, p.kappa0);
+    const ElasticResponse<D> elastic = elastic_response<D>(*properties_, rs, rss, p.kappa0, p.eps0);
     Eigen::Matrix<double, 2 * D, 1> stress = elastic.gradient;
     Eigen::Matrix<double, 2 * D, 2 * D> H;
     if (weights) H = weights->stiffness * elastic.hessian;
@@ -280,7 +285,8 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector<D>& 
         const double s_rate = s.d(0) * w[0] + s.d(1) * w[1], omega = weight.value();
         const Vector<D> v = r.rate(e, e_rate, w) - rs.value * s_rate;
         const ElasticResponse<D> elastic =
-            elastic_response<D>(*properties_, rs.value, rss.value, straight_ ? 0 : shape.kappa0.value());
+            elastic_response<D>(*properties_, rs.value, rss.value, straight_ ? 0 : shape.kappa0.value(),
+                                curve_->strain(s.value()));
         Eigen::Matrix<double, 2 * D, 1> rate;
         rate << rs.rate(e, e_rate, w) - rss.value * s_rate, rss.rate(e, e_rate, w) - rsss.value * s_rate;
         sum.kinetic += omega * properties_->mass_per_length * v.squaredNorm() / 2;

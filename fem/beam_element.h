@@ -48,7 +48,8 @@ template <int D>
 class BeamElement {
  public:
   /// `fixed`: neither end moves over the material; then everything that depends on s_a, s_b is computed here,
-  /// once. `straight`: the stress-free shape has no curvature.
+  /// once. `straight`: the stress-free shape has no curvature. Throws std::invalid_argument for an element
+  /// with moving ends on a curve without metric.
   BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart, double s_a,
               double s_b, bool fixed, bool straight);
 
@@ -72,7 +73,7 @@ class BeamElement {
  private:
   struct FixedPoint {
     Eigen::Vector4d S, S1, S2;
-    double weight, kappa0;
+    double weight, kappa0, eps0;
   };
   // Calls visit(shape, s, weight) at every Gauss point; a part between two breaks of the drawing has its own
   // points.

@@ -15,10 +15,11 @@ enum class WeightRule {
   constant,  ///< ALE-RANCF, the paper's: four weights that stay with the element
   ones       ///< ALE-ANCF: plain cubics in reference arc length
 };
+/// Velocities after a merge: the mass-weighted L2 projection with `standard`, the kept nodes' own else.
 enum class MergeRule {
   standard,  ///< material weights: none to choose; constant weights: the paper's rule
-  paper,     ///< Eqs. 31-38 of Ding & Ouyang
-  ones       ///< all ones
+  paper,     ///< Eqs. 31-38 of Ding & Ouyang, for comparison
+  ones       ///< all ones, for comparison
 };
 
 /// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.

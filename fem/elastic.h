@@ -10,8 +10,8 @@ struct EnergyDensity {
   double total() const { return axial + bending; }
 };
 
-/// Strain energy per reference length psi(z) = EA eps^2/2 + EI (K - kappa_0)^2/2 and its derivatives in
-/// z = (r_s, r_ss) and kappa_0.
+/// Strain energy per reference length psi(z) = EA (eps - eps_0)^2/2 + EI (K - kappa_0)^2/2 and its
+/// derivatives in z = (r_s, r_ss) and kappa_0. eps_0 = 0 but for Metric::label.
 template <int D>
 struct ElasticResponse {
   EnergyDensity energy;
@@ -24,19 +24,20 @@ struct ElasticResponse {
 /// The constitutive law: the only place that multiplies strain by stiffness.
 template <int D>
 ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Matrix<double, D, 1>& rs,
-                                    const Eigen::Matrix<double, D, 1>& rss, double kappa0) {
+                                    const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
   const StrainMeasure<D> eps = axial_strain<D>(rs);
   const StrainMeasure<D> K = curvature(rs, rss, beam.curvature);
-  const double EA = beam.axial_stiffness, EI = beam.bending_stiffness, bend = K.value - kappa0;
+  const double EA = beam.axial_stiffness, EI = beam.bending_stiffness;
+  const double stretch = eps.value - eps0, bend = K.value - kappa0;
   ElasticResponse<D> e;
-  e.energy.axial = EA * eps.value * eps.value / 2;
+  e.energy.axial = EA * stretch * stretch / 2;
   e.energy.bending = EI * bend * bend / 2;
   if constexpr (D == 3)
     if (kappa0 == 0) e.energy.bending -= EI * curvature_rounding * curvature_rounding / 2;
   e.moment = EI * bend;
   e.moment_gradient = EI * K.gradient;
-  e.gradient = EA * eps.value * eps.gradient + e.moment * K.gradient;
-  e.hessian = EA * (eps.gradient * eps.gradient.transpose() + eps.value * eps.hessian) +
+  e.gradient = EA * stretch * eps.gradient + e.moment * K.gradient;
+  e.hessian = EA * (eps.gradient * eps.gradient.transpose() + stretch * eps.hessian) +
               e.moment_gradient * K.gradient.transpose() + e.moment * K.hessian;
   return e;
 }

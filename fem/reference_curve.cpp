@@ -24,8 +24,8 @@ std::array<double, 3> cross_product_derivatives(const Eigen::Matrix<double, 3, 6
 
 }  // namespace
 
-ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension)
-    : segments_(std::move(segments)), dimension_(dimension) {
+ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric)
+    : segments_(std::move(segments)), dimension_(dimension), metric_(metric) {
   if (segments_.empty())
     throw std::invalid_argument("a reference curve needs at least one segment, got none");
   if (dimension != 2 && dimension != 3)
@@ -59,7 +59,9 @@ ChartGeometry ReferenceCurve::geometry(int j, double u) const {
   const double k = c * p;
   const double k1 = c1 * p - 3 * c * p * J1 / J;
   const double k2 = c2 * p - 6 * c1 * p * J1 / J + 12 * c * p * J1 * J1 / (J * J) - 3 * c * p * J2 / J;
-  return {{J, J1, J2, J3}, segments_[j].weight_derivatives(u), {k, k1, k2, 0}};
+  std::array<double, 4> stretch{J, J1, J2, J3};
+  if (metric_ == Metric::label) stretch = {segment_length(j), 0, 0, 0};
+  return {stretch, segments_[j].weight_derivatives(u), {k, k1, k2, 0}};
 }
 
 Eigen::Vector3d ReferenceCurve::position(double s) const {
@@ -69,7 +71,12 @@ Eigen::Vector3d ReferenceCurve::position(double s) const {
 
 Eigen::Vector3d ReferenceCurve::tangent(double s, bool from_left) const {
   const int j = segment_at(s, from_left);
-  return segments_[j].derivatives(parameter(j, s)).col(1).normalized();
+  const Eigen::Vector3d r_u = segments_[j].derivatives(parameter(j, s)).col(1);
+  return metric_ == Metric::label ? Eigen::Vector3d(r_u / segment_length(j)) : r_u.normalized();
+}
+
+double ReferenceCurve::strain(double s) const {
+  return metric_ == Metric::label ? (tangent(s).squaredNorm() - 1) / 2 : 0;
 }
 
 double ReferenceCurve::largest_curvature() const {

@@ -16,17 +16,26 @@ struct ChartGeometry {
   std::array<double, 4> curvature;  ///< kappa_0 and its first two u-derivatives (the fourth entry is 0)
 };
 
+/// What the material coordinate s of a reference curve measures.
+enum class Metric {
+  arc_length,  ///< of the drawn curve
+  label  ///< s = s_j + L_j u inside segment j, no metric: the subdivision paper's elements, for comparison
+         ///< only; strongly uneven parametrisations then converge to wrong results (theory.md section 3)
+};
+
 /// The drawn, undeformed curve as a function of reference arc length s in [0, length]; immutable.
 ///
 /// It is a chain of segments (rational cubics); segment j covers [breaks()[j], breaks()[j+1]] and has its own
 /// parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is signed,
-/// positive where the curve turns from the first axis to the second; in space kappa_0 >= 0.
+/// positive where the curve turns from the first axis to the second; in space kappa_0 >= 0. With
+/// Metric::label, "arc length" below is that label.
 class ReferenceCurve {
  public:
   /// Throws std::invalid_argument when there is no segment, the dimension is not 2 or 3, or the speed
   /// vanishes.
-  ReferenceCurve(std::vector<RationalCubic> segments, int dimension);
+  ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric = Metric::arc_length);
 
+  Metric metric() const { return metric_; }
   int dimension() const { return dimension_; }
   int segment_count() const { return static_cast<int>(segments_.size()); }
   const RationalCubic& segment(int j) const { return segments_[j]; }
@@ -37,22 +46,33 @@ class ReferenceCurve {
   /// The segment that covers s; at a break the one before it when `from_left`, else the one after it.
   int segment_at(double s, bool from_left = false) const;
   /// u of segment j at s [m]; slightly outside it extrapolates.
-  double parameter(int j, double s) const { return maps_[j].parameter(s - breaks_[j]); }
+  double parameter(int j, double s) const {
+    return metric_ == Metric::label ? (s - breaks_[j]) / segment_length(j)
+                                    : maps_[j].parameter(s - breaks_[j]);
+  }
   /// Reference arc length [m] at parameter u of segment j, the inverse of parameter().
-  double arc_length(int j, double u) const { return breaks_[j] + maps_[j].arc_length(u); }
+  double arc_length(int j, double u) const {
+    return breaks_[j] + (metric_ == Metric::label ? u * segment_length(j) : maps_[j].arc_length(u));
+  }
   ChartGeometry geometry(int j, double u) const;
   /// Position at s, 3 [m] (third coordinate 0 in a planar model).
   Eigen::Vector3d position(double s) const;
-  /// Unit tangent at s, 3 [-]; at a break that of the segment after it, or before it when `from_left`.
+  /// dr/ds at s, 3 [-], the unit tangent (its direction with Metric::label); at a break that of the segment
+  /// after it, or before it when `from_left`.
   Eigen::Vector3d tangent(double s, bool from_left = false) const;
+  /// Green's strain (|dr/ds|^2 - 1)/2 of the drawing: 0 but with Metric::label.
+  double strain(double s) const;
   /// Largest |kappa_0| over the sampled curve [1/m].
   double largest_curvature() const;
 
  private:
+  double segment_length(int j) const { return breaks_[j + 1] - breaks_[j]; }
+
   std::vector<RationalCubic> segments_;
   std::vector<ArcLengthMap> maps_;
   std::vector<double> breaks_;
   int dimension_;
+  Metric metric_;
 };
 
 }  // namespace nurbeam

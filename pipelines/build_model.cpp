@@ -78,7 +78,8 @@ class Builder {
       add_joints();
       for (const CaseProbe& probe : case_.output.probes) {
         const int beam = beam_index(probe.beam);
-        built_.probes.push_back({probe.name, beam, place(probe.at, beam, "output.probes")});
+        const double s = material_coordinate(beam, place(probe.at, beam, "output.probes"));
+        built_.probes.push_back({probe.name, beam, s});
       }
     }
     BuildReport report;
@@ -318,7 +319,13 @@ class Builder {
     const CaseBeam& from = case_.beams[b];
     std::vector<RationalCubic> local;
     for (const RationalCubic& cubic : paths_[b]) local.push_back(to_local(cubic));
-    Beam beam{from.name, ReferenceCurve(local, built_.model.dimension), {}, false, from.weights, from.merge,
+    measured_.emplace_back(local, built_.model.dimension);
+    Beam beam{from.name,
+              ReferenceCurve(local, built_.model.dimension, from.metric),
+              {},
+              false,
+              from.weights,
+              from.merge,
               {}};
     if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
     beam.properties.axial_stiffness = from.material.youngs_modulus * from.section.area;
@@ -326,6 +333,8 @@ class Builder {
     beam.properties.mass_per_length = from.material.density * from.section.area;
     beam.properties.damping = from.material.damping;
     beam.properties.curvature = from.curvature;
+    beam.properties.form = from.form;
+    if (from.metric == Metric::label) check_without_metric(from);
     beam.straight = is_straight(from, beam.curve);
     built_.model.beams.push_back(std::move(beam));
 
@@ -335,14 +344,16 @@ class Builder {
       if (beam_index(support.beam) != b) continue;
       const double s = place(support.at, b, support.path);
       supported.push_back(s);
-      built_.model.supports.push_back({b, s, support.type == CaseSupport::Type::clamped});
+      built_.model.supports.push_back(
+          {b, material_coordinate(b, s), support.type == CaseSupport::Type::clamped});
     }
-    const std::vector<double> places = fixed_places(added.curve, supported);
+    const std::vector<double> places = fixed_places(measured_[b], supported);
     try {
       added.home = home_nodes(places, parts(from, places));
     } catch (const std::invalid_argument& problem) {
       return error(from.path + ".elements.count", problem.what());
     }
+    for (HomeNode& node : added.home) node.s = material_coordinate(b, node.s);
     for (int corner : hinges_[b])
       for (HomeNode& node : added.home)
         if (node.s == added.curve.breaks()[corner]) node.hinge = true;
@@ -376,8 +387,27 @@ class Builder {
     return spread_elements(places, from.elements.count.value_or(std::max(default_count, intervals)));
   }
 
-  double place(const Place& at, int b, const std::string& where) {
+  // The comparison of the subdivision paper: its strain law and measure, no sliding.
+  void check_without_metric(const CaseBeam& beam) {
+    if (beam.curvature != CurvatureMeasure::spatial)
+      error(beam.path + ".metric", "\"none\" needs \"curvature\": \"spatial\", which it is defined for");
+    for (const CaseSlidingJoint& joint : case_.sliding_joints)
+      if (joint.beam == beam.name)
+        error(beam.path + ".metric", "\"none\" is a comparison without sliding joints, but body \"" +
+                                         joint.body + "\" slides on this beam; use \"reference\"");
+  }
+
+  // The model's material coordinate of a place in reference arc length: the same but without a metric.
+  double material_coordinate(int b, double s) const {
     const ReferenceCurve& curve = built_.model.beams[b].curve;
+    if (curve.metric() == Metric::arc_length) return s;
+    const int j = measured_[b].segment_at(s);
+    return curve.arc_length(j, measured_[b].parameter(j, s));
+  }
+
+  // In reference arc length, also without a metric.
+  double place(const Place& at, int b, const std::string& where) {
+    const ReferenceCurve& curve = measured_[b];
     const double L = curve.length();
     double s = 0;
     switch (at.kind) {
@@ -431,7 +461,7 @@ class Builder {
         built_.model.line_loads.push_back({b, value, load.time});
         continue;
       }
-      const double s = place(load.at, b, load.path);
+      const double s = material_coordinate(b, place(load.at, b, load.path));
       const Eigen::Vector3d along = built_.model.beams[b].curve.tangent(s);
       if (is_moment && std::abs(value.dot(along)) > 1e-9 * value.norm())
         error(load.path + ".moment",
@@ -487,6 +517,7 @@ class Builder {
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::vector<RationalCubic>> paths_;
   std::vector<std::vector<int>> hinges_;  // per beam: breaks that are corners
+  std::vector<ReferenceCurve> measured_;  // per beam: the drawing in reference arc length
   std::map<std::filesystem::path, ImportReport> imports_;
 };
 

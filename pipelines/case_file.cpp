@@ -844,6 +844,9 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                                          {"as-drawn-without-torsion", StressFree::as_drawn_without_torsion}});
   beam.curvature = chosen<CurvatureMeasure>(
       json, "curvature", {{"material", CurvatureMeasure::material}, {"spatial", CurvatureMeasure::spatial}});
+  beam.metric = chosen<Metric>(json, "metric", {{"reference", Metric::arc_length}, {"none", Metric::label}});
+  beam.form =
+      chosen<Form>(json, "form", {{"variational", Form::variational}, {"virtual-work", Form::virtual_work}});
   return beam;
 }
 

@@ -70,6 +70,8 @@ struct CaseBeam {
   MergeRule merge = MergeRule::standard;
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
+  Metric metric = Metric::arc_length;
+  Form form = Form::variational;
 };
 
 struct CaseBody {

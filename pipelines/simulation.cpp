@@ -499,7 +499,10 @@ class Simulation {
     NextPlan next = next_plan<D>(*system_, state_, options_.length_control);
     if (next.change == MeshChange::none) return false;
     RunEvent event = in_motion ? event_before(kind_of(next.change), next.joint) : RunEvent{};
-    const bool exact = next.change == MeshChange::split || next.change == MeshChange::becomes_node;
+    const bool keeps_velocities = next.change == MeshChange::merge &&
+                                  model_.beams[model_.joints[next.joint].beam].merge != MergeRule::standard;
+    const bool exact =
+        next.change == MeshChange::split || next.change == MeshChange::becomes_node || keeps_velocities;
     const std::vector<bool> held(model_.joints.size(), !in_motion);
     auto to = std::make_unique<BeamSystem<D>>(model_, next.plan, held);
     std::optional<State> moved = transfer<D>(*system_, state_, *to, exact || !in_motion);
