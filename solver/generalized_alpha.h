@@ -1,6 +1,7 @@
 #pragma once
 #include <utility>
 
+#include "solver/integrator.h"
 #include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
 
@@ -13,18 +14,6 @@ struct GeneralizedAlpha {
   int max_iterations = 12;
   int max_halvings = 12;  ///< of a failed step, before giving up
   double tolerance = 0;   ///< relative local error per step; 0: fixed steps
-};
-
-enum class StepStatus { converged, not_converged, singular_matrix, inadmissible };
-
-struct StepReport {
-  StepStatus status = StepStatus::converged;
-  double step = 0;            ///< the step taken [s] (may be shorter than asked)
-  double next_step = 0;       ///< what error control would take next [s]; the asked step without it
-  int newton_iterations = 0;  ///< over all attempts
-  int rejected = 0;           ///< attempts thrown away
-  double residual_norm = 0;   ///< scaled, last attempt
-  double local_error = 0;     ///< estimated, relative
 };
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
@@ -47,14 +36,14 @@ struct StepReport {
 ///
 /// In an exact position constraint lambda carries the round-off of q divided by h^2: a caller that must land
 /// on a time should divide the rest evenly rather than take one tiny step.
-class GeneralizedAlphaIntegrator {
+class GeneralizedAlphaIntegrator final : public Integrator {
  public:
   /// `start` must be consistent (a and lambda too); the method's own acceleration variable is set to a.
   /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range and for a
   /// start of the wrong size.
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
 
-  const State& state() const { return state_; }
+  const State& state() const override { return state_; }
   /// The method's own acceleration variable (for a restart point).
   const Eigen::VectorXd& algorithmic_acceleration() const { return algorithmic_acceleration_; }
   void set_algorithmic_acceleration(Eigen::VectorXd value) { algorithmic_acceleration_ = std::move(value); }
@@ -62,9 +51,7 @@ class GeneralizedAlphaIntegrator {
   const Eigen::SparseMatrix<double>& iteration_matrix() const { return kkt_; }
 
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
-  /// On any status but `converged` the state is unchanged. A `step` or step limit that is not positive and
-  /// finite, or too small to change t, is `inadmissible`.
-  [[nodiscard]] StepReport advance(double step);
+  [[nodiscard]] StepReport advance(double step) override;
 
  private:
   struct Parameters {

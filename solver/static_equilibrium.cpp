@@ -1,15 +1,12 @@
 #include "solver/static_equilibrium.h"
 
 #include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <memory>
 #include <new>
@@ -18,6 +15,7 @@
 #include <utility>
 
 #include "solver/kkt_solver.h"
+#include "solver/sundials_border.h"
 
 namespace nurbeam {
 
@@ -25,7 +23,6 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
-using VectorMap = Eigen::Map<Vector>;
 
 constexpr double round_off = 8 * std::numeric_limits<double>::epsilon();
 constexpr double multiplier_weight = 1e-6;   ///< of the multipliers in the length of a Newton step
@@ -160,39 +157,42 @@ class Kinsol {
  public:
   explicit Kinsol(ScaledEquations& equations) : equations_(equations) {
     const sunindextype size = equations.size();
-    context_.reset(new_context());
-    x_.reset(owned(N_VNew_Serial(size, context_.get())));
-    unknown_weight_.reset(owned(N_VNew_Serial(size, context_.get())));
-    row_weight_.reset(owned(N_VNew_Serial(size, context_.get())));
-    matrix_.reset(
-        owned(SUNSparseMatrix(size, size, equations.tangent().nonZeros(), CSC_MAT, context_.get())));
-    linear_solver_.reset(owned(SUNLinSol_KLU(x_.get(), matrix_.get(), context_.get())));
-    memory_.reset(static_cast<KINMemory*>(owned(KINCreate(context_.get()))));
-    map(unknown_weight_.get()).setConstant(multiplier_weight).head(equations.coordinates()).setOnes();
-    KINSetErrHandlerFn(memory(), ignore_message, nullptr);
+    context_.reset(sundials::new_context());
+    x_.reset(sundials::owned(N_VNew_Serial(size, context_.get())));
+    unknown_weight_.reset(sundials::owned(N_VNew_Serial(size, context_.get())));
+    row_weight_.reset(sundials::owned(N_VNew_Serial(size, context_.get())));
+    matrix_.reset(sundials::owned(
+        SUNSparseMatrix(size, size, equations.tangent().nonZeros(), CSC_MAT, context_.get())));
+    linear_solver_.reset(sundials::owned(SUNLinSol_KLU(x_.get(), matrix_.get(), context_.get())));
+    memory_.reset(static_cast<KINMemory*>(sundials::owned(KINCreate(context_.get()))));
+    sundials::map(unknown_weight_.get())
+        .setConstant(multiplier_weight)
+        .head(equations.coordinates())
+        .setOnes();
+    KINSetErrHandlerFn(memory(), sundials::ignore_message, nullptr);
     KINSetUserData(memory(), this);
-    check(KINInit(memory(), residual, x_.get()));
-    check(KINSetLinearSolver(memory(), linear_solver_.get(), matrix_.get()));
-    check(KINSetJacFn(memory(), jacobian));
-    check(KINSetMaxSetupCalls(memory(), 1));
-    check(KINSetScaledStepTol(memory(), std::numeric_limits<double>::epsilon()));
-    check(KINSetMaxNewtonStep(memory(), std::sqrt(static_cast<double>(equations.coordinates()))));
+    sundials::check(KINInit(memory(), residual, x_.get()));
+    sundials::check(KINSetLinearSolver(memory(), linear_solver_.get(), matrix_.get()));
+    sundials::check(KINSetJacFn(memory(), jacobian));
+    sundials::check(KINSetMaxSetupCalls(memory(), 1));
+    sundials::check(KINSetScaledStepTol(memory(), std::numeric_limits<double>::epsilon()));
+    sundials::check(KINSetMaxNewtonStep(memory(), std::sqrt(static_cast<double>(equations.coordinates()))));
   }
 
   /// Improves x until no scaled residual is above the `allowed` one or no further progress is made.
   /// Returns the number of iterations.
   int improve(Vector& x, const Vector& allowed, int strategy, int max_iterations) {
-    map(x_.get()) = x;
-    map(row_weight_.get()) = allowed.minCoeff() * allowed.cwiseInverse();
-    check(KINSetFuncNormTol(memory(), allowed.minCoeff()));
-    check(KINSetNumMaxIters(memory(), max_iterations));
+    sundials::map(x_.get()) = x;
+    sundials::map(row_weight_.get()) = allowed.minCoeff() * allowed.cwiseInverse();
+    sundials::check(KINSetFuncNormTol(memory(), allowed.minCoeff()));
+    sundials::check(KINSetNumMaxIters(memory(), max_iterations));
     // A failed factorisation must not be refactorised.
-    check(SUNLinSol_KLUReInit(linear_solver_.get(), matrix_.get(), SUNSparseMatrix_NNZ(matrix_.get()),
-                              SUNKLU_REINIT_PARTIAL));
+    sundials::check(SUNLinSol_KLUReInit(linear_solver_.get(), matrix_.get(),
+                                        SUNSparseMatrix_NNZ(matrix_.get()), SUNKLU_REINIT_PARTIAL));
     const int flag = KINSol(memory(), x_.get(), strategy, unknown_weight_.get(), row_weight_.get());
-    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    guard_.rethrow();
     if (flag == KIN_MEM_FAIL) throw std::bad_alloc();
-    x = map(x_.get());
+    x = sundials::map(x_.get());
     long iterations = 0;
     KINGetNumNonlinSolvIters(memory(), &iterations);
     return static_cast<int>(iterations);
@@ -200,56 +200,23 @@ class Kinsol {
 
  private:
   struct KINMemory;
-  struct Delete {
-    void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
-    void operator()(_generic_N_Vector* vector) const { N_VDestroy(vector); }
-    void operator()(_generic_SUNMatrix* matrix) const { SUNMatDestroy(matrix); }
-    void operator()(_generic_SUNLinearSolver* solver) const { SUNLinSolFree(solver); }
+  struct DeleteMemory {
     void operator()(KINMemory* memory) const {
       void* pointer = memory;
       KINFree(&pointer);
     }
   };
-  template <class T>
-  using Owner = std::unique_ptr<T, Delete>;
-
-  static SUNContext new_context() {
-    SUNContext context = nullptr;
-    SUNContext_Create(nullptr, &context);
-    return owned(context);
-  }
-  template <class T>
-  static T* owned(T* pointer) {
-    if (!pointer) throw std::bad_alloc();
-    return pointer;
-  }
-  static void check(int flag) {
-    if (flag != KIN_SUCCESS) throw std::bad_alloc();
-  }
-  static VectorMap map(N_Vector vector) { return {NV_DATA_S(vector), NV_LENGTH_S(vector)}; }
-  static void ignore_message(int, const char*, const char*, char*, void*) {}
   void* memory() const { return memory_.get(); }
-
-  /// Runs `evaluate`, which returns whether it succeeded: 0, 1 (recoverable) or, when it throws, -1.
-  template <class Evaluate>
-  int guarded(Evaluate evaluate) noexcept {
-    try {
-      return evaluate() ? 0 : 1;
-    } catch (...) {
-      error_ = std::current_exception();
-      return -1;
-    }
-  }
 
   static int residual(N_Vector x, N_Vector rows, void* data) {
     Kinsol& self = *static_cast<Kinsol*>(data);
-    return self.guarded([&] { return self.equations_.evaluate(map(x), map(rows)); });
+    return self.guard_.run([&] { return self.equations_.evaluate(sundials::map(x), sundials::map(rows)); });
   }
 
   static int jacobian(N_Vector x, N_Vector, SUNMatrix matrix, void* data, N_Vector, N_Vector) {
     Kinsol& self = *static_cast<Kinsol*>(data);
-    return self.guarded([&] {
-      const bool finite = self.equations_.differentiate(map(x));
+    return self.guard_.run([&] {
+      const bool finite = self.equations_.differentiate(sundials::map(x));
       const Matrix& tangent = self.equations_.tangent();
       std::copy_n(tangent.outerIndexPtr(), tangent.cols() + 1, SUNSparseMatrix_IndexPointers(matrix));
       std::copy_n(tangent.innerIndexPtr(), tangent.nonZeros(), SUNSparseMatrix_IndexValues(matrix));
@@ -259,14 +226,14 @@ class Kinsol {
   }
 
   ScaledEquations& equations_;
-  std::exception_ptr error_;
-  Owner<_SUNContext> context_;
-  Owner<_generic_N_Vector> x_;
-  Owner<_generic_N_Vector> unknown_weight_;
-  Owner<_generic_N_Vector> row_weight_;
-  Owner<_generic_SUNMatrix> matrix_;
-  Owner<_generic_SUNLinearSolver> linear_solver_;
-  Owner<KINMemory> memory_;
+  sundials::Guard guard_;
+  sundials::Owner<_SUNContext> context_;
+  sundials::Owner<_generic_N_Vector> x_;
+  sundials::Owner<_generic_N_Vector> unknown_weight_;
+  sundials::Owner<_generic_N_Vector> row_weight_;
+  sundials::Owner<_generic_SUNMatrix> matrix_;
+  sundials::Owner<_generic_SUNLinearSolver> linear_solver_;
+  std::unique_ptr<KINMemory, DeleteMemory> memory_;
 };
 
 /// One search: the state and load factor of the last equilibrium, and what was spent so far.

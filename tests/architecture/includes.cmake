@@ -17,7 +17,7 @@ set(homes
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseCore)"         ".*"
   "(fcntl|poll|signal|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|edge_curve\\.h)"
-  "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/.*\\.cpp"
+  "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|sundials_border\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case_file|inspect|run_summary)\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results\\.cpp"

@@ -156,4 +156,47 @@ class DrivenSlider : public DenseSystem {
   Eigen::MatrixXd constraint_jacobian(const State&) const override { return Eigen::RowVector2d(1, 0); }
 };
 
+/// A unit mass about a unit centre of gravitation, in polar coordinates q = (r, phi): r'' = r phi'^2 - 1 /
+/// r^2, r^2 phi'' = -2 r r' phi'. Of half axis 1: every orbit closes after 2 pi, with energy -1/2 and angular
+/// momentum sqrt(1 - eccentricity^2).
+class KeplerOrbit : public DenseSystem {
+ public:
+  double eccentricity = 0.3;
+
+  int coordinate_count() const override { return 2; }
+  int constraint_count() const override { return 0; }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd>) const override {
+    const double r = state.q[0];
+    const Eigen::VectorXd& v = state.v;
+    dynamics[0] = state.a[0] - r * v[1] * v[1] + 1 / (r * r);
+    dynamics[1] = r * r * state.a[1] + 2 * r * v[0] * v[1];
+  }
+
+  State at_nearest_point() const {
+    const double r = 1 - eccentricity;
+    const double rate = std::sqrt(1 - eccentricity * eccentricity) / (r * r);
+    State state;
+    state.q = Eigen::Vector2d(r, 0);
+    state.v = Eigen::Vector2d(0, rate);
+    state.a = Eigen::Vector2d(r * rate * rate - 1 / (r * r), 0);
+    return state;
+  }
+
+ protected:
+  Eigen::MatrixXd mass(const State& state) const override {
+    return Eigen::Vector2d(1, state.q[0] * state.q[0]).asDiagonal();
+  }
+  Eigen::MatrixXd damping(const State& state) const override {
+    const double r = state.q[0];
+    return (Eigen::Matrix2d() << 0, -2 * r * state.v[1], 2 * r * state.v[1], 2 * r * state.v[0]).finished();
+  }
+  Eigen::MatrixXd stiffness(const State& state) const override {
+    const double r = state.q[0];
+    const Eigen::VectorXd& v = state.v;
+    return (Eigen::Matrix2d() << -v[1] * v[1] - 2 / (r * r * r), 0, 2 * r * state.a[1] + 2 * v[0] * v[1], 0)
+        .finished();
+  }
+};
+
 }  // namespace nurbeam::testing

@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+
+#include "solver/integrator.h"
+#include "solver/second_order_system.h"
+
+namespace nurbeam {
+
+/// Settings of the explicit Runge-Kutta methods of SUNDIALS' ARKODE.
+struct ExplicitRungeKutta {
+  double tolerance =
+      0;  ///< local error per step over |q| + coordinate_scale(), likewise for v; 0: fixed step
+  double time_scale = 1;   ///< v is measured against coordinate_scale() / time_scale [s]
+  int max_halvings = 12;   ///< of a failed step, before giving up
+  int max_steps = 100000;  ///< of ARKODE in one call of advance, with error control
+};
+
+/// Advances one state of a system without constraints by an explicit Runge-Kutta method on q' = v, M(q) v' =
+/// f(q, v, t), with M factorised at every stage.
+///
+/// Without a tolerance: the classical method of four stages and order four, one step of at most `step`
+/// seconds per call (shortened by system.step_limit and by retries). With one: the pair of Dormand & Prince
+/// (1980) of orders five and four; advance(step) ends at t + step, with as many steps of its own as the
+/// tolerance and system.step_limit ask for.
+class ExplicitIntegrator final : public Integrator {
+ public:
+  /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range, for a
+  /// start of the wrong size and for a system with constraints. start.a is not used.
+  ExplicitIntegrator(ExplicitRungeKutta settings, const SecondOrderSystem& system, State start);
+  ~ExplicitIntegrator() override;
+  ExplicitIntegrator(ExplicitIntegrator&&) noexcept;
+  ExplicitIntegrator& operator=(ExplicitIntegrator&&) noexcept;
+
+  const State& state() const override;
+  [[nodiscard]] StepReport advance(double step) override;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace nurbeam
