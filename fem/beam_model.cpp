@@ -46,8 +46,9 @@ std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::v
     graded_places(length(tightest), parts[tightest], grading);
   } catch (const std::invalid_argument& refusal) {
     std::ostringstream message;
-    message << refusal.what() << ", between s = " << places[tightest] << " m and s = " << places[tightest + 1]
-            << " m";
+    message.precision(10);
+    message << "between s = " << places[tightest] << " m and s = " << places[tightest + 1]
+            << " m: " << refusal.what();
     throw std::invalid_argument(message.str());
   }
   std::vector<HomeNode> home;

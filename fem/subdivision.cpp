@@ -118,8 +118,8 @@ std::vector<double> graded_places(double length, int parts, double k) {
   if (parts < 1) throw refusal("cannot divide a length into ", parts, " parts; at least 1 is needed");
   const double limit = grading_limit(length, parts), n = parts;
   if (!std::isfinite(k) || std::abs(k) >= limit * (1 - 1e-9))
-    throw refusal("an increment of ", k, " m leaves no room for all of ", parts, " parts of ", length,
-                  " m; it must be greater than ", -limit, " m and less than ", limit, " m");
+    throw refusal("an increment of ", k, " m leaves no room for all ", parts, " parts of a length of ",
+                  length, " m; it must be greater than ", -limit, " m and less than ", limit, " m");
   std::vector<double> places;
   for (int j = 1; j < parts; ++j) places.push_back(length * j / n - k * j * (n - j) / 2);
   return places;

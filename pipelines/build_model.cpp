@@ -338,11 +338,20 @@ class Builder {
       built_.model.supports.push_back({b, s, support.type == CaseSupport::Type::clamped});
     }
     const std::vector<double> places = fixed_places(added.curve, supported);
+    std::vector<int> counts;
     try {
-      added.home = home_nodes(places, parts(from, places));
+      counts = parts(from, places);
     } catch (const std::invalid_argument& problem) {
       return error(from.path + ".elements.count", problem.what());
     }
+    try {
+      added.home = home_nodes(places, counts, from.elements.grading);
+    } catch (const std::invalid_argument& problem) {
+      return error(from.path + ".elements.grading", problem.what());
+    }
+    if (from.elements.grading != 0 && *from.elements.per_segment == 1)
+      warn(from.path + ".elements.grading",
+           text(from.elements.grading) + " m has no effect with one element per segment; take 2 or more");
     for (int corner : hinges_[b])
       for (HomeNode& node : added.home)
         if (node.s == added.curve.breaks()[corner]) node.hinge = true;

@@ -268,7 +268,8 @@ TEST(Subdivision, AtTheEndsOfItsRangeTheIncrementClosesAPart) {
     FAIL();
   } catch (const std::invalid_argument& refusal) {
     const std::string words = refusal.what();
-    for (const char* part : {"0.25 m", "5 parts of 2 m", "greater than -0.2 m", "less than 0.2 m"})
+    for (const char* part :
+         {"0.25 m", "5 parts of a length of 2 m", "greater than -0.2 m", "less than 0.2 m"})
       EXPECT_NE(words.find(part), std::string::npos) << words;
   }
   EXPECT_THROW(graded_places(0, 2, 0), std::invalid_argument);
@@ -293,7 +294,8 @@ TEST(Subdivision, TheRangeOfTheTightestIntervalIsNamed) {
     FAIL();
   } catch (const std::invalid_argument& refusal) {
     const std::string words = refusal.what();
-    for (const char* part : {"-3 m", "2 parts of 1 m", "less than 1 m", "between s = 2 m and s = 3 m"})
+    for (const char* part :
+         {"-3 m", "2 parts of a length of 1 m", "less than 1 m", "between s = 2 m and s = 3 m"})
       EXPECT_NE(words.find(part), std::string::npos) << words;
   }
 }
