@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
+
+#include "fem/subdivision.h"
 
 namespace nurbeam {
 
@@ -33,11 +36,26 @@ std::vector<int> spread_elements(const std::vector<double>& places, int count) {
   return parts;
 }
 
-std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts) {
+std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts,
+                                 double grading) {
+  const auto length = [&](std::size_t i) { return places[i + 1] - places[i]; };
+  std::size_t tightest = 0;
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (grading_limit(length(i), parts[i]) < grading_limit(length(tightest), parts[tightest])) tightest = i;
+  try {
+    graded_places(length(tightest), parts[tightest], grading);
+  } catch (const std::invalid_argument& refusal) {
+    std::ostringstream message;
+    message.precision(10);
+    message << "between s = " << places[tightest] << " m and s = " << places[tightest + 1]
+            << " m: " << refusal.what();
+    throw std::invalid_argument(message.str());
+  }
   std::vector<HomeNode> home;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (int k = 0; k < parts[i]; ++k)
-      home.push_back({places[i] + (places[i + 1] - places[i]) * k / parts[i], k == 0 && i > 0});
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    home.push_back({places[i], i > 0});
+    for (const double x : graded_places(length(i), parts[i], grading)) home.push_back({places[i] + x, false});
+  }
   home.push_back({places.back(), false});
   return home;
 }

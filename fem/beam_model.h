@@ -97,8 +97,10 @@ std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<
 /// How many elements each interval gets when `count` are spread in proportion to length. Throws
 /// std::invalid_argument, naming the smallest count, when there are more intervals than elements.
 std::vector<int> spread_elements(const std::vector<double>& places, int count);
-/// Home nodes: each interval divided evenly in arc length into its number of parts; interior places are late
-/// nodes.
-std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts);
+/// Home nodes: each interval divided in arc length into its number of parts, each part longer than the one
+/// before it by `grading` [m] (graded_places); interior places are late nodes. Throws std::invalid_argument,
+/// naming the range of the increment in the interval that bounds it most.
+std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts,
+                                 double grading = 0);
 
 }  // namespace nurbeam

@@ -348,11 +348,20 @@ class Builder {
           {b, material_coordinate(b, s), support.type == CaseSupport::Type::clamped});
     }
     const std::vector<double> places = fixed_places(measured_[b], supported);
+    std::vector<int> counts;
     try {
-      added.home = home_nodes(places, parts(from, places));
+      counts = parts(from, places);
     } catch (const std::invalid_argument& problem) {
       return error(from.path + ".elements.count", problem.what());
     }
+    try {
+      added.home = home_nodes(places, counts, from.elements.grading);
+    } catch (const std::invalid_argument& problem) {
+      return error(from.path + ".elements.grading", problem.what());
+    }
+    if (from.elements.grading != 0 && *from.elements.per_segment == 1)
+      warn(from.path + ".elements.grading",
+           text(from.elements.grading) + " m has no effect with one element per segment; take 2 or more");
     for (HomeNode& node : added.home) node.s = material_coordinate(b, node.s);
     for (int corner : hinges_[b])
       for (HomeNode& node : added.home)

@@ -827,7 +827,8 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   const Json& elements = part(json, "elements");
   beam.elements = {.count = optional_integer(elements, "count"),
                    .max_length = optional_number(elements, "max_length"),
-                   .per_segment = optional_integer(elements, "per_segment")};
+                   .per_segment = optional_integer(elements, "per_segment"),
+                   .grading = number(elements, "grading", 0)};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
   beam.hinged_corners = text(json, "corners") == "hinge";
   beam.element = chosen<ElementKind>(

@@ -51,6 +51,7 @@ struct CaseElements {
   std::optional<int> count;
   std::optional<double> max_length;  ///< [m]
   std::optional<int> per_segment;
+  double grading = 0;  ///< increment of length between neighbouring elements of one segment [m]
 };
 
 enum class ElementKind { ale_rancf, ale_ancf };

@@ -82,15 +82,13 @@ Shape section() {
 }
 
 Shape elements() {
-  return object(
-      {{"count", integer(from(1)), "number of elements of the beam"},
-       {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
-       {"per_segment", integer(from(1)), "elements per cubic segment of the axis"},
-       {"grading",
-        quantity(Dimension::number,
-                 {.lower = 0, .upper = 0, .reason = "graded subdivision is not available in this version"}),
-        "grading of the subdivision", false, "per_segment"}},
-      {{{"count", "max_length", "per_segment"}, false}});
+  return object({{"count", integer(from(1)), "number of elements of the beam"},
+                 {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
+                 {"per_segment", integer(from(1)), "elements per cubic segment of the axis"},
+                 {"grading", quantity(Dimension::length),
+                  "how much longer each element is than the one before it in its segment; negative: shorter",
+                  false, "per_segment"}},
+                {{{"count", "max_length", "per_segment"}, false}});
 }
 
 Shape beam() {

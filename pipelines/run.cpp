@@ -263,12 +263,18 @@ int check_case(const CaseFile& c) {
   std::printf("model     %s, %d coordinates\n", model.dimension == 2 ? "planar" : "spatial", dofs);
   for (const Beam& beam : model.beams) {
     const double L = beam.curve.length();
+    double shortest = L, longest = 0;
+    for (std::size_t i = 1; i < beam.home.size(); ++i) {
+      const double length = beam.home[i].s - beam.home[i - 1].s;
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
     std::printf(
-        "beam      %s: length %.9g m, mass %.6g kg, %d CAD segments, %zu elements, EA %.6g N, EI %.6g N m^2, "
-        "stress-free %s\n",
+        "beam      %s: length %.9g m, mass %.6g kg, %d CAD segments, %zu elements of %.6g to %.6g m, "
+        "EA %.6g N, EI %.6g N m^2, stress-free %s\n",
         beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
-        beam.home.size() - 1, beam.properties.axial_stiffness, beam.properties.bending_stiffness,
-        beam.straight ? "straight" : "as drawn");
+        beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
+        beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
   }
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
