@@ -482,6 +482,9 @@ class Builder {
   }
 
   void add_joints() {
+    if (case_.analysis.method == CaseAnalysis::Method::rk4 && !case_.sliding_joints.empty())
+      error("analysis.integrator.type",
+            "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
     for (const CaseBody& body : case_.bodies) {
       built_.model.bodies.push_back({body.name, body.mass});
       const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };

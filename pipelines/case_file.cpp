@@ -480,14 +480,7 @@ class Checker {
       return wrong_type(shape, value, path);
     }
     const auto text = value.get<std::string>();
-    const auto has = [&](const std::vector<std::string>& list) {
-      return std::find(list.begin(), list.end(), text) != list.end();
-    };
-    if (has(shape.planned)) {
-      return failed(path, in_quotes(text) +
-                              " is not available in this version; available: " + quoted_list(shape.choices));
-    }
-    return has(shape.choices) ||
+    return std::find(shape.choices.begin(), shape.choices.end(), text) != shape.choices.end() ||
            failed(path, in_quotes(text) + " is not known here" + known_names(text, shape.choices));
   }
 
@@ -896,7 +889,15 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   analysis.type = chosen<CaseAnalysis::Type>(
       json, "type", {{"dynamic", CaseAnalysis::Type::dynamic}, {"static", CaseAnalysis::Type::statics}});
   analysis.start_from_equilibrium = text(json, "initial") == "equilibrium";
-  analysis.rho_infinity = number(part(json, "integrator"), "rho_infinity", analysis.rho_infinity);
+  using Method = CaseAnalysis::Method;
+  const Json& integrator = part(json, "integrator");
+  analysis.method = chosen<Method>(
+      integrator, "type",
+      {{"generalized-alpha", Method::generalized_alpha}, {"ida", Method::ida}, {"rk4", Method::rk4}});
+  analysis.rho_infinity = number(integrator, "rho_infinity", analysis.rho_infinity);
+  if (analysis.method != Method::generalized_alpha && has(integrator, "rho_infinity"))
+    findings.add(Severity::warning, "analysis.integrator.rho_infinity",
+                 "has an effect with \"generalized-alpha\" only");
   const Json& control = part(json, "length_control");
   analysis.length_control_min = number(control, "min", analysis.length_control_min);
   analysis.length_control_max = number(control, "max", analysis.length_control_max);
@@ -908,13 +909,15 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
     }
     return analysis;
   }
-  constexpr double default_tolerance = 1e-4;
+  const double default_tolerance = analysis.method == Method::ida ? 1e-8 : 1e-4;
   analysis.end_time = number(json, "end_time", 0);
   analysis.step = optional_number(json, "step");
   analysis.tolerance = optional_number(json, "tolerance");
   if (!analysis.step && !analysis.tolerance) {
     analysis.tolerance = default_tolerance;
   }
+  if (analysis.method == Method::rk4 && !analysis.step)
+    findings.error("analysis.step", "is missing; the explicit method \"rk4\" needs a fixed step");
   return analysis;
 }
 

@@ -111,6 +111,7 @@ struct CaseSlidingJoint {
 
 struct CaseAnalysis {
   enum class Type { dynamic, statics } type = Type::dynamic;
+  enum class Method { generalized_alpha, ida, rk4 } method = Method::generalized_alpha;
   bool start_from_equilibrium = false;
   double end_time = 0;              ///< [s]
   std::optional<double> step;       ///< [s]

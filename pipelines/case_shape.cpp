@@ -21,8 +21,8 @@ Shape array(Shape item, int min_items = 0) {
   return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
 }
 Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::move(a), std::move(b)}}; }
-Shape choice(std::vector<std::string> choices, std::vector<std::string> planned = {}) {
-  return {.kind = Kind::choice, .choices = std::move(choices), .planned = std::move(planned)};
+Shape choice(std::vector<std::string> choices) {
+  return {.kind = Kind::choice, .choices = std::move(choices)};
 }
 Shape text() { return {.kind = Kind::text}; }
 Shape name() { return {.kind = Kind::name}; }
@@ -151,7 +151,7 @@ Shape sliding_joint() {
 }
 
 Shape analysis() {
-  const Shape integrator = object({{"type", choice({"generalized-alpha"}, {"ida", "rk4"}), "time integrator"},
+  const Shape integrator = object({{"type", choice({"generalized-alpha", "ida", "rk4"}), "time integrator"},
                                    {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
                                     "spectral radius at infinity"}});
   const Shape length_control =

@@ -33,7 +33,7 @@ struct Shape {
     object,       ///< `keys`, `alternatives`
     array,        ///< of `items[0]`, at least `min_items`
     either,       ///< the one of `items` that fits the value's JSON type
-    choice,       ///< one of `choices`; `planned` ones are known but not offered yet
+    choice,       ///< one of `choices`
     text,         ///< not empty
     name,         ///< text that can head a column: no comma, quote or control character
     boolean,      ///<
@@ -49,7 +49,6 @@ struct Shape {
   std::vector<Shape> items = {};
   int min_items = 0;
   std::vector<std::string> choices = {};
-  std::vector<std::string> planned = {};
   Dimension dimension = Dimension::number;
   Range range = {};
   std::string hint = {};

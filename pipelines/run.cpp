@@ -71,8 +71,13 @@ SimulationOptions simulation_options(const CaseFile& c) {
   options.start_from_equilibrium = a.start_from_equilibrium;
   options.end_time = a.end_time;
   options.step = a.step;
-  options.integrator.rho_infinity = a.rho_infinity;
-  if (!a.step) options.integrator.tolerance = a.tolerance.value_or(1e-4);
+  if (a.method == CaseAnalysis::Method::ida)
+    options.integrator = Ida{.tolerance = a.tolerance.value_or(Ida{}.tolerance)};
+  else if (a.method == CaseAnalysis::Method::rk4)
+    options.integrator = ExplicitRungeKutta{};
+  else
+    options.integrator = GeneralizedAlpha{.rho_infinity = a.rho_infinity,
+                                          .tolerance = a.step ? 0 : a.tolerance.value_or(1e-4)};
   options.length_control = {a.length_control_min, a.length_control_max};
   if (!options.statics) options.output_times = output_times(c);
   return options;

@@ -256,12 +256,44 @@ class Simulation {
 
   // New integrator from state_, with consistent accelerations.
   bool restart() {
-    if (!make_accelerations_smooth(*system_, step_, state_)) {
+    const bool stiff = std::holds_alternative<GeneralizedAlpha>(options_.integrator);
+    if (!(stiff ? make_accelerations_smooth(*system_, step_, state_)
+                : make_accelerations_consistent(*system_, state_))) {
       fail(SimulationStatus::not_converged, "the mass matrix is singular at t = " + text(state_.t) + " s");
       return false;
     }
-    integrator_.emplace(options_.integrator, *system_, state_);
+    integrator_ =
+        std::visit([&](const auto& settings) { return start(settings, state_); }, options_.integrator);
     return true;
+  }
+
+  std::unique_ptr<Integrator> start(const GeneralizedAlpha& settings, const State& from) const {
+    return std::make_unique<GeneralizedAlphaIntegrator>(settings, *system_, from);
+  }
+  std::unique_ptr<Integrator> start(const Ida& settings, const State& from) const {
+    return std::make_unique<IdaIntegrator>(settings, *system_, from);
+  }
+  std::unique_ptr<Integrator> start(const ExplicitRungeKutta& settings, const State& from) const {
+    return std::make_unique<ExplicitIntegrator>(settings, *system_, from);
+  }
+
+  // What generalized-alpha keeps between steps besides the state; else empty.
+  Eigen::VectorXd algorithmic_acceleration() const {
+    const auto* method = dynamic_cast<const GeneralizedAlphaIntegrator*>(integrator_.get());
+    return method ? method->algorithmic_acceleration() : Eigen::VectorXd();
+  }
+
+  // An integrator that repeats the step from a state with another length, in one attempt.
+  std::unique_ptr<Integrator> restart_step(const State& before, const Eigen::VectorXd& algorithmic) const {
+    const auto* settings = std::get_if<GeneralizedAlpha>(&options_.integrator);
+    if (!settings)
+      return std::visit([&](const auto& other) { return start(other, before); }, options_.integrator);
+    GeneralizedAlpha one_attempt = *settings;
+    one_attempt.max_halvings = 0;
+    one_attempt.tolerance = 0;
+    auto integrator = std::make_unique<GeneralizedAlphaIntegrator>(one_attempt, *system_, before);
+    integrator->set_algorithmic_acceleration(algorithmic);
+    return integrator;
   }
 
   double total_energy() const {
@@ -308,7 +340,7 @@ class Simulation {
   // One accepted step and what follows from it. Returns false when the run cannot go on.
   bool advance(double step) {
     const State before = state_;
-    const Eigen::VectorXd algorithmic = integrator_->algorithmic_acceleration();
+    const Eigen::VectorXd algorithmic = algorithmic_acceleration();
     const StepReport taken = integrator_->advance(step);
     report_.newton_iterations += taken.newton_iterations;
     report_.rejected_steps += taken.rejected;
@@ -398,15 +430,11 @@ class Simulation {
             const Distance& distance) {
     const double near = landing_tolerance(joint);
     const auto missed = [&](const State& state) { return distance(state) + near / 2; };
-    GeneralizedAlpha one_attempt = options_.integrator;
-    one_attempt.max_halvings = 0;
-    one_attempt.tolerance = 0;
     double lo = 0, f_lo = missed(before), hi = step, f_hi = missed(state_);
     while (f_lo < -near / 2 && hi - lo > 1e-7 * step) {
       const double fraction = f_hi > 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
       const double trial = lo + fraction * (hi - lo);
-      integrator_.emplace(one_attempt, *system_, before);
-      integrator_->set_algorithmic_acceleration(algorithmic);
+      integrator_ = restart_step(before, algorithmic);
       if (integrator_->advance(trial).status != StepStatus::converged) {
         hi = trial;
         f_hi = 0;
@@ -613,7 +641,7 @@ class Simulation {
   MeshPlan plan_;
   std::unique_ptr<BeamSystem<D>> system_;
   State state_;
-  std::optional<GeneralizedAlphaIntegrator> integrator_;
+  std::unique_ptr<Integrator> integrator_;
   double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
   double dissipated_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
   long iterations_written_ = 0;

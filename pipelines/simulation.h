@@ -3,12 +3,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "fem/length_control.h"
 #include "pipelines/results.h"
 #include "pipelines/run_summary.h"
+#include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
+#include "solver/ida_integrator.h"
 #include "solver/static_equilibrium.h"
 
 namespace nurbeam {
@@ -18,9 +21,9 @@ struct SimulationOptions {
   bool statics = false;
   bool start_from_equilibrium = false;
   double end_time = 0;
-  std::optional<double> step;        ///< fixed steps; else error control by integrator.tolerance
+  std::optional<double> step;        ///< fixed steps (of length control with IDA); else error control
   std::vector<double> output_times;  ///< increasing, within [0, end_time]
-  GeneralizedAlpha integrator;
+  std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta> integrator;
   LengthControl length_control;
 };
 

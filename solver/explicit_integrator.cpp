@@ -43,7 +43,8 @@ class FirstOrderEquations {
         state_(start),
         mass_(system.tangent_pattern()),
         force_(n_),
-        constraints_(0) {}
+        constraints_(system.constraint_count()),
+        right_side_(n_ + system.constraint_count()) {}
 
   int size() const { return 2 * n_; }
   /// What the last evaluation came to.
@@ -78,13 +79,17 @@ class FirstOrderEquations {
   StepStatus accelerate() {
     if (!system_.admissible(state_)) return StepStatus::inadmissible;
     state_.a.setZero(n_);
+    state_.lambda.setZero(constraints_.size());
     system_.residual(state_, force_, constraints_);
-    if (!force_.allFinite()) return StepStatus::not_converged;
+    right_side_ << -force_, -system_.constraint_curvature(state_);
+    if (!right_side_.allFinite()) return StepStatus::not_converged;
     system_.tangent(state_, {.mass = 1}, mass_);
     if (!mass_.coeffs().allFinite()) return StepStatus::not_converged;
     if (!solver_.factorise(mass_)) return StepStatus::singular_matrix;
-    state_.a = solver_.solve(-force_);
-    return state_.a.allFinite() ? StepStatus::converged : StepStatus::not_converged;
+    const Vector solution = solver_.solve(right_side_);
+    state_.a = solution.head(n_);
+    state_.lambda = solution.tail(constraints_.size());
+    return solution.allFinite() ? StepStatus::converged : StepStatus::not_converged;
   }
 
   const SecondOrderSystem& system_;
@@ -98,6 +103,7 @@ class FirstOrderEquations {
   KktSolver solver_;
   Vector force_;
   Vector constraints_;
+  Vector right_side_;
 };
 
 }  // namespace
@@ -240,11 +246,9 @@ ExplicitIntegrator::ExplicitIntegrator(ExplicitRungeKutta settings, const Second
   require(settings.max_halvings >= 0,
           "max_halvings " + std::to_string(settings.max_halvings) + " is negative");
   require(settings.max_steps > 0, "max_steps " + std::to_string(settings.max_steps) + " is not positive");
-  require(system.constraint_count() == 0,
-          "the system has " + std::to_string(system.constraint_count()) + " constraints, not none");
   check_size("q", start.q.size(), system.coordinate_count());
   check_size("v", start.v.size(), system.coordinate_count());
-  check_size("lambda", start.lambda.size(), 0);
+  check_size("lambda", start.lambda.size(), system.constraint_count());
   implementation_ = std::make_unique<Implementation>(settings, system, std::move(start));
 }
 

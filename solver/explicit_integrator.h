@@ -15,8 +15,9 @@ struct ExplicitRungeKutta {
   int max_steps = 100000;  ///< of ARKODE in one call of advance, with error control
 };
 
-/// Advances one state of a system without constraints by an explicit Runge-Kutta method on q' = v, M(q) v' =
-/// f(q, v, t), with M factorised at every stage.
+/// Advances one state by an explicit Runge-Kutta method on q' = v, M(q) v' + G'lambda = f(q, v, t),
+/// G v' + curvature = 0, with the matrix factorised at every stage. Constraints that are linear in q, as
+/// supports, hold to round-off; others drift at the order of the method.
 ///
 /// Without a tolerance: the classical method of four stages and order four, one step of at most `step`
 /// seconds per call (shortened by system.step_limit and by retries). With one: the pair of Dormand & Prince
@@ -25,7 +26,7 @@ struct ExplicitRungeKutta {
 class ExplicitIntegrator final : public Integrator {
  public:
   /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range, for a
-  /// start of the wrong size and for a system with constraints. start.a is not used.
+  /// start of the wrong size. start.a and start.lambda are not used; q and v must be consistent.
   ExplicitIntegrator(ExplicitRungeKutta settings, const SecondOrderSystem& system, State start);
   ~ExplicitIntegrator() override;
   ExplicitIntegrator(ExplicitIntegrator&&) noexcept;

@@ -20,13 +20,14 @@ struct RunRecord {
 /// Runs a model with fixed steps and keeps the frames at the given times; a run that ends early fails the
 /// test.
 inline RunRecord run_model(const BeamModel& model, const std::vector<double>& times, double step,
-                           double rho_infinity = 0.9, const std::vector<ProbePlace>& probes = {}) {
+                           const decltype(SimulationOptions::integrator)& integrator,
+                           const std::vector<ProbePlace>& probes = {}) {
   RunRecord record;
   SimulationOptions options;
   options.end_time = times.back();
   options.step = step;
   options.output_times = times;
-  options.integrator.rho_infinity = rho_infinity;
+  options.integrator = integrator;
   SimulationObserver observer;
   observer.frame = [&](const Frame& frame) { record.frames.push_back(frame); };
   observer.progress = [](double) {};
@@ -34,6 +35,12 @@ inline RunRecord run_model(const BeamModel& model, const std::vector<double>& ti
   record.report = simulate(model, probes, options, observer);
   EXPECT_EQ(record.report.status, SimulationStatus::done) << record.report.message;
   return record;
+}
+
+/// By generalized-alpha.
+inline RunRecord run_model(const BeamModel& model, const std::vector<double>& times, double step,
+                           double rho_infinity = 0.9, const std::vector<ProbePlace>& probes = {}) {
+  return run_model(model, times, step, GeneralizedAlpha{.rho_infinity = rho_infinity}, probes);
 }
 
 /// Times from 0 to `end` in equal steps.

@@ -248,10 +248,6 @@ TEST_F(CaseFileTest, UnknownChoicesNameTheClosestOne) {
 
 TEST_F(CaseFileTest, WhatThisVersionDoesNotOfferSaysWhatItOffers) {
   const std::string no = "not available in this version";
-  expect_error({"analysis.integrator.type=ida"}, "analysis.integrator.type", {no, "\"generalized-alpha\""});
-  expect_error({"analysis.integrator.type=rk4"}, "analysis.integrator.type", {no});
-  expect_error({"beams[0].form=virtual-work"}, "beams[0].form", {no, "\"variational\""});
-  expect_error({"beams[0].metric=none"}, "beams[0].metric", {no, "\"reference\""});
   expect_error({R"(beams[0].section={"profile": {"file": "p.step"}})"}, "beams[0].section.profile",
                {no, "\"radius\""});
 }
