@@ -15,6 +15,7 @@
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/quantity.h"
 #include "pipelines/run.h"
+#include "pipelines/verify.h"
 
 namespace nurbeam {
 
@@ -149,6 +150,30 @@ int schema_command(const Arguments& arguments, Streams streams) {
   return done;
 }
 
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) {
+    names.push_back(item.name);
+  }
+  return names;
+}
+
+int verify_command(const Arguments& arguments, Streams streams) {
+  const std::string part = arguments.positional.empty() ? "" : arguments.positional[0];
+  if (part == "papers") {
+    throw UsageError("the comparison with the papers' tables is not available in this version");
+  }
+  std::vector<VerifyProblem> problems = verification_problems();
+  const std::vector<std::string> names = names_of(problems);
+  std::erase_if(problems,
+                [&](const VerifyProblem& problem) { return problem.name.find(part) == std::string::npos; });
+  if (problems.empty()) {
+    throw UsageError("no problem has " + in_quotes(part) + " in its name" + known_names(part, names));
+  }
+  return verify(problems, streams.out, streams.err);
+}
+
 int unavailable_command(const Arguments&, Streams) {
   throw UsageError("this command is not available in this version");
 }
@@ -201,18 +226,15 @@ const std::vector<Command>& commands() {
        {},
        unavailable_command},
       {"study", "STUDY.json", "not available in this version", 0, std::string::npos, {}, unavailable_command},
-      {"verify", "", "not available in this version", 0, std::string::npos, {}, unavailable_command},
+      {"verify",
+       "[NAME]",
+       "computes problems with known answers (those with NAME in their name), prints a table",
+       0,
+       1,
+       {},
+       verify_command},
   };
   return table;
-}
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) {
-    names.push_back(item.name);
-  }
-  return names;
 }
 
 template <class Item>
@@ -265,7 +287,8 @@ void print_help(std::ostream& stream) {
   for (const Command& command : commands()) {
     stream << "  " << usage_of(command) << "\n      " << command.help << '\n';
   }
-  stream << "\nExit codes: 0 done, 1 a comparison failed, 2 bad input, 3 the solver did not converge,\n"
+  stream << "\nExit codes: 0 done, 1 a comparison or verification failed, 2 bad input, 3 the solver did not "
+            "converge,\n"
             "            4 results could not be written, 130 interrupted\n";
 }
 

@@ -80,7 +80,7 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
 TEST(CommandLine, WhatThisVersionDoesNotOfferSaysSo) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"report", "dir"},
                                                 {"study", "s.json"},
-                                                {"verify"},
+                                                {"verify", "papers"},
                                                 {"run", "c.json", "--resume"},
                                                 {"schema", "study"}}) {
     const Outcome outcome = run(words);

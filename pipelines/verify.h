@@ -1,0 +1,64 @@
+#pragma once
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nurbeam {
+
+/// One number of a verification problem beside what it should be.
+struct VerifyRow {
+  std::string quantity;  ///< with its unit
+  double reference;
+  std::string source;  ///< of the reference
+  double computed;
+  double tolerance;       ///< on the error
+  bool at_least = false;  ///< more than the reference is no error (orders of convergence)
+
+  double error() const;
+  bool passes() const;  ///< never for what is not a number
+};
+
+/// Errors as something is refined: elements, steps, ...
+struct ConvergenceTable {
+  std::string quantity;  ///< whose error, with its unit
+  std::string refined;   ///< what the first column counts, with its unit
+  std::vector<std::pair<double, double>> rows;
+
+  /// Observed order from row i to row i + 1: log(error ratio) / log(refinement), positive when errors fall.
+  double order(std::size_t i) const;
+  double least_order() const;
+};
+
+struct VerifyResult {
+  std::vector<VerifyRow> rows;
+  std::vector<ConvergenceTable> tables;
+
+  void add(std::string quantity, double reference, std::string source, double computed, double tolerance);
+  /// The table, and a row that asks for an order of at least `expected` up to the tolerance between any two
+  /// successive rows of it.
+  void add(ConvergenceTable table, double expected, double tolerance, std::string source);
+};
+
+/// A problem with a known answer.
+struct VerifyProblem {
+  std::string name;
+  std::string measures;  ///< curvature measure, strain law and stress-free state of what is computed
+  std::function<VerifyResult()> run;
+};
+
+/// All built-in problems, in the order of the table.
+std::vector<VerifyProblem> verification_problems();
+/// Its families.
+std::vector<VerifyProblem> statics_problems();
+std::vector<VerifyProblem> dynamics_problems();
+std::vector<VerifyProblem> sliding_problems();
+std::vector<VerifyProblem> invariance_problems();
+
+/// Runs the problems, as many at a time as there are processors, and prints their table to `out` and what is
+/// done so far to `progress`. A problem that throws is one failed row. Returns the exit code: 0, or 1 when a
+/// row fails.
+int verify(const std::vector<VerifyProblem>& problems, std::ostream& out, std::ostream& progress);
+
+}  // namespace nurbeam
