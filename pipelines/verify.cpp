@@ -98,7 +98,7 @@ void append(std::vector<VerifyProblem>& all, std::vector<VerifyProblem> more) {
 }  // namespace
 
 double VerifyRow::error() const {
-  return at_least ? std::max(0.0, reference - computed) + 0 * computed : std::abs(computed - reference);
+  return at_least && computed > reference ? 0 : std::abs(computed - reference);
 }
 
 bool VerifyRow::passes() const { return error() <= tolerance; }
@@ -111,7 +111,8 @@ double ConvergenceTable::order(std::size_t i) const {
 
 double ConvergenceTable::least_order() const {
   double least = order(0);
-  for (std::size_t i = 1; i + 1 < rows.size(); ++i) least = std::min(least, order(i));
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i)
+    if (std::isnan(order(i)) || order(i) < least) least = order(i);
   return least;
 }
 

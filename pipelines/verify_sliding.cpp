@@ -164,7 +164,7 @@ VerifyResult example_3_straight() {
                   "two reference runs, 1e-4 m",
                   1e-4,
                   1e-4,
-                  {16, 24, 48},
+                  {24, 48},
                   144,
                   2e-4,
                   0.9};
