@@ -80,12 +80,23 @@ class JointRules {
     return !present(h) && at(h) > position_of(*left_, state_.q) && at(h) < position_of(*right_, state_.q);
   }
 
+  // Whether a neighbour that is itself a moving node is within some home intervals of a home node.
+  bool another_joint_near(int h, double reach) const {
+    for (const MeshNode* node : {left_, right_}) {
+      if (node->joint < 0) continue;
+      const double other = position_of(*node, state_.q);
+      const double gap = at(h) < other ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      if (std::abs(at(h) - other) <= reach * gap) return true;
+    }
+    return false;
+  }
+
   bool move_late_nodes() {
     for (int h = 1; h < last(); ++h) {
       if (!(*home_)[h].late) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
-      if (hidden(h) && distance > late_return * gap) {
+      if (hidden(h) && distance > late_return * gap && !another_joint_near(h, late_return)) {
         insert(h);
         return change(MeshChange::merge);  // charts change too: velocities are projected
       }
@@ -134,7 +145,10 @@ class JointRules {
     const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
                  behind = std::abs(at(near.s < s_ ? h - 1 : h + 1) - at(h));
     if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
-    for (int k = 1; k < last(); ++k)
+    // Another hidden node comes back first, unless it is too near to a second joint and this one too near
+    // here.
+    constexpr double last_moment = 0.1;
+    for (int k = 1; k < last() && distance > last_moment * here; ++k)
       if (hidden(k) && !(*home_)[k].late) return false;
     remove(h);
     return true;

@@ -127,8 +127,8 @@ class Simulation {
         move_place(j, part);
         ds[j] -= part;
       }
-      while (change_mesh(false)) {
-      }
+      settle_mesh(false);
+      if (report_.status != SimulationStatus::done) return;
     }
     for (std::size_t j = 0; j < ds.size(); ++j)
       if (const auto s = system_->place(state_, static_cast<int>(j))) plan_.places[j] = *s;
@@ -211,6 +211,7 @@ class Simulation {
         if (ds[j] == 0) move[j] = 0;
       }
       move_places(ds);
+      if (report_.status != SimulationStatus::done) return;
       if (!separate_bodies() || !solve_statics(held)) return;
     }
     free_bodies(at_end);
@@ -312,8 +313,7 @@ class Simulation {
         ++next_output;
       }
     };
-    while (change_mesh(true)) {
-    }
+    settle_mesh(true);
     if (report_.status != SimulationStatus::done) return;
     write_due();
     bool complete = true;
@@ -377,8 +377,7 @@ class Simulation {
     if (ending >= 0 && !end_sliding(ending)) return false;
     if (crossing && ending < 0 && !restart()) return false;
     if (!separate_bodies()) return false;
-    while (change_mesh(true)) {
-    }
+    settle_mesh(true);
     return report_.status == SimulationStatus::done;
   }
 
@@ -431,6 +430,7 @@ class Simulation {
     const double near = landing_tolerance(joint);
     const auto missed = [&](const State& state) { return distance(state) + near / 2; };
     double lo = 0, f_lo = missed(before), hi = step, f_hi = missed(state_);
+    state_ = before;
     while (f_lo < -near / 2 && hi - lo > 1e-7 * step) {
       const double fraction = f_hi > 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
       const double trial = lo + fraction * (hi - lo);
@@ -463,6 +463,7 @@ class Simulation {
       if (system_->mesh().plan.modes[j] != JointMode::node) continue;
       const double from = *system_->place(before, j), to = *system_->place(state_, j);
       for (double s : model_.beams[model_.joints[j].beam].curve.breaks()) {
+        if (std::abs(s - from) <= 2 * landing_tolerance(j)) continue;  // landed there, and turned round
         if ((s - from) * (s - to) >= 0 || (s - from) / (to - from) >= earliest) continue;
         earliest = (s - from) / (to - from);
         first = BreakCrossing{j, s, to > from};
@@ -518,6 +519,15 @@ class Simulation {
 
   // --- Length control
   // ------------------------------------------------------------------------------------------
+
+  // Applies the changes of the mesh that are due; each makes the next less likely.
+  void settle_mesh(bool in_motion) {
+    const std::size_t most = 20 * (model_.joints.size() + 1);
+    for (std::size_t i = 0; change_mesh(in_motion); ++i)
+      if (i > most)
+        return fail(SimulationStatus::not_converged,
+                    "length control finds no mesh at t = " + text(state_.t) + " s" + places_text());
+  }
 
   // Applies one change of the mesh if one is due. In motion the integrator is restarted and the event
   // recorded.
