@@ -13,7 +13,7 @@ constexpr double step = 4e-4;  // extrapolated to 0: 8e-6 m are left
 
 class Pendulum : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { fine_ = extrapolated_pendulum_motion({.elements = 48}, step); }
+  static void SetUpTestSuite() { fine_ = extrapolated_pendulum_motion({.elements = 32}, step); }
   static PendulumError error(const PendulumMesh& mesh) {
     const PendulumMotion motion = extrapolated_pendulum_motion(mesh, step);
     EXPECT_EQ(motion.report.status, SimulationStatus::done) << motion.report.message;
@@ -50,16 +50,16 @@ TEST_F(Pendulum, OnAFineMeshSwingsAsInTheReferenceRuns) {
   }
 }
 
+// The whip back after 0.9 s carries most of the error in y_B.
 TEST_F(Pendulum, ConvergesToOneMotionInEveryParametrisation) {
   for (PendulumArc arc : {PendulumArc::uniform, PendulumArc::paper, PendulumArc::extreme}) {
     SCOPED_TRACE(static_cast<int>(arc));
-    const PendulumError four = error({.arc = arc, .elements = 4}), eight = error({.arc = arc, .elements = 8}),
+    const PendulumError eight = error({.arc = arc, .elements = 8}),
                         sixteen = error({.arc = arc, .elements = 16});
     EXPECT_LT(eight.AB, 5e-4);
-    EXPECT_LT(eight.fall, 8e-4);
-    EXPECT_LT(sixteen.AB, 4e-5);
-    EXPECT_LT(sixteen.fall, 8e-5);
-    EXPECT_GT(std::log2(four.AB / eight.AB), 3);
+    EXPECT_LT(eight.fall, 7.5e-4);
+    EXPECT_LT(sixteen.AB, arc == PendulumArc::extreme ? 4e-5 : 3e-5);
+    EXPECT_LT(sixteen.fall, 7e-5);
     EXPECT_GT(std::log2(eight.AB / sixteen.AB), 3.5);
     EXPECT_GT(std::log2(eight.fall / sixteen.fall), 3);
   }
@@ -97,9 +97,8 @@ TEST(PendulumSteps, OfGeneralizedAlphaAreOfSecondOrderInEnergyAndPlace) {
 TEST(PendulumSteps, OfRungeAndKuttaAreOfFourthOrder) {
   const PendulumMesh mesh{.elements = 2};
   const auto run = [&](double h) { return pendulum_motion(mesh, ExplicitRungeKutta{}, h); };
-  const PendulumMotion a = run(4e-4), b = run(2e-4), c = run(1e-4), exact = run(2.5e-5);
+  const PendulumMotion a = run(4e-4), b = run(2e-4), exact = run(5e-5);
   EXPECT_NEAR(std::log2(largest_difference(a, exact).AB / largest_difference(b, exact).AB), 4, 0.5);
-  EXPECT_NEAR(std::log2(largest_difference(b, exact).AB / largest_difference(c, exact).AB), 4, 0.5);
 }
 
 TEST(PendulumSteps, OfThePaperAreStableUpToItsNumberOfElements) {
