@@ -46,9 +46,20 @@ std::string escaped(const std::string& plain) {
   return out;
 }
 
-// Round numbers within the axis: 1, 2 or 5 times a power of ten apart; whole decades where it is logarithmic.
+// Round numbers within the axis: 1, 2 or 5 times a power of ten apart; where it is logarithmic whole decades,
+// and 2 and 5 times them on a short axis.
 std::vector<double> ticks(const Axis& axis) {
   const double range = axis.high - axis.low;
+  std::vector<double> values;
+  if (axis.logarithmic && range < 2.5) {
+    for (double decade = std::floor(axis.low); decade <= axis.high; ++decade)
+      for (double k : {1.0, 2.0, 5.0}) {
+        const double value = decade + std::log10(k);
+        if (value >= axis.low && value <= axis.high) values.push_back(value);
+      }
+    if (values.size() > 1) return values;
+    values.clear();
+  }
   double step = std::pow(10, std::floor(std::log10(range / 5)));
   if (axis.logarithmic)
     step = std::max(1.0, std::ceil(range / 8));
@@ -56,7 +67,6 @@ std::vector<double> ticks(const Axis& axis) {
     step *= 5;
   else if (range / step > 10)
     step *= 2;
-  std::vector<double> values;
   for (double k = std::ceil(axis.low / step); k * step <= axis.high; ++k) values.push_back(k * step);
   return values;
 }
@@ -88,8 +98,11 @@ class Drawing {
          << "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
             "fill=\"white\"/>\n";
     draw_axes();
-    for (std::size_t i = 0; i < plot_.lines.size(); ++i)
-      draw_line(plot_.lines[i], colours[i % colours.size()]);
+    // Marks alone lie on top, so that no line hides them.
+    for (const bool marks : {false, true})
+      for (std::size_t i = 0; i < plot_.lines.size(); ++i)
+        if ((plot_.lines[i].style == PlotLine::Style::marks) == marks)
+          draw_line(plot_.lines[i], colours[i % colours.size()]);
     draw_legend();
     out_ << "</svg>\n";
     return out_.str();
@@ -119,7 +132,11 @@ class Drawing {
   }
 
   static std::string label(const Axis& axis, double value) {
-    return axis.logarithmic ? "1e" + text(value) : text(value);
+    if (!axis.logarithmic) return text(value);
+    const double number = std::pow(10, value);
+    if (number > 0.9e-2 && number < 1.1e4) return text(number);
+    const double decade = std::floor(value + 1e-9), factor = std::round(std::pow(10, value - decade));
+    return text(factor) + "e" + text(decade);
   }
 
   void draw_axes() {
@@ -152,7 +169,7 @@ class Drawing {
       }
       const std::string x = text(px(x_.of(line.x[i]))), y = text(py(y_.of(line.y[i])));
       path << (down ? 'L' : 'M') << x << ' ' << y;
-      marks << "<circle cx=\"" << x << "\" cy=\"" << y << "\" r=\"3\" fill=\"" << colour << "\"/>\n";
+      marks << mark(x, y, line.style, colour);
       down = true;
     }
     if (line.style != Style::marks)
@@ -162,16 +179,69 @@ class Drawing {
     if (line.style == Style::marks || line.style == Style::line_and_marks) out_ << marks.str();
   }
 
+  static std::string mark(const std::string& x, const std::string& y, PlotLine::Style style,
+                          const char* colour) {
+    const bool alone = style == PlotLine::Style::marks;
+    return "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"" + (alone ? "4" : "3") + "\" fill=\"" + colour +
+           (alone ? "\" stroke=\"white" : "") + "\"/>\n";
+  }
+
+  // How many points along the lines lie in a box of the picture.
+  int covered(double x0, double y0, double box_width, double box_height) const {
+    int count = 0;
+    const auto inside = [&](double x, double y) {
+      return x > x0 && x < x0 + box_width && y > y0 && y < y0 + box_height;
+    };
+    for (const PlotLine& line : plot_.lines)
+      for (std::size_t i = 0; i < line.x.size(); ++i) {
+        if (!x_.takes(line.x[i]) || !y_.takes(line.y[i])) continue;
+        const double x = px(x_.of(line.x[i])), y = py(y_.of(line.y[i]));
+        count += inside(x, y);
+        if (i == 0 || line.style == PlotLine::Style::marks) continue;
+        if (!x_.takes(line.x[i - 1]) || !y_.takes(line.y[i - 1])) continue;
+        const double dx = px(x_.of(line.x[i - 1])) - x, dy = py(y_.of(line.y[i - 1])) - y;
+        const int pieces = static_cast<int>(std::hypot(dx, dy) / 5);
+        for (int k = 1; k < pieces; ++k) count += inside(x + dx * k / pieces, y + dy * k / pieces);
+      }
+    return count;
+  }
+
+  // In the corner, or the middle of a side, where it covers least.
   void draw_legend() {
-    double y = top + 18;
+    std::size_t longest = 0;
+    int rows = 0;
+    for (const PlotLine& line : plot_.lines) {
+      if (line.label.empty()) continue;
+      longest = std::max(longest, line.label.size());
+      ++rows;
+    }
+    if (rows == 0) return;
+    const double box_width = 46 + 6.6 * static_cast<double>(longest), box_height = 16.0 * rows + 10;
+    const double x_far = left + plot_width - box_width - 4, y_far = top + plot_height - box_height - 4;
+    double x0 = left + 4, y0 = top + 4;
+    int least = std::numeric_limits<int>::max();
+    for (const double x : {left + 4, x_far, (left + x_far) / 2})
+      for (const double y : {top + 4, y_far, (top + y_far) / 2})
+        if (const int count = covered(x, y, box_width, box_height); count < least) {
+          least = count;
+          x0 = x;
+          y0 = y;
+        }
+    out_ << "<rect x=\"" << x0 << "\" y=\"" << y0 << "\" width=\"" << box_width << "\" height=\""
+         << box_height << "\" fill=\"white\" fill-opacity=\"0.8\"/>\n";
+    double y = y0 + 18;
     for (std::size_t i = 0; i < plot_.lines.size(); ++i) {
+      using Style = PlotLine::Style;
       const PlotLine& line = plot_.lines[i];
       if (line.label.empty()) continue;
-      const double x = left + 12;
-      out_ << "<path d=\"M" << x << ' ' << y - 4 << "h22\" stroke=\"" << colours[i % colours.size()]
-           << "\" stroke-width=\"2.5\""
-           << (line.style == PlotLine::Style::dashed ? " stroke-dasharray=\"6 4\"" : "") << "/>\n";
-      write(x + 28, y, "start", line.label, "stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\"");
+      const double x = x0 + 8;
+      const char* colour = colours[i % colours.size()];
+      if (line.style != Style::marks)
+        out_ << "<path d=\"M" << x << ' ' << y - 4 << "h22\" stroke=\"" << colour << "\" stroke-width=\"2.5\""
+             << (line.style == Style::dashed ? " stroke-dasharray=\"6 4\"" : "") << "/>\n";
+      if (line.style == Style::marks || line.style == Style::line_and_marks)
+        out_ << mark(text(x + 11), text(y - 4), line.style, colour);
+      write(x + 28, y, "start", line.label);
       y += 16;
     }
   }

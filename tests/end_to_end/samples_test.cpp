@@ -17,6 +17,9 @@ const std::map<std::string, std::vector<std::string>> shortened = {
     {"zipline/zipline.json",
      {"beams[0].elements.count=12", "analysis.step=5e-3", "analysis.end_time=0.5",
       "output.cad.times=[0,0.5]"}},
+    {"papers/pendulum.json", {"analysis.end_time=0.2"}},
+    {"papers/pendulum_own.json", {"analysis.end_time=0.2"}},
+    {"papers/pendulum_extreme.json", {"analysis.end_time=0.2"}},
     {"rail/rail.json", {"analysis.end_time=0.05", "output.cad=null"}},
 };
 
