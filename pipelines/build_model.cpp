@@ -76,6 +76,7 @@ class Builder {
     if (!failed()) {
       add_loads();
       add_joints();
+      add_gravity_energy();
       for (const CaseProbe& probe : case_.output.probes) {
         const int beam = beam_index(probe.beam);
         const double s = material_coordinate(beam, place(probe.at, beam, "output.probes"));
@@ -276,8 +277,8 @@ class Builder {
       built_.frame.rotation.row(0) = e1;
       built_.frame.rotation.row(1) = normal.cross(e1);
       built_.frame.rotation.row(2) = normal;
-      built_.frame.origin = origin.dot(normal) * normal;
     }
+    built_.frame.origin = origin;
     built_.model.gravity = built_.frame.rotation * case_.gravity;
     if (planar) built_.model.gravity.z() = 0;
   }
@@ -479,6 +480,13 @@ class Builder {
       built_.model.point_loads.push_back({is_moment ? PointLoad::Kind::moment : PointLoad::Kind::force, b, s,
                                           load.moving_speed.value_or(0), value, load.follower, load.time});
     }
+  }
+
+  void add_gravity_energy() {
+    double mass = 0;
+    for (const Beam& beam : built_.model.beams) mass += beam.properties.mass_per_length * beam.curve.length();
+    for (const Body& body : built_.model.bodies) mass += body.mass;
+    built_.frame.gravity_energy = -mass * case_.gravity.dot(built_.frame.origin);
   }
 
   void add_joints() {

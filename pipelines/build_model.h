@@ -9,10 +9,12 @@
 
 namespace nurbeam {
 
-/// The model's own frame: local = rotation * (world - origin). For a planar model the plane is local z = 0.
+/// The model's own frame: local = rotation * (world - origin), with the origin on the model, so that a model
+/// far from the world's origin loses no digits. For a planar model the plane is local z = 0.
 struct ModelFrame {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double gravity_energy = 0;  ///< of the whole mass at the origin, which the local potential leaves out [J]
 
   Eigen::Vector3d to_local(const Eigen::Vector3d& world) const { return rotation * (world - origin); }
   Eigen::Vector3d to_world(const Eigen::Vector3d& local) const {

@@ -104,6 +104,8 @@ Frame to_world(const ModelFrame& f, Frame frame) {
     for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
     for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
   }
+  frame.energy.gravity += f.gravity_energy;
+  frame.energy.total += f.gravity_energy;
   return frame;
 }
 
@@ -238,6 +240,8 @@ int run_case(const CaseFile& c, const RunOptions& options) {
     summary.energy_drift = simulated.energy_drift;
     summary.events = simulated.events;
     for (RunEvent& event : summary.events) {
+      event.energy_before += built.frame.gravity_energy;
+      event.energy_after += built.frame.gravity_energy;
       event.momentum_before = built.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built.frame.direction_to_world(event.momentum_after);
     }
