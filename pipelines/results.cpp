@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -223,13 +224,19 @@ class NetcdfFile {
   NetcdfFile(fs::path file, int id, int status) : file_(std::move(file)), id_(id) {
     if (status != NC_NOERR) {
       id_ = -1;
-      fail(file_, nc_strerror(status));
+      fail(file_, reason_of(status));
     }
+  }
+
+  /// netCDF hides a full disk behind codes of its own.
+  static std::string reason_of(int status) {
+    const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
+    return is_full ? std::strerror(errno) : nc_strerror(status);
   }
 
   void check(int status, const std::string& what) const {
     if (status != NC_NOERR) {
-      fail(file_, what + ": " + nc_strerror(status));
+      fail(file_, what + ": " + reason_of(status));
     }
   }
   int dimension(const std::string& name) const {
@@ -456,36 +463,56 @@ std::vector<ElementRecord> read_elements(const NetcdfFile& file, std::size_t fir
 struct ResultsWriter::Implementation {
   fs::path histories_file, store_file;
   FrameNames names;
-  HistoryTable histories;
-  FrameStore store;
+  std::optional<HistoryTable> histories;
+  std::optional<FrameStore> store;
 
-  Implementation(const fs::path& directory, FrameNames frame_names, const std::string& title)
-      : histories_file(created(directory) / "histories.csv"),
-        store_file(directory / "results.nc"),
-        names(std::move(frame_names)),
-        histories(histories_file, names),
-        store(store_file, names, title) {}
+  /// Removes the files if writing fails: what could not be written to its end is of no use.
+  template <class Write>
+  void write_or_remove(Write write) const {
+    try {
+      write();
+    } catch (const std::runtime_error&) {
+      std::error_code ignored;
+      fs::remove(temporary_name(histories_file), ignored);
+      fs::remove(temporary_name(store_file), ignored);
+      throw;
+    }
+  }
 };
 
 ResultsWriter::ResultsWriter(fs::path directory, FrameNames names, std::string title)
-    : implementation_(std::make_unique<Implementation>(directory, std::move(names), title)) {}
+    : implementation_(std::make_unique<Implementation>()) {
+  Implementation& files = *implementation_;
+  files.histories_file = created(directory) / "histories.csv";
+  files.store_file = directory / "results.nc";
+  files.names = std::move(names);
+  files.write_or_remove([&] {
+    files.histories.emplace(files.histories_file, files.names);
+    files.store.emplace(files.store_file, files.names, title);
+  });
+}
 
 ResultsWriter::~ResultsWriter() = default;
 
 void ResultsWriter::write(const Frame& frame) {
-  const FrameNames& names = implementation_->names;
-  check_count("probes", frame.probes.size(), names.probes.size());
-  check_count("bodies", frame.bodies.size(), names.bodies.size());
-  check_count("beams", frame.beams.size(), names.beams.size());
-  implementation_->histories.write(frame);
-  implementation_->store.write(frame);
+  Implementation& files = *implementation_;
+  check_count("probes", frame.probes.size(), files.names.probes.size());
+  check_count("bodies", frame.bodies.size(), files.names.bodies.size());
+  check_count("beams", frame.beams.size(), files.names.beams.size());
+  files.write_or_remove([&] {
+    files.histories->write(frame);
+    files.store->write(frame);
+  });
 }
 
 void ResultsWriter::finish() {
-  implementation_->histories.close();
-  implementation_->store.close();
-  rename_to(implementation_->histories_file);
-  rename_to(implementation_->store_file);
+  Implementation& files = *implementation_;
+  files.write_or_remove([&] {
+    files.histories->close();
+    files.store->close();
+  });
+  rename_to(files.histories_file);
+  rename_to(files.store_file);
 }
 
 std::pair<double, std::vector<StoredBeam>> read_stored_beams(const fs::path& directory, double time) {

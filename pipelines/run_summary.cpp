@@ -76,10 +76,12 @@ void write_run_summary(const std::filesystem::path& file, const RunSummary& summ
   // Names from files need not be valid UTF-8: what is not is replaced.
   stream << to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   stream.close();
-  if (!stream) {
-    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
-  }
   std::error_code error;
+  if (!stream) {
+    const std::string reason = std::strerror(errno);
+    std::filesystem::remove(temporary, error);
+    throw std::runtime_error(file.string() + ": cannot be written: " + reason);
+  }
   std::filesystem::rename(temporary, file, error);
   if (error) {
     throw std::runtime_error(file.string() +
