@@ -15,6 +15,7 @@
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/quantity.h"
 #include "pipelines/run.h"
+#include "pipelines/signals.h"
 #include "pipelines/verify.h"
 
 namespace nurbeam {
@@ -101,6 +102,10 @@ int run_command(const Arguments& arguments, Streams streams) {
   if (arguments.has("--resume")) {
     throw UsageError("--resume is not available in this version");
   }
+  if (arguments.value("--out", "results").empty()) {
+    throw UsageError("--out: is empty; give the directory for the results");
+  }
+  const BrokenPipeGuard guard;  // a run outlives the reader of its messages
   const auto case_file = read_case(arguments, streams);
   if (!case_file) {
     return bad_input;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <optional>
@@ -16,7 +15,9 @@
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/progress.h"
 #include "pipelines/results.h"
+#include "pipelines/results_directory.h"
 #include "pipelines/run_summary.h"
+#include "pipelines/signals.h"
 #include "pipelines/simulation.h"
 
 namespace nurbeam {
@@ -24,26 +25,6 @@ namespace nurbeam {
 namespace {
 
 enum ExitCode { done = 0, bad_input = 2, not_converged = 3, not_written = 4, interrupted = 130 };
-
-volatile std::sig_atomic_t interrupts = 0;
-
-// Ctrl-C once ends after the step, twice at once.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupts = 0;
-    previous_ = std::signal(SIGINT, [](int) {
-      interrupts = interrupts + 1;
-      if (interrupts > 1) std::_Exit(interrupted);
-    });
-  }
-  ~InterruptGuard() { std::signal(SIGINT, previous_); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  void (*previous_)(int);
-};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -208,7 +189,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   for (const auto& file : built.inputs) summary.inputs.push_back({file, sha256_of_file(file)});
 
   try {
-    std::filesystem::create_directories(options.out);
+    const ResultsDirectory directory(options.out);
     ResultsWriter results(options.out, frame_names(c), c.name);
     const CadOutput cad(c, built, options.out);
     Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
@@ -217,7 +198,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
 
     const InterruptGuard guard;
     SimulationObserver observer;
-    observer.interrupted = [] { return interrupts > 0; };
+    observer.interrupted = [&] { return guard.interrupted(); };
     observer.progress = [&](double t) { progress.update(t); };
     observer.frame = [&](const Frame& local) {
       const auto output_start = std::chrono::steady_clock::now();

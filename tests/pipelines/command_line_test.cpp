@@ -65,6 +65,7 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
                                                 {"compare", "a"},
                                                 {"run", "a", "b"},
                                                 {"run", "a", "--out"},
+                                                {"run", "a", "--out", ""},
                                                 {"run", "a", "--quiet=1"},
                                                 {"export", "d", "--to", "f.step"},
                                                 {"export", "d", "--time", "x", "--to", "f.step"},

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam {
+namespace {
+
+using test::TemporaryDirectory;
+
+constexpr int done = 0, not_written = 4, interrupted = 130;
+
+/// nurbeam as a process of its own, started through the shell; its messages go to a file in the directory.
+class Process {
+ public:
+  /// `before` is shell text that stands in front of the command ("ulimit -f 100;").
+  Process(const TemporaryDirectory& directory, const std::string& arguments, const std::string& before = "")
+      : messages_(directory.path() / ("messages" + std::to_string(++count_))) {
+    const std::string command =
+        before + " exec " NURBEAM_EXECUTABLE " " + arguments + " 2>" + messages_.string();
+    id_ = fork();
+    if (id_ == 0) {
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      std::_Exit(127);
+    }
+  }
+  ~Process() {
+    if (id_ > 0) {
+      kill(id_, SIGKILL);
+      waitpid(id_, nullptr, 0);
+    }
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const { kill(id_, signal); }
+
+  /// The exit code, or minus the signal that ended the process.
+  int code() {
+    int status = 0;
+    waitpid(std::exchange(id_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  std::string messages() const {
+    std::ifstream stream(messages_);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+ private:
+  inline static int count_ = 0;
+  std::filesystem::path messages_;
+  pid_t id_;
+};
+
+std::string run_of(const std::string& end_time, const std::filesystem::path& out) {
+  return "run " + test::sample("falling_beam/falling_beam.json").string() +
+         " --quiet --set beams[0].elements.count=8 --set analysis.step=1e-3 --set output.every=1e-3 "
+         "--set analysis.end_time=" +
+         end_time + " --out " + out.string();
+}
+
+std::size_t lines_in(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
+}
+
+/// Until a run has written some frames; false after half a minute.
+bool wait_for_frames(const std::filesystem::path& out) {
+  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < 4; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return lines_in(out / "histories.csv.part") >= 4;
+}
+
+constexpr const char* endless = "500";
+
+TEST(Process, ASecondRunIntoTheSameDirectoryIsRefusedAndTheFirstOneGoesOn) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  Process first(directory, run_of(endless, out));
+  ASSERT_TRUE(wait_for_frames(out)) << first.messages();
+  Process second(directory, run_of("0.01", out));
+  EXPECT_EQ(second.code(), not_written);
+  EXPECT_NE(second.messages().find("another run writes its results there"), std::string::npos)
+      << second.messages();
+  first.send(SIGINT);
+  EXPECT_EQ(first.code(), interrupted);
+  EXPECT_GE(lines_in(out / "histories.csv"), 4u);
+}
+
+TEST(Process, AKilledRunHoldsNothing) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  Process first(directory, run_of(endless, out));
+  ASSERT_TRUE(wait_for_frames(out)) << first.messages();
+  first.send(SIGKILL);
+  EXPECT_EQ(first.code(), -SIGKILL);
+  Process second(directory, run_of("0.01", out));
+  EXPECT_EQ(second.code(), done) << second.messages();
+  EXPECT_FALSE(std::filesystem::exists(out / "results.nc.part"));
+}
+
+TEST(Process, EverySignalThatAsksForTheEndIsAnsweredWithResults) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryDirectory directory;
+    const auto out = directory.path() / "results";
+    Process run(directory, run_of(endless, out));
+    ASSERT_TRUE(wait_for_frames(out)) << run.messages();
+    run.send(signal);
+    EXPECT_EQ(run.code(), interrupted) << run.messages();
+    for (const char* file : {"histories.csv", "results.nc", "run.json"}) {
+      EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
+    }
+  }
+}
+
+TEST(Process, AHangUpIsIgnoredWhereItWasIgnoredBefore) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  Process run(directory, run_of(endless, out), "trap '' HUP;");
+  ASSERT_TRUE(wait_for_frames(out)) << run.messages();
+  run.send(SIGHUP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  run.send(SIGTERM);
+  EXPECT_EQ(run.code(), interrupted);
+  EXPECT_GT(lines_in(out / "histories.csv"), 5u);
+}
+
+TEST(Process, ARunOutlivesTheReaderOfItsMessages) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  // The joint at the held end gives a warning; the pipe's reader has gone by then.
+  const std::string command =
+      "(sleep 0.2; exec " NURBEAM_EXECUTABLE " " + run_of("0.01", out) + "; ) 2>&1 >/dev/null | true; exit 0";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  for (int i = 0; i < 3000 && !std::filesystem::exists(out / "run.json"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
+}
+
+TEST(Process, AFullDiskEndsWithFourAndLeavesNoHalfFile) {
+  // ulimit -f counts blocks of 512 bytes; the store alone needs more.
+  for (const char* blocks : {"8", "100", "200"}) {
+    const TemporaryDirectory directory;
+    const auto out = directory.path() / "results";
+    Process run(directory, run_of("0.1", out), std::string("trap '' XFSZ; ulimit -f ") + blocks + ";");
+    EXPECT_EQ(run.code(), not_written) << run.messages();
+    EXPECT_NE(run.messages().find("results.nc"), std::string::npos) << run.messages();
+    EXPECT_TRUE(std::filesystem::is_empty(out)) << blocks;
+  }
+}
+
+}  // namespace
+}  // namespace nurbeam
