@@ -230,7 +230,12 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   if (product.exponents != info(dimension).exponents) {
     return failed("the unit does not measure " + expected);
   }
-  return {number * product.multiply / product.divide, {}};
+  const double value = number * product.multiply / product.divide;
+  if (!std::isfinite(value) || (value == 0 && number != 0)) {
+    return failed(std::string("is too ") + (value == 0 ? "small" : "large") + " for a number in " +
+                  si_unit(dimension));
+  }
+  return {value, {}};
 }
 
 }  // namespace nurbeam

@@ -51,13 +51,18 @@ TEST(Quantity, AnUnknownUnitNamesTheClosestOne) {
 }
 
 TEST(Quantity, TextsThatAreNoQuantityAreRefused) {
-  for (const char* text :
-       {"", "mm", "5", "nan mm", "inf mm", "1e999 mm", "5 mm/", "5 mm^0", "5 mm^", "5 mm mm", "5 / / mm",
-        "5 m-m", "five mm", "5 mm, 3 mm", "0x5 m", "5 mm^99999999999"}) {
+  for (const char* text : {"", "mm", "5", "nan mm", "inf mm", "1e999 mm", "5 mm/", "5 mm^0", "5 mm^",
+                           "5 mm mm", "5 / / mm", "5 m-m", "five mm", "1e308 km", "1e-323 nm",
+                           "1e200 km^100 m^-99", "5 mm, 3 mm", "0x5 m", "5 mm^99999999999"}) {
     const ParsedQuantity quantity = parse_quantity(text, Dimension::length);
     EXPECT_FALSE(quantity.value) << text;
     EXPECT_NE(quantity.error, "") << text;
   }
+}
+
+TEST(Quantity, AValueThatIsNotFiniteInSiUnitsSaysSo) {
+  EXPECT_NE(parse_quantity("1e308 t", Dimension::mass).error.find("too large for a number in kg"),
+            std::string::npos);
 }
 
 }  // namespace
