@@ -146,7 +146,14 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
     }
   }
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file.path, ignored)) {
+  const std::filesystem::file_status status = std::filesystem::status(file.path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    const bool is_directory = std::filesystem::is_directory(status);
+    findings.error(child(path, "file"), in_quotes(file.path.string()) + " is a " +
+                                            (is_directory ? "directory" : "device or pipe") +
+                                            "; expected a STEP or IGES file" +
+                                            (is_directory ? known_names("", cad_files_in(file.path)) : ""));
+  } else if (!std::filesystem::exists(status)) {
     findings.error(child(path, "file"),
                    "there is no file " + in_quotes(file.path.string()) +
                        known_names(file.path.filename().string(), cad_files_in(file.path.parent_path())));

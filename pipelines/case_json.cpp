@@ -1,6 +1,8 @@
 #include "pipelines/case_json.h"
 
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -54,6 +56,50 @@ bool is_not_a_finite_number(const std::string& word) {
   return words.contains(word);
 }
 
+constexpr int deepest = 64;
+
+/// The offset of the bracket that opens a level deeper than any case needs, or npos. JSON is nested freely
+/// and read recursively: a text of brackets alone would exhaust the stack.
+std::size_t too_deep_at(const std::string& text) {
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    switch (text[i]) {
+      case '"':
+        for (++i; i < text.size() && text[i] != '"'; ++i) {
+          i += text[i] == '\\';
+        }
+        break;
+      case '/':
+        if (text.compare(i, 2, "//") == 0) {
+          i = text.find('\n', i);
+        } else if (text.compare(i, 2, "/*") == 0) {
+          i = text.find("*/", i + 2);
+        }
+        if (i == std::string::npos) {
+          return i;
+        }
+        break;
+      case '[':
+      case '{':
+        if (++depth > deepest) {
+          return i;
+        }
+        break;
+      case ']':
+      case '}':
+        --depth;
+        break;
+      default:
+        break;
+    }
+  }
+  return std::string::npos;
+}
+
+std::string too_deep_message() {
+  return "brackets are nested more than " + std::to_string(deepest) + " deep; a case needs fewer than 10";
+}
+
 /// Watches the parser's events for keys that stand twice in one object.
 class DuplicateKeys {
  public:
@@ -101,6 +147,10 @@ class DuplicateKeys {
 };
 
 std::optional<Json> parse(const std::string& text, Findings& findings) {
+  if (const std::size_t offset = too_deep_at(text); offset != std::string::npos) {
+    findings.error(line_and_column(text, offset), too_deep_message());
+    return {};
+  }
   try {
     return Json::parse(text, DuplicateKeys(findings), true, true);
   } catch (const Json::parse_error& error) {
@@ -123,6 +173,10 @@ std::optional<Json> parse(const std::string& text, Findings& findings) {
 std::optional<std::string> read_text(const std::filesystem::path& file, Findings& findings) {
   if (std::filesystem::is_directory(file)) {
     findings.error("", "is a directory; expected a case file (JSON)");
+    return {};
+  }
+  if (std::filesystem::is_block_file(file) || std::filesystem::is_character_file(file)) {
+    findings.error("", "is a device; expected a case file (JSON)");
     return {};
   }
   std::ifstream stream(file, std::ios::binary);
@@ -170,10 +224,31 @@ std::optional<std::size_t> as_index(const std::string& text) {
   return digits ? std::optional<std::size_t>(std::stoul(text)) : std::nullopt;
 }
 
-/// A value of --set: JSON if it reads as JSON, else the text itself.
-Json override_value(const std::string& text) {
-  Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
+/// Whether the brackets of a path hold indices behind names, as in beams[0].section.radius.
+bool has_sound_brackets(const std::string& path) {
+  bool inside = false;
+  char last = '.';
+  for (const char c : path) {
+    const bool opens = c == '[', closes = c == ']', continues = c == '.' || opens;
+    if ((opens && (inside || last == '.')) || (closes && !inside) || (c == '.' && inside) ||
+        (last == ']' && !continues)) {
+      return false;
+    }
+    inside = opens || (inside && !closes);
+    last = c;
+  }
+  return !inside;
+}
+
+/// The number that a text outside JSON's grammar (".45", "5.", "+5", "007") means.
+std::optional<double> loose_number(std::string_view text) {
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+  }
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(number);
+  return whole ? std::optional(number) : std::nullopt;
 }
 
 /// Sets one value of the case; null removes the key. Returns what is wrong, "" if nothing.
@@ -249,17 +324,41 @@ std::optional<Json> read_json(const std::filesystem::path& file, Findings& findi
   return text ? parse(*text, findings) : std::nullopt;
 }
 
+namespace {
+
+/// What is wrong with a --set text, "" if nothing; then the case has been changed.
+std::string apply_override(Json& root, const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    return "expected path=value, for example analysis.end_time=0.1";
+  }
+  const std::string path = text.substr(0, equals), value_text = text.substr(equals + 1);
+  if (!has_sound_brackets(path)) {
+    return "the brackets of the path do not match; write it as in beams[0].section.radius=0.01";
+  }
+  if (too_deep_at(value_text) != std::string::npos) {
+    return too_deep_message();
+  }
+  Json value = Json::parse(value_text, nullptr, false);
+  if (value.is_discarded()) {
+    if (const auto number = loose_number(value_text)) {
+      return in_quotes(value_text) + " is not a number as JSON writes it; write " + text_of(*number);
+    }
+    value = value_text;  // what does not read as JSON is a text
+  }
+  Json changed = root;
+  const std::string problem = apply_override(changed, path, value);
+  if (problem.empty()) {
+    root = std::move(changed);
+  }
+  return problem;
+}
+
+}  // namespace
+
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong) {
   for (const std::string& text : overrides) {
-    const auto equals = text.find('=');
-    Json changed = root;
-    const std::string problem =
-        equals == std::string::npos
-            ? "expected path=value, for example analysis.end_time=0.1"
-            : apply_override(changed, text.substr(0, equals), override_value(text.substr(equals + 1)));
-    if (problem.empty()) {
-      root = std::move(changed);
-    } else {
+    if (const std::string problem = apply_override(root, text); !problem.empty()) {
       wrong.push_back({Severity::error, "--set " + text, problem});
     }
   }

@@ -363,6 +363,38 @@ TEST_F(CaseFileTest, OverridesOfUnknownPathsAreRefused) {
   refuse("gravity[2]=1", {"gravity has no parts", "as a whole"});
   refuse("analysis", {"path=value"});
   refuse("=1", {"the case file"});
+  for (const char* path :
+       {"beams[0.name", "beams[0]name", "beams]0", "beams[[0]].name", "[0]", "beams.[0].name"}) {
+    refuse(std::string(path) + "=x", {"brackets", "beams[0].section.radius"});
+  }
+}
+
+TEST_F(CaseFileTest, AnOverrideThatLooksLikeANumberIsNotTakenForAText) {
+  for (const auto& [text, number] :
+       {std::pair{".45", "write 0.45"}, {"5.", "write 5"}, {"+2", "write 2"}, {"-.5e-3", "write -0.0005"}}) {
+    const std::string override = std::string("beams[0].section.radius=") + text;
+    check_error(read(smallest_case, {override}), "--set " + override, {text, number});
+  }
+  EXPECT_EQ(read_valid(smallest_case, {"name=5 km home"}).name, "5 km home");
+}
+
+TEST_F(CaseFileTest, NestingIsLimited) {
+  std::string nested(100000, '[');
+  expect_text_error("{\n  \"mass\": " + nested, "line 2, column 74", {"nested more than 64 deep"});
+  const std::string override = "name=" + nested;
+  check_error(read(smallest_case, {override}), "--set " + override, {"nested more than 64 deep"});
+  const std::string quoted = "name=\"\\\"" + nested + "\"";
+  EXPECT_EQ(read_valid(smallest_case, {quoted}).name, "\"" + nested);
+  read_valid("/* " + nested + " */ // " + nested + "\n" + smallest_case);
+}
+
+TEST_F(CaseFileTest, AnAxisFileThatIsNoFileSaysWhatItIs) {
+  const auto axis = [](const std::string& file) { return "beams[0].axis={\"file\": \"" + file + "\"}"; };
+  expect_error({axis(".")}, "beams[0].axis.file", {"is a directory", "\"zipline.step\""});
+  expect_error({axis("/dev/zero")}, "beams[0].axis.file", {"\"/dev/zero\" is a device"});
+  const CaseFileReport device = read_case_file("/dev/zero");
+  EXPECT_FALSE(device.value);
+  EXPECT_NE(messages(device).find("/dev/zero | is a device"), std::string::npos) << messages(device);
 }
 
 TEST_F(CaseFileTest, SettingsWithoutEffectInAStaticAnalysisAreWarnedOf) {
