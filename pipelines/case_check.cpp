@@ -222,11 +222,18 @@ class Checker {
       return wrong_type(shape, value, path);
     }
     const double number = value.get<double>();
-    if (number != std::floor(number) || std::abs(number) > std::numeric_limits<int>::max()) {
+    if (number != std::floor(number)) {
       return failed(path, "is " + text_of(number) + "; expected an integer");
     }
+    if (!in_range(shape, number, path)) {
+      return false;
+    }
+    constexpr int largest = std::numeric_limits<int>::max();
+    if (std::abs(number) > largest) {
+      return failed(path, "is " + text_of(number) + "; must be at most " + std::to_string(largest));
+    }
     value = static_cast<int>(number);
-    return in_range(shape, number, path);
+    return true;
   }
 
   bool check_quantity(const Shape& shape, Json& value, const std::string& path) {

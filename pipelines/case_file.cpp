@@ -523,6 +523,17 @@ void check_bodies(const Json& json, const CaseFile& c, Findings& findings) {
   }
 }
 
+/// Reports a division of the end time into more parts than `most`.
+void check_division(const char* path, const char* parts, const std::optional<double>& part,
+                    const CaseAnalysis& analysis, double most, Findings& findings) {
+  if (part && analysis.end_time / *part > most * (1 + 1e-9)) {
+    findings.error(path, "is " + text_of(*part) + " s: " + text_of(std::ceil(analysis.end_time / *part)) +
+                             " " + parts + " until analysis.end_time, " + text_of(analysis.end_time) +
+                             " s, and the limit is " + text_of(most) + "; give at least " +
+                             text_of(analysis.end_time / most) + " s");
+  }
+}
+
 void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   const bool dynamic = c.analysis.type == CaseAnalysis::Type::dynamic;
   if (dynamic && has(json, "analysis") && !json["analysis"].contains("end_time")) {
@@ -530,6 +541,8 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
                    "\"end_time\" is missing; a dynamic analysis needs it (or \"type\": \"static\")");
     return;
   }
+  check_division("output.every", "stored frames", c.output.every, c.analysis, most_frames, findings);
+  check_division("analysis.step", "steps", c.analysis.step, c.analysis, most_steps, findings);
   for (std::size_t i = 0; dynamic && i < c.output.cad_times.size(); ++i) {
     if (c.output.cad_times[i] > c.analysis.end_time) {
       findings.error(child("output.cad.times", i), "is " + text_of(c.output.cad_times[i]) +

@@ -54,6 +54,11 @@ struct CaseElements {
   double grading = 0;  ///< increment of length between neighbouring elements of one segment [m]
 };
 
+/// What a run can be asked for.
+constexpr int most_elements = 100'000;  ///< of one beam
+constexpr int most_frames = 1'000'000;
+constexpr double most_steps = 1e9;
+
 enum class ElementKind { ale_rancf, ale_ancf };
 enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "pipelines/case_file.h"
+
 namespace nurbeam {
 
 namespace {
@@ -13,6 +15,14 @@ constexpr bool required = true;
 Range positive(std::string reason = {}) { return {.lower = 0, .open = true, .reason = std::move(reason)}; }
 Range not_negative() { return {.lower = 0}; }
 Range from(double lower) { return {.lower = lower}; }
+/// Wide enough for every structure, narrow enough for round-off: what lies outside is a wrong unit.
+Range plausible(double lower, double upper) {
+  return {.lower = lower, .upper = upper, .reason = "what lies outside is most likely in another unit"};
+}
+Range time_step() { return {.lower = 1e-12, .reason = "the resolution of time"}; }
+Range element_count() {
+  return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
+}
 
 Shape object(std::vector<Key> keys, std::vector<Alternatives> alternatives = {}) {
   return {.kind = Kind::object, .keys = std::move(keys), .alternatives = std::move(alternatives)};
@@ -72,19 +82,20 @@ Shape axis() {
 
 Shape section() {
   return object(
-      {{"radius", quantity(Dimension::length, positive()), "radius of a round solid section"},
-       {"area", quantity(Dimension::area, positive()), "cross-section area", false, "second_moment"},
-       {"second_moment", quantity(Dimension::second_moment, positive()), "second moment of area", false,
-        "area"},
+      {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round solid section"},
+       {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area", false,
+        "second_moment"},
+       {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
+        false, "area"},
        {"profile", unavailable("give \"radius\", or \"area\" and \"second_moment\""),
         "section drawn in a CAD file"}},
       {{{"radius", "area", "profile"}, required}});
 }
 
 Shape elements() {
-  return object({{"count", integer(from(1)), "number of elements of the beam"},
+  return object({{"count", integer(element_count()), "number of elements of the beam"},
                  {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
-                 {"per_segment", integer(from(1)), "elements per cubic segment of the axis"},
+                 {"per_segment", integer(element_count()), "elements per cubic segment of the axis"},
                  {"grading", quantity(Dimension::length),
                   "how much longer each element is than the one before it in its segment; negative: shorter",
                   false, "per_segment"}},
@@ -92,10 +103,10 @@ Shape elements() {
 }
 
 Shape beam() {
-  const Shape material =
-      object({{"density", quantity(Dimension::density, positive()), "mass per volume", required},
-              {"youngs_modulus", quantity(Dimension::pressure, positive()), "Young's modulus", required},
-              {"damping", quantity(Dimension::time, not_negative()), "stiffness-proportional damping time"}});
+  const Shape material = object(
+      {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
+       {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
+       {"damping", quantity(Dimension::time, not_negative()), "stiffness-proportional damping time"}});
   return object(
       {{"name", name(), "name of the beam", required},
        {"axis", axis(), "the beam's axis as drawn", required},
@@ -160,8 +171,8 @@ Shape analysis() {
               {"max", quantity(Dimension::number, {.lower = 1, .open = true}), "a longer element is split"}});
   return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium"},
                  {"initial", choice({"as-drawn", "equilibrium"}), "state at time 0"},
-                 {"end_time", quantity(Dimension::time, positive()), "end of the motion"},
-                 {"step", quantity(Dimension::time, positive()), "fixed step"},
+                 {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)), "end of the motion"},
+                 {"step", quantity(Dimension::time, time_step()), "fixed step"},
                  {"tolerance", quantity(Dimension::number, positive()), "local error of adaptive steps"},
                  {"integrator", integrator, "time integrator"},
                  {"length_control", length_control, "in multiples of the standard element length"}},
@@ -175,7 +186,7 @@ Shape output() {
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});
-  return object({{"every", quantity(Dimension::time, positive()), "time between stored frames"},
+  return object({{"every", quantity(Dimension::time, time_step()), "time between stored frames"},
                  {"cad", cad, "deformed axes as CAD files"},
                  {"probes", array(probe), "points whose motion is stored"},
                  {"paraview", boolean(), "ParaView files"},
@@ -187,8 +198,10 @@ Shape body() {
       {{"name", name(), "name of the body", required},
        {"mass",
         quantity(Dimension::mass,
-                 positive("a sliding body without mass has no inertia: its row of the equations of motion "
-                          "would be empty")),
+                 {.lower = 1e-9,
+                  .upper = 1e9,
+                  .reason = "a body without mass has no inertia; what lies outside is most likely in another "
+                            "unit"}),
         "mass", required}});
 }
 

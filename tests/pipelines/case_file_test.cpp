@@ -200,26 +200,42 @@ TEST_F(CaseFileTest, MissingKeysAreNamed) {
 }
 
 TEST_F(CaseFileTest, NumbersOutsideTheirRangeNameValueAndRule) {
-  expect_error({"beams[0].section.radius=-0.01"}, "beams[0].section.radius", {"-0.01 m", "greater than 0"});
-  expect_error({"beams[0].section.radius=0 mm"}, "beams[0].section.radius", {"0 m", "greater than 0"});
+  expect_error({"beams[0].section.radius=-0.01"}, "beams[0].section.radius",
+               {"-0.01 m", "between 1e-09 and 10000"});
+  expect_error({"beams[0].section.radius=0 mm"}, "beams[0].section.radius", {"0 m", "between 1e-09 and"});
   expect_error({"beams[0].material.density=-1"}, "beams[0].material.density",
-               {"-1 kg/m^3", "greater than 0"});
+               {"-1 kg/m^3", "between 0.001 and 1e+06", "another unit"});
   expect_error({"beams[0].material.youngs_modulus=0"}, "beams[0].material.youngs_modulus",
-               {"greater than 0"});
+               {"between 1 and 1e+16"});
   expect_error({"beams[0].material.damping=-1"}, "beams[0].material.damping", {"at least 0"});
-  expect_error({"beams[0].elements.count=0"}, "beams[0].elements.count", {"is 0", "at least 1"});
+  expect_error({"beams[0].elements.count=0"}, "beams[0].elements.count", {"is 0", "between 1 and 100000"});
   expect_error({"beams[0].elements.count=2.5"}, "beams[0].elements.count", {"is 2.5", "integer"});
-  expect_error({"analysis.step=-1e-3"}, "analysis.step", {"-0.001 s", "greater than 0"});
-  expect_error({"analysis.end_time=0"}, "analysis.end_time", {"greater than 0"});
+  expect_error({"analysis.step=-1e-3"}, "analysis.step", {"-0.001 s", "at least 1e-12"});
+  expect_error({"analysis.end_time=0"}, "analysis.end_time", {"between 1e-09 and 1e+09"});
   expect_error({"analysis.integrator.rho_infinity=1.5"}, "analysis.integrator.rho_infinity",
                {"between 0 and 1"});
   expect_error({"analysis.length_control.min=1"}, "analysis.length_control.min",
                {"between 0 and 1 (both excluded)"});
   expect_error({"nurbeam=2"}, "nurbeam", {"is 2", "format 1"});
+  for (const char* count : {"100001", "1000000000000", "1e19"}) {
+    expect_error({std::string("beams[0].elements.count=") + count}, "beams[0].elements.count",
+                 {"is 1", "must be between 1 and 100000"});
+  }
+  expect_error({"bodies[0].mass=1e30"}, "bodies[0].mass", {"1e+30 kg", "another unit"}, full_case);
+  expect_error({"analysis.end_time=1e308"}, "analysis.end_time", {"1e+308 s"});
+}
+
+TEST_F(CaseFileTest, StepsAndStoredFramesHaveALimitThatIsNamed) {
+  expect_error({"output.every=1e-11"}, "output.every",
+               {"1e-11 s", "50000000000 stored frames", "0.5 s", "limit is 1000000", "at least 5e-07 s"});
+  expect_error({"analysis.end_time=1e9", "analysis.step=1e-9"}, "analysis.step",
+               {"1e-09 s", "1e+18 steps", "limit is 1000000000", "at least 1 s"});
+  read_valid(smallest_case, {"output.every=5e-7"});
 }
 
 TEST_F(CaseFileTest, ASlidingBodyWithoutMassIsExplained) {
-  expect_error({"bodies[0].mass=0"}, "bodies[0].mass", {"0 kg", "greater than 0", "no inertia"}, full_case);
+  expect_error({"bodies[0].mass=0"}, "bodies[0].mass", {"0 kg", "between 1e-09 and 1e+09", "no inertia"},
+               full_case);
 }
 
 TEST_F(CaseFileTest, WrongTypesNameWhatIsExpected) {
@@ -445,7 +461,7 @@ TEST_F(CaseFileTest, TheSchemaStatesRangesChoicesAndExclusions) {
   EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
   EXPECT_EQ(schema.at("required"), Json({"nurbeam", "beams", "analysis"}));
   const Json& beam = schema.at("properties").at("beams").at("items").at("properties");
-  EXPECT_EQ(beam.at("section").at("properties").at("radius").at("exclusiveMinimum"), 0);
+  EXPECT_EQ(beam.at("section").at("properties").at("radius").at("minimum"), 1e-9);
   EXPECT_EQ(beam.at("section").at("dependentRequired").at("area"), Json::array({"second_moment"}));
   EXPECT_EQ(beam.at("weights").at("enum"), Json({"material", "constant"}));
   EXPECT_EQ(beam.at("axis").at("allOf").at(0).at("oneOf").size(), 4u);
