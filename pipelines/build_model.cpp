@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 #include "cad_import/import_curves.h"
@@ -18,6 +20,11 @@ namespace {
 
 // Angle above which a joint of two curves is a corner [rad].
 constexpr double corner_angle = 1e-4;
+
+// What a beam's axis may measure [m], and its shortest segment as a part of it.
+constexpr double shortest_beam = 1e-6, longest_beam = 1e7, shortest_segment = 1e-6;
+// Places nearer to each other than this part of the beam's length are the same place.
+constexpr double same_place = 1e-9;
 
 std::string text(double value) {
   std::ostringstream stream;
@@ -224,10 +231,34 @@ class Builder {
             }
           },
           beam.axis.source);
+      check_extent(beam, segments);
     } catch (const std::invalid_argument& problem) {
       error(beam.path + ".axis", problem.what());
     }
     hinges_.emplace_back();
+    if (!failed()) check_corners(beam, segments);
+    return segments;
+  }
+
+  // The axis has an extent, and coordinates that arithmetic can bear.
+  void check_extent(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
+    double largest = 0, extent = 0;
+    for (const RationalCubic& cubic : segments)
+      for (int i = 0; i < 4; ++i) {
+        const Eigen::Vector3d p = cubic.control_point(i);
+        largest = std::max(largest,
+                           p.allFinite() ? p.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity());
+        extent = std::max(extent, (p - segments.front().control_point(0)).norm());
+      }
+    if (!(largest <= longest_beam))
+      error(beam.path + ".axis", "has a coordinate of " + text(largest) + " m; the limit is " +
+                                     text(longest_beam) + " m (is the unit right?)");
+    else if (!segments.empty() && extent < shortest_beam)
+      error(beam.path + ".axis", "has an extent of " + text(extent) + " m; the smallest is " +
+                                     text(shortest_beam) + " m (is the unit right?)");
+  }
+
+  void check_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
     for (const Corner& corner : BezierPath{segments, {}, 0}.corners(corner_angle)) {
       hinges_.back().push_back(corner.after_segment + 1);
       const bool slides = std::any_of(case_.sliding_joints.begin(), case_.sliding_joints.end(),
@@ -242,7 +273,6 @@ class Builder {
       else if (slides)
         error(beam.path + ".corners", place + "a body cannot slide over a hinge: round the corner");
     }
-    return segments;
   }
 
   // The model is planar when axes, gravity and loads lie in one plane and moments are normal to it.
@@ -316,18 +346,76 @@ class Builder {
     return RationalCubic(points);
   }
 
+  // The curve of one beam, which is also measured; nothing, with a diagnostic, where no beam can follow it.
+  std::optional<ReferenceCurve> reference_curve(int b) {
+    const CaseBeam& from = case_.beams[b];
+    try {
+      std::vector<RationalCubic> local;
+      for (const RationalCubic& cubic : paths_[b]) local.push_back(to_local(cubic));
+      measured_.emplace_back(local, built_.model.dimension);
+      check_lengths(from, measured_.back());
+      if (failed()) return {};
+      return ReferenceCurve(local, built_.model.dimension, from.metric);
+    } catch (const std::invalid_argument& problem) {
+      error(from.path + ".axis", problem.what());
+      return {};
+    }
+  }
+
+  void check_lengths(const CaseBeam& beam, const ReferenceCurve& curve) {
+    const double L = curve.length();
+    if (!(L >= shortest_beam && L <= longest_beam))
+      return error(beam.path + ".axis", "is " + text(L) + " m long; must be between " + text(shortest_beam) +
+                                            " and " + text(longest_beam) + " m (is the unit right?)");
+    for (int j = 0; j < curve.segment_count(); ++j) {
+      const double length = curve.breaks()[j + 1] - curve.breaks()[j];
+      if (length < shortest_segment * L)
+        error(beam.path + ".axis",
+              "segment " + std::to_string(j + 1) + " of " + std::to_string(curve.segment_count()) +
+                  ", at s = " + text(curve.breaks()[j]) + " m, is " + text(length) +
+                  " m long; the shortest for a beam of " + text(L) + " m is " + text(shortest_segment * L) +
+                  " m: remove it or merge it with its neighbour");
+    }
+  }
+
+  // Adds the supports of one beam; returns their places.
+  std::vector<double> add_supports(int b) {
+    const double same = same_place * measured_[b].length();
+    std::vector<double> places;
+    std::vector<std::string> paths;
+    for (const CaseSupport& support : case_.supports) {
+      if (beam_index(support.beam) != b) continue;
+      const double s = place(support.at, b, support.path);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (std::abs(places[i] - s) < same)
+          error(support.path,
+                "holds beam \"" + support.beam + "\" at s = " + text(s) + " m, where " + paths[i] +
+                    " already holds it; keep one of them (\"clamped\" holds what \"pinned\" holds)");
+      places.push_back(s);
+      paths.push_back(support.path);
+      built_.model.supports.push_back(
+          {b, material_coordinate(b, s), support.type == CaseSupport::Type::clamped});
+    }
+    return places;
+  }
+
+  // No element may be as short as the places between which it lies make it.
+  void check_intervals(const CaseBeam& beam, const std::vector<double>& places) {
+    const double L = places.back();
+    for (std::size_t i = 1; i < places.size(); ++i)
+      if (places[i] - places[i - 1] < shortest_segment * L)
+        error("supports", "a support of beam \"" + beam.name +
+                              "\" and its neighbour (a support, an end or a "
+                              "joint of two segments) are " +
+                              text(places[i] - places[i - 1]) + " m apart, at s = " + text(places[i]) +
+                              " m; move it there, or by at least " + text(shortest_segment * L) + " m");
+  }
+
   void add_beam(int b) {
     const CaseBeam& from = case_.beams[b];
-    std::vector<RationalCubic> local;
-    for (const RationalCubic& cubic : paths_[b]) local.push_back(to_local(cubic));
-    measured_.emplace_back(local, built_.model.dimension);
-    Beam beam{from.name,
-              ReferenceCurve(local, built_.model.dimension, from.metric),
-              {},
-              false,
-              from.weights,
-              from.merge,
-              {}};
+    const std::optional<ReferenceCurve> curve = reference_curve(b);
+    if (!curve) return;
+    Beam beam{from.name, *curve, {}, false, from.weights, from.merge, {}};
     if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
     beam.properties.axial_stiffness = from.material.youngs_modulus * from.section.area;
     beam.properties.bending_stiffness = from.material.youngs_modulus * from.section.second_moment;
@@ -340,21 +428,16 @@ class Builder {
     built_.model.beams.push_back(std::move(beam));
 
     Beam& added = built_.model.beams.back();
-    std::vector<double> supported;
-    for (const CaseSupport& support : case_.supports) {
-      if (beam_index(support.beam) != b) continue;
-      const double s = place(support.at, b, support.path);
-      supported.push_back(s);
-      built_.model.supports.push_back(
-          {b, material_coordinate(b, s), support.type == CaseSupport::Type::clamped});
-    }
-    const std::vector<double> places = fixed_places(measured_[b], supported);
+    const std::vector<double> places = fixed_places(measured_[b], add_supports(b));
+    check_intervals(from, places);
+    if (failed()) return;
     std::vector<int> counts;
     try {
       counts = parts(from, places);
     } catch (const std::invalid_argument& problem) {
       return error(from.path + ".elements.count", problem.what());
     }
+    if (counts.empty()) return;
     try {
       added.home = home_nodes(places, counts, from.elements.grading);
     } catch (const std::invalid_argument& problem) {
@@ -383,18 +466,41 @@ class Builder {
     return true;
   }
 
-  static std::vector<int> parts(const CaseBeam& from, const std::vector<double>& places) {
+  // Elements of each interval; none, with a diagnostic, when they are too many.
+  std::vector<int> parts(const CaseBeam& from, const std::vector<double>& places) {
     const int intervals = static_cast<int>(places.size()) - 1;
-    if (from.elements.per_segment) return std::vector<int>(intervals, *from.elements.per_segment);
-    if (from.elements.max_length) {
-      std::vector<int> counts;
+    const CaseElements& asked = from.elements;
+    if (asked.per_segment) {
+      const int most = most_elements / intervals;
+      if (*asked.per_segment <= most) return std::vector<int>(intervals, *asked.per_segment);
+      too_many(from, "per_segment", std::to_string(*asked.per_segment),
+               static_cast<double>(intervals) * *asked.per_segment,
+               most > 0 ? "at most " + std::to_string(most) : "an axis of fewer segments");
+      return {};
+    }
+    if (asked.max_length) {
+      std::vector<double> counts;
       for (int i = 0; i < intervals; ++i)
-        counts.push_back(static_cast<int>(
-            std::max(1.0, std::ceil((places[i + 1] - places[i]) / *from.elements.max_length * (1 - 1e-12)))));
-      return counts;
+        counts.push_back(
+            std::max(1.0, std::ceil((places[i + 1] - places[i]) / *asked.max_length * (1 - 1e-12))));
+      const double count = std::accumulate(counts.begin(), counts.end(), 0.0);
+      if (count <= most_elements) return {counts.begin(), counts.end()};
+      too_many(from, "max_length", text(*asked.max_length) + " m", count,
+               intervals < most_elements
+                   ? "at least " + text(places.back() / (most_elements - intervals)) + " m"
+                   : "an axis of fewer segments");
+      return {};
     }
     constexpr int default_count = 20;
-    return spread_elements(places, from.elements.count.value_or(std::max(default_count, intervals)));
+    return spread_elements(places, asked.count.value_or(std::max(default_count, intervals)));
+  }
+
+  void too_many(const CaseBeam& from, const std::string& key, const std::string& value, double count,
+                const std::string& valid) {
+    error(from.path + ".elements." + key, "is " + value + ": " + text(count) +
+                                              " elements, and the limit for one "
+                                              "beam is " +
+                                              std::to_string(most_elements) + "; give " + valid);
   }
 
   // The comparison of the subdivision paper: its strain law and measure, no sliding.
@@ -472,13 +578,21 @@ class Builder {
         continue;
       }
       const double s = material_coordinate(b, place(load.at, b, load.path));
-      const Eigen::Vector3d along = built_.model.beams[b].curve.tangent(s);
+      const ReferenceCurve& curve = built_.model.beams[b].curve;
+      const double speed = load.moving_speed.value_or(0);
+      if ((s == 0 && speed < 0) || (s == curve.length() && speed > 0))
+        warn(load.path + ".moves.speed", "is " + text(speed) +
+                                             " m/s: the force leaves the beam at once and does "
+                                             "nothing; it moves from the " +
+                                             (s == 0 ? "start" : "end") + " into the beam with a " +
+                                             (s == 0 ? "positive" : "negative") + " speed");
+      const Eigen::Vector3d along = curve.tangent(s);
       if (is_moment && std::abs(value.dot(along)) > 1e-9 * value.norm())
         error(load.path + ".moment",
               "the moment has a component of " + text(value.dot(along)) +
                   " N m along the beam, which has no torsion; leave only the part across it");
       built_.model.point_loads.push_back({is_moment ? PointLoad::Kind::moment : PointLoad::Kind::force, b, s,
-                                          load.moving_speed.value_or(0), value, load.follower, load.time});
+                                          speed, value, load.follower, load.time});
     }
   }
 
@@ -513,8 +627,9 @@ class Builder {
       for (std::size_t i = 0; i < case_.bodies.size(); ++i)
         if (case_.bodies[i].name == joint.body) added.body = static_cast<int>(i);
       if (!joint.motion_table.empty()) {
+        check_motion(joint, added.s, built_.model.beams[b].curve.length());
         added.motion = joint.motion_table;
-        added.s = joint.motion_table.front().second;
+        added.s = value_and_slope(joint.motion_table, 0).first;
       }
       if (joint.motion_speed) {
         const double speed = *joint.motion_speed, L = built_.model.beams[b].curve.length();
@@ -522,14 +637,41 @@ class Builder {
         added.motion = speed == 0 ? TimeTable{{0, added.s}, {1, added.s}}
                                   : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
       }
-      for (const Support& support : built_.model.supports)
-        if (joint.leave_at_end && support.beam == b &&
-            (support.s == 0 || support.s == built_.model.beams[b].curve.length()))
-          warn(joint.path + ".at_beam_end", std::string("the ") + (support.s == 0 ? "start" : "end") +
-                                                " of beam \"" + joint.beam +
-                                                "\" is supported: there \"leave\" acts like \"stop\"");
+      if (joint.leave_at_end) warn_of_held_ends(joint, b);
       built_.model.joints.push_back(std::move(added));
     }
+  }
+
+  // A prescribed motion begins where the body is and stays on the beam.
+  void check_motion(const CaseSlidingJoint& joint, double s, double L) {
+    const double start = value_and_slope(joint.motion_table, 0).first;
+    if (std::abs(start - s) > same_place * L)
+      error(joint.path + ".motion.table", "is at s = " + text(start) + " m at time 0, but \"at\" is s = " +
+                                              text(s) + " m; it must start where \"at\" is");
+    for (std::size_t i = 0; i < joint.motion_table.size(); ++i) {
+      const double row = joint.motion_table[i].second;
+      if (!(row >= -same_place * L && row <= L * (1 + same_place)))
+        error(joint.path + ".motion.table[" + std::to_string(i) + "]",
+              text(row) + " m is not on beam \"" + joint.beam + "\", which is " + text(L) +
+                  " m long; must be between 0 and " + text(L) + " m");
+    }
+  }
+
+  void warn_of_held_ends(const CaseSlidingJoint& joint, int b) {
+    if (case_.analysis.type == CaseAnalysis::Type::statics) return;
+    bool start = false, end = false;
+    for (const Support& support : built_.model.supports) {
+      start = start || (support.beam == b && support.s == 0);
+      end = end || (support.beam == b && support.s == built_.model.beams[b].curve.length());
+    }
+    if (start || end)
+      warn(joint.path + ".at_beam_end", std::string("the ") +
+                                            (start && end ? "start and the end"
+                                             : start      ? "start"
+                                                          : "end") +
+                                            " of beam \"" + joint.beam + "\" " +
+                                            (start && end ? "are" : "is") +
+                                            " supported: there \"leave\" acts like \"stop\"");
   }
 
   const CaseFile& case_;

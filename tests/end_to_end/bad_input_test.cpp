@@ -105,11 +105,11 @@ TEST(BadInput, ACurveThatDoesNotExist) {
 
 TEST(BadInput, ANegativeRadius) {
   expect_refused(run_beam({"beams[0].section.radius=-1"}),
-                 {"beams[0].section.radius: is -1 m; must be greater than 0"});
+                 {"beams[0].section.radius: is -1 m; must be between 1e-09 and 10000"});
 }
 
 TEST(BadInput, ABodyWithoutMass) {
-  expect_refused(run_beam({"bodies[0].mass=0"}), {"bodies[0].mass: is 0 kg; must be greater than 0"});
+  expect_refused(run_beam({"bodies[0].mass=0"}), {"bodies[0].mass: is 0 kg; must be between 1e-09"});
 }
 
 TEST(BadInput, FewerElementsThanSegments) {
@@ -126,6 +126,82 @@ TEST(BadInput, APlaceTooFarFromTheBeam) {
   expect_refused(run_beam({"sliding_joints[0].at={\"near\":[0.5,0.3,0]}"}),
                  {"sliding_joints[0].at.near", "0.3 m from beam \"beam\"", "closest point"});
   expect_refused(run_beam({"sliding_joints[0].at={\"length\":1.3}"}), {"sliding_joints[0].at", "1 m long"});
+}
+
+TEST(BadInput, MoreElementsThanABeamCanHave) {
+  expect_refused(run_beam({R"(beams[0].elements={"max_length":1e-12})"}),
+                 {"beams[0].elements.max_length: is 1e-12 m: 1e+12 elements", "limit for one beam is 100000",
+                  "give at least 1.00001"});
+  const std::string two = R"(beams[0].axis={"polyline":[[0,0,0],[0.5,0,0],[1,0,0]]})";
+  expect_refused(run_beam({two, R"(beams[0].elements={"per_segment":60000})"}),
+                 {"beams[0].elements.per_segment: is 60000: 120000 elements", "give at most 50000"});
+}
+
+TEST(BadInput, TwoSupportsAtOnePlace) {
+  const std::string held = R"({"beam":"beam","at":"start","type":"clamped"},)";
+  expect_refused(
+      run_beam({"supports=[" + held + R"({"beam":"beam","at":{"length":1e-10},"type":"pinned"}])"}),
+      {"supports[1]: holds beam \"beam\" at s = 0 m, where supports[0] already holds it"});
+  expect_refused(run_beam({"supports=[" + held + R"({"beam":"beam","at":{"length":1e-8},"type":"pinned"}])"}),
+                 {"supports: a support of beam \"beam\"", "1e-08 m apart", "at least 1e-06 m"});
+}
+
+TEST(BadInput, APrescribedMotionThatDoesNotFitTheBeam) {
+  const auto joint = [](const std::string& table) {
+    return R"(sliding_joints=[{"body":"mass","beam":"beam","at":{"length":0.1},"motion":{"table":)" + table +
+           "}}]";
+  };
+  expect_refused(run_beam({joint("[[0,0.2],[1,0.3]]")}),
+                 {"sliding_joints[0].motion.table: is at s = 0.2 m at time 0", "\"at\" is s = 0.1 m"});
+  expect_refused(run_beam({joint("[[-1,0],[1,0.3]]")}), {"s = 0.15 m at time 0"});
+  expect_refused(run_beam({joint("[[0,0.1],[1,0.3],[2,1.5]]")}),
+                 {"sliding_joints[0].motion.table[2]: 1.5 m is not on beam \"beam\", which is 1 m long"});
+  expect_done(run_beam({joint("[[-1,0],[1,0.2],[2,1]]")}));
+}
+
+std::string nurbs_axis(const std::string& points, const std::string& weights = "[1,1,1,1]") {
+  return R"(beams[0].axis={"nurbs":{"degree":3,"knots":[0,0,0,0,1,1,1,1],"control_points":)" + points +
+         R"(,"weights":)" + weights + "}}";
+}
+
+TEST(BadInput, ACurveThatNoBeamCanFollowIsNamed) {
+  const std::string where = "falling_beam.json: beams[0].axis: ";
+  const std::string line = "[[0,0,0],[0.3,0,0],[0.6,0,0],[1,0,0]]";
+  expect_refused(run_beam({nurbs_axis("[[0,0,0],[1,1,0],[0,1,0],[1,0,0]]")}), {where});  // a cusp
+  expect_refused(run_beam({nurbs_axis("[[0,0,0],[0,0,0],[0.6,0.1,0],[1,0,0]]")}), {where});
+  expect_refused(run_beam({nurbs_axis("[[0,0,0],[0,0,0],[0,0,0],[0,0,0]]")}), {where});
+  expect_refused(run_beam({nurbs_axis(line, "[1,1e-300,1,1]")}), {where});
+}
+
+TEST(BadInput, LengthsThatNoBeamHas) {
+  const auto line = [](const std::string& points) { return R"(beams[0].axis={"polyline":)" + points + "}"; };
+  const std::string where = "beams[0].axis: ";
+  expect_refused(run_beam({line("[[0,0,0],[1e12,0,0]]")}), {where + "has a coordinate of 1e+12 m"});
+  expect_refused(run_beam({line("[[0,0,0],[1e200,0,0]]")}), {where + "has a coordinate of 1e+200 m"});
+  expect_refused(run_beam({line("[[0,0,0],[1e-9,0,0]]")}), {where + "has an extent of 1e-09 m"});
+  expect_refused(run_beam({line("[[0,0,0],[1e-9,0,0],[1,0,0]]")}),
+                 {where + "segment 1 of 2, at s = 0 m, is 1e-09 m long", "1e-06 m", "merge it"});
+}
+
+TEST(Warnings, AHeldEndIsMentionedOncePerJointAndNotInStatics) {
+  const std::string supports =
+      R"(supports=[{"beam":"beam","at":"start","type":"clamped"},{"beam":"beam","at":"end","type":"pinned"}])";
+  const CaseRun run = run_beam({supports});
+  EXPECT_TRUE(run.says("the start and the end of beam \"beam\" are supported")) << run.messages;
+  EXPECT_EQ(run.messages.find("warning: "), run.messages.rfind("warning: ")) << run.messages;
+  EXPECT_FALSE(run_beam({supports, "analysis={\"type\":\"static\"}"}).says("supported"));
+}
+
+TEST(Warnings, AMovingLoadThatLeavesAtOnceIsMentioned) {
+  const auto load = [](const std::string& at, const std::string& speed) {
+    return R"(loads=[{"beam":"beam","at":")" + at + R"(","force":[0,-1,0],"moves":{"speed":)" + speed + "}}]";
+  };
+  for (const auto& [at, outward, inward] : {std::tuple{"start", "-1", "1"}, {"end", "1", "-1"}}) {
+    const CaseRun run = run_beam({load(at, outward)});
+    EXPECT_EQ(run.code, done);
+    EXPECT_TRUE(run.says("loads[0].moves.speed: ") && run.says("leaves the beam at once")) << run.messages;
+    EXPECT_FALSE(run_beam({load(at, inward)}).says("leaves the beam at once"));
+  }
 }
 
 // ---- Runs at the border of what can be run ----
