@@ -19,7 +19,7 @@ Range from(double lower) { return {.lower = lower}; }
 Range plausible(double lower, double upper) {
   return {.lower = lower, .upper = upper, .reason = "what lies outside is most likely in another unit"};
 }
-Range time_step() { return {.lower = 1e-12, .reason = "the resolution of time"}; }
+Range time_step() { return plausible(1e-12, 1e9); }
 Range element_count() {
   return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
 }
@@ -106,7 +106,7 @@ Shape beam() {
   const Shape material = object(
       {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
        {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
-       {"damping", quantity(Dimension::time, not_negative()), "stiffness-proportional damping time"}});
+       {"damping", quantity(Dimension::time, plausible(0, 1e9)), "stiffness-proportional damping time"}});
   return object(
       {{"name", name(), "name of the beam", required},
        {"axis", axis(), "the beam's axis as drawn", required},
