@@ -1,15 +1,20 @@
 #include "pipelines/case_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <sstream>
 
-#include "pipelines/case_json.h"
+#include "pipelines/case_shape.h"
 #include "pipelines/closest_name.h"
 #include "pipelines/quantity.h"
 
@@ -17,7 +22,562 @@ namespace nurbeam {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Kind = Shape::Kind;
+
+std::string child(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+std::string child(const std::string& path, std::size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text.precision(15);
+  text << value;
+  return text.str();
+}
+
+/// The diagnostics of one file, each with the JSON path it is about.
+class Findings {
+ public:
+  explicit Findings(std::string file) : file_(std::move(file)) {}
+
+  void add(Severity severity, const std::string& path, std::string message) {
+    diagnostics_.push_back({severity, path.empty() ? file_ : file_ + ": " + path, std::move(message)});
+  }
+  void error(const std::string& path, std::string message) { add(Severity::error, path, std::move(message)); }
+  bool has_errors() const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [](const Diagnostic& d) { return d.severity == Severity::error; });
+  }
+  std::vector<Diagnostic> take() { return std::move(diagnostics_); }
+
+ private:
+  std::string file_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+// ---- text to JSON ----
+
+/// "line 3, column 5" of a byte offset.
+std::string line_and_column(const std::string& text, std::size_t offset) {
+  const std::string before = text.substr(0, offset);
+  const auto line_start = before.rfind('\n');
+  const auto column = line_start == std::string::npos ? before.size() : before.size() - line_start - 1;
+  return "line " + std::to_string(std::count(before.begin(), before.end(), '\n') + 1) + ", column " +
+         std::to_string(column + 1);
+}
+
+/// The message of the parser without its own prefix ("[json.exception...] ... column 5: ").
+std::string bare_message(const std::string& what) {
+  const auto bracket = what.find("] ");
+  std::string message = bracket == std::string::npos ? what : what.substr(bracket + 2);
+  if (message.starts_with("parse error at")) {
+    message.erase(0, message.find(": ") + 2);
+  }
+  return message;
+}
+
+/// The run of letters around an offset; "NaN" for the offset of any of its letters.
+std::string word_at(const std::string& text, std::size_t offset) {
+  const auto is_letter = [&](std::size_t i) {
+    return std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+  };
+  std::size_t begin = std::min(offset, text.size()), end = begin;
+  while (begin > 0 && is_letter(begin - 1)) {
+    --begin;
+  }
+  while (end < text.size() && is_letter(end)) {
+    ++end;
+  }
+  return text.substr(begin, end - begin);
+}
+
+bool is_not_a_finite_number(const std::string& word) {
+  static const std::set<std::string> words = {"nan", "NaN", "NAN",      "inf",
+                                              "Inf", "INF", "Infinity", "infinity"};
+  return words.contains(word);
+}
+
+/// Watches the parser's events for keys that stand twice in one object.
+class DuplicateKeys {
+ public:
+  explicit DuplicateKeys(Findings& findings) : findings_(findings) {}
+
+  bool operator()(int, Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key) {
+      Level& level = levels_.back();
+      level.key = parsed.get<std::string>();
+      if (!level.keys.insert(level.key).second) {
+        findings_.error(path(), "the key " + in_quotes(level.key) + " stands twice in this object; keep one");
+      }
+    } else if (event == Event::object_end || event == Event::array_end) {
+      levels_.pop_back();
+    } else {
+      if (!levels_.empty() && levels_.back().is_array) {
+        ++levels_.back().count;
+      }
+      if (event != Event::value) {
+        levels_.push_back({.is_array = event == Event::array_start});
+      }
+    }
+    return true;
+  }
+
+ private:
+  struct Level {
+    bool is_array;
+    std::size_t count = 0;  // items begun
+    std::string key = {};
+    std::set<std::string> keys = {};
+  };
+
+  std::string path() const {
+    std::string path;
+    for (const Level& level : levels_) {
+      path = level.is_array ? child(path, level.count - 1) : child(path, level.key);
+    }
+    return path;
+  }
+
+  Findings& findings_;
+  std::vector<Level> levels_;
+};
+
+std::optional<Json> parse(const std::string& text, Findings& findings) {
+  try {
+    return Json::parse(text, DuplicateKeys(findings), true, true);
+  } catch (const Json::parse_error& error) {
+    const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
+    const std::string word = word_at(text, offset);
+    findings.error(line_and_column(text, offset),
+                   is_not_a_finite_number(word)
+                       ? word + " is not a number a case file can hold; write a finite number"
+                       : bare_message(error.what()));
+  } catch (const Json::out_of_range& error) {  // a number too large for a double
+    const std::string message = bare_message(error.what());
+    const auto begin = message.find('\''), end = message.rfind('\'');
+    const std::string number = begin < end ? message.substr(begin + 1, end - begin - 1) : "";
+    findings.error(line_and_column(text, text.find(number)),
+                   "the number " + number + " is too large; write a finite number");
+  }
+  return {};
+}
+
+std::optional<std::string> read_text(const std::filesystem::path& file, Findings& findings) {
+  if (std::filesystem::is_directory(file)) {
+    findings.error("", "is a directory; expected a case file (JSON)");
+    return {};
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad()) {
+    findings.error("", std::string("cannot be read: ") + std::strerror(errno));
+    return {};
+  }
+  if (text.str().find_first_not_of(" \t\r\n") == std::string::npos) {
+    findings.error("", "is empty; the smallest case has \"nurbeam\": 1, \"beams\" and \"analysis\"");
+    return {};
+  }
+  return text.str();
+}
+
+// ---- overrides ----
+
+const Key* find_key(const Shape& shape, const std::string& name) {
+  const auto found =
+      std::find_if(shape.keys.begin(), shape.keys.end(), [&](const Key& k) { return k.name == name; });
+  return found == shape.keys.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> key_names(const Shape& shape) {
+  std::vector<std::string> names;
+  for (const Key& key : shape.keys) {
+    names.push_back(key.name);
+  }
+  return names;
+}
+
+/// The alternative of an `either` that can hold keys; the shape itself otherwise.
+const Shape& object_alternative(const Shape& shape) {
+  if (shape.kind == Kind::either) {
+    for (const Shape& item : shape.items) {
+      if (item.kind == Kind::object) {
+        return item;
+      }
+    }
+  }
+  return shape;
+}
+
+/// "beams[0].section.radius" as "beams", "0", "section", "radius".
+std::vector<std::string> path_parts(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.' || c == '[') {
+      parts.emplace_back();
+    } else if (c != ']') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::optional<std::size_t> as_index(const std::string& text) {
+  const bool digits =
+      !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? std::optional<std::size_t>(std::stoul(text)) : std::nullopt;
+}
+
+/// A value of --set: JSON if it reads as JSON, else the text itself.
+Json override_value(const std::string& text) {
+  Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? Json(text) : value;
+}
+
+/// Sets one value of the case; null removes the key. Returns what is wrong, "" if nothing.
+std::string apply_override(Json& root, const std::string& path, const Json& new_value) {
+  Json* value = &root;
+  const Shape* shape = &case_shape();
+  std::string walked;
+  const std::vector<std::string> parts = path_parts(path);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string& part = parts[i];
+    const std::string here = walked.empty() ? "the case file" : walked;
+    const Shape& holder = object_alternative(*shape);
+    if (holder.kind != Kind::object && !value->is_array()) {
+      return here + " has no parts here; set it as a whole";
+    }
+    if (value->is_array()) {
+      const auto index = as_index(part);
+      if (!index || *index >= value->size()) {
+        return here + " has " + std::to_string(value->size()) + " item(s), counted from 0; there is no [" +
+               part + "]";
+      }
+      walked = child(walked, *index);
+      shape = holder.kind == Kind::array ? &holder.items[0] : shape;
+      value = &(*value)[*index];
+      continue;
+    }
+    const Key* key = find_key(holder, part);
+    if (!key) {
+      return "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder));
+    }
+    walked = child(walked, part);
+    shape = &key->shape;
+    if (new_value.is_null() && i + 1 == parts.size()) {
+      if (value->is_object()) {
+        value->erase(part);
+      }
+      return {};
+    }
+    if (!value->is_object()) {
+      *value = Json::object();
+    }
+    value = &(*value)[part];
+  }
+  *value = new_value;
+  return {};
+}
+
+void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong) {
+  for (const std::string& text : overrides) {
+    const auto equals = text.find('=');
+    Json changed = root;
+    const std::string problem =
+        equals == std::string::npos
+            ? "expected path=value, for example analysis.end_time=0.1"
+            : apply_override(changed, text.substr(0, equals), override_value(text.substr(equals + 1)));
+    if (problem.empty()) {
+      root = std::move(changed);
+    } else {
+      wrong.push_back({Severity::error, "--set " + text, problem});
+    }
+  }
+}
+
+// ---- checking against the shape ----
+
+std::string json_kind(const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::null:
+      return "null";
+    case Json::value_t::object:
+      return "an object";
+    case Json::value_t::array:
+      return "an array";
+    case Json::value_t::string:
+      return "the text " + in_quotes(value.get<std::string>());
+    case Json::value_t::boolean:
+      return value.get<bool>() ? "true" : "false";
+    default:
+      return "the number " + value.dump();
+  }
+}
+
+std::string quantity_hint(Dimension dimension) {
+  return dimension == Dimension::number ? std::string("a number")
+                                        : "a number in " + si_unit(dimension) + " or a text with a unit (" +
+                                              unit_examples(dimension) + ")";
+}
+
+std::string expected(const Shape& shape) {
+  switch (shape.kind) {
+    case Kind::object:
+      return "an object with " + quoted_list(key_names(shape));
+    case Kind::array:
+      return "an array [...]";
+    case Kind::either:
+      return expected(shape.items[0]) + ", or " + expected(shape.items[1]);
+    case Kind::choice:
+      return "one of " + quoted_list(shape.choices);
+    case Kind::text:
+    case Kind::name:
+      return "a text in quotes";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return "an integer";
+    case Kind::quantity:
+      return quantity_hint(shape.dimension);
+    case Kind::vector:
+      return "[x, y, z], each " + quantity_hint(shape.dimension);
+    case Kind::table:
+      return "rows [[time, value], ...], value being " + quantity_hint(shape.dimension);
+    case Kind::unavailable:
+      break;
+  }
+  return {};
+}
+
+bool fits_json_type(const Shape& shape, const Json& value) {
+  switch (shape.kind) {
+    case Kind::object:
+      return value.is_object();
+    case Kind::integer:
+      return value.is_number();
+    default:
+      return value.is_string();
+  }
+}
+
+/// Checks values against shapes, turns every quantity into a number in SI units, and makes what is unusable
+/// null (it has been reported), so that what is left can be checked further.
+class Checker {
+ public:
+  explicit Checker(Findings& findings) : findings_(findings) {}
+
+  /// Whether the value is usable.
+  bool check(const Shape& shape, Json& value, const std::string& path) {
+    switch (shape.kind) {
+      case Kind::object:
+        return check_object(shape, value, path);
+      case Kind::array:
+        return check_array(shape, value, path);
+      case Kind::either:
+        return check_either(shape, value, path);
+      case Kind::choice:
+        return check_choice(shape, value, path);
+      case Kind::text:
+      case Kind::name:
+        return check_text(shape, value, path);
+      case Kind::boolean:
+        return value.is_boolean() || wrong_type(shape, value, path);
+      case Kind::integer:
+        return check_integer(shape, value, path);
+      case Kind::quantity:
+        return check_quantity(shape, value, path);
+      case Kind::vector:
+        return check_vector(shape, value, path);
+      case Kind::table:
+        return check_table(shape, value, path);
+      case Kind::unavailable:
+        return failed(path, "is not available in this version; " + shape.hint);
+    }
+    return false;
+  }
+
+ private:
+  bool failed(const std::string& path, std::string message) {
+    findings_.error(path, std::move(message));
+    return false;
+  }
+  bool wrong_type(const Shape& shape, const Json& value, const std::string& path) {
+    return failed(path, "is " + json_kind(value) + "; expected " + expected(shape));
+  }
+
+  bool check_object(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_object()) {
+      return wrong_type(shape, value, path);
+    }
+    for (const auto& [name, unused] : value.items()) {
+      if (!find_key(shape, name)) {
+        findings_.error(child(path, name),
+                        "unknown key " + in_quotes(name) + known_names(name, key_names(shape)));
+      }
+    }
+    check_presence(shape, value, path);
+    for (const Key& key : shape.keys) {
+      if (value.contains(key.name) && !check(key.shape, value[key.name], child(path, key.name))) {
+        value[key.name] = nullptr;
+      }
+    }
+    return true;
+  }
+
+  void check_presence(const Shape& shape, const Json& value, const std::string& path) {
+    for (const Key& key : shape.keys) {
+      if (key.required && !value.contains(key.name)) {
+        findings_.error(path, in_quotes(key.name) + " is missing (" + key.description + ")");
+      }
+      if (value.contains(key.name) && !key.needs.empty() && !value.contains(key.needs)) {
+        findings_.error(path, in_quotes(key.name) + " needs " + in_quotes(key.needs) + " beside it");
+      }
+    }
+    for (const Alternatives& alternatives : shape.alternatives) {
+      std::vector<std::string> given;
+      std::copy_if(alternatives.keys.begin(), alternatives.keys.end(), std::back_inserter(given),
+                   [&](const std::string& key) { return value.contains(key); });
+      if (given.size() > 1) {
+        findings_.error(path, quoted_list(given) + " exclude each other; give one of them");
+      } else if (given.empty() && alternatives.required) {
+        findings_.error(path, "give one of " + quoted_list(alternatives.keys));
+      }
+    }
+  }
+
+  bool check_array(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_array()) {
+      return wrong_type(shape, value, path);
+    }
+    if (value.size() < static_cast<std::size_t>(shape.min_items)) {
+      return failed(path, "has " + std::to_string(value.size()) + " item(s); expected at least " +
+                              std::to_string(shape.min_items));
+    }
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!check(shape.items[0], value[i], child(path, i))) {
+        value[i] = nullptr;
+      }
+    }
+    return true;
+  }
+
+  bool check_either(const Shape& shape, Json& value, const std::string& path) {
+    for (const Shape& item : shape.items) {
+      if (fits_json_type(item, value)) {
+        return check(item, value, path);
+      }
+    }
+    return wrong_type(shape, value, path);
+  }
+
+  bool check_choice(const Shape& shape, const Json& value, const std::string& path) {
+    if (!value.is_string()) {
+      return wrong_type(shape, value, path);
+    }
+    const auto text = value.get<std::string>();
+    return std::find(shape.choices.begin(), shape.choices.end(), text) != shape.choices.end() ||
+           failed(path, in_quotes(text) + " is not known here" + known_names(text, shape.choices));
+  }
+
+  bool check_text(const Shape& shape, const Json& value, const std::string& path) {
+    if (!value.is_string()) {
+      return wrong_type(shape, value, path);
+    }
+    const auto text = value.get<std::string>();
+    if (text.empty()) {
+      return failed(path, "is empty");
+    }
+    const auto is_barred = [](char c) { return c == ',' || c == '"' || (c >= 0 && c < ' '); };
+    if (shape.kind == Kind::name && std::any_of(text.begin(), text.end(), is_barred)) {
+      return failed(path, in_quotes(text) + ": a name must not hold commas, quotes or control characters");
+    }
+    return true;
+  }
+
+  bool in_range(const Shape& shape, double value, const std::string& path) {
+    if (shape.range.contains(value)) {
+      return true;
+    }
+    const std::string unit = shape.dimension == Dimension::number ? "" : " " + si_unit(shape.dimension);
+    return failed(path, "is " + text_of(value) + unit + "; must be " + shape.range.rule() +
+                            (shape.range.reason.empty() ? "" : " (" + shape.range.reason + ")"));
+  }
+
+  bool check_integer(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_number()) {
+      return wrong_type(shape, value, path);
+    }
+    const double number = value.get<double>();
+    if (number != std::floor(number) || std::abs(number) > std::numeric_limits<int>::max()) {
+      return failed(path, "is " + text_of(number) + "; expected an integer");
+    }
+    value = static_cast<int>(number);
+    return in_range(shape, number, path);
+  }
+
+  bool check_quantity(const Shape& shape, Json& value, const std::string& path) {
+    if (value.is_string()) {
+      const ParsedQuantity quantity = parse_quantity(value.get<std::string>(), shape.dimension);
+      if (!quantity.value) {
+        return failed(path, quantity.error);
+      }
+      value = *quantity.value;
+    }
+    if (!value.is_number()) {
+      return wrong_type(shape, value, path);
+    }
+    value = value.get<double>();
+    return in_range(shape, value.get<double>(), path);
+  }
+
+  bool check_vector(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_array()) {
+      return wrong_type(shape, value, path);
+    }
+    if (value.size() != 3) {
+      return failed(path, "has " + std::to_string(value.size()) + " item(s); expected " + expected(shape));
+    }
+    const Shape component = {.kind = Kind::quantity, .dimension = shape.dimension};
+    bool usable = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      usable = check(component, value[i], child(path, i)) && usable;
+    }
+    return usable;
+  }
+
+  bool check_table(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_array() || value.empty()) {
+      return wrong_type(shape, value, path);
+    }
+    const Shape time = {.kind = Kind::quantity, .dimension = Dimension::time};
+    const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension};
+    double last = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      Json& row = value[i];
+      const std::string row_path = child(path, i);
+      if (!row.is_array() || row.size() != 2) {
+        return failed(row_path, "expected a row [time, value]");
+      }
+      if (!check(time, row[0], child(row_path, std::size_t{0})) ||
+          !check(entry, row[1], child(row_path, 1))) {
+        return false;
+      }
+      if (row[0].get<double>() <= last) {
+        return failed(row_path, "time " + text_of(row[0].get<double>()) + " s does not come after " +
+                                    text_of(last) + " s; times must increase");
+      }
+      last = row[0].get<double>();
+    }
+    return true;
+  }
+
+  Findings& findings_;
+};
 
 // ---- checked JSON to the structs ----
 
@@ -532,18 +1092,105 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   }
 }
 
+// ---- the schema ----
+
+Json schema_of(const Shape& shape);
+
+Json object_schema(const Shape& shape) {
+  Json schema = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+  for (const Key& key : shape.keys) {
+    Json property = schema_of(key.shape);
+    const std::string detail = property.value("description", "");
+    property["description"] = key.description + (detail.empty() ? "" : " (" + detail + ")");
+    schema["properties"][key.name] = property;
+    if (key.required) {
+      schema["required"].push_back(key.name);
+    }
+    if (!key.needs.empty()) {
+      schema["dependentRequired"][key.name] = Json::array({key.needs});
+    }
+  }
+  for (const Alternatives& alternatives : shape.alternatives) {
+    Json one_of = Json::array();
+    for (const std::string& key : alternatives.keys) {
+      one_of.push_back({{"required", Json::array({key})}});
+    }
+    if (!alternatives.required) {
+      one_of.push_back({{"not", {{"anyOf", one_of}}}});
+    }
+    schema["allOf"].push_back({{"oneOf", one_of}});
+  }
+  return schema;
+}
+
+Json with_range(Json schema, const Range& range) {
+  if (std::isfinite(range.lower)) {
+    schema[range.open ? "exclusiveMinimum" : "minimum"] = range.lower;
+  }
+  if (std::isfinite(range.upper)) {
+    schema[range.open ? "exclusiveMaximum" : "maximum"] = range.upper;
+  }
+  return schema;
+}
+
+Json quantity_schema(Dimension dimension) {
+  if (dimension == Dimension::number) {
+    return {{"type", "number"}};
+  }
+  return {{"type", {"number", "string"}},
+          {"description", "in " + si_unit(dimension) + ", or a text with a unit"}};
+}
+
+Json schema_of(const Shape& shape) {
+  switch (shape.kind) {
+    case Kind::object:
+      return object_schema(shape);
+    case Kind::array:
+      return {{"type", "array"}, {"items", schema_of(shape.items[0])}, {"minItems", shape.min_items}};
+    case Kind::either:
+      return {{"anyOf", {schema_of(shape.items[0]), schema_of(shape.items[1])}}};
+    case Kind::choice:
+      return {{"enum", shape.choices}};
+    case Kind::text:
+      return {{"type", "string"}, {"minLength", 1}};
+    case Kind::name:
+      return {{"type", "string"}, {"pattern", "^[^,\"\\u0000-\\u001f]+$"}};
+    case Kind::boolean:
+      return {{"type", "boolean"}};
+    case Kind::integer:
+      return with_range({{"type", "integer"}}, shape.range);
+    case Kind::quantity:
+      return with_range(quantity_schema(shape.dimension), shape.range);
+    case Kind::vector:
+      return {
+          {"type", "array"}, {"items", quantity_schema(shape.dimension)}, {"minItems", 3}, {"maxItems", 3}};
+    case Kind::table:
+      return {{"type", "array"},
+              {"items",
+               {{"type", "array"},
+                {"prefixItems", {quantity_schema(Dimension::time), quantity_schema(shape.dimension)}},
+                {"minItems", 2},
+                {"maxItems", 2}}},
+              {"minItems", 1}};
+    case Kind::unavailable:
+      return {{"not", Json::object()}, {"description", "not available in this version; " + shape.hint}};
+  }
+  return {};
+}
+
 }  // namespace
 
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Findings findings(file.string());
-  auto json = read_json(file, findings);
+  const auto text_in = read_text(file, findings);
+  auto json = text_in ? parse(*text_in, findings) : std::nullopt;
   if (!json) {
     return {{}, findings.take()};
   }
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
   std::optional<CaseFile> value;
-  if (check_shape(case_shape(), *json, findings)) {
+  if (Checker(findings).check(case_shape(), *json, "")) {
     value = read_case(*json, file, findings);
     check_names(*json, findings);
     check_references(*json, findings);
@@ -556,6 +1203,12 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   const std::vector<Diagnostic> found = findings.take();
   diagnostics.insert(diagnostics.end(), found.begin(), found.end());
   return {std::move(value), std::move(diagnostics)};
+}
+
+std::string case_file_schema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "nurbeam case file"}};
+  schema.update(schema_of(case_shape()));
+  return schema.dump(2) + "\n";
 }
 
 }  // namespace nurbeam

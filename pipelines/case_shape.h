@@ -44,7 +44,7 @@ struct Shape {
     unavailable,  ///< a key the format knows and this version does not offer; `hint` says what to use
   };
   Kind kind = Kind::object;
-  std::vector<Key> keys;
+  std::vector<Key> keys = {};
   std::vector<Alternatives> alternatives = {};
   std::vector<Shape> items = {};
   int min_items = 0;

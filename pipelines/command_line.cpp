@@ -12,6 +12,7 @@
 #include "pipelines/compare.h"
 #include "pipelines/export_results.h"
 #include "pipelines/inspect.h"
+#include "pipelines/papers.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/quantity.h"
 #include "pipelines/run.h"
@@ -149,6 +150,15 @@ int schema_command(const Arguments& arguments, Streams streams) {
   return done;
 }
 
+int verify_command(const Arguments& arguments, Streams streams) {
+  const std::string part = arguments.positional.empty() ? "" : arguments.positional[0];
+  if (part != "papers") {
+    throw UsageError("the verification problems are not available in this version; available: \"papers\"");
+  }
+  write_papers(arguments.value("--out", "papers"), streams.err);
+  return done;
+}
+
 int unavailable_command(const Arguments&, Streams) {
   throw UsageError("this command is not available in this version");
 }
@@ -201,7 +211,14 @@ const std::vector<Command>& commands() {
        {},
        unavailable_command},
       {"study", "STUDY.json", "not available in this version", 0, std::string::npos, {}, unavailable_command},
-      {"verify", "", "not available in this version", 0, std::string::npos, {}, unavailable_command},
+      {"verify",
+       "papers [--out DIR]",
+       "computes the examples of the papers beside their tables, writes a page with figures",
+       0,
+       1,
+       {{"--out", true}},
+       verify_command,
+       not_written},
   };
   return table;
 }
