@@ -285,19 +285,15 @@ class Remap {
   const Eigen::VectorXd& impulse() const { return impulse_; }
 
  private:
-  // One move of the free coordinates along the steepest descent of the potential energy in the metric of its
-  // stiffness, as far as brings the excess e to zero on the parabola through it, or to its lowest. Returns
-  // whether |e| has fallen; else nothing changes.
+  // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
+  // of the potential energy, or to its lowest. Returns whether |e| has fallen; else nothing changes.
   template <class Excess>
   bool move_towards(State& next, const std::vector<int>& free, const Excess& excess, double& e) {
-    const auto [d, slope] = descent(next, free);
-    if (!(slope < 0)) return false;
-    const double root = 1 + 2 * e / slope;
-    double length = root > 0 ? 1 - std::sqrt(root) : 1;
+    Eigen::VectorXd move = least_move(next, free, e);
     const Eigen::VectorXd impulse = impulse_;
-    for (int attempt = 0; attempt < 4; ++attempt, length /= 2) {
+    for (int attempt = 0; attempt < 4; ++attempt, move /= 2) {
       State trial = next;
-      for (std::size_t i = 0; i < free.size(); ++i) trial.q[free[i]] += length * d[static_cast<long>(i)];
+      for (std::size_t i = 0; i < free.size(); ++i) trial.q[free[i]] += move[static_cast<long>(i)];
       if (!to_.admissible(trial) || !set_velocities(trial)) continue;
       const double left = excess(trial);
       if (!(std::abs(left) < std::abs(e))) continue;
@@ -309,9 +305,8 @@ class Remap {
     return false;
   }
 
-  // Newton's step to the lowest potential energy, negative stiffness taken positive; and the slope of the
-  // energy along it.
-  std::pair<Eigen::VectorXd, double> descent(const State& next, const std::vector<int>& free) const {
+  // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy: d = -(K + mu M)^-1 g.
+  Eigen::VectorXd least_move(const State& next, const std::vector<int>& free, double e) const {
     const long n = static_cast<long>(free.size());
     State still = next;
     still.v.setZero();
@@ -331,11 +326,24 @@ class Remap {
     for (long i = 0; i < n; ++i) g[i] = force[free[i]];
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(part({.stiffness = 1}),
                                                                           part({.mass = 1}));
-    const Eigen::VectorXd stiffness = modes.eigenvalues().cwiseAbs();
-    const Eigen::VectorXd bounded = stiffness.cwiseMax(1e-9 * stiffness.maxCoeff());
-    const Eigen::VectorXd d =
-        -modes.eigenvectors() * (modes.eigenvectors().transpose() * g).cwiseQuotient(bounded);
-    return {d, d.dot(g)};
+    const Eigen::ArrayXd K = modes.eigenvalues().array();
+    const Eigen::ArrayXd g_modes = (modes.eigenvectors().transpose() * g).array();
+    const double largest = K.abs().maxCoeff();
+    // From mu's ends, where K + mu M loses its sign, outwards the change of the energy falls to zero.
+    const double end = e > 0 ? std::max(0.0, -K.minCoeff()) : -std::max(0.0, K.maxCoeff());
+    const auto mu = [&](double exponent) {
+      return end + (e > 0 ? 1 : -1) * largest * std::pow(10, exponent);
+    };
+    const auto change = [&](double exponent) {
+      const Eigen::ArrayXd stiff = K + mu(exponent);
+      return (g_modes.square() * (0.5 * K / stiff - 1) / stiff).sum();
+    };
+    double low = -12, high = 6;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
+    }
+    return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
   }
 
   // Positions and slopes of the nodes of new elements, and with_neighbours of the elements next to these: but

@@ -38,12 +38,12 @@ NextPlan next_plan(const BeamSystem<D>& system, const State& state, const Length
 /// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them from the old curve. If
 /// `exact` (a split), velocities are interpolated. Otherwise they are the L2 projection of the material
 /// velocity field, and the nodes of new elements, if need be their neighbours too, move so that the total
-/// energy is kept: along the steepest descent of the potential energy in the metric of its stiffness. As
-/// interpolated, a merged element carries axial strain that the two had not (Ding & Ouyang choose weights
-/// instead, Eqs. 31-38). Where the energy cannot be reached it comes as near as such moves bring it.
-/// t, q and v are set; a and lambda are zero. Returns nullopt when the projection is singular. `impulse`, if
-/// given, is set to the projection's constraint impulse (constraint_count of `to`, or none if exact): the
-/// momentum on the new mesh changes by -G' impulse [N s].
+/// energy is kept: by the least displacements, in the mass norm, that bring it back. As interpolated, a
+/// merged element carries axial strain that the two had not (Ding & Ouyang choose weights instead, Eqs.
+/// 31-38). Where the energy cannot be reached it comes as near as such moves bring it. t, q and v are set; a
+/// and lambda are zero. Returns nullopt when the projection is singular. `impulse`, if given, is set to the
+/// projection's constraint impulse (constraint_count of `to`, or none if exact): the momentum on the new mesh
+/// changes by -G' impulse [N s].
 template <int D>
 std::optional<State> transfer(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to,
                               bool exact, Eigen::VectorXd* impulse = nullptr);

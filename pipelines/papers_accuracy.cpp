@@ -13,7 +13,6 @@ namespace {
 
 const std::vector<int> meshes{6, 8, 12, 16, 24, 32};
 constexpr int fine_elements = 96;
-constexpr double step = 4e-4;
 constexpr double factor = 1.2;  // ours against ALE-ANCF, the target
 
 // ALE-ANCF with our events: what is left is the element alone.
@@ -33,13 +32,14 @@ void note(bool met, int& count, std::string& missed, const std::string& what) {
 
 void write_example(Page& page, const Example& example, const std::vector<ReferencePlace>& places,
                    Target& target) {
-  const Pace pace{.end = example.end, .step = step, .every = 0.01};
+  const Pace pace{.end = example.end, .step = example.step, .every = 0.01};
+  const Pace fine_pace{.end = example.end, .step = example.step / 2, .every = 0.01};
   const std::vector<Method> ways = methods();
   std::vector<Run> runs(meshes.size() * ways.size());
   std::vector<Run> fine(2);
   for_each_of(runs.size() + fine.size(), [&](std::size_t i) {
     if (i < fine.size())
-      fine[i] = run(example.model(fine_elements), i == 0 ? ours() : ale_ancf_our_events(), pace);
+      fine[i] = run(example.model(fine_elements), i == 0 ? ours() : ale_ancf(), fine_pace);
     else
       runs[i - fine.size()] = run(example.model(meshes[(i - fine.size()) / ways.size()]),
                                   ways[(i - fine.size()) % ways.size()], pace);
@@ -70,14 +70,15 @@ void write_example(Page& page, const Example& example, const std::vector<Referen
   for (const std::size_t way : {0U, 1U, 2U})
     header.push_back(ways[way].name + ": largest departure of the energy [J]");
   page.table(statement(example, ways, pace) + "; rms to " + number(example.end, 2) +
-                 " s of the distance from our run with 96 elements",
+                 " s of the distance from our run with 96 elements and half the step",
              header, rows);
   page.paragraph((places.empty() ? std::string()
                                  : "With 96 elements the mass is within " +
                                        number(largest_distance(fine[0], places), 2) +
                                        " m of the references of the two other programs. ") +
-                 "Our run with 96 elements and that of ALE-ANCF with our events differ by " +
-                 number(rms_distance(fine[1], fine[0]), 2) + " m rms.");
+                 "Our run with 96 elements and that of ALE-ANCF, with its own events, differ by " +
+                 number(rms_distance(fine[1], fine[0]), 2) +
+                 " m rms: smaller errors in the table mean nothing.");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nurbs/rational_cubic.h"
+
 namespace nurbeam::papers {
 
 std::vector<ReferencePlace> falling_beam_places() {
@@ -44,6 +46,22 @@ double rms_distance(const Run& run, const Run& fine) {
     squares +=
         (run.frames[i].bodies[0].point.position - fine.frames[i].bodies[0].point.position).squaredNorm();
   return std::sqrt(squares / static_cast<double>(run.frames.size()));
+}
+
+double largest_shift(const MeshChangeRecord& change) {
+  const auto at = [](const BeamRecord& beam, double s) -> Eigen::Vector3d {
+    const auto element = std::find_if(beam.elements.begin(), beam.elements.end() - 1,
+                                      [&](const ElementRecord& e) { return s <= e.s_end; });
+    const double u = (s - element->s_start) / (element->s_end - element->s_start);
+    return RationalCubic(element->control_points).point(u);
+  };
+  double largest = 0;
+  constexpr int samples = 2000;
+  for (int i = 0; i <= samples; ++i) {
+    const double s = change.before.elements.back().s_end * i / samples;
+    largest = std::max(largest, (at(change.before, s) - at(change.after, s)).norm());
+  }
+  return largest;
 }
 
 PlotLine shape_of(const std::string& label, const BeamRecord& beam) {

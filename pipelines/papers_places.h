@@ -24,6 +24,8 @@ double largest_distance(const Run& run, const std::vector<ReferencePlace>& place
 /// Rms over the frames of the distance between the bodies of two runs with the same frames [m]; not a number
 /// if the first ended early.
 double rms_distance(const Run& run, const Run& fine);
+/// Largest displacement of a material point by an event, on a beam drawn straight [m].
+double largest_shift(const MeshChangeRecord& change);
 /// The references as marks: values picked from each.
 template <class X, class Y>
 PlotLine marks(const std::vector<ReferencePlace>& places, X x, Y y) {

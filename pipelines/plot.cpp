@@ -162,17 +162,48 @@ class Drawing {
     if (line.style == Style::marks || line.style == Style::line_and_marks) out_ << marks.str();
   }
 
+  // Upper left corner of the legend: in the corner of the diagram where it covers the fewest values.
+  std::pair<double, double> legend_corner(double legend_width, double legend_height) const {
+    std::pair<double, double> best;
+    int fewest = std::numeric_limits<int>::max();
+    for (const double x : {left + 12, left + plot_width - legend_width})
+      for (const double y : {top + 4, top + plot_height - legend_height - 4}) {
+        int covered = 0;
+        for (const PlotLine& line : plot_.lines)
+          for (std::size_t i = 0; i < line.x.size(); ++i) {
+            if (!x_.takes(line.x[i]) || !y_.takes(line.y[i])) continue;
+            const double at_x = px(x_.of(line.x[i])), at_y = py(y_.of(line.y[i]));
+            covered += at_x >= x && at_x <= x + legend_width && at_y >= y && at_y <= y + legend_height;
+          }
+        if (covered >= fewest) continue;
+        fewest = covered;
+        best = {x, y};
+      }
+    return best;
+  }
+
   void draw_legend() {
-    double y = top + 18;
+    constexpr double line_height = 16, letter_width = 6.6, sample = 28;
+    double legend_width = 0, legend_height = 0;
+    for (const PlotLine& line : plot_.lines) {
+      if (line.label.empty()) continue;
+      legend_width = std::max(legend_width, sample + letter_width * static_cast<double>(line.label.size()));
+      legend_height += line_height;
+    }
+    auto [x, y] = legend_corner(legend_width, legend_height);
+    y += 14;
     for (std::size_t i = 0; i < plot_.lines.size(); ++i) {
       const PlotLine& line = plot_.lines[i];
       if (line.label.empty()) continue;
-      const double x = left + 12;
-      out_ << "<path d=\"M" << x << ' ' << y - 4 << "h22\" stroke=\"" << colours[i % colours.size()]
-           << "\" stroke-width=\"2.5\""
-           << (line.style == PlotLine::Style::dashed ? " stroke-dasharray=\"6 4\"" : "") << "/>\n";
-      write(x + 28, y, "start", line.label, "stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\"");
-      y += 16;
+      const char* colour = colours[i % colours.size()];
+      if (line.style == PlotLine::Style::marks)
+        out_ << "<path d=\"M" << x + 8 << ' ' << y - 4 << "a3 3 0 1 0 6 0a3 3 0 1 0 -6 0\" fill=\"" << colour
+             << "\"/>\n";
+      else
+        out_ << "<path d=\"M" << x << ' ' << y - 4 << "h22\" stroke=\"" << colour << "\" stroke-width=\"2.5\""
+             << (line.style == PlotLine::Style::dashed ? " stroke-dasharray=\"6 4\"" : "") << "/>\n";
+      write(x + sample, y, "start", line.label, "stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\"");
+      y += line_height;
     }
   }
 

@@ -12,7 +12,7 @@
 namespace nurbeam::papers {
 namespace {
 
-Run coarse_run(const Example& example, int elements, const Method& method) {
+papers::Run coarse_run(const Example& example, int elements, const Method& method) {
   return run(example.model(elements), method, {.end = example.end, .step = 1e-3, .every = 0.02});
 }
 
@@ -22,7 +22,7 @@ TEST(Papers, OurEventsChangeTheEnergyFiveTimesLessThanThePapersAndNeverMore) {
                                           {suspended_beam_example(), 8},
                                           {semicircle_example(false), 12}}) {
     SCOPED_TRACE(example.name + ", " + std::to_string(elements) + " elements");
-    const Run own = coarse_run(example, elements, ours());
+    const papers::Run own = coarse_run(example, elements, ours());
     const EventJumps jumps = jumps_of(own);
     EXPECT_TRUE(meets_target(jumps.rms_energy, jumps_of(coarse_run(example, elements, all_ones())).rms_energy,
                              jumps_of(coarse_run(example, elements, paper_rule())).rms_energy))
@@ -34,7 +34,7 @@ TEST(Papers, OurEventsChangeTheEnergyFiveTimesLessThanThePapersAndNeverMore) {
 }
 
 TEST(Papers, OurEventsChangeTheMomentumByTheSupportsImpulseOnly) {
-  const Run own = coarse_run(suspended_beam_example(), 5, ours());
+  const papers::Run own = coarse_run(suspended_beam_example(), 5, ours());
   EXPECT_LT(jumps_of(own).largest_momentum, 1e-12);
   double largest = 0;
   for (const MeshChangeRecord& change : own.changes)
@@ -44,7 +44,7 @@ TEST(Papers, OurEventsChangeTheMomentumByTheSupportsImpulseOnly) {
 }
 
 TEST(Papers, ARemovedNodeIsGoneAndTheOthersKeepTheirPlaces) {
-  const Run own = coarse_run(suspended_beam_example(), 3, ours());
+  const papers::Run own = coarse_run(suspended_beam_example(), 3, ours());
   ASSERT_FALSE(own.changes.empty());
   for (const MeshChangeRecord& change : own.changes) {
     const std::size_t before = change.before.node_s.size(), after = change.after.node_s.size();
@@ -57,7 +57,7 @@ TEST(Papers, ARemovedNodeIsGoneAndTheOthersKeepTheirPlaces) {
 TEST(Papers, ABodyThatTurnsBehindAJointComesBackOverIt) {
   const Example example = reversing_example();
   const double last_joint = 1 + M_PI / 2;
-  const Run own = run(example.model(12), ours(), {.end = example.end, .step = 1e-3, .every = 0.02});
+  const papers::Run own = run(example.model(12), ours(), {.end = example.end, .step = 1e-3, .every = 0.02});
   ASSERT_TRUE(own.complete()) << own.report.message;
   double farthest = 0;
   for (const Frame& frame : own.frames) farthest = std::max(farthest, frame.bodies[0].s.value());
@@ -67,7 +67,8 @@ TEST(Papers, ABodyThatTurnsBehindAJointComesBackOverIt) {
 }
 
 TEST(Papers, TheReferencesAreMet) {
-  const Run own = run(suspended_beam_example().model(24), ours(), {.end = 1, .step = 5e-4, .every = 0.1});
+  const papers::Run own =
+      run(suspended_beam_example().model(24), ours(), {.end = 1, .step = 5e-4, .every = 0.1});
   EXPECT_LT(largest_distance(own, suspended_beam_places()), 5e-4);
   EXPECT_DOUBLE_EQ(rms_distance(own, own), 0);
 }
