@@ -1,8 +1,10 @@
 #include "fem/length_control.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "fem/inertia.h"
 #include "solver/consistent.h"
@@ -255,6 +257,152 @@ Eigen::VectorXd momentum_on(const BeamSystem<D>& from, const State& state, const
   return p;
 }
 
+// A motion on a new mesh whose elements cannot hold it exactly.
+template <int D>
+class Remap {
+ public:
+  Remap(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to)
+      : from_(from), state_(state), to_(to) {}
+
+  // The velocities for the places next.q, by L2 projection. Returns false when that is singular.
+  bool set_velocities(State& next) {
+    const Mesh<D>& mesh = to_.mesh();
+    // A body on a point must lie on the curve, which the removal of its node has moved a little.
+    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+      if (mesh.plan.modes[j] != JointMode::point) continue;
+      const double s = next.q[mesh.joints[j].place];
+      const int beam = to_.model().joints[j].beam;
+      const auto& e = mesh.elements[find_element<D>(to_.model(), mesh, next.q, beam, s)];
+      next.q.template segment<D>(mesh.joints[j].r) = material_point<D>(e, next.q, next.v, s).r;
+    }
+    return velocities_from_momentum(to_, momentum_on<D>(from_, state_, to_, next), next, impulse_);
+  }
+
+  // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
+  // axial strain that the old ones had not, and where these cannot bring it, their neighbours too.
+  void keep_energy(State& next) {
+    const double energy = from_.energy(state_).mechanical();
+    const double enough = 1e-10 * std::max(from_.energy(state_).kinetic, std::abs(energy));
+    const auto excess = [&](const State& x) { return to_.energy(x).mechanical() - energy; };
+    double e = excess(next);
+    for (const bool with_neighbours : {false, true}) {
+      const std::vector<int> free = free_coordinates(with_neighbours);
+      constexpr int most_moves = 10;
+      for (int i = 0; i < most_moves && std::abs(e) > enough && !free.empty(); ++i) {
+        const double before = std::abs(e);
+        if (!move_towards(next, free, excess, e)) break;
+        if (std::abs(e) > 0.99 * before) break;
+      }
+    }
+  }
+
+  const Eigen::VectorXd& impulse() const { return impulse_; }
+
+ private:
+  // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
+  // of the potential energy, or to its lowest. Returns whether |e| has fallen; else nothing changes.
+  template <class Excess>
+  bool move_towards(State& next, const std::vector<int>& free, const Excess& excess, double& e) {
+    Eigen::VectorXd move = least_move(next, free, e);
+    const Eigen::VectorXd impulse = impulse_;
+    for (int attempt = 0; attempt < 4; ++attempt, move /= 2) {
+      State trial = next;
+      for (std::size_t i = 0; i < free.size(); ++i) trial.q[free[i]] += move[static_cast<long>(i)];
+      if (!to_.admissible(trial) || !set_velocities(trial)) continue;
+      const double left = excess(trial);
+      if (!(std::abs(left) < std::abs(e))) continue;
+      next = std::move(trial);
+      e = left;
+      return true;
+    }
+    impulse_ = impulse;
+    return false;
+  }
+
+  // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy: d = -(K + mu M)^-1 g.
+  Eigen::VectorXd least_move(const State& next, const std::vector<int>& free, double e) const {
+    const long n = static_cast<long>(free.size());
+    State still = next;
+    still.v.setZero();
+    still.a.setZero();
+    still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
+    Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
+    to_.residual(still, force, constraints);
+    const auto part = [&](const TangentWeights& weights) {
+      Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
+      to_.tangent(still, weights, kkt);
+      Eigen::MatrixXd block(n, n);
+      for (long i = 0; i < n; ++i)
+        for (long k = 0; k < n; ++k) block(i, k) = kkt.coeff(free[i], free[k]);
+      return Eigen::MatrixXd((block + block.transpose()) / 2);
+    };
+    Eigen::VectorXd g(n);
+    for (long i = 0; i < n; ++i) g[i] = force[free[i]];
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(part({.stiffness = 1}),
+                                                                          part({.mass = 1}));
+    const Eigen::ArrayXd K = modes.eigenvalues().array();
+    const Eigen::ArrayXd g_modes = (modes.eigenvectors().transpose() * g).array();
+    const double largest = K.abs().maxCoeff();
+    // From mu's ends, where K + mu M loses its sign, outwards the change of the energy falls to zero.
+    const double end = e > 0 ? std::max(0.0, -K.minCoeff()) : -std::max(0.0, K.maxCoeff());
+    const auto mu = [&](double exponent) {
+      return end + (e > 0 ? 1 : -1) * largest * std::pow(10, exponent);
+    };
+    const auto change = [&](double exponent) {
+      const Eigen::ArrayXd stiff = K + mu(exponent);
+      return (g_modes.square() * (0.5 * K / stiff - 1) / stiff).sum();
+    };
+    double low = -12, high = 6;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
+    }
+    return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
+  }
+
+  // Positions and slopes of the nodes of new elements, and with_neighbours of the elements next to these: but
+  // for supported positions, clamped slopes and positions of bodies.
+  std::vector<int> free_coordinates(bool with_neighbours) const {
+    const Mesh<D>& mesh = to_.mesh();
+    std::set<std::pair<int, int>> nodes;  // beam, node
+    for (const MeshElement<D>& e : mesh.elements)
+      if (!was_there(e)) nodes.insert({{e.beam, e.node_a}, {e.beam, e.node_b}});
+    if (with_neighbours)
+      for (const std::set<std::pair<int, int>> inner = nodes; const MeshElement<D>& e : mesh.elements)
+        if (inner.contains({e.beam, e.node_a}) || inner.contains({e.beam, e.node_b}))
+          nodes.insert({{e.beam, e.node_a}, {e.beam, e.node_b}});
+    std::set<int> free;
+    for (const auto& [beam, i] : nodes) {
+      const MeshNode& node = mesh.nodes[beam][i];
+      bool held = node.joint >= 0, clamped = false;
+      for (const Support& support : to_.model().supports)
+        if (support.beam == beam && support.s == node.s) {
+          held = true;
+          clamped = clamped || support.clamped;
+        }
+      for (int k = 0; k < D; ++k) {
+        if (!held) free.insert(node.r + k);
+        if (!clamped) free.insert({node.slope_left + k, node.slope_right + k});
+      }
+    }
+    return {free.begin(), free.end()};
+  }
+
+  // Whether the old mesh has an element between the same nodes.
+  bool was_there(const MeshElement<D>& e) const {
+    const Mesh<D>& old = from_.mesh();
+    const auto& nodes = to_.mesh().nodes[e.beam];
+    const MeshNode* a = same_node<D>(old.nodes[e.beam], nodes[e.node_a]);
+    const MeshNode* b = same_node<D>(old.nodes[e.beam], nodes[e.node_b]);
+    return a != nullptr && b != nullptr && b - a == 1;
+  }
+
+  const BeamSystem<D>& from_;
+  const State& state_;
+  const BeamSystem<D>& to_;
+  Eigen::VectorXd impulse_;  // of the constraints, by the last projection
+};
+
 }  // namespace
 
 template <int D>
@@ -292,7 +440,8 @@ NextPlan next_plan(const BeamSystem<D>& system, const State& state, const Length
 
 template <int D>
 std::optional<State> transfer(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to,
-                              bool exact) {
+                              bool exact, Eigen::VectorXd* impulse) {
+  if (impulse != nullptr) impulse->resize(0);
   State next = to.drawn_state();
   next.t = state.t;
   const Mesh<D>&old = from.mesh(), &mesh = to.mesh();
@@ -333,24 +482,19 @@ std::optional<State> transfer(const BeamSystem<D>& from, const State& state, con
   }
   if (exact) return next;
 
-  // A body on a point must lie on the curve, which the removal of its node has moved a little.
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    if (mesh.plan.modes[j] != JointMode::point) continue;
-    const double s = next.q[mesh.joints[j].place];
-    const int beam = to.model().joints[j].beam;
-    const auto& e = mesh.elements[find_element<D>(to.model(), mesh, next.q, beam, s)];
-    next.q.segment<D>(mesh.joints[j].r) = material_point<D>(e, next.q, next.v, s).r;
-  }
-  Eigen::VectorXd impulse;
-  const Eigen::VectorXd momentum = momentum_on<D>(from, state, to, next);
-  if (!velocities_from_momentum(to, momentum, next, impulse)) return std::nullopt;
+  Remap<D> remap(from, state, to);
+  if (!remap.set_velocities(next)) return std::nullopt;
+  remap.keep_energy(next);
+  if (impulse != nullptr) *impulse = remap.impulse();
   return next;
 }
 
 template NextPlan next_plan<2>(const BeamSystem<2>&, const State&, const LengthControl&);
 template NextPlan next_plan<3>(const BeamSystem<3>&, const State&, const LengthControl&);
-template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&, bool);
-template std::optional<State> transfer<3>(const BeamSystem<3>&, const State&, const BeamSystem<3>&, bool);
+template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&, bool,
+                                          Eigen::VectorXd*);
+template std::optional<State> transfer<3>(const BeamSystem<3>&, const State&, const BeamSystem<3>&, bool,
+                                          Eigen::VectorXd*);
 template std::array<double, 4> merged_weights<2>(const Eigen::Vector2d&, const Eigen::Vector2d&,
                                                  const Eigen::Vector2d&, const Eigen::Vector2d&,
                                                  const Eigen::Vector2d&, double);

@@ -35,12 +35,18 @@ struct NextPlan {
 template <int D>
 NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control);
 
-/// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them from the old curve;
-/// velocities are interpolated after a split and otherwise the L2 projection of the material velocity field.
-/// t, q and v are set; a and lambda are zero. Returns nullopt when the projection is singular.
+/// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them from the old curve. If
+/// `exact` (a split), velocities are interpolated. Otherwise they are the L2 projection of the material
+/// velocity field, and the nodes of new elements, if need be their neighbours too, move so that the total
+/// energy is kept: by the least displacements, in the mass norm, that bring it back. As interpolated, a
+/// merged element carries axial strain that the two had not (Ding & Ouyang choose weights instead, Eqs.
+/// 31-38). Where the energy cannot be reached it comes as near as such moves bring it. t, q and v are set; a
+/// and lambda are zero. Returns nullopt when the projection is singular. `impulse`, if given, is set to the
+/// projection's constraint impulse (constraint_count of `to`, or none if exact): the momentum on the new mesh
+/// changes by -G' impulse [N s].
 template <int D>
 std::optional<State> transfer(const BeamSystem<D>& from, const State& state, const BeamSystem<D>& to,
-                              bool exact);
+                              bool exact, Eigen::VectorXd* impulse = nullptr);
 
 /// Weights (k_0, k_1, k_2, 1) of Eqs. 31-38 of Ding & Ouyang: the minimum-norm change from ones that leads
 /// the merged curve through r_H at parameter u; all ones if any is not positive. Pseudo-inverse tolerance
@@ -55,8 +61,8 @@ std::array<double, 4> merged_weights(const Eigen::Matrix<double, D, 1>& r_a,
 extern template NextPlan next_plan<2>(const BeamSystem<2>&, const State&, const LengthControl&);
 extern template NextPlan next_plan<3>(const BeamSystem<3>&, const State&, const LengthControl&);
 extern template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&,
-                                                 bool);
+                                                 bool, Eigen::VectorXd*);
 extern template std::optional<State> transfer<3>(const BeamSystem<3>&, const State&, const BeamSystem<3>&,
-                                                 bool);
+                                                 bool, Eigen::VectorXd*);
 
 }  // namespace nurbeam

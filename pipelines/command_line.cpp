@@ -12,6 +12,7 @@
 #include "pipelines/compare.h"
 #include "pipelines/export_results.h"
 #include "pipelines/inspect.h"
+#include "pipelines/papers.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/quantity.h"
 #include "pipelines/run.h"
@@ -167,7 +168,8 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
 int verify_command(const Arguments& arguments, Streams streams) {
   const std::string part = arguments.positional.empty() ? "" : arguments.positional[0];
   if (part == "papers") {
-    throw UsageError("the comparison with the papers' tables is not available in this version");
+    write_papers(arguments.value("--out", "papers"), streams.err);
+    return done;
   }
   std::vector<VerifyProblem> problems = verification_problems();
   const std::vector<std::string> names = names_of(problems);
@@ -232,12 +234,15 @@ const std::vector<Command>& commands() {
        unavailable_command},
       {"study", "STUDY.json", "not available in this version", 0, std::string::npos, {}, unavailable_command},
       {"verify",
-       "[NAME]",
-       "computes problems with known answers (those with NAME in their name), prints a table",
+       "[NAME | papers [--out DIR]]",
+       "computes problems with known answers (those with NAME in their name) and prints a table; with "
+       "papers: "
+       "the examples of the papers beside their tables, as a page with figures",
        0,
        1,
-       {},
-       verify_command},
+       {{"--out", true}},
+       verify_command,
+       not_written},
   };
   return table;
 }

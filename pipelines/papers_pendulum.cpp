@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <ostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "fem/rancf_basis.h"
 #include "fem/subdivision.h"
+#include "pipelines/papers.h"
 #include "pipelines/plot.h"
 
 namespace nurbeam {
@@ -189,12 +190,12 @@ std::vector<double> even_parameters(int n) {
 
 class Study {
  public:
-  explicit Study(const std::filesystem::path& directory) : directory_(directory) {}
+  explicit Study(papers::Page& page) : document_(page) {}
 
-  std::string run() {
+  void run() {
+    document_.heading("The curved pendulum (subdivision paper [S], Section 7)");
     page_
-        << "## The curved pendulum (subdivision paper [S], Section 7)\n\n"
-           "An arc of radius 0.5 m and 60°, pinned at A, falls from rest: section radius 0.02 m, 6000 kg/m³, "
+        << "An arc of radius 0.5 m and 60°, pinned at A, falls from rest: section radius 0.02 m, 6000 kg/m³, "
            "E = 2·10⁶ Pa, g = 9.81 m/s².\n"
            "Unless a caption says otherwise: spatial curvature |r_s × r_ss|/|r_s|³ as in [S] (but with its "
            "sign), Green's axial strain, both measured from the drawn arc, which is free of stress; equal "
@@ -209,16 +210,22 @@ class Study {
     convergence();
     steps();
     without_metric();
-    return page_.str();
+    flush();
   }
 
  private:
   void figure(const std::string& name, const Plot& plot, const std::string& caption) {
-    const std::filesystem::path file = directory_ / (name + ".svg");
-    std::ofstream stream(file);
-    stream << svg(plot);
-    if (!stream.flush()) throw std::runtime_error("cannot write " + file.string());
-    page_ << "![" << plot.title << "](" << name << ".svg)\n\n" << caption << "\n\n";
+    flush();
+    document_.figure(name, plot, caption.substr(0, caption.find_last_not_of('.') + 1));
+  }
+
+  // What has been written so far, without the line ends around it.
+  void flush() {
+    std::string text = page_.str();
+    page_.str("");
+    text.erase(0, text.find_first_not_of('\n'));
+    text.erase(text.find_last_not_of('\n') + 1);
+    if (!text.empty()) document_.paragraph(text);
   }
 
   void check_reference() {
@@ -569,7 +576,7 @@ class Study {
     }
   }
 
-  std::filesystem::path directory_;
+  papers::Page& document_;
   std::ostringstream page_;
   PendulumMotion fine_;
   std::vector<PlotLine> errors_;
@@ -578,6 +585,13 @@ class Study {
 
 }  // namespace
 
-std::string pendulum_study(const std::filesystem::path& directory) { return Study(directory).run(); }
+namespace papers {
+
+void write_pendulum(Page& page, std::ostream& progress) {
+  progress << "papers: the curved pendulum\n";
+  Study(page).run();
+}
+
+}  // namespace papers
 
 }  // namespace nurbeam

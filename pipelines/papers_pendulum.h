@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -53,10 +52,5 @@ struct PendulumError {
   double AB, fall;
 };
 PendulumError largest_difference(const PendulumMotion& a, const PendulumMotion& b);
-
-/// The examples of [S] reproduced and corrected: writes the figures (SVG) into a directory, which must exist,
-/// and returns a section of markdown that shows them and says where [S] is met. Throws std::runtime_error
-/// (file) when a figure cannot be written.
-std::string pendulum_study(const std::filesystem::path& directory);
 
 }  // namespace nurbeam

@@ -33,7 +33,9 @@ struct RunEvent {
   double energy_before = 0, energy_after = 0;  ///< [J]
   Eigen::Vector3d momentum_before = Eigen::Vector3d::Zero(),
                   momentum_after = Eigen::Vector3d::Zero();  ///< [kg m/s]
-  double length_before = 0, length_after = 0;                ///< deformed length of the beam [m]
+  /// What the supports gave to the momentum when the velocities were projected [kg m/s].
+  Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
+  double length_before = 0, length_after = 0;  ///< deformed length of the beam [m]
 };
 
 /// What run.json says about a run.

@@ -537,13 +537,16 @@ class Simulation {
     NextPlan next = next_plan<D>(*system_, state_, options_.length_control);
     if (next.change == MeshChange::none) return false;
     RunEvent event = in_motion ? event_before(kind_of(next.change), next.joint) : RunEvent{};
+    const bool observed = in_motion && observer_.mesh_changed;
+    const std::vector<BeamRecord> before = observed ? beam_records() : std::vector<BeamRecord>{};
     const bool keeps_velocities = next.change == MeshChange::merge &&
                                   model_.beams[model_.joints[next.joint].beam].merge != MergeRule::standard;
     const bool exact =
         next.change == MeshChange::split || next.change == MeshChange::becomes_node || keeps_velocities;
     const std::vector<bool> held(model_.joints.size(), !in_motion);
     auto to = std::make_unique<BeamSystem<D>>(model_, next.plan, held);
-    std::optional<State> moved = transfer<D>(*system_, state_, *to, exact || !in_motion);
+    Eigen::VectorXd impulse;
+    std::optional<State> moved = transfer<D>(*system_, state_, *to, exact || !in_motion, &impulse);
     if (!moved) {
       fail(SimulationStatus::not_converged,
            "velocities cannot be projected at t = " + text(state_.t) + " s" + places_text());
@@ -555,10 +558,25 @@ class Simulation {
     if (in_motion) {
       if (!restart()) return false;
       state_ = integrator_->state();
+      event.support_impulse = support_impulse(impulse);
       finish_event(event);
+      if (observed) observer_.mesh_changed(report_.events.back(), before, beam_records());
     }
     report_.length_control_seconds += seconds_since(start);
     return true;
+  }
+
+  // What a constraint impulse gives to the momentum through the supports' positions; the other constraints
+  // (directions, bodies on the beam) give none.
+  Eigen::Vector3d support_impulse(const Eigen::VectorXd& impulse) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    if (impulse.size() == 0) return sum;
+    int row = 0;
+    for (const Support& support : model_.supports) {
+      sum -= widened<D>(impulse, row);
+      row += support.clamped ? 2 * D - 1 : D;
+    }
+    return sum;
   }
 
   RunEvent event_before(const std::string& kind, int joint) const {
@@ -609,6 +627,12 @@ class Simulation {
     return record;
   }
 
+  std::vector<BeamRecord> beam_records() const {
+    std::vector<BeamRecord> records;
+    for (std::size_t b = 0; b < model_.beams.size(); ++b) records.push_back(beam_record(static_cast<int>(b)));
+    return records;
+  }
+
   void write_frame() {
     Frame frame;
     frame.time = state_.t;
@@ -625,8 +649,7 @@ class Simulation {
                                              system_->place(state_, joint),
                                              system_->joint_force(state_, joint)};
     }
-    for (std::size_t b = 0; b < model_.beams.size(); ++b)
-      frame.beams.push_back(beam_record(static_cast<int>(b)));
+    frame.beams = beam_records();
     const SystemEnergy e = system_->energy(state_);
     frame.energy = {e.kinetic, e.gravity, e.axial, e.bending, dissipated_, e.mechanical() + dissipated_};
     frame.step = last_step_;

@@ -53,6 +53,9 @@ struct SimulationObserver {
   std::function<void(const Frame&)> frame;  ///< at every output time, in the model's own coordinates
   std::function<void(double)> progress;     ///< simulated time after every step
   std::function<bool()> interrupted;        ///< true asks to end after the current step
+  /// If set: every change of the mesh, with the beams before and after it.
+  std::function<void(const RunEvent&, const std::vector<BeamRecord>&, const std::vector<BeamRecord>&)>
+      mesh_changed = nullptr;
 };
 
 /// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies
