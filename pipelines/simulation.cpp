@@ -619,8 +619,7 @@ class Simulation {
 
   std::vector<BeamRecord> beam_records() const {
     std::vector<BeamRecord> records;
-    for (std::size_t b = 0; b < model_.beams.size(); ++b)
-      records.push_back(beam_record(static_cast<int>(b)));
+    for (std::size_t b = 0; b < model_.beams.size(); ++b) records.push_back(beam_record(static_cast<int>(b)));
     return records;
   }
 
