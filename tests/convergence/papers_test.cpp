@@ -63,7 +63,9 @@ TEST(Papers, ABodyThatTurnsBehindAJointComesBackOverIt) {
   for (const Frame& frame : own.frames) farthest = std::max(farthest, frame.bodies[0].s.value());
   EXPECT_GT(farthest, last_joint);
   EXPECT_LT(own.frames.back().bodies[0].s.value(), last_joint);
-  EXPECT_LT(jumps_of(own).rms_energy, 1e-3);
+  const papers::Run rule =
+      run(example.model(12), paper_rule(), {.end = example.end, .step = 1e-3, .every = 0.02});
+  EXPECT_LT(5 * jumps_of(own).rms_energy, jumps_of(rule).rms_energy);
 }
 
 TEST(Papers, TheReferencesAreMet) {

@@ -81,7 +81,6 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
 TEST(CommandLine, WhatThisVersionDoesNotOfferSaysSo) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"report", "dir"},
                                                 {"study", "s.json"},
-                                                {"verify", "papers"},
                                                 {"run", "c.json", "--resume"},
                                                 {"schema", "study"}}) {
     const Outcome outcome = run(words);
