@@ -281,8 +281,10 @@ class Remap {
   // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
   // axial strain that the old ones had not, and where these cannot bring it, their neighbours too.
   void keep_energy(State& next) {
-    const double energy = from_.energy(state_).mechanical();
-    const double enough = 1e-10 * std::max(from_.energy(state_).kinetic, std::abs(energy));
+    const SystemEnergy old = from_.energy(state_);
+    const double energy = old.mechanical();
+    const double enough =
+        1e-10 * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
     const auto excess = [&](const State& x) { return to_.energy(x).mechanical() - energy; };
     double e = excess(next);
     for (const bool with_neighbours : {false, true}) {
