@@ -394,11 +394,10 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings&
     output.probes.push_back(
         {.name = text(probe, "name"), .beam = text(probe, "beam"), .at = read_place(probe)});
   });
-  for (const char* key : {"paraview", "report"}) {
-    if (flag(json, key)) {
-      findings.add(Severity::note, child("output", key), "this version does not write it");
-    }
+  if (flag(json, "paraview")) {
+    findings.add(Severity::note, "output.paraview", "this version does not write it");
   }
+  output.report = !has(json, "report") || flag(json, "report");
   return output;
 }
 

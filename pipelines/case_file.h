@@ -136,6 +136,7 @@ struct CaseOutput {
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   std::string cad_unit = "mm";
   std::vector<CaseProbe> probes;
+  bool report = true;  ///< report.html
 };
 
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.

@@ -8,7 +8,7 @@ namespace nurbeam {
 class ResultsDirectory {
  public:
   /// Makes the directory, takes it, and removes what a former run has written there: histories.csv,
-  /// results.nc, run.json and deformed*.step and .igs, also under their temporary names. Throws
+  /// results.nc, run.json, report.html and deformed*.step and .igs, also under their temporary names. Throws
   /// std::runtime_error (path and reason) when another run writes there or these names are not free.
   explicit ResultsDirectory(std::filesystem::path path);
   ~ResultsDirectory();

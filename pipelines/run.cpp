@@ -12,8 +12,10 @@
 #include "pipelines/build_model.h"
 #include "pipelines/export_results.h"
 #include "pipelines/file_hash.h"
+#include "pipelines/model_summary.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/progress.h"
+#include "pipelines/report.h"
 #include "pipelines/results.h"
 #include "pipelines/results_directory.h"
 #include "pipelines/run_summary.h"
@@ -183,6 +185,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   RunSummary summary;
   summary.version = NURBEAM_VERSION;
   summary.case_name = c.name;
+  summary.model = model_summary(c, built);
   summary.diagnostics = report.diagnostics;
   summary.wall_times.import = built.import_seconds;
   summary.wall_times.model = seconds_since(start) - built.import_seconds;
@@ -198,6 +201,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
     for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
 
     const InterruptGuard guard;
+    bool has_frames = false;
     SimulationObserver observer;
     observer.interrupted = [&] { return guard.interrupted(); };
     observer.progress = [&](double t) { progress.update(t); };
@@ -205,6 +209,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
       const auto output_start = std::chrono::steady_clock::now();
       const Frame frame = to_world(built.frame, local);
       results.write(frame);
+      has_frames = true;
       cad.write(frame, summary.files);
       summary.wall_times.output += seconds_since(output_start);
     };
@@ -228,11 +233,14 @@ int run_case(const CaseFile& c, const RunOptions& options) {
       event.momentum_after = built.frame.direction_to_world(event.momentum_after);
     }
     for (const char* name : {"histories.csv", "results.nc", "run.json"}) summary.files.emplace_back(name);
+    const bool has_report = c.output.report && has_frames;
+    if (has_report) summary.files.emplace_back("report.html");
     if (const auto warning = energy_warning(c, simulated)) {
       print_diagnostics(std::cerr, {*warning});
       summary.diagnostics.push_back(*warning);
     }
     write_run_summary(options.out / "run.json", summary);
+    if (has_report) write_report(options.out);
     if (simulated.status != SimulationStatus::done)
       std::cerr << c.path.string() << ": error: " << simulated.message << "\n";
     return exit_code(simulated.status);

@@ -160,7 +160,7 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
 
 TEST_F(CaseFileTest, OutputsThisVersionDoesNotWriteAreNoted) {
   const CaseFileReport report = read(full_case);
-  ASSERT_EQ(report.diagnostics.size(), 2u) << messages(report);
+  ASSERT_EQ(report.diagnostics.size(), 1u) << messages(report);
   EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
   EXPECT_EQ(report.diagnostics[0].where, file() + ": output.paraview");
 }
