@@ -8,9 +8,8 @@
 #include <optional>
 #include <sstream>
 
-#include "cad_import/export_curves.h"
 #include "pipelines/build_model.h"
-#include "pipelines/export_results.h"
+#include "pipelines/cad_output.h"
 #include "pipelines/file_hash.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/progress.h"
@@ -90,37 +89,6 @@ Frame to_world(const ModelFrame& f, Frame frame) {
   return frame;
 }
 
-// Writes deformed curves at the frames whose times the case asks for.
-class CadOutput {
- public:
-  CadOutput(const CaseFile& c, const BuiltModel& built, const std::filesystem::path& directory)
-      : case_(c), built_(built), directory_(directory) {}
-
-  void write(const Frame& frame, std::vector<std::filesystem::path>& files) const {
-    const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
-    const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
-    const bool asked = std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
-                                   [&](double t) { return std::abs(t - frame.time) < same; });
-    if (!asked && !statics) return;
-    std::vector<NamedCurve> curves;
-    for (std::size_t b = 0; b < frame.beams.size(); ++b)
-      curves.push_back({built_.curve_names[b], deformed_curve(frame.beams[b].elements)});
-    for (const std::string& format : case_.output.cad_formats) {
-      std::ostringstream name;
-      name << "deformed";
-      if (!statics) name << "_t" << frame.time;
-      name << (format == "iges" ? ".igs" : ".step");
-      export_curves(directory_ / name.str(), curves, parse_length_unit(case_.output.cad_unit));
-      files.emplace_back(name.str());
-    }
-  }
-
- private:
-  const CaseFile& case_;
-  const BuiltModel& built_;
-  std::filesystem::path directory_;
-};
-
 FrameNames frame_names(const CaseFile& c) {
   FrameNames names;
   for (const CaseProbe& probe : c.output.probes) names.probes.push_back(probe.name);
@@ -191,7 +159,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   try {
     const ResultsDirectory directory(options.out);
     ResultsWriter results(options.out, frame_names(c), c.name);
-    const CadOutput cad(c, built, options.out);
+    const CadOutput cad(c.output, c.analysis, built.curve_names, options.out);
     Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
     std::vector<ProbePlace> probes;
     for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
