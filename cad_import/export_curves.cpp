@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <fstream>
 #include <mutex>
 #include <stdexcept>
 #include <system_error>
 
 #include "cad_import/cad_text.h"
+#include "cad_import/child_process.h"
 
 namespace nurbeam {
 namespace {
@@ -74,6 +77,13 @@ std::string cad_text(bool step, const std::vector<NamedCurve>& curves, LengthUni
   return step ? step_text(curves, unit) : iges_text(curves, unit);
 }
 
+void check_pipe(const NamedPipe& pipe) {
+  check_name(pipe.axis.name);
+  if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
+    throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + std::to_string(pipe.radius) +
+                                " m; it must be positive");
+}
+
 }  // namespace
 
 LengthUnit parse_length_unit(const std::string& text) {
@@ -89,6 +99,22 @@ void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, 
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
   for (const NamedCurve& curve : curves) check_name(curve.name);
   write_at_once(file, cad_text(step, curves, unit));
+}
+
+void export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes, LengthUnit unit) {
+  if (!is_step_name(file))
+    throw std::invalid_argument("solids are written to STEP only; name " + file.string() + " .step");
+  if (pipes.empty())
+    throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
+  for (const NamedPipe& pipe : pipes) check_pipe(pipe);
+  constexpr std::chrono::seconds patience{120};
+  const ChildResult result = run_in_child([&] { return step_solid_text(pipes, unit); }, {patience});
+  if (result.status == ChildResult::Status::timed_out)
+    fail(file, "sweeping the solids takes longer than " + std::to_string(patience.count()) +
+                   " s; write the curves");
+  if (result.status != ChildResult::Status::finished)
+    fail(file, result.complaint.empty() ? "OpenCASCADE failed to sweep the solids" : result.complaint);
+  write_at_once(file, result.output);
 }
 
 }  // namespace nurbeam

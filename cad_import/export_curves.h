@@ -12,6 +12,12 @@ struct NamedCurve {
   NurbsCurve curve;
 };
 
+/// A curve with a circular section.
+struct NamedPipe {
+  NamedCurve axis;
+  double radius;  ///< [m]
+};
+
 enum class LengthUnit { metre, millimetre, inch };
 /// "m", "mm", "inch" ("in"). Throws std::invalid_argument listing these for anything else.
 LengthUnit parse_length_unit(const std::string& text);
@@ -22,5 +28,12 @@ LengthUnit parse_length_unit(const std::string& text);
 /// name with a control character; std::runtime_error when the file cannot be written (it is then as it was
 /// before).
 void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
+
+/// Writes each pipe as a solid (its axis swept by a disk, ends cut square) under its name, to a STEP file,
+/// else as export_curves does. The faces lie within OpenCASCADE's 1e-4 mm of the exact ones; volumes agree
+/// with pi r^2 L within 1e-3. Throws std::invalid_argument also for another extension than .step or .stp and
+/// for a radius that is not positive, std::runtime_error also when a curve cannot be swept (a corner, a bend
+/// sharper than the radius).
+void export_solids(const std::filesystem::path& file, const std::vector<NamedPipe>& pipes, LengthUnit unit);
 
 }  // namespace nurbeam
