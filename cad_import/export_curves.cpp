@@ -101,7 +101,8 @@ void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, 
   write_at_once(file, cad_text(step, curves, unit));
 }
 
-void export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes, LengthUnit unit) {
+std::optional<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
+                                        LengthUnit unit) {
   if (!is_step_name(file))
     throw std::invalid_argument("solids are written to STEP only; name " + file.string() + " .step");
   if (pipes.empty())
@@ -109,12 +110,15 @@ void export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes, Le
   for (const NamedPipe& pipe : pipes) check_pipe(pipe);
   constexpr std::chrono::seconds patience{120};
   const ChildResult result = run_in_child([&] { return step_solid_text(pipes, unit); }, {patience});
-  if (result.status == ChildResult::Status::timed_out)
-    fail(file, "sweeping the solids takes longer than " + std::to_string(patience.count()) +
-                   " s; write the curves");
-  if (result.status != ChildResult::Status::finished)
-    fail(file, result.complaint.empty() ? "OpenCASCADE failed to sweep the solids" : result.complaint);
-  write_at_once(file, result.output);
+  if (result.status == ChildResult::Status::finished) {
+    write_at_once(file, result.output);
+    return std::nullopt;
+  }
+  const std::string reason = result.status == ChildResult::Status::timed_out
+                                 ? "sweeping takes longer than " + std::to_string(patience.count()) + " s"
+                                 : result.complaint;
+  return Diagnostic{Severity::error, file.string(),
+                    "not written: " + reason + "; write the curves, which have every shape"};
 }
 
 }  // namespace nurbeam

@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cad_import/import_report.h"
 #include "nurbs/nurbs_curve.h"
 
 namespace nurbeam {
@@ -30,10 +32,11 @@ LengthUnit parse_length_unit(const std::string& text);
 void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
 
 /// Writes each pipe as a solid (its axis swept by a disk, ends cut square) under its name, to a STEP file,
-/// else as export_curves does. The faces lie within OpenCASCADE's 1e-4 mm of the exact ones; volumes agree
-/// with pi r^2 L within 1e-3. Throws std::invalid_argument also for another extension than .step or .stp and
-/// for a radius that is not positive, std::runtime_error also when a curve cannot be swept (a corner, a bend
-/// sharper than the radius).
-void export_solids(const std::filesystem::path& file, const std::vector<NamedPipe>& pipes, LengthUnit unit);
+/// else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with pi r^2 L
+/// within 1e-3. When a curve cannot be swept (a corner, a bend sharper than the radius) nothing is written
+/// and the Diagnostic says why; it is empty when the file was written. Throws std::invalid_argument also for
+/// another extension than .step or .stp and for a radius that is not positive.
+[[nodiscard]] std::optional<Diagnostic> export_solids(const std::filesystem::path& file,
+                                                      const std::vector<NamedPipe>& pipes, LengthUnit unit);
 
 }  // namespace nurbeam

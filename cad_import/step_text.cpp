@@ -5,6 +5,7 @@
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakePipe.hxx>
 #include <BRep_Builder.hxx>
+#include <Eigen/Geometry>
 #include <GProp_GProps.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Interface_Static.hxx>
@@ -184,7 +185,7 @@ std::string text(STEPControl_Writer& writer) {
 
 gp_Vec vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-// OpenCASCADE neither sees that a pipe runs through itself nor always says that a sweep went wrong.
+// OpenCASCADE does not always say that a sweep went wrong.
 void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   constexpr double allowed = 1e-3;
   GProp_GProps properties;
@@ -194,14 +195,32 @@ void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   const double expected = std::numbers::pi * radius * radius * length(pipe.axis.curve) * kMillimetresPerMetre;
   if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
       std::abs(properties.Mass() - expected) > allowed * expected)
-    throw std::runtime_error(
-        "OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
-        " m along the curve '" + pipe.axis.name +
-        "'; it may have a corner or bend more sharply than that radius; write the curve");
+    throw std::runtime_error("OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
+                             " m along the curve '" + pipe.axis.name +
+                             "'; it may have a corner or bend more sharply than that radius");
+}
+
+// Largest curvature |r' x r''| / |r'|^3 at 33 places of each span [1/m].
+double largest_curvature(const NurbsCurve& curve) {
+  constexpr int count = 32;
+  const std::vector<double> breaks = curve.knots().breaks();
+  double largest = 0;
+  for (std::size_t j = 0; j + 1 < breaks.size(); ++j)
+    for (int i = 0; i <= count; ++i) {
+      const double u = breaks[j] + (breaks[j + 1] - breaks[j]) * i / count;
+      const Eigen::Matrix3Xd d = curve.derivatives(u, 2);
+      const Eigen::Vector3d first = d.col(1), second = d.col(2);
+      largest = std::max(largest, first.cross(second).norm() / std::pow(first.norm(), 3));
+    }
+  return largest;
 }
 
 TopoDS_Shape swept(const NamedPipe& pipe) {
   const NurbsCurve& curve = pipe.axis.curve;
+  if (const double curvature = largest_curvature(curve); curvature * pipe.radius >= 1)
+    throw std::runtime_error("the curve '" + pipe.axis.name + "' bends to a radius of " +
+                             std::to_string(1 / curvature) + " m, too sharply for a section of radius " +
+                             std::to_string(pipe.radius) + " m");
   const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
   const gp_Pnt centre(vector(kMillimetresPerMetre * start.col(0)).XYZ());
   const gp_Circ circle(gp_Ax2(centre, gp_Dir(vector(start.col(1)))), pipe.radius * kMillimetresPerMetre);

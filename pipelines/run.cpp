@@ -159,7 +159,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   try {
     const ResultsDirectory directory(options.out);
     ResultsWriter results(options.out, frame_names(c), c.name);
-    const CadOutput cad(c.output, c.analysis, built.curve_names, options.out);
+    CadOutput cad(c, built.curve_names, options.out);
     Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
     std::vector<ProbePlace> probes;
     for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
@@ -172,7 +172,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
       const auto output_start = std::chrono::steady_clock::now();
       const Frame frame = to_world(built.frame, local);
       results.write(frame);
-      cad.write(frame, summary.files);
+      cad.write(frame, summary);
       summary.wall_times.output += seconds_since(output_start);
     };
     const SimulationReport simulated = simulate(built.model, probes, simulation_options(c), observer);

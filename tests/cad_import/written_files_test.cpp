@@ -157,7 +157,7 @@ TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
   const fs::path file = scratch.path() / "solid.step";
   const double radius = 0.02;
   for (const NurbsCurve& curve : {cable(1), cable(10), cable(20, 0.01), straight_line(3)}) {
-    export_solids(file, {{{"cable", curve}, radius}}, LengthUnit::inch);
+    ASSERT_FALSE(export_solids(file, {{{"cable", curve}, radius}}, LengthUnit::inch));
     const TopoDS_Shape shape = second_reading(file);
     ASSERT_FALSE(shape.IsNull());
     EXPECT_EQ(shape.ShapeType(), TopAbs_SOLID);
@@ -181,8 +181,8 @@ TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
 TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "solids.step";
-  export_solids(file, {{{"left", cable(3)}, 0.01}, {{"right", straight_line(1)}, 0.02}},
-                LengthUnit::millimetre);
+  ASSERT_FALSE(export_solids(file, {{{"left", cable(3)}, 0.01}, {{"right", straight_line(1)}, 0.02}},
+                             LengthUnit::millimetre));
   std::ifstream in(file);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('left'"), std::string::npos);
@@ -193,15 +193,26 @@ TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
 TEST(ExportSolids, RefusesWhatCannotBeSweptAndLeavesNoFile) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "solid.step";
-  EXPECT_THROW(export_solids(file, {{{"cable", cable(3)}, 0}}, LengthUnit::metre), std::invalid_argument);
-  EXPECT_THROW(export_solids(scratch.path() / "a.igs", {{{"cable", cable(3)}, 0.01}}, LengthUnit::metre),
-               std::invalid_argument);
-  EXPECT_THROW(export_solids(file, {}, LengthUnit::metre), std::invalid_argument);
+  const auto refused = [](const fs::path& target, const std::vector<NamedPipe>& pipes) {
+    EXPECT_THROW(static_cast<void>(export_solids(target, pipes, LengthUnit::metre)), std::invalid_argument);
+  };
+  refused(file, {{{"cable", cable(3)}, 0}});
+  refused(scratch.path() / "a.igs", {{{"cable", cable(3)}, 0.01}});
+  refused(file, {});
   Eigen::Matrix3Xd points(3, 3);
   points << 0, 1, 0.1, 0, 0, 0.1, 0, 0, 0;
   const NurbsCurve corner = make_nurbs_curve(KnotVector(1, {0, 0, 1, 2, 2}), points, Eigen::Vector3d::Ones());
-  EXPECT_THROW(export_solids(file, {{{"cable", corner}, 0.3}}, LengthUnit::metre), std::runtime_error);
+  const auto problem = export_solids(file, {{{"bent cable", corner}, 0.3}}, LengthUnit::metre);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->where, file.string());
+  EXPECT_NE(problem->message.find("bent cable"), std::string::npos);
+  Eigen::Matrix3Xd parabola(3, 3);
+  parabola << -1, 0, 1, 1, -1, 1, 0, 0, 0;  // its smallest radius of curvature is 0.5
+  const NurbsCurve bend =
+      make_nurbs_curve(KnotVector(2, {0, 0, 0, 1, 1, 1}), parabola, Eigen::Vector3d::Ones());
+  EXPECT_TRUE(export_solids(file, {{{"bend", bend}, 0.51}}, LengthUnit::metre));
   EXPECT_TRUE(fs::is_empty(scratch.path()));
+  EXPECT_FALSE(export_solids(file, {{{"bend", bend}, 0.49}}, LengthUnit::metre));
 }
 
 }  // namespace

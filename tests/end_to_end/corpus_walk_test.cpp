@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <tuple>
 
 #include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
@@ -67,14 +68,14 @@ TEST_P(CorpusWalk, ReturnsEveryCurveWhereItWas) {
     beams.push_back({curve.name, undeformed_beam(BezierPath::from_nurbs(curve.curve, approximation))});
 
   const test::TemporaryDirectory directory;
-  for (const auto& [name, unit] : {std::pair{"back.step", LengthUnit::millimetre},
-                                   {"back.igs", LengthUnit::inch},
-                                   {"back_in_metres.igs", LengthUnit::metre}}) {
+  for (const auto& [name, unit, unit_name] : {std::tuple{"back.step", LengthUnit::millimetre, "mm"},
+                                              {"back.igs", LengthUnit::inch, "inch"},
+                                              {"back_in_metres.igs", LengthUnit::metre, "m"}}) {
     export_curves(directory.path() / name, beams, unit);
     const ImportReport back = import_curves(directory.path() / name);
     ASSERT_EQ(back.curves.size(), source.curves.size());
     EXPECT_TRUE(back.diagnostics.empty());
-    EXPECT_EQ(back.unit, unit == LengthUnit::inch ? "inch" : "mm");
+    EXPECT_EQ(back.unit, unit_name);
     for (std::size_t i = 0; i < back.curves.size(); ++i) {
       SCOPED_TRACE(std::string(name) + ", curve " + std::to_string(i + 1));
       const NurbsCurve& was = source.curves[i].curve;
