@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "nurbs/bezier.h"
 #include "nurbs/golden_section.h"
 
 namespace nurbeam {
@@ -18,7 +19,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// Largest ratio of the weights of pieces that are joined: more would cost digits.
 const double widest_spread = std::log(100.0);
 
-using Points = Eigen::Matrix4Xd;  // homogeneous Bezier points, 4 x (degree + 1)
+using Points = BezierPoints;
 
 /// Piece of the curve under way.
 struct Piece {
@@ -38,60 +39,11 @@ struct Chart {
   double length;
 };
 
-/// Polar form of a Bezier curve at as many arguments as its degree.
-Eigen::Vector4d blossom(Points points, const std::vector<double>& arguments) {
-  for (Eigen::Index r = 1; r < points.cols(); ++r) {
-    const double a = arguments[r - 1];
-    for (Eigen::Index j = 0; j + r < points.cols(); ++j)
-      points.col(j) = (1 - a) * points.col(j) + a * points.col(j + 1);
-  }
-  return points.col(0);
-}
-
-/// The part of a Bezier curve on [a, b].
-Points part(const Points& points, double a, double b) {
-  const Eigen::Index p = points.cols() - 1;
-  Points result(4, p + 1);
-  std::vector<double> arguments(p, a);
-  for (Eigen::Index i = 0; i <= p; ++i) {
-    if (i > 0) arguments[i - 1] = b;
-    result.col(i) = blossom(points, arguments);
-  }
-  return result;
-}
-
-/// The same curve written with degree + 1.
-Points elevated(const Points& points) {
-  const Eigen::Index p = points.cols();
-  Points result(4, p + 1);
-  result << points, points.rightCols<1>();
-  for (Eigen::Index i = 1; i < p; ++i)
-    result.col(i) = (double(i) * points.col(i - 1) + double(p - i) * points.col(i)) / double(p);
-  return result;
-}
-
 /// The curve of degree - 1 nearest to this one (the one it is, if there is one).
 Points reduced(const Points& points) {
   if (points.cols() == 3) return (Points(4, 2) << points.col(0), points.col(2)).finished();
   const Eigen::Vector4d middle = 0.25 * (3 * (points.col(1) + points.col(2)) - points.col(0) - points.col(3));
   return (Points(4, 3) << points.col(0), middle, points.col(3)).finished();
-}
-
-/// Bound on |a(u) - b(u)|, u in [0,1], after projection, for curves of one degree (never for a weight <= 0).
-///
-/// With r = A/W from the one and B/V from the other: r - B/V = ((A - B) - r (W - V)) / V; differences and V
-/// lie in the hull of their Bezier points, and r in that of the control points, measured from the first.
-double distance_bound(Points a, Points b) {
-  if (!(b.row(3).minCoeff() > 0)) return never;
-  b *= a(3, 0) / b(3, 0);
-  const Eigen::Vector3d origin = a.col(0).hnormalized();
-  a.topRows<3>() -= (origin * a.row(3)).eval();
-  b.topRows<3>() -= (origin * b.row(3)).eval();
-  const Points difference = a - b;
-  const double radius = a.colwise().hnormalized().colwise().norm().maxCoeff();
-  return (difference.topRows<3>().colwise().norm().maxCoeff() +
-          radius * difference.row(3).cwiseAbs().maxCoeff()) /
-         b.row(3).minCoeff();
 }
 
 Eigen::Vector3d leg(const Piece& piece, Eigen::Index i) {
@@ -181,7 +133,7 @@ Pieces of_lowest_degree(Pieces pieces, double tolerance) {
     Pieces lower = pieces;
     for (Piece& piece : lower) {
       const Points points = reduced(piece.points);
-      piece.deviation += distance_bound(piece.points, elevated(points));
+      piece.deviation += distance_bound(piece.points, elevated(points, piece.degree()));
       if (!(piece.deviation <= tolerance)) return pieces;
       piece.points = points;
     }
