@@ -137,6 +137,28 @@ TEST_P(WrittenFile, HasItsPlaceInMillimetresToASecondReader) {
   }
 }
 
+std::string content_of_file(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_P(WrittenFile, DeclaresItsUnit) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  export_curves(file, {{"cable", cable(2)}}, GetParam().unit);
+  const std::string text = content_of_file(file);
+  if (file.extension() == ".igs") {
+    const IgesGlobal global = parse_iges_global(text);
+    EXPECT_DOUBLE_EQ(global.unit_in_metres, 1e-3 * GetParam().in_millimetres);
+    EXPECT_EQ(global.scale, 1);
+    return;
+  }
+  const std::string declared = GetParam().in_millimetres == 1000 ? "SI_UNIT($,.METRE.)"
+                               : GetParam().in_millimetres == 1  ? "SI_UNIT(.MILLI.,.METRE.)"
+                                                                 : "CONVERSION_BASED_UNIT('INCH'";
+  EXPECT_NE(text.find(declared), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, WrittenFile,
     testing::Values(Target{"a.step", LengthUnit::metre, 1000}, Target{"a.step", LengthUnit::millimetre, 1},
@@ -183,8 +205,7 @@ TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
   const fs::path file = scratch.path() / "solids.step";
   ASSERT_FALSE(export_solids(file, {{{"left", cable(3)}, 0.01}, {{"right", straight_line(1)}, 0.02}},
                              LengthUnit::millimetre));
-  std::ifstream in(file);
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::string text = content_of_file(file);
   EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('left'"), std::string::npos);
   EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('right'"), std::string::npos);
   EXPECT_TRUE(BRepCheck_Analyzer(second_reading(file)).IsValid());
