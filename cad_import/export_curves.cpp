@@ -1,19 +1,15 @@
 #include "cad_import/export_curves.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <mutex>
 #include <stdexcept>
-#include <system_error>
 
 #include "cad_import/cad_text.h"
 #include "cad_import/child_process.h"
+#include "cad_import/write_file.h"
 
 namespace nurbeam {
 namespace {
@@ -38,35 +34,6 @@ bool is_step_name(const fs::path& file) {
 void check_name(const std::string& name) {
   if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); })) {
     throw std::invalid_argument("the curve name '" + name + "' holds a control character; it must hold none");
-  }
-}
-
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error("cannot write " + file.string() + ": " + what);
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) fail(file, std::generic_category().message(errno));
-}
-
-// A reader of `file` sees the old content or the whole of the new one.
-void write_at_once(const fs::path& file, const std::string& text) {
-  fs::path temporary = file;
-  temporary += ".part" + std::to_string(getpid());
-  std::error_code ignored;
-  try {
-    write_text(temporary, text);
-    fs::rename(temporary, file);
-  } catch (const fs::filesystem_error& e) {
-    fs::remove(temporary, ignored);
-    fail(file, e.code().message());
-  } catch (const std::runtime_error&) {
-    fs::remove(temporary, ignored);
-    throw;
   }
 }
 
