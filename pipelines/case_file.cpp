@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "cad_import/cad_format.h"
 #include "pipelines/case_json.h"
 #include "pipelines/closest_name.h"
 #include "pipelines/quantity.h"
@@ -570,6 +571,29 @@ void check_solids(const CaseFile& c, Findings& findings) {
                          " has no radius; give it one, or use \"step\" for the curve");
 }
 
+bool is_step_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head(1000, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return format_of(head) == CadFormat::step;
+}
+
+void check_source(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto source = std::find(formats.begin(), formats.end(), "step-source");
+  if (source == formats.end()) return;
+  const auto* const first = std::get_if<AxisFile>(&c.beams.front().axis.source);
+  for (const CaseBeam& beam : c.beams) {
+    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
+    if (first && axis && axis->path == first->path && is_step_file(axis->path)) continue;
+    findings.error(child("output.cad.formats", source - formats.begin()),
+                   "is \"step-source\", but the axis of the beam " + in_quotes(beam.name) + " is not from " +
+                       (first && axis && axis != first ? "the same" : "a") +
+                       " STEP file; use \"step\" for the curve alone");
+    return;
+  }
+}
+
 }  // namespace
 
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -588,6 +612,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
     check_bodies(*json, *value, findings);
     check_times(*json, *value, findings);
     check_solids(*value, findings);
+    check_source(*value, findings);
   }
   if (findings.has_errors() || !diagnostics.empty()) {
     value.reset();

@@ -134,7 +134,7 @@ struct CaseProbe {
 
 struct CaseOutput {
   std::optional<double> every;           ///< [s]
-  std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid"
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid", "step-source"
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   bool cad_at_all_times = false;         ///< every stored frame, numbered
   std::string cad_unit = "mm";

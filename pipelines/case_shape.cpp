@@ -181,7 +181,7 @@ Shape analysis() {
 
 Shape output() {
   const Shape cad =
-      object({{"formats", array(choice({"step", "iges", "step-solid"}), 1), "file formats"},
+      object({{"formats", array(choice({"step", "iges", "step-solid", "step-source"}), 1), "file formats"},
               {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
                "times to write, or all stored frames as a numbered sequence"},
               {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files"},

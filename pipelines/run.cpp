@@ -160,7 +160,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   try {
     const ResultsDirectory directory(options.out);
     ResultsWriter results(options.out, frame_names(c), c.name);
-    CadOutput cad(c, built.curve_names, options.out);
+    CadOutput cad(c, built, options.out);
     Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
     std::vector<ProbePlace> probes;
     for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});

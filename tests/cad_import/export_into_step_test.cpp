@@ -203,6 +203,30 @@ TEST(ExportIntoStep, ConicsAndLinesOfTheSourceBecomeSplines) {
   EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
 }
 
+TEST(ExportIntoStep, AFreeEdgeWithVerticesGetsNewOnes) {
+  const ScratchDirectory scratch;
+  std::string text = step_text_of("#100", R"(#100 = CONNECTED_EDGE_SET('',(#101));
+#101 = EDGE_CURVE('brace',#102,#103,#104,.F.);
+#102 = VERTEX_POINT('',#105);
+#103 = VERTEX_POINT('',#106);
+#104 = LINE('',#106,#107);
+#105 = CARTESIAN_POINT('',(3.,0.,0.));
+#106 = CARTESIAN_POINT('',(1.,0.,0.));
+#107 = VECTOR('',#14,1.);)");
+  text = with(text, "GEOMETRIC_CURVE_SET", "EDGE_BASED_WIREFRAME_MODEL");
+  text = with(text, "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE", "EDGE_BASED_WIREFRAME_SHAPE");
+  const fs::path source = scratch.file("source.step", text), target = scratch.path() / "target.step";
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 1u);
+  EXPECT_TRUE(export_into_step(source, target, {{before.curves[0].curve, bent(0.1, true), "brace"}}).empty());
+  EXPECT_NE(content_of(target).find("EDGE_CURVE('brace',#"), std::string::npos);
+  EXPECT_EQ(content_of(target).find("'brace',#102"), std::string::npos);
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 1u);
+  EXPECT_EQ(after.curves[0].name, "brace");
+  EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
+}
+
 TEST(ExportIntoStep, EveryFreeCurveOfTheCorpusCanBeExchanged) {
   const ScratchDirectory scratch;
   const fs::path target = scratch.path() / "target.step";

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
+#include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
 #include "tests/end_to_end/case_run.h"
 
@@ -96,6 +98,61 @@ TEST_F(CadOutputTest, ASolidOfASectionWithoutRadiusIsRefusedBeforeTheRun) {
   EXPECT_NE(messages.find("output.cad.formats[1]"), std::string::npos) << messages;
   EXPECT_NE(messages.find("cable"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(results));
+}
+
+/// A spline and an arc in inches, as a CAD system might have drawn them.
+std::filesystem::path drawing(const TemporaryDirectory& directory) {
+  Eigen::Matrix3Xd points(3, 5);
+  points << 0, 0.2, 0.5, 0.8, 1, 0, 0, 0, 0, 0, 0, 0.1, -0.1, 0.1, 0;
+  const NurbsCurve spline =
+      make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 0.5, 1, 1, 1, 1}), points, Eigen::VectorXd::Ones(5));
+  Eigen::Matrix3Xd corners(3, 3);
+  corners << 1, 2, 2, 0, 0, 1, 1, 1, 1;
+  const NurbsCurve arc =
+      make_nurbs_curve(KnotVector(2, {0, 0, 0, 1, 1, 1}), corners, Eigen::Vector3d(1, std::sqrt(0.5), 1));
+  export_curves(directory.path() / "drawing.step", {{"frame", arc}, {"cable", spline}}, LengthUnit::inch);
+  return directory.path() / "drawing.step";
+}
+
+TEST_F(CadOutputTest, TheSourceGetsTheDeformedShapeInPlaceOfTheDrawnOne) {
+  const ImportReport before = import_curves(drawing(directory));
+  const auto run_into_source = [&](const std::string& axis) {
+    return run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                "analysis.end_time=0.05", "--set", "output.every=0.05", "--set", "beams[0].axis=" + axis,
+                "--set", R"(output.cad={"formats": ["step", "step-source"], "times": [0, 0.05]})"});
+  };
+  ASSERT_EQ(run_into_source(R"({"file": "drawing.step", "curve": "cable"})"), 0) << messages;
+  const NurbsCurve alone = only_curve(results / "deformed_t0.05.step");
+  const ImportReport after = import_curves(results / "deformed_t0.05_source.step");
+  ASSERT_EQ(after.curves.size(), 2u);
+  EXPECT_EQ(after.unit, "inch");
+  EXPECT_EQ(after.curves[0].name, "frame");
+  EXPECT_EQ(after.curves[0].curve.control_points(), before.curves[0].curve.control_points());
+  EXPECT_EQ(after.curves[1].name, "cable");
+  const auto middle = [](const NurbsCurve& curve) {
+    return curve.point(0.5 * (curve.knots().start() + curve.knots().end()));
+  };
+  EXPECT_LE((middle(after.curves[1].curve) - middle(alone)).norm(), 1e-14);
+  EXPECT_GT((middle(after.curves[1].curve) - middle(before.curves[1].curve)).norm(), 1e-3);
+  // Undeformed, the source comes back with the curve it had.
+  const ImportReport undeformed = import_curves(results / "deformed_t0_source.step");
+  EXPECT_EQ(undeformed.curves.at(1).curve.control_points().cols(), 5);
+  EXPECT_LE((middle(undeformed.curves[1].curve) - middle(before.curves[1].curve)).norm(), 1e-12);
+}
+
+TEST_F(CadOutputTest, ASourceThatIsNoStepFileIsRefusedBeforeTheRun) {
+  const std::string into_source = R"(output.cad={"formats": ["step-source"]})";
+  EXPECT_EQ(run({"check", case_file.string(), "--set", into_source}), 2);
+  EXPECT_NE(messages.find("output.cad.formats[0]"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("cable"), std::string::npos) << messages;
+  drawing(directory);
+  export_curves(directory.path() / "drawing.igs",
+                {{"cable", import_curves(directory.path() / "drawing.step").curves.at(1).curve}},
+                LengthUnit::metre);
+  EXPECT_EQ(run({"check", case_file.string(), "--set", R"(beams[0].axis={"file": "drawing.igs"})", "--set",
+                 into_source}),
+            2);
+  EXPECT_NE(messages.find("STEP"), std::string::npos) << messages;
 }
 
 TEST_F(CadOutputTest, ExportOffersTheSameForms) {
