@@ -298,6 +298,10 @@ int check_case(const CaseFile& c) {
         beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
         beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
   }
+  for (const BeamProfile& drawn : report.value->profiles) {
+    std::cout << "section   of " << model.beams[drawn.beam].name << ": " << drawn.file.string() << '\n';
+    print_profile(std::cout, drawn.profile);
+  }
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
                 model.bodies[joint.body].mass, model.beams[joint.beam].name.c_str(), joint.s);
