@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "cad_import/cad_format.h"
 #include "pipelines/case_json.h"
 #include "pipelines/closest_name.h"
 #include "pipelines/quantity.h"
@@ -102,7 +103,7 @@ Place read_place(const Json& object) {
   } else if (has(at, "fraction")) {
     place = {.kind = Place::Kind::fraction, .value = number(at, "fraction")};
   } else if (has(at, "near")) {
-    place = {.kind = Place::Kind::near, .point = vector(at, "near")};
+    place = {.kind = Place::Kind::near, .point = vector(at, "near"), .within = optional_number(at, "within")};
   }
   return place;
 }
@@ -132,6 +133,22 @@ std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
   return names;
 }
 
+/// Reports a CAD file that is not there.
+void check_cad_file(const std::filesystem::path& file, const std::string& path, Findings& findings) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    const bool is_directory = std::filesystem::is_directory(status);
+    findings.error(path, in_quotes(file.string()) + " is a " +
+                             (is_directory ? "directory" : "device or pipe") +
+                             "; expected a STEP or IGES file" +
+                             (is_directory ? known_names("", cad_files_in(file)) : ""));
+  } else if (!std::filesystem::exists(status)) {
+    findings.error(path, "there is no file " + in_quotes(file.string()) +
+                             known_names(file.filename().string(), cad_files_in(file.parent_path())));
+  }
+}
+
 CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& directory,
                               const std::string& path, Findings& findings) {
   CaseAxis::File file;
@@ -145,19 +162,7 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
       file.curve_index = curve.get<int>();
     }
   }
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(file.path, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    const bool is_directory = std::filesystem::is_directory(status);
-    findings.error(child(path, "file"), in_quotes(file.path.string()) + " is a " +
-                                            (is_directory ? "directory" : "device or pipe") +
-                                            "; expected a STEP or IGES file" +
-                                            (is_directory ? known_names("", cad_files_in(file.path)) : ""));
-  } else if (!std::filesystem::exists(status)) {
-    findings.error(child(path, "file"),
-                   "there is no file " + in_quotes(file.path.string()) +
-                       known_names(file.path.filename().string(), cad_files_in(file.path.parent_path())));
-  }
+  check_cad_file(file.path, child(path, "file"), findings);
   return file;
 }
 
@@ -245,10 +250,22 @@ CaseAxis read_axis(const Json& axis, const std::string& path, const std::filesys
   return {};
 }
 
-CaseSection read_section(const Json& section) {
+CaseSection read_section(const Json& section, const std::filesystem::path& directory, const std::string& path,
+                         Findings& findings) {
+  if (has(section, "profile")) {
+    const Json& profile = section["profile"];
+    CaseSection drawn = {.profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
+                                                text(profile, "in_plane") == "x"}};
+    if (has(profile, "file")) {
+      check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
+    }
+    return drawn;
+  }
   if (has(section, "radius")) {
     const double r = number(section, "radius");
-    return {.area = std::numbers::pi * r * r, .second_moment = std::numbers::pi * std::pow(r, 4) / 4};
+    return {.area = std::numbers::pi * r * r,
+            .second_moment = std::numbers::pi * std::pow(r, 4) / 4,
+            .radius = r};
   }
   return {.area = number(section, "area"), .second_moment = number(section, "second_moment")};
 }
@@ -259,7 +276,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.path = path;
   beam.name = text(json, "name");
   beam.axis = read_axis(part(json, "axis"), child(path, "axis"), directory, findings);
-  beam.section = read_section(part(json, "section"));
+  beam.section = read_section(part(json, "section"), directory, child(path, "section"), findings);
   const Json& material = part(json, "material");
   beam.material = {.density = number(material, "density"),
                    .youngs_modulus = number(material, "youngs_modulus"),
@@ -380,13 +397,18 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
     output.cad_formats = {"step"};
     output.cad_times = {analysis.end_time};
     output.cad_unit = text(cad, "unit", output.cad_unit);
+    output.cad_parameter = chosen<CurveParameter>(
+        cad, "parameter", {{"free", CurveParameter::free}, {"material", CurveParameter::material}});
     if (has(cad, "formats")) {
       output.cad_formats.clear();
       for_each_item(cad, "formats", "", [&](const Json& format, const std::string&) {
         output.cad_formats.push_back(format.get<std::string>());
       });
     }
-    if (has(cad, "times")) {
+    if (has(cad, "times") && cad["times"].is_string()) {
+      output.cad_at_all_times = true;
+      output.cad_times.clear();
+    } else if (has(cad, "times")) {
       output.cad_times = numbers(cad, "times");
     }
   }
@@ -549,6 +571,40 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   }
 }
 
+void check_solids(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
+  if (solid == formats.end()) return;
+  for (const CaseBeam& beam : c.beams)
+    if (!beam.section.radius)
+      findings.error(child("output.cad.formats", solid - formats.begin()),
+                     "is \"step-solid\", but the section of the beam " + in_quotes(beam.name) +
+                         " has no radius; give it one, or use \"step\" for the curve");
+}
+
+bool is_step_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head(1000, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return format_of(head) == CadFormat::step;
+}
+
+void check_source(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto source = std::find(formats.begin(), formats.end(), "step-source");
+  if (source == formats.end()) return;
+  const auto* const first = std::get_if<AxisFile>(&c.beams.front().axis.source);
+  for (const CaseBeam& beam : c.beams) {
+    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
+    if (first && axis && axis->path == first->path && is_step_file(axis->path)) continue;
+    findings.error(child("output.cad.formats", source - formats.begin()),
+                   "is \"step-source\", but the axis of the beam " + in_quotes(beam.name) + " is not from " +
+                       (first && axis && axis != first ? "the same" : "a") +
+                       " STEP file; use \"step\" for the curve alone");
+    return;
+  }
+}
+
 }  // namespace
 
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -567,6 +623,8 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
     check_references(*json, findings);
     check_bodies(*json, *value, findings);
     check_times(*json, *value, findings);
+    check_solids(*value, findings);
+    check_source(*value, findings);
   }
   if (findings.has_errors() || !diagnostics.empty()) {
     value.reset();

@@ -9,6 +9,7 @@
 
 #include "cad_import/import_report.h"
 #include "fem/beam_model.h"
+#include "nurbs/smooth_nurbs.h"
 
 namespace nurbeam {
 
@@ -17,6 +18,7 @@ struct Place {
   enum class Kind { start, end, length, fraction, near } kind = Kind::start;
   double value = 0;                                 ///< [m] for length, [-] in [0,1] for fraction
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m] for near
+  std::optional<double> within = {};  ///< greatest distance of the point from the axis [m] for near
 };
 
 /// Curves of a CAD file.
@@ -36,9 +38,17 @@ struct CaseAxis {
   std::variant<File, NurbsCurve, Polyline, Arc> source;
 };
 
+/// A section drawn in a CAD file.
+struct CaseProfile {
+  std::filesystem::path path;  ///< absolute
+  bool x_in_plane = false;     ///< a planar model bends along the profile's x axis; else along y
+};
+
 struct CaseSection {
-  double area = 0;           ///< [m^2]
-  double second_moment = 0;  ///< [m^4]
+  double area = 0;                          ///< [m^2]
+  double second_moment = 0;                 ///< [m^4]
+  std::optional<double> radius = {};        ///< of a disk [m]
+  std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
 };
 
 struct CaseMaterial {
@@ -132,9 +142,11 @@ struct CaseProbe {
 
 struct CaseOutput {
   std::optional<double> every;           ///< [s]
-  std::vector<std::string> cad_formats;  ///< "step", "iges"
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid", "step-source"
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
+  bool cad_at_all_times = false;         ///< every stored frame, numbered
   std::string cad_unit = "mm";
+  CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
   bool paraview = false;  ///< a series of files for ParaView
   bool report = true;     ///< report.html

@@ -162,7 +162,7 @@ class Run {
     outputs.finish();
     // A run that ended before its first frame has nothing to show.
     const bool with_report = case_.output.report && !StoredFrames(options_.out).times().empty();
-    summarise(simulated, outputs.seconds(), with_report);
+    summarise(simulated, outputs, with_report);
     write_run_summary(options_.out / "run.json", summary_);
     if (with_report) write_report(options_.out);
     if (simulated.status != SimulationStatus::done)
@@ -207,10 +207,12 @@ class Run {
     return simulated;
   }
 
-  void summarise(const SimulationReport& simulated, double output_seconds, bool with_report) {
+  void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
     summary_.status = status_text(simulated.status, simulated.message);
-    summary_.wall_times.output = output_seconds;
-    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - output_seconds);
+    summary_.wall_times.output = outputs.seconds();
+    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
+    summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
+                                outputs.diagnostics().end());
     summary_.wall_times.length_control = simulated.length_control_seconds;
     if (from_) summary_.resumed_at = from_->state.t;
     summary_.end_time = simulated.time;
@@ -304,6 +306,10 @@ int check_case(const CaseFile& c) {
         beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
         beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
         beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
+  }
+  for (const BeamProfile& drawn : report.value->profiles) {
+    std::cout << "section   of " << model.beams[drawn.beam].name << ": " << drawn.file.string() << '\n';
+    print_profile(std::cout, drawn.profile);
   }
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),

@@ -86,7 +86,7 @@ inline const char* const full_case = R"({
     { "beam": "cable", "at": "start", "force": [0, -10, 0], "moves": { "speed": "72 km/h" } }
   ],
   "supports": [{ "beam": "cable", "at": "start", "type": "clamped" },
-               { "beam": "cable", "at": { "near": [1, "20 cm", 0] }, "type": "pinned" }],
+               { "beam": "cable", "at": { "near": [1, "20 cm", 0], "within": "1 cm" }, "type": "pinned" }],
   "sliding_joints": [
     { "body": "trolley", "beam": "cable", "at": { "length": "10 cm" }, "speed": 2,
       "slope": "discontinuous", "at_beam_end": "stop" },
@@ -97,7 +97,7 @@ inline const char* const full_case = R"({
                 "integrator": { "type": "generalized-alpha", "rho_infinity": 0.7 },
                 "length_control": { "min": 0.4, "max": 1.6 } },
   "output": { "every": 0.01,
-              "cad": { "formats": ["step", "iges"], "times": [0, "350 ms", 0.7], "unit": "inch" },
+              "cad": { "formats": ["step", "iges"], "times": [0, "350 ms", 0.7], "unit": "inch", "parameter": "material" },
               "probes": [{ "name": "tip", "beam": "cable", "at": "end" }],
               "paraview": true, "report": true }
 })";
