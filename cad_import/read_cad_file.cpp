@@ -397,8 +397,10 @@ StepContexts contexts_of(const Interface_InterfaceModel& model) {
     const Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty = uncertainty_of(model.Value(i));
     if (uncertainty.IsNull()) continue;
     factors.ComputeTolerance(uncertainty);
-    if (factors.HasUncertainty())
-      contexts.resolution = std::max(contexts.resolution, factors.Uncertainty() * kMetresPerMillimetre);
+    if (!factors.HasUncertainty()) continue;
+    // OpenCASCADE leaves the number in the context's own length unit.
+    const double resolution = factors.Uncertainty() * factors.LengthFactor() * kMetresPerMillimetre;
+    if (std::isfinite(resolution)) contexts.resolution = std::max(contexts.resolution, resolution);
   }
   return contexts;
 }

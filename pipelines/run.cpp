@@ -121,11 +121,11 @@ class CadOutput {
   std::filesystem::path directory_;
 };
 
-FrameNames frame_names(const CaseFile& c) {
+FrameNames frame_names(const BuiltModel& built) {
   FrameNames names;
-  for (const CaseProbe& probe : c.output.probes) names.probes.push_back(probe.name);
-  for (const CaseBody& body : c.bodies) names.bodies.push_back(body.name);
-  for (const CaseBeam& beam : c.beams) names.beams.push_back(beam.name);
+  for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
+  for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
+  for (const Beam& beam : built.model.beams) names.beams.push_back(beam.name);
   return names;
 }
 
@@ -190,7 +190,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
 
   try {
     const ResultsDirectory directory(options.out);
-    ResultsWriter results(options.out, frame_names(c), c.name);
+    ResultsWriter results(options.out, frame_names(built), c.name);
     const CadOutput cad(c, built, options.out);
     Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
     std::vector<ProbePlace> probes;
