@@ -115,10 +115,10 @@ void add_iges(const IGESData_IGESEntity& entity, Appearances& appearances) {
 
 }  // namespace
 
-Appearances appearances_of(const Handle(XSControl_WorkSession) & session) {
+Appearances appearances_of(XSControl_WorkSession& session) {
   Appearances appearances;
-  const STEPConstruct_Styles styles(session);
-  const Handle(Interface_InterfaceModel) model = session->Model();
+  const STEPConstruct_Styles styles(&session);
+  const Handle(Interface_InterfaceModel) model = session.Model();
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(Standard_Transient) entity = model->Value(i);
     if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity)) add_iges(*iges, appearances);

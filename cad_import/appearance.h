@@ -1,9 +1,7 @@
 #pragma once
-#include <Standard_Handle.hxx>
 #include <string>
 #include <unordered_map>
 
-class Interface_InterfaceModel;
 class Standard_Transient;
 class XSControl_WorkSession;
 
@@ -21,6 +19,6 @@ using Appearances = std::unordered_map<const Standard_Transient*, Appearance>;
 /// The entities of a loaded file that have a layer or a colour of their own. STEP: items of
 /// PRESENTATION_LAYER_ASSIGNMENT and STYLED_ITEM (the colour of its curve style, else of its surface style).
 /// IGES: fields 5 and 13 of the directory entry, with colour definitions (entity 314).
-Appearances appearances_of(const Handle(XSControl_WorkSession) & session);
+Appearances appearances_of(XSControl_WorkSession& session);
 
 }  // namespace nurbeam

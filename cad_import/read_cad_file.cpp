@@ -54,6 +54,7 @@
 #include <vector>
 
 #include "cad_import/appearance.h"
+#include "cad_import/centre_line.h"
 #include "cad_import/edge_curve.h"
 #include "cad_import/iges_global.h"
 #include "cad_import/spline_defect.h"
@@ -113,11 +114,11 @@ std::string entity_label(const Interface_InterfaceModel& model, const Handle(Sta
   return text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
 }
 
-void add_origins(const TopoDS_Shape& shape, const Origin& origin, Origins& origins) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
-  for (int i = 1; i <= edges.Extent(); ++i) {
-    Origin& known = origins[edges(i).TShape().get()];
+void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin& origin, Origins& origins) {
+  TopTools_IndexedMapOfShape parts;
+  TopExp::MapShapes(shape, part, parts);
+  for (int i = 1; i <= parts.Extent(); ++i) {
+    Origin& known = origins[parts(i).TShape().get()];
     if (known.label.empty()) known.label = origin.label;
     if (known.name.empty()) known.name = origin.name;
     if (known.appearance.layer.empty()) known.appearance.layer = origin.appearance.layer;
@@ -185,12 +186,13 @@ std::vector<Translated> translated_entities(const XSControl_Reader& reader) {
   return all;
 }
 
-// Of an edge's own entity first, then of the smallest of those that hold it: wire or set, face, solid.
-Origins origins_of_edges(const XSControl_Reader& reader, ImportReport& report) {
+// Of an edge's own entity first, then of the smallest of those that hold it: wire or set, face, solid. Of a
+// face's own entity, then of its shell or solid.
+Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report) {
   Origins origins;
   const Entities defective = defective_splines(*reader.Model(), report);
   const Interface_Graph& graph = reader.WS()->Graph();
-  const Appearances appearances = appearances_of(reader.WS());
+  const Appearances appearances = appearances_of(*reader.WS());
   for (const auto& [entity, shape] : translated_entities(reader)) {
     const auto shown = appearances.find(entity.get());
     Origin origin;
@@ -199,10 +201,12 @@ Origins origins_of_edges(const XSControl_Reader& reader, ImportReport& report) {
       origin.name = entity_name(entity);
       origin.label = entity_label(*reader.Model(), entity);
       origin.defective = refers_to(entity, defective, graph);
-    } else if (shown == appearances.end()) {
-      continue;
     }
-    add_origins(shape, origin, origins);
+    add_origins(shape, TopAbs_EDGE, origin, origins);
+    if (shape.ShapeType() > TopAbs_FACE) continue;
+    origin.name = entity_name(entity);
+    origin.label = entity_label(*reader.Model(), entity);
+    add_origins(shape, TopAbs_FACE, origin, origins);
   }
   return origins;
 }
@@ -243,10 +247,29 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
   }
 }
 
+// Centre lines stand after the curves of the file, whose numbers they leave as they are.
+void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, double tolerance,
+                      ImportReport& report) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  CentreLines found = centre_lines(shape, tolerance);
+  for (CentreLine& line : found.lines) {
+    const auto known = origins.find(faces(line.face).TShape().get());
+    if (known != origins.end()) {
+      if (known->second.defective) continue;
+      line.curve.name = known->second.name;
+      line.curve.layer = known->second.appearance.layer;
+      line.curve.colour = known->second.appearance.colour;
+    }
+    report.curves.push_back(std::move(line.curve));
+  }
+  for (const std::string& remark : found.remarks) add(report, Severity::note, "", remark);
+}
+
 void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return;
-  const Origins origins = origins_of_edges(reader, report);
+  const Origins origins = origins_of_edges_and_faces(reader, report);
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -257,6 +280,7 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     if (origin.defective) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, tolerance, report);
   }
+  add_centre_lines(shape, origins, tolerance, report);
 }
 
 // What OpenCASCADE failed to read or to translate.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <sstream>
 
 #include "cad_import/export_curves.h"
@@ -222,6 +223,36 @@ TEST(AxisSelection, InspectListsChainsAndJunctions) {
   EXPECT_EQ(inspect_files({file}, true, json, errors), 0);
   EXPECT_NE(json.str().find("\"junctions\""), std::string::npos);
   EXPECT_EQ(errors.str(), "");
+}
+
+TEST(PipeSection, IsThatOfTheDrawnPipe) {
+  const test::TemporaryDirectory directory;
+  const std::string file = std::string(NURBEAM_SOURCE_DIR) + "/tests/corpus/pygem-pipe.step";
+  const auto build_pipe = [&](const std::string& axis) {
+    const CaseFileReport report =
+        read_case_file(directory.write("case.json", test::smallest_case),
+                       {"beams[0].axis={\"file\": \"" + file + "\"" + axis + "}",
+                        R"(beams[0].section={"from": "cad"})"});
+    return build_model(report.value.value());
+  };
+  const BuildReport pipe = build_pipe("");
+  ASSERT_TRUE(pipe.value);
+  const Beam& beam = pipe.value->model.beams[0];
+  // A rod of radius 1 m and length 10 m, of 20 MPa and 7200 kg/m^3.
+  EXPECT_NEAR(beam.curve.length(), 10, 1e-8);
+  EXPECT_NEAR(beam.properties.axial_stiffness, 20e6 * std::numbers::pi, 1e-6 * 20e6);
+  EXPECT_NEAR(beam.properties.bending_stiffness, 20e6 * std::numbers::pi / 4, 1e-6 * 20e6);
+  EXPECT_NEAR(beam.properties.mass_per_length, 7200 * std::numbers::pi, 1e-6 * 7200);
+  const BuildReport edge = build_pipe(R"(, "curve": 3)");
+  EXPECT_FALSE(edge.value);
+  EXPECT_TRUE(says(edge, Severity::error, "beams[0].section.from: is \"cad\", but curve 3 of"));
+}
+
+TEST(PipeSection, NeedsACentreLine) {
+  const test::TemporaryDirectory directory;
+  const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case),
+                                               {R"(beams[0].section={"from": "cad"})"});
+  EXPECT_TRUE(says(build_model(report.value.value()), Severity::error, "needs an axis from a file"));
 }
 
 TEST(Corners, AreSmoothedUpToTheAngleAskedForAndReported) {
