@@ -1,5 +1,6 @@
 #include "pipelines/axis_selection.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -17,7 +18,7 @@ namespace {
 
 using Indices = std::vector<int>;
 
-// Gaps below this part of the longest curve are round-off.
+// Gaps below this part of the curves' size are round-off.
 constexpr double round_off = 1e-12;
 
 AxisSelection failure(std::string key, std::string error) {
@@ -30,10 +31,14 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-double longest_curve(const ImportReport& report) {
-  double longest = 0;
-  for (const ImportedCurve& curve : report.curves) longest = std::max(longest, length(curve.curve));
-  return longest;
+// The diagonal of the box around all control points [m].
+double size_of(const ImportReport& report) {
+  Eigen::AlignedBox3d box;
+  for (const ImportedCurve& imported : report.curves) {
+    const Eigen::Matrix3Xd points = imported.curve.control_points().colwise().hnormalized();
+    box.extend(points.rowwise().minCoeff()).extend(points.rowwise().maxCoeff());
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
 Indices all_curves(const ImportReport& report) {
@@ -121,7 +126,7 @@ Chain smooth_chain_around(const ImportReport& report, const Indices& candidates,
 
 // The gaps between consecutive curves of the chains.
 std::vector<Gap> gaps_in(const std::vector<Chain>& chains, const ImportReport& report) {
-  const double least = round_off * longest_curve(report);
+  const double least = round_off * size_of(report);
   std::vector<Gap> gaps;
   for (const Chain& chain : chains) {
     const std::size_t count = chain.curves.size();
@@ -139,7 +144,7 @@ std::vector<Gap> gaps_in(const std::vector<Chain>& chains, const ImportReport& r
   return gaps;
 }
 
-// The narrowest gap between ends of chains, up to a hundredth of the longest curve: most likely not meant.
+// The narrowest gap between ends of chains, up to a hundredth of the curves' size: most likely not meant.
 std::optional<Gap> narrowest_gap_between(const std::vector<Chain>& chains, const ImportReport& report) {
   struct End {
     int curve;
@@ -157,7 +162,7 @@ std::optional<Gap> narrowest_gap_between(const std::vector<Chain>& chains, const
   constexpr std::size_t most_ends = 2000;  // all pairs are compared
   if (ends.size() > most_ends) return {};
   std::optional<Gap> narrowest;
-  double width = 1e-2 * longest_curve(report);
+  double width = 1e-2 * size_of(report);
   for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double distance = (ends[i].point - ends[j].point).norm();
@@ -267,9 +272,9 @@ AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, do
 
 double gap_tolerance(const ImportReport& report, const std::optional<double>& asked) {
   if (asked) return *asked;
-  const double longest = longest_curve(report);
-  if (report.resolution == 0) return 1e-6 * longest;
-  return std::clamp(report.resolution, 1e-9 * longest, 1e-3 * longest);
+  const double size = size_of(report);
+  if (report.resolution == 0) return 1e-6 * size;
+  return std::clamp(report.resolution, 1e-9 * size, 1e-3 * size);
 }
 
 AxisSelection select_axis(const AxisFile& axis, const ImportReport& report) {

@@ -25,7 +25,7 @@ struct AxisSelection {
 };
 
 /// The distance up to which ends of curves meet [m]: the one asked for; else the file's own resolution, from
-/// 1e-9 to 1e-3 of the longest curve; where the file declares none 1e-6 of the longest curve.
+/// 1e-9 to 1e-3 of the size of the curves together; where the file declares none 1e-6 of that size.
 double gap_tolerance(const ImportReport& report, const std::optional<double>& asked);
 
 /// The chains that `axis` chooses: among the curves of a layer and of a colour the named one (alone, or with

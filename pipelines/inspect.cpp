@@ -90,31 +90,36 @@ void print_table(std::ostream& out, const std::vector<std::vector<std::string>>&
 
 std::string dash_if_empty(const std::string& text) { return text.empty() ? "-" : text; }
 
-void print_curves(std::ostream& out, const ImportReport& report) {
+std::vector<CurveRow> rows_of(const ImportReport& report) {
+  std::vector<CurveRow> rows;
+  for (const ImportedCurve& curve : report.curves) rows.push_back(row_of(curve));
+  return rows;
+}
+
+void print_curves(std::ostream& out, const ImportReport& report, const std::vector<CurveRow>& curves) {
   const auto any_has = [&](std::string ImportedCurve::*property) {
     return std::any_of(report.curves.begin(), report.curves.end(),
                        [&](const ImportedCurve& curve) { return !(curve.*property).empty(); });
   };
   const bool layers = any_has(&ImportedCurve::layer), colours = any_has(&ImportedCurve::colour);
-  const auto shown = [&](std::vector<std::string> cells, const std::string& layer,
-                         const std::string& colour) {
-    if (colours) cells.insert(cells.begin() + 3, colour);
-    if (layers) cells.insert(cells.begin() + 3, layer);
-    return cells;
+  const auto shown = [&](std::vector<std::string> row, const std::string& layer, const std::string& colour) {
+    if (colours) row.insert(row.begin() + 3, colour);
+    if (layers) row.insert(row.begin() + 3, layer);
+    return row;
   };
-  std::vector<std::vector<std::string>> rows = {
+  std::vector<std::vector<std::string>> cells = {
       shown({"index", "name", "entity", "degree", "rational", "control points", "length [m]", "closed",
              "start [m]", "end [m]"},
             "layer", "colour")};
-  for (std::size_t i = 0; i < report.curves.size(); ++i) {
-    const CurveRow row = row_of(report.curves[i]);
-    rows.push_back(
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const CurveRow& row = curves[i];
+    cells.push_back(
         shown({std::to_string(i + 1), dash_if_empty(row.name), row.entity, std::to_string(row.degree),
                yes_or_no(row.rational), std::to_string(row.control_points), nine_digits(row.length),
                yes_or_no(row.closed), text_of(row.start), text_of(row.end)},
               dash_if_empty(row.layer), dash_if_empty(row.colour)));
   }
-  print_table(out, rows);
+  print_table(out, cells);
 }
 
 /// A chain of the curves that a case would choose from.
@@ -125,11 +130,11 @@ struct ChainRow {
 };
 
 // The longest first.
-std::vector<ChainRow> chain_rows(const ImportReport& report) {
+std::vector<ChainRow> chain_rows(const ImportReport& report, const std::vector<CurveRow>& curves) {
   std::vector<ChainRow> rows;
   for (const Chain& chain : chains_of(report, gap_tolerance(report, {}))) {
     double sum = 0;
-    for (int curve : chain.curves) sum += length(report.curves[curve].curve);
+    for (int curve : chain.curves) sum += curves[curve].length;
     rows.push_back({chain.curves, sum, chain.closed});
   }
   std::stable_sort(rows.begin(), rows.end(),
@@ -143,8 +148,8 @@ void print_rest(std::ostream& out, std::size_t count) {
   if (count > most_listed) out << "  and " << count - most_listed << " more (--json lists all)\n";
 }
 
-void print_chains(std::ostream& out, const ImportReport& report) {
-  const std::vector<ChainRow> chains = chain_rows(report);
+void print_chains(std::ostream& out, const ImportReport& report, const std::vector<CurveRow>& curves) {
+  const std::vector<ChainRow> chains = chain_rows(report, curves);
   out << "chains of curves: " << chains.size() << '\n';
   for (std::size_t i = 0; i < std::min(chains.size(), most_listed); ++i)
     out << "  " << nine_digits(chains[i].length) << " m" << (chains[i].closed ? ", closed" : "")
@@ -163,16 +168,18 @@ void print_report(std::ostream& out, const ImportReport& report) {
   out << report.file << ": " << report.curves.size() << " curve(s), unit " << report.unit;
   if (report.resolution > 0) out << ", resolution " << nine_digits(report.resolution) << " m";
   out << '\n';
-  print_curves(out, report);
-  print_chains(out, report);
+  const std::vector<CurveRow> curves = rows_of(report);
+  print_curves(out, report, curves);
+  print_chains(out, report, curves);
 }
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 Json to_json(const ImportReport& report) {
   Json curves = Json::array(), chains = Json::array(), points = Json::array(), diagnostics = Json::array();
-  for (std::size_t i = 0; i < report.curves.size(); ++i) {
-    const CurveRow row = row_of(report.curves[i]);
+  const std::vector<CurveRow> rows = rows_of(report);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const CurveRow& row = rows[i];
     curves.push_back({{"index", i + 1},
                       {"name", row.name},
                       {"entity", report.curves[i].entity},
@@ -195,7 +202,7 @@ Json to_json(const ImportReport& report) {
     for (int& index : indices) ++index;
     return indices;
   };
-  for (const ChainRow& chain : chain_rows(report))
+  for (const ChainRow& chain : chain_rows(report, rows))
     chains.push_back(
         {{"curves", from_one(chain.curves)}, {"length [m]", chain.length}, {"closed", chain.closed}});
   for (const Junction& junction : junctions(report, gap_tolerance(report, {})))

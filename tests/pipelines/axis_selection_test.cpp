@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -123,13 +124,14 @@ TEST(AxisSelection, ALargerGapIsAnErrorWithItsPlaceUnlessTheCaseAllowsIt) {
 
 TEST(AxisSelection, TheToleranceOfGapsIsBoundedByTheSizeOfTheCurves) {
   ImportReport report = wires();
+  const double size = std::hypot(4, 50);
   EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 1e-6);
   report.resolution = 1;
-  EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 4e-3);
+  EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 1e-3 * size);
   report.resolution = 1e-30;
-  EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 4e-9);
+  EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 1e-9 * size);
   report.resolution = 0;
-  EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 4e-6);
+  EXPECT_DOUBLE_EQ(gap_tolerance(report, {}), 1e-6 * size);
 }
 
 TEST(AxisSelection, JunctionsAreWhereThreeOrMoreEndsOfCurvesMeet) {
