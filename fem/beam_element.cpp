@@ -324,6 +324,14 @@ Eigen::Vector4d BeamElement<D>::bezier_weights(const ElementVector<D>& q) const 
 }
 
 template <int D>
+double BeamElement<D>::place(const ElementVector<D>& q, double u) const {
+  const double s_a = q[4 * D], s_b = q[4 * D + 1];
+  if (u == 0 || u == 1 || chart_.segment < 0) return u == 1 ? s_b : s_a + u * (s_b - s_a);
+  const double u_a = curve_->parameter(chart_.segment, s_a), u_b = curve_->parameter(chart_.segment, s_b);
+  return curve_->arc_length(chart_.segment, u_a + u * (u_b - u_a));
+}
+
+template <int D>
 std::array<double, 3> BeamElement<D>::chart_lengths(const ElementVector<D>& q) const {
   if (chart_.segment < 0) return {q[4 * D + 1] - q[4 * D], 1, 1};
   const double u_a = curve_->parameter(chart_.segment, q[4 * D]);

@@ -67,6 +67,8 @@ class BeamElement {
   ShapeFunctions<Jet> shape_series(const ElementVector<D>& q, double s) const;
   /// The weights w_0..w_3 of the element's rational cubic (Eq. 9) for the end positions in q.
   Eigen::Vector4d bezier_weights(const ElementVector<D>& q) const;
+  /// Reference arc length [m] at parameter u in [0,1] of the element's rational cubic.
+  double place(const ElementVector<D>& q, double u) const;
   /// Length of the chart parameter over the element and stretch J at both ends: r_u = J r_s.
   std::array<double, 3> chart_lengths(const ElementVector<D>& q) const;
 

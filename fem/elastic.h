@@ -42,6 +42,21 @@ ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Mat
   return e;
 }
 
+/// What a section carries at one material point, without damping.
+struct SectionForces {
+  double strain = 0;          ///< Green's axial strain [-]
+  double curvature = 0;       ///< K by the beam's measure; signed in the plane [1/m]
+  double axial_force = 0;     ///< d(axial energy)/d|r_s| = EA (eps - eps_0) |r_s|, tension positive [N]
+  double bending_moment = 0;  ///< EI (K - kappa_0) [N m]
+};
+
+template <int D>
+SectionForces section_forces(const BeamProperties& beam, const Eigen::Matrix<double, D, 1>& rs,
+                             const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
+  const double eps = axial_strain<D>(rs).value, K = curvature(rs, rss, beam.curvature).value;
+  return {eps, K, beam.axial_stiffness * (eps - eps0) * rs.norm(), beam.bending_stiffness * (K - kappa0)};
+}
+
 /// Kelvin-Voigt stress y = c (EA eps' eps_z + EI K' K_z), with z' the rate at fixed material, and its
 /// derivatives.
 template <int D>

@@ -163,7 +163,8 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
   const Nodes nodes = Eigen::Map<const Nodes>(x.q.data()), rates = Eigen::Map<const Nodes>(x.v.data());
   const std::array<double, 2> w{x.v[4 * D], x.v[4 * D + 1]};
   const PointField<D> r(shape.value, nodes), rs(shape.d1, nodes), rss(shape.d2, nodes);
-  return {r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w)};
+  return {r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w),
+          shape.kappa0.value()};
 }
 
 template Mesh<2> make_mesh<2>(const BeamModel&, MeshPlan);

@@ -101,6 +101,7 @@ template <int D>
 struct MaterialPoint {
   Eigen::Matrix<double, D, 1> r, rs, rss;            ///< [m], [-], [1/m]
   Eigen::Matrix<double, D, 1> velocity, velocity_s;  ///< material velocity and its s-derivative [m/s], [1/s]
+  double kappa0;                                     ///< curvature of the drawing [1/m]
 };
 template <int D>
 MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 /// The names that a run gives to its files.
 bool is_of_a_run(const std::string& name) {
   static const std::regex ours(
-      R"((histories\.csv|results\.nc|run\.json)(\.part)?|deformed(_t[-+.e0-9]+)?\.(step|igs)(\.part[0-9]+)?)");
+      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json)(\.part)?|deformed(_t[-+.e0-9]+)?\.(step|igs)(\.part[0-9]+)?)");
   return std::regex_match(name, ours);
 }
 

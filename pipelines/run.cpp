@@ -81,6 +81,7 @@ Frame to_world(const ModelFrame& f, Frame frame) {
         const double w = e.control_points(3, i);
         const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
         e.control_points.col(i).head<3>() = w * p;
+        e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
       }
     for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
     for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
+#include "pipelines/record_frame.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
@@ -53,13 +55,6 @@ const char* reason_of(StepStatus status) {
       break;
   }
   return "converged";
-}
-
-template <int D>
-Eigen::Vector3d widened(const Eigen::VectorXd& x, int first) {
-  Eigen::Vector3d y = Eigen::Vector3d::Zero();
-  y.head<D>() = x.segment<D>(first);
-  return y;
 }
 
 template <int D>
@@ -354,6 +349,7 @@ class Simulation {
     if (!options_.step) step_ = taken.next_step;
     ++report_.steps;
     last_step_ = taken.step;
+    steps_.push_back({state_.t + taken.step, taken.step, taken.newton_iterations, taken.rejected});
     state_ = integrator_->state();
     const std::optional<BreakCrossing> crossing = first_crossing(before);
     if (crossing) {
@@ -538,7 +534,8 @@ class Simulation {
     if (next.change == MeshChange::none) return false;
     RunEvent event = in_motion ? event_before(kind_of(next.change), next.joint) : RunEvent{};
     const bool observed = in_motion && observer_.mesh_changed;
-    const std::vector<BeamRecord> before = observed ? beam_records() : std::vector<BeamRecord>{};
+    const std::vector<BeamRecord> before =
+        observed ? record_beams<D>(*system_, state_) : std::vector<BeamRecord>{};
     const bool keeps_velocities = next.change == MeshChange::merge &&
                                   model_.beams[model_.joints[next.joint].beam].merge != MergeRule::standard;
     const bool exact =
@@ -560,7 +557,7 @@ class Simulation {
       state_ = integrator_->state();
       event.support_impulse = support_impulse(impulse);
       finish_event(event);
-      if (observed) observer_.mesh_changed(report_.events.back(), before, beam_records());
+      if (observed) observer_.mesh_changed(report_.events.back(), before, record_beams<D>(*system_, state_));
     }
     report_.length_control_seconds += seconds_since(start);
     return true;
@@ -604,54 +601,11 @@ class Simulation {
   // --- Output
   // --------------------------------------------------------------------------------------------------
 
-  BeamRecord beam_record(int b) const {
-    const Mesh<D>& mesh = system_->mesh();
-    BeamRecord record;
-    for (int i = mesh.first_element[b]; i < mesh.first_element[b + 1]; ++i) {
-      const MeshElement<D>& e = mesh.elements[i];
-      const auto q = gather<D>(e, state_.q, state_.v, state_.v).q;
-      const auto [l, J_a, J_b] = e.element.chart_lengths(q);
-      NodalCoordinates nodal = NodalCoordinates::Zero();
-      for (int k = 0; k < 4; ++k) nodal.col(k).template head<D>() = q.template segment<D>(k * D);
-      nodal.col(1) *= J_a;
-      nodal.col(3) *= J_b;
-      record.elements.push_back(
-          {to_bezier(nodal, e.element.bezier_weights(q), l).points(), q[4 * D], q[4 * D + 1]});
-    }
-    for (const MeshNode& node : mesh.nodes[b]) {
-      record.node_positions.push_back(widened<D>(state_.q, node.r));
-      record.node_slopes.push_back(widened<D>(state_.q, node.slope_left));
-      record.node_s.push_back(node.place >= 0 ? state_.q[node.place] : node.s);
-    }
-    record.length = system_->beam_length(state_, b);
-    return record;
-  }
-
-  std::vector<BeamRecord> beam_records() const {
-    std::vector<BeamRecord> records;
-    for (std::size_t b = 0; b < model_.beams.size(); ++b) records.push_back(beam_record(static_cast<int>(b)));
-    return records;
-  }
-
   void write_frame() {
-    Frame frame;
-    frame.time = state_.t;
-    for (const ProbePlace& probe : probes_) {
-      const auto& e =
-          system_->mesh().elements[find_element<D>(model_, system_->mesh(), state_.q, probe.beam, probe.s)];
-      const MaterialPoint<D> p = material_point<D>(e, state_.q, state_.v, probe.s);
-      frame.probes.push_back({widened<D>(p.r, 0), widened<D>(p.velocity, 0)});
-    }
-    frame.bodies.resize(model_.bodies.size());
-    for (std::size_t j = 0; j < model_.joints.size(); ++j) {
-      const int r = system_->mesh().joints[j].r, joint = static_cast<int>(j);
-      frame.bodies[model_.joints[j].body] = {{widened<D>(state_.q, r), widened<D>(state_.v, r)},
-                                             system_->place(state_, joint),
-                                             system_->joint_force(state_, joint)};
-    }
-    frame.beams = beam_records();
-    const SystemEnergy e = system_->energy(state_);
-    frame.energy = {e.kinetic, e.gravity, e.axial, e.bending, dissipated_, e.mechanical() + dissipated_};
+    Frame frame = record_frame<D>(*system_, state_, probes_);
+    frame.steps = std::exchange(steps_, {});
+    frame.energy.dissipated = dissipated_;
+    frame.energy.total += dissipated_;
     frame.step = last_step_;
     frame.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
     iterations_written_ = report_.newton_iterations;
@@ -660,7 +614,7 @@ class Simulation {
       report_.energy_drift = std::max(report_.energy_drift, std::abs(drift));
       for (const RunEvent& event : report_.events) drift -= event.energy_after - event.energy_before;
       report_.integration_error = std::max(report_.integration_error, std::abs(drift));
-      report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, e.kinetic);
+      report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, frame.energy.kinetic);
     }
     last_written_ = state_.t;
     observer_.frame(frame);
@@ -675,7 +629,8 @@ class Simulation {
   std::unique_ptr<BeamSystem<D>> system_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
-  double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
+  double step_ = 1e-4;             // asked for next: fixed, or what error control suggests [s]
+  std::vector<StepRecord> steps_;  // since the last frame
   double dissipated_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
   long iterations_written_ = 0;
 };

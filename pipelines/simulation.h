@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/length_control.h"
-#include "pipelines/results.h"
+#include "pipelines/record_frame.h"
 #include "pipelines/run_summary.h"
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
@@ -40,12 +40,6 @@ struct SimulationReport {
   double integration_error = 0;    ///< the same without what events changed [J]
   double peak_kinetic_energy = 0;  ///< [J]
   std::vector<RunEvent> events;
-};
-
-/// A place where a frame records position and velocity.
-struct ProbePlace {
-  int beam;
-  double s;  ///< [m]
 };
 
 /// What happens on the way.

@@ -20,7 +20,7 @@ set(homes
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|sundials_border\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case_(file|json|check|schema)\\.cpp|case_json\\.h|(inspect|run_summary)\\.cpp)"
-  "netcdf\\.h"                                                                    "pipelines/results\\.cpp"
+  "netcdf\\.h"                                                                    "pipelines/netcdf_file\\.cpp"
   "openssl/.*"                                                                    "pipelines/file_hash\\.cpp")
 
 set_property(GLOBAL PROPERTY complaints 0)

@@ -21,8 +21,17 @@ Frame make_frame(double time, int elements, bool body_has_left = false) {
   const auto beam = [&](int count) {
     BeamRecord record;
     for (int i = 0; i < count; ++i) {
-      const Eigen::Matrix4d points = Eigen::Matrix4d::NullaryExpr([&] { return number(); });
-      record.elements.push_back({points, number(), number()});
+      const auto four = [&] { return Eigen::Vector4d::NullaryExpr([&] { return number(); }).eval(); };
+      ElementRecord element;
+      element.control_points = Eigen::Matrix4d::NullaryExpr([&] { return number(); });
+      element.s_start = number();
+      element.s_end = number();
+      element.strain = four();
+      element.curvature = four();
+      element.axial_force = four();
+      element.bending_moment = four();
+      element.velocity = Eigen::Matrix<double, 3, 4>::NullaryExpr([&] { return number(); });
+      record.elements.push_back(element);
     }
     for (int i = 0; i <= count; ++i) {
       record.node_positions.push_back(vector());
@@ -36,6 +45,7 @@ Frame make_frame(double time, int elements, bool body_has_left = false) {
   frame.time = time;
   frame.step = 1e-3;
   frame.newton_iterations = 7;
+  for (int i = 0; i < elements; ++i) frame.steps.push_back({number(), number(), i, 2 * i});
   frame.probes = {point()};
   frame.bodies = {{point(), number(), vector()}};
   if (body_has_left) {
@@ -142,18 +152,149 @@ TEST(Results, ATimeOutsideTheStoredRangeNamesTheRange) {
   }
 }
 
-TEST(Results, AnUnfinishedRunLeavesItsFramesUnderATemporaryNameOnly) {
+void expect_equal(const Frame& a, const Frame& b) {
+  const auto equal = [](const PointRecord& x, const PointRecord& y) {
+    return x.position == y.position && x.velocity == y.velocity;
+  };
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.newton_iterations, b.newton_iterations);
+  EXPECT_EQ(a.energy.kinetic, b.energy.kinetic);
+  EXPECT_EQ(a.energy.dissipated, b.energy.dissipated);
+  EXPECT_EQ(a.energy.total, b.energy.total);
+  ASSERT_EQ(a.probes.size(), b.probes.size());
+  for (std::size_t i = 0; i < a.probes.size(); ++i) EXPECT_TRUE(equal(a.probes[i], b.probes[i]));
+  ASSERT_EQ(a.bodies.size(), b.bodies.size());
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    EXPECT_TRUE(equal(a.bodies[i].point, b.bodies[i].point));
+    EXPECT_EQ(a.bodies[i].s, b.bodies[i].s);
+    EXPECT_EQ(a.bodies[i].joint_force, b.bodies[i].joint_force);
+  }
+  ASSERT_EQ(a.beams.size(), b.beams.size());
+  for (std::size_t i = 0; i < a.beams.size(); ++i) {
+    EXPECT_EQ(a.beams[i].length, b.beams[i].length);
+    EXPECT_EQ(a.beams[i].node_positions, b.beams[i].node_positions);
+    EXPECT_EQ(a.beams[i].node_slopes, b.beams[i].node_slopes);
+    EXPECT_EQ(a.beams[i].node_s, b.beams[i].node_s);
+    ASSERT_EQ(a.beams[i].elements.size(), b.beams[i].elements.size());
+    for (std::size_t e = 0; e < a.beams[i].elements.size(); ++e) {
+      const ElementRecord &x = a.beams[i].elements[e], &y = b.beams[i].elements[e];
+      EXPECT_EQ(x.control_points, y.control_points);
+      EXPECT_EQ(x.s_start, y.s_start);
+      EXPECT_EQ(x.s_end, y.s_end);
+      EXPECT_EQ(x.strain, y.strain);
+      EXPECT_EQ(x.curvature, y.curvature);
+      EXPECT_EQ(x.axial_force, y.axial_force);
+      EXPECT_EQ(x.bending_moment, y.bending_moment);
+      EXPECT_EQ(x.velocity, y.velocity);
+    }
+  }
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_EQ(a.steps[i].time, b.steps[i].time);
+    EXPECT_EQ(a.steps[i].size, b.steps[i].size);
+    EXPECT_EQ(a.steps[i].newton_iterations, b.steps[i].newton_iterations);
+    EXPECT_EQ(a.steps[i].rejected, b.steps[i].rejected);
+  }
+}
+
+const std::vector<Frame> five_frames = {make_frame(0, 3), make_frame(0.25, 5), make_frame(0.5, 1),
+                                        make_frame(0.75, 0, true), make_frame(1, 2, true)};
+
+std::vector<std::string> files_in(const std::filesystem::path& directory) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    files.push_back(entry.path().filename().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(Results, FramesComeBackWholeFromChunksThatWereMerged) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  for (std::size_t i = 0; i < five_frames.size(); ++i) {
+    writer.write(five_frames[i]);
+    if (i % 2 == 0) writer.close_chunk();
+  }
+  writer.finish();
+  EXPECT_EQ(files_in(directory.path()), (std::vector<std::string>{"histories.csv", "results.nc"}));
+  const StoredResults stored = read_results(directory.path());
+  EXPECT_EQ(stored.title, "title");
+  EXPECT_EQ(stored.names.bodies, names.bodies);
+  ASSERT_EQ(stored.frames.size(), five_frames.size());
+  for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
+}
+
+TEST(Results, AnUnfinishedRunLeavesItsClosedChunksAndNoFileUnderAFinalName) {
   const TemporaryDirectory directory;
   {
     ResultsWriter writer(directory.path(), names, "title");
-    writer.write(make_frame(0, 2));
+    writer.write(five_frames[0]);
+    writer.write(five_frames[1]);
+    writer.close_chunk();
+    writer.write(five_frames[2]);
   }
-  EXPECT_FALSE(std::filesystem::exists(directory.path() / "results.nc"));
-  EXPECT_FALSE(std::filesystem::exists(directory.path() / "histories.csv"));
-  EXPECT_EQ(lines_of(directory.path() / "histories.csv.part").size(), 2u);
-  EXPECT_THROW(read_stored_beams(directory.path(), 0), std::runtime_error);
-  std::filesystem::rename(directory.path() / "results.nc.part", directory.path() / "results.nc");
-  EXPECT_EQ(read_stored_beams(directory.path(), 0).second.at(0).elements.size(), 2u);
+  EXPECT_EQ(files_in(directory.path()),
+            (std::vector<std::string>{"histories.csv.part", "results.chunk0001.nc"}));
+  EXPECT_EQ(lines_of(directory.path() / "histories.csv.part").size(), 4u);
+  const StoredResults stored = read_results(directory.path());
+  ASSERT_EQ(stored.frames.size(), 2u);
+  expect_equal(stored.frames[1], five_frames[1]);
+}
+
+TEST(Results, ADirectoryWithoutResultsIsNamed) {
+  const TemporaryDirectory directory;
+  for (const auto& path : {directory.path(), directory.path() / "none"}) {
+    try {
+      read_results(path);
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find((path / "results.nc").string()), std::string::npos);
+    }
+  }
+}
+
+class ResumedResults : public testing::TestWithParam<bool> {};
+
+TEST_P(ResumedResults, AreThoseOfARunWithoutABreakWhereverItWasCut) {
+  const bool finished = GetParam();
+  const TemporaryDirectory whole;
+  ResultsWriter uninterrupted(whole.path(), names, "title");
+  for (const Frame& frame : five_frames) uninterrupted.write(frame);
+  uninterrupted.finish();
+  for (std::size_t kept = 0; kept <= 4; ++kept) {
+    const TemporaryDirectory directory;
+    {
+      ResultsWriter first(directory.path(), names, "title");
+      for (std::size_t i = 0; i < 4; ++i) {
+        first.write(make_frame(five_frames[i].time,
+                               i < kept ? static_cast<int>(five_frames[i].steps.size()) : 7, i == 3));
+        if (i % 2 == 1) first.close_chunk();
+      }
+      if (finished) first.finish();
+    }
+    ResultsWriter second = ResultsWriter::resume(directory.path(), names, "title", kept);
+    for (std::size_t i = kept; i < five_frames.size(); ++i) second.write(five_frames[i]);
+    second.finish();
+    EXPECT_EQ(lines_of(directory.path() / "histories.csv"), lines_of(whole.path() / "histories.csv"));
+    const StoredResults stored = read_results(directory.path());
+    ASSERT_EQ(stored.frames.size(), five_frames.size()) << kept;
+    for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
+    EXPECT_EQ(files_in(directory.path()), (std::vector<std::string>{"histories.csv", "results.nc"}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ResumedResults, testing::Bool(),
+                         [](const auto& info) { return info.param ? "AFinishedRun" : "AKilledRun"; });
+
+TEST(Results, MoreFramesThanAreStoredCannotBeResumed) {
+  const TemporaryDirectory directory;
+  {
+    ResultsWriter writer(directory.path(), names, "title");
+    writer.write(five_frames[0]);
+    writer.finish();
+  }
+  EXPECT_THROW(ResultsWriter::resume(directory.path(), names, "title", 2), std::runtime_error);
 }
 
 TEST(Results, EveryNumericVariableHasAUnitAndALongName) {

@@ -1,0 +1,50 @@
+#include "pipelines/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace nurbeam {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Waits until a file, or the names in a directory, are on the disk. False with errno where that fails.
+bool reaches_the_disk(const fs::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  // Some file systems cannot synchronise a directory, and say so.
+  const bool done = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
+  const int reason = errno;
+  close(descriptor);
+  errno = reason;
+  return done;
+}
+
+}  // namespace
+
+fs::path temporary_name(const fs::path& file) { return file.string() + ".part"; }
+
+void publish(const fs::path& file) {
+  const fs::path temporary = temporary_name(file);
+  const auto fail = [&](const std::string& reason) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw std::runtime_error(file.string() + ": " + reason);
+  };
+  if (!reaches_the_disk(temporary)) fail(std::string("cannot be written: ") + std::strerror(errno));
+  std::error_code error;
+  fs::rename(temporary, file, error);
+  if (error) fail("cannot be renamed from its temporary name: " + error.message());
+  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!reaches_the_disk(directory))
+    fail(std::string("its directory cannot be written: ") + std::strerror(errno));
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nurbeam {
+
+/// An open netCDF-4 file; everything that fails throws std::runtime_error with the file and the reason.
+/// Arrays are row-major; `start` and `count` have one entry per dimension of the variable.
+class NetcdfFile {
+ public:
+  using Sizes = std::vector<std::size_t>;
+  enum class Type { real, integer };
+  static constexpr std::size_t unlimited = 0;
+  /// What netCDF holds where nothing was written.
+  static const double fill;
+
+  static NetcdfFile create(const std::filesystem::path& file);
+  static NetcdfFile open(const std::filesystem::path& file);
+  NetcdfFile(NetcdfFile&& other) noexcept;
+  NetcdfFile& operator=(NetcdfFile&&) = delete;
+  ~NetcdfFile();
+
+  void define_dimension(const std::string& name, std::size_t size);
+  /// A compressed variable; `chunk` rows of its first dimension lie together in the file.
+  void define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
+              const std::string& unit, const std::string& long_name, std::size_t chunk);
+  void define_texts(const std::string& name, const std::string& dimension,
+                    const std::vector<std::string>& texts);
+  /// An attribute of a variable; of the file for "".
+  void put_attribute(const std::string& variable, const std::string& name, const std::string& text);
+  std::string attribute(const std::string& variable, const std::string& name) const;
+
+  void put(const std::string& name, const Sizes& start, const Sizes& count, const double* values);
+  void put(const std::string& name, const Sizes& start, const Sizes& count, const int* values);
+  std::vector<double> doubles(const std::string& name, const Sizes& start, const Sizes& count) const;
+  std::vector<int> integers(const std::string& name, const Sizes& start, const Sizes& count) const;
+  std::vector<std::string> texts(const std::string& name) const;
+
+  bool has_dimension(const std::string& name) const;
+  std::size_t size(const std::string& dimension) const;
+  void close();
+
+ private:
+  NetcdfFile(std::filesystem::path file, int id, int status);
+  void check(int status, const std::string& what) const;
+  int dimension(const std::string& name) const;
+  int variable(const std::string& name) const;
+  int define_variable(const std::string& name, int type, const std::vector<std::string>& dimensions);
+
+  std::filesystem::path file_;
+  int id_;
+};
+
+}  // namespace nurbeam
