@@ -398,7 +398,7 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   return analysis;
 }
 
-CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
+CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   CaseOutput output;
   output.every = optional_number(json, "every");
   constexpr int default_frames = 100;
@@ -430,9 +430,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings&
         {.name = text(probe, "name"), .beam = text(probe, "beam"), .at = read_place(probe)});
   });
   output.paraview = flag(json, "paraview");
-  if (flag(json, "report")) {
-    findings.add(Severity::note, child("output", "report"), "this version does not write it");
-  }
+  output.report = !has(json, "report") || flag(json, "report");
   return output;
 }
 
@@ -458,7 +456,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
     result.sliding_joints.push_back(read_sliding_joint(joint, path));
   });
   result.analysis = read_analysis(part(json, "analysis"), findings);
-  result.output = read_output(part(json, "output"), result.analysis, findings);
+  result.output = read_output(part(json, "output"), result.analysis);
   return result;
 }
 

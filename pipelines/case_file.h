@@ -158,6 +158,7 @@ struct CaseOutput {
   CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
   bool paraview = false;  ///< a series of files for ParaView
+  bool report = true;     ///< report.html
 };
 
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.

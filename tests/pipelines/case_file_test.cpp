@@ -164,11 +164,15 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(c.output.probes.at(0).name, "tip");
 }
 
-TEST_F(CaseFileTest, OutputsThisVersionDoesNotWriteAreNoted) {
-  const CaseFileReport report = read(full_case);
-  ASSERT_EQ(report.diagnostics.size(), 2u) << messages(report);
-  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
-  EXPECT_EQ(report.diagnostics[0].where, file() + ": output.paraview");
+TEST_F(CaseFileTest, AReportIsWrittenUnlessRefusedAndParaviewFilesWhenAskedFor) {
+  const CaseFileReport silent = read(full_case, {"output.report=null", "output.paraview=null"});
+  ASSERT_TRUE(silent.value) << messages(silent);
+  EXPECT_TRUE(silent.value->output.report);
+  EXPECT_FALSE(silent.value->output.paraview);
+  const CaseFileReport said = read(full_case, {"output.report=false", "output.paraview=true"});
+  ASSERT_TRUE(said.value) << messages(said);
+  EXPECT_FALSE(said.value->output.report);
+  EXPECT_TRUE(said.value->output.paraview);
 }
 
 TEST_F(CaseFileTest, UnknownKeysNameTheClosestKnownKey) {

@@ -79,8 +79,7 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
 }
 
 TEST(CommandLine, WhatThisVersionDoesNotOfferSaysSo) {
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"report", "dir"},
-                                                {"study", "s.json"},
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"study", "s.json"},
                                                 {"run", "c.json", "--resume"},
                                                 {"schema", "study"}}) {
     const Outcome outcome = run(words);
