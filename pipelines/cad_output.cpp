@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -12,7 +11,6 @@
 #include "cad_import/import_curves.h"
 #include "nurbs/closest_point.h"
 #include "pipelines/export_results.h"
-#include "pipelines/print_diagnostics.h"
 
 namespace nurbeam {
 
@@ -49,8 +47,9 @@ std::string ending_of(const std::string& format) {
 
 }  // namespace
 
-CadOutput::CadOutput(const CaseFile& case_file, const BuiltModel& built, std::filesystem::path directory)
-    : case_(case_file), built_(built), directory_(std::move(directory)) {
+CadOutput::CadOutput(const CaseFile& case_file, const BuiltModel& built, std::filesystem::path directory,
+                     std::size_t first_frame)
+    : case_(case_file), built_(built), directory_(std::move(directory)), frame_(first_frame) {
   const std::vector<std::string>& formats = case_.output.cad_formats;
   if (std::find(formats.begin(), formats.end(), "step-source") == formats.end()) return;
   const ImportReport source = import_curves(std::get<AxisFile>(case_.beams.front().axis.source).path);
@@ -105,34 +104,24 @@ std::vector<Diagnostic> CadOutput::write_into_source(const Frame& frame,
   return export_into_step(std::get<AxisFile>(case_.beams.front().axis.source).path, file, deformed);
 }
 
-void CadOutput::write(const Frame& frame, const std::string& format, RunSummary& summary) const {
-  const std::filesystem::path name = stem(frame) + ending_of(format), file = directory_ / name;
-  std::vector<Diagnostic> found;
-  if (format == "step-solid")
-    found = write_solids(frame, file);
-  else if (format == "step-source")
-    found = write_into_source(frame, file);
-  else
-    export_curves(file, curves(frame, case_.output.cad_parameter), parse_length_unit(case_.output.cad_unit));
-  bool written = true;
-  for (Diagnostic& diagnostic : found) {
-    written = written && diagnostic.severity != Severity::error;
-    diagnostic.severity = Severity::warning;  // the run goes on
-  }
-  const auto is_known = [&](const Diagnostic& d) {  // from an earlier frame
-    return std::any_of(summary.diagnostics.begin(), summary.diagnostics.end(),
-                       [&](const Diagnostic& s) { return s.where == d.where && s.message == d.message; });
-  };
-  std::erase_if(found, is_known);
-  print_diagnostics(std::cerr, found);
-  summary.diagnostics.insert(summary.diagnostics.end(), found.begin(), found.end());
-  if (written) summary.files.push_back(name);
+std::vector<Diagnostic> CadOutput::write(const Frame& frame, const std::string& format) const {
+  const std::filesystem::path file = directory_ / (stem(frame) + ending_of(format));
+  if (format == "step-solid") return write_solids(frame, file);
+  if (format == "step-source") return write_into_source(frame, file);
+  export_curves(file, curves(frame, case_.output.cad_parameter), parse_length_unit(case_.output.cad_unit));
+  return {};
 }
 
-void CadOutput::write(const Frame& frame, RunSummary& summary) {
+std::vector<Diagnostic> CadOutput::write(const Frame& frame) {
+  std::vector<Diagnostic> news;
   if (is_wanted(frame))
-    for (const std::string& format : case_.output.cad_formats) write(frame, format, summary);
+    for (const std::string& format : case_.output.cad_formats)
+      for (Diagnostic& found : write(frame, format)) {
+        found.severity = Severity::warning;  // the run goes on
+        if (said_.insert(found.where + ": " + found.message).second) news.push_back(std::move(found));
+      }
   ++frame_;
+  return news;
 }
 
 }  // namespace nurbeam

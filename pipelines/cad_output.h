@@ -1,13 +1,13 @@
 #pragma once
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "cad_import/export_curves.h"
 #include "pipelines/build_model.h"
 #include "pipelines/case_file.h"
-#include "pipelines/run_summary.h"
-#include "pipelines/simulation.h"
+#include "pipelines/frame.h"
 
 namespace nurbeam {
 
@@ -21,15 +21,16 @@ struct DrawnAxis {
 /// Writes the deformed curves of a run, at the times the case asks for, into its results directory.
 class CadOutput {
  public:
-  /// Both are kept by reference.
-  CadOutput(const CaseFile& case_file, const BuiltModel& built, std::filesystem::path directory);
+  /// Case and model are kept by reference. first_frame: the number of frames stored before this one.
+  CadOutput(const CaseFile& case_file, const BuiltModel& built, std::filesystem::path directory,
+            std::size_t first_frame);
 
-  /// Writes the files of this frame (in world coordinates), if it is one of those asked for, and adds their
-  /// names to the summary: "deformed_t0.35.step", "deformed_t0.35_solid.step",
-  /// "deformed_t0.35_source.step", or numbered, "deformed_0035.step", when all frames are wanted; without a
-  /// time for a static case. What keeps a shape out of a file is a warning in the summary. Throws
-  /// std::runtime_error when a file cannot be written.
-  void write(const Frame& frame, RunSummary& summary);
+  /// Writes the files of this frame (in world coordinates), if it is one of those asked for:
+  /// "deformed_t0.35.step", "deformed_t0.35_solid.step", "deformed_t0.35_source.step", or numbered,
+  /// "deformed_0035.step", when all frames are wanted; without a time for a static case. Returns a warning
+  /// for what kept a shape out of a file, each thing once. Throws std::runtime_error when a file cannot be
+  /// written.
+  std::vector<Diagnostic> write(const Frame& frame);
 
  private:
   bool is_wanted(const Frame& frame) const;
@@ -37,13 +38,14 @@ class CadOutput {
   std::vector<NamedCurve> curves(const Frame& frame, CurveParameter parameter) const;
   std::vector<Diagnostic> write_solids(const Frame& frame, const std::filesystem::path& file) const;
   std::vector<Diagnostic> write_into_source(const Frame& frame, const std::filesystem::path& file) const;
-  void write(const Frame& frame, const std::string& format, RunSummary& summary) const;
+  std::vector<Diagnostic> write(const Frame& frame, const std::string& format) const;
 
   const CaseFile& case_;
   const BuiltModel& built_;
   std::filesystem::path directory_;
   std::vector<DrawnAxis> drawn_;  // per beam, when they are to be written into their source
-  int frame_ = 0;                 // the number of the next one
+  std::set<std::string> said_;
+  std::size_t frame_;  // the number of the next one
 };
 
 }  // namespace nurbeam
