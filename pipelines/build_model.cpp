@@ -12,7 +12,8 @@
 
 #include "cad_import/import_curves.h"
 #include "nurbs/bezier_path.h"
-#include "nurbs/closest_point.h"
+#include "pipelines/cgal_geometry.h"
+#include "pipelines/section_profile.h"
 
 namespace nurbeam {
 
@@ -411,15 +412,56 @@ class Builder {
                               " m; move it there, or by at least " + text(shortest_segment * L) + " m");
   }
 
+  // Area and second moment of a beam, from the drawing where there is one; nothing with a diagnostic.
+  std::optional<CaseSection> section_of(int b) {
+    const CaseBeam& from = case_.beams[b];
+    if (!from.section.profile) return from.section;
+    const std::filesystem::path& file = from.section.profile->path;
+    const std::string where = from.path + ".section.profile";
+    const ImportReport& report = imported(file);
+    if (!report.ok()) return {};
+    ProfileReport drawn =
+        section_profile(report.curves, case_.path.string() + ": " + where + ": " + file.string());
+    diagnostics_.insert(diagnostics_.end(), drawn.diagnostics.begin(), drawn.diagnostics.end());
+    if (!drawn.value) return {};
+    const SectionProfile& profile = *drawn.value;
+    built_.profiles.push_back({b, file, profile});
+    CaseSection section{.area = profile.area, .second_moment = profile.second_x};
+    if (built_.model.dimension == 3) {
+      check_isotropy(where, profile);
+    } else {
+      if (from.section.profile->x_in_plane) section.second_moment = profile.second_y;
+      if (std::abs(profile.product) > 1e-6 * profile.principal_1())
+        warn(where, "the principal axes of the profile are turned by " +
+                        text(profile.principal_angle() * 180 / M_PI) +
+                        " degrees: it would bend out of the plane; the planar model holds it in its plane");
+    }
+    return section;
+  }
+
+  // A spatial model has one bending stiffness for all directions.
+  void check_isotropy(const std::string& where, const SectionProfile& profile) {
+    constexpr double alike = 1e-3;
+    const double most = profile.principal_1(), least = profile.principal_2();
+    if (most - least > alike * most)
+      error(where, "the profile's principal second moments are " + text(most) + " and " + text(least) +
+                       " m^4; in a spatial model, whose beams bend alike in all directions, they may differ "
+                       "by " +
+                       text(alike * most) +
+                       " m^4: draw a section that is alike in both, give \"area\" and \"second_moment\", or "
+                       "keep axes, loads and gravity in one plane");
+  }
+
   void add_beam(int b) {
     const CaseBeam& from = case_.beams[b];
     const std::optional<ReferenceCurve> curve = reference_curve(b);
-    if (!curve) return;
+    const std::optional<CaseSection> section = section_of(b);
+    if (!curve || !section) return;
     Beam beam{from.name, *curve, {}, false, from.weights, from.merge, {}};
     if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
-    beam.properties.axial_stiffness = from.material.youngs_modulus * from.section.area;
-    beam.properties.bending_stiffness = from.material.youngs_modulus * from.section.second_moment;
-    beam.properties.mass_per_length = from.material.density * from.section.area;
+    beam.properties.axial_stiffness = from.material.youngs_modulus * section->area;
+    beam.properties.bending_stiffness = from.material.youngs_modulus * section->second_moment;
+    beam.properties.mass_per_length = from.material.density * section->area;
     beam.properties.damping = from.material.damping;
     beam.properties.curvature = from.curvature;
     beam.properties.form = from.form;
@@ -540,12 +582,13 @@ class Builder {
         s = at.value * L;
         break;
       case Place::Kind::near: {
-        const ClosestPoint found = closest_point(BezierPath{paths_[b], {}, 0}, at.point);
-        constexpr double reach = 0.01;
-        if (found.distance > reach * L)
+        const ClosestPoint found = closest_place(BezierPath{paths_[b], {}, 0}, at.point);
+        const double within = at.within.value_or(0.01 * L);
+        if (found.distance > within)
           error(where + ".at.near", text(at.point) + " is " + text(found.distance) + " m from beam \"" +
-                                        case_.beams[b].name + "\"; the limit is " + text(reach * L) +
-                                        " m and the closest point of the axis " + text(found.point));
+                                        case_.beams[b].name + "\"; the limit is " + text(within) + " m (" +
+                                        (at.within ? "\"within\"" : "1 % of its length without \"within\"") +
+                                        ") and the closest point of the axis " + text(found.point));
         s = curve.arc_length(found.segment, found.u);
         break;
       }

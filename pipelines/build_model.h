@@ -6,6 +6,7 @@
 
 #include "fem/beam_model.h"
 #include "pipelines/case_file.h"
+#include "pipelines/section_profile.h"
 
 namespace nurbeam {
 
@@ -32,12 +33,20 @@ struct Probe {
   double s;  ///< [m]
 };
 
+/// A section that was drawn.
+struct BeamProfile {
+  int beam;
+  std::filesystem::path file;
+  SectionProfile profile;
+};
+
 /// A case as a model: everything resolved and in place.
 struct BuiltModel {
   BeamModel model;
   ModelFrame frame;
   std::vector<std::string> curve_names;  ///< per beam, for export
   std::vector<Probe> probes;
+  std::vector<BeamProfile> profiles;
   std::vector<std::filesystem::path> inputs;  ///< CAD files read
   double import_seconds = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "cad_import/import_curves.h"
 #include "nurbs/closest_point.h"
 #include "pipelines/export_results.h"
+#include "pipelines/print_diagnostics.h"
 
 namespace nurbeam {
 
@@ -104,24 +106,30 @@ std::vector<Diagnostic> CadOutput::write_into_source(const Frame& frame,
   return export_into_step(std::get<AxisFile>(case_.beams.front().axis.source).path, file, deformed);
 }
 
-std::vector<Diagnostic> CadOutput::write(const Frame& frame, const std::string& format) const {
-  const std::filesystem::path file = directory_ / (stem(frame) + ending_of(format));
-  if (format == "step-solid") return write_solids(frame, file);
-  if (format == "step-source") return write_into_source(frame, file);
-  export_curves(file, curves(frame, case_.output.cad_parameter), parse_length_unit(case_.output.cad_unit));
-  return {};
+void CadOutput::write(const Frame& frame, const std::string& format,
+                      std::vector<Diagnostic>& diagnostics) const {
+  const std::filesystem::path name = stem(frame) + ending_of(format), file = directory_ / name;
+  std::vector<Diagnostic> found;
+  if (format == "step-solid")
+    found = write_solids(frame, file);
+  else if (format == "step-source")
+    found = write_into_source(frame, file);
+  else
+    export_curves(file, curves(frame, case_.output.cad_parameter), parse_length_unit(case_.output.cad_unit));
+  for (Diagnostic& diagnostic : found) diagnostic.severity = Severity::warning;  // the run goes on
+  const auto is_known = [&](const Diagnostic& d) {                               // from an earlier frame
+    return std::any_of(diagnostics.begin(), diagnostics.end(),
+                       [&](const Diagnostic& s) { return s.where == d.where && s.message == d.message; });
+  };
+  std::erase_if(found, is_known);
+  print_diagnostics(std::cerr, found);
+  diagnostics.insert(diagnostics.end(), found.begin(), found.end());
 }
 
-std::vector<Diagnostic> CadOutput::write(const Frame& frame) {
-  std::vector<Diagnostic> news;
+void CadOutput::write(const Frame& frame, std::vector<Diagnostic>& diagnostics) {
   if (is_wanted(frame))
-    for (const std::string& format : case_.output.cad_formats)
-      for (Diagnostic& found : write(frame, format)) {
-        found.severity = Severity::warning;  // the run goes on
-        if (said_.insert(found.where + ": " + found.message).second) news.push_back(std::move(found));
-      }
+    for (const std::string& format : case_.output.cad_formats) write(frame, format, diagnostics);
   ++frame_;
-  return news;
 }
 
 }  // namespace nurbeam

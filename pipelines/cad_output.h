@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,16 +20,16 @@ struct DrawnAxis {
 /// Writes the deformed curves of a run, at the times the case asks for, into its results directory.
 class CadOutput {
  public:
-  /// Case and model are kept by reference. first_frame: the number of frames stored before this one.
+  /// The first two are kept by reference. `first_frame`: the number of the first frame that will be written.
   CadOutput(const CaseFile& case_file, const BuiltModel& built, std::filesystem::path directory,
-            std::size_t first_frame);
+            std::size_t first_frame = 0);
 
   /// Writes the files of this frame (in world coordinates), if it is one of those asked for:
   /// "deformed_t0.35.step", "deformed_t0.35_solid.step", "deformed_t0.35_source.step", or numbered,
-  /// "deformed_0035.step", when all frames are wanted; without a time for a static case. Returns a warning
-  /// for what kept a shape out of a file, each thing once. Throws std::runtime_error when a file cannot be
+  /// "deformed_0035.step", when all frames are wanted; without a time for a static case. What keeps a shape
+  /// out of a file is a warning among the diagnostics, once. Throws std::runtime_error when a file cannot be
   /// written.
-  std::vector<Diagnostic> write(const Frame& frame);
+  void write(const Frame& frame, std::vector<Diagnostic>& diagnostics);
 
  private:
   bool is_wanted(const Frame& frame) const;
@@ -38,14 +37,13 @@ class CadOutput {
   std::vector<NamedCurve> curves(const Frame& frame, CurveParameter parameter) const;
   std::vector<Diagnostic> write_solids(const Frame& frame, const std::filesystem::path& file) const;
   std::vector<Diagnostic> write_into_source(const Frame& frame, const std::filesystem::path& file) const;
-  std::vector<Diagnostic> write(const Frame& frame, const std::string& format) const;
+  void write(const Frame& frame, const std::string& format, std::vector<Diagnostic>& diagnostics) const;
 
   const CaseFile& case_;
   const BuiltModel& built_;
   std::filesystem::path directory_;
   std::vector<DrawnAxis> drawn_;  // per beam, when they are to be written into their source
-  std::set<std::string> said_;
-  std::size_t frame_;  // the number of the next one
+  std::size_t frame_;             // the number of the next one
 };
 
 }  // namespace nurbeam

@@ -57,8 +57,6 @@ std::string expected(const Shape& shape) {
       return "[x, y, z], each " + quantity_hint(shape.dimension);
     case Kind::table:
       return "rows [[time, value], ...], value being " + quantity_hint(shape.dimension);
-    case Kind::unavailable:
-      break;
   }
   return {};
 }
@@ -106,8 +104,6 @@ class Checker {
         return check_vector(shape, value, path);
       case Kind::table:
         return check_table(shape, value, path);
-      case Kind::unavailable:
-        return failed(path, "is not available in this version; " + shape.hint);
     }
     return false;
   }

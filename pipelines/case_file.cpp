@@ -103,7 +103,7 @@ Place read_place(const Json& object) {
   } else if (has(at, "fraction")) {
     place = {.kind = Place::Kind::fraction, .value = number(at, "fraction")};
   } else if (has(at, "near")) {
-    place = {.kind = Place::Kind::near, .point = vector(at, "near")};
+    place = {.kind = Place::Kind::near, .point = vector(at, "near"), .within = optional_number(at, "within")};
   }
   return place;
 }
@@ -133,6 +133,22 @@ std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
   return names;
 }
 
+/// Reports a CAD file that is not there.
+void check_cad_file(const std::filesystem::path& file, const std::string& path, Findings& findings) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    const bool is_directory = std::filesystem::is_directory(status);
+    findings.error(path, in_quotes(file.string()) + " is a " +
+                             (is_directory ? "directory" : "device or pipe") +
+                             "; expected a STEP or IGES file" +
+                             (is_directory ? known_names("", cad_files_in(file)) : ""));
+  } else if (!std::filesystem::exists(status)) {
+    findings.error(path, "there is no file " + in_quotes(file.string()) +
+                             known_names(file.filename().string(), cad_files_in(file.parent_path())));
+  }
+}
+
 CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& directory,
                               const std::string& path, Findings& findings) {
   CaseAxis::File file;
@@ -146,19 +162,7 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
       file.curve_index = curve.get<int>();
     }
   }
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(file.path, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    const bool is_directory = std::filesystem::is_directory(status);
-    findings.error(child(path, "file"), in_quotes(file.path.string()) + " is a " +
-                                            (is_directory ? "directory" : "device or pipe") +
-                                            "; expected a STEP or IGES file" +
-                                            (is_directory ? known_names("", cad_files_in(file.path)) : ""));
-  } else if (!std::filesystem::exists(status)) {
-    findings.error(child(path, "file"),
-                   "there is no file " + in_quotes(file.path.string()) +
-                       known_names(file.path.filename().string(), cad_files_in(file.path.parent_path())));
-  }
+  check_cad_file(file.path, child(path, "file"), findings);
   return file;
 }
 
@@ -246,7 +250,17 @@ CaseAxis read_axis(const Json& axis, const std::string& path, const std::filesys
   return {};
 }
 
-CaseSection read_section(const Json& section) {
+CaseSection read_section(const Json& section, const std::filesystem::path& directory, const std::string& path,
+                         Findings& findings) {
+  if (has(section, "profile")) {
+    const Json& profile = section["profile"];
+    CaseSection drawn = {.profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
+                                                text(profile, "in_plane") == "x"}};
+    if (has(profile, "file")) {
+      check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
+    }
+    return drawn;
+  }
   if (has(section, "radius")) {
     const double r = number(section, "radius");
     return {.area = std::numbers::pi * r * r,
@@ -262,7 +276,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.path = path;
   beam.name = text(json, "name");
   beam.axis = read_axis(part(json, "axis"), child(path, "axis"), directory, findings);
-  beam.section = read_section(part(json, "section"));
+  beam.section = read_section(part(json, "section"), directory, child(path, "section"), findings);
   const Json& material = part(json, "material");
   beam.material = {.density = number(material, "density"),
                    .youngs_modulus = number(material, "youngs_modulus"),

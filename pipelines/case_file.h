@@ -18,6 +18,7 @@ struct Place {
   enum class Kind { start, end, length, fraction, near } kind = Kind::start;
   double value = 0;                                 ///< [m] for length, [-] in [0,1] for fraction
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m] for near
+  std::optional<double> within = {};  ///< greatest distance of the point from the axis [m] for near
 };
 
 /// Curves of a CAD file.
@@ -37,10 +38,17 @@ struct CaseAxis {
   std::variant<File, NurbsCurve, Polyline, Arc> source;
 };
 
+/// A section drawn in a CAD file.
+struct CaseProfile {
+  std::filesystem::path path;  ///< absolute
+  bool x_in_plane = false;     ///< a planar model bends along the profile's x axis; else along y
+};
+
 struct CaseSection {
-  double area = 0;               ///< [m^2]
-  double second_moment = 0;      ///< [m^4]
-  std::optional<double> radius;  ///< of a disk [m]
+  double area = 0;                          ///< [m^2]
+  double second_moment = 0;                 ///< [m^4]
+  std::optional<double> radius = {};        ///< of a disk [m]
+  std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
 };
 
 struct CaseMaterial {

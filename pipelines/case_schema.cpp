@@ -87,8 +87,6 @@ Json schema_of(const Shape& shape) {
                 {"minItems", 2},
                 {"maxItems", 2}}},
               {"minItems", 1}};
-    case Kind::unavailable:
-      return {{"not", Json::object()}, {"description", "not available in this version; " + shape.hint}};
   }
   return {};
 }

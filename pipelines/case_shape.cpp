@@ -43,7 +43,6 @@ Shape quantity(Dimension dimension, Range range = {}) {
 }
 Shape vector(Dimension dimension) { return {.kind = Kind::vector, .dimension = dimension}; }
 Shape table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension}; }
-Shape unavailable(std::string hint) { return {.kind = Kind::unavailable, .hint = std::move(hint)}; }
 
 Shape place() {
   return either(
@@ -52,7 +51,10 @@ Shape place() {
                "reference arc length from the beam's start"},
               {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
                "fraction of the beam's reference length"},
-              {"near", vector(Dimension::length), "the place of the drawn axis nearest to this point"}},
+              {"near", vector(Dimension::length), "the place of the drawn axis nearest to this point"},
+              {"within", quantity(Dimension::length, not_negative()),
+               "greatest distance of that point from the axis; 1 % of the beam's length when omitted", false,
+               "near"}},
              {{{"length", "fraction", "near"}, required}}));
 }
 
@@ -81,14 +83,18 @@ Shape axis() {
 }
 
 Shape section() {
+  const Shape profile =
+      object({{"file", text(), "STEP or IGES file with an outline and its holes, relative to the case file",
+               required},
+              {"in_plane", choice({"y", "x"}),
+               "the profile's axis that lies in the plane of a planar model; y when omitted"}});
   return object(
       {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round solid section"},
        {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area", false,
         "second_moment"},
        {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
         false, "area"},
-       {"profile", unavailable("give \"radius\", or \"area\" and \"second_moment\""),
-        "section drawn in a CAD file"}},
+       {"profile", profile, "section drawn in a CAD file"}},
       {{{"radius", "area", "profile"}, required}});
 }
 

@@ -30,18 +30,17 @@ struct Alternatives {
 /// What a JSON value of the case file may be: the one source of the reader's checks and of the JSON schema.
 struct Shape {
   enum class Kind {
-    object,       ///< `keys`, `alternatives`
-    array,        ///< of `items[0]`, at least `min_items`
-    either,       ///< the one of `items` that fits the value's JSON type
-    choice,       ///< one of `choices`
-    text,         ///< not empty
-    name,         ///< text that can head a column: no comma, quote or control character
-    boolean,      ///<
-    integer,      ///< in `range`
-    quantity,     ///< a number in SI units or a text with a unit, in `range`
-    vector,       ///< three quantities
-    table,        ///< rows [time, quantity], time increasing
-    unavailable,  ///< a key the format knows and this version does not offer; `hint` says what to use
+    object,    ///< `keys`, `alternatives`
+    array,     ///< of `items[0]`, at least `min_items`
+    either,    ///< the one of `items` that fits the value's JSON type
+    choice,    ///< one of `choices`
+    text,      ///< not empty
+    name,      ///< text that can head a column: no comma, quote or control character
+    boolean,   ///<
+    integer,   ///< in `range`
+    quantity,  ///< a number in SI units or a text with a unit, in `range`
+    vector,    ///< three quantities
+    table,     ///< rows [time, quantity], time increasing
   };
   Kind kind = Kind::object;
   std::vector<Key> keys;
@@ -51,7 +50,6 @@ struct Shape {
   std::vector<std::string> choices = {};
   Dimension dimension = Dimension::number;
   Range range = {};
-  std::string hint = {};
 };
 
 /// One key of an object.

@@ -83,6 +83,13 @@ double quantity_argument(const std::string& option, const std::string& text, Dim
 }
 
 int inspect_command(const Arguments& arguments, Streams streams) {
+  if (arguments.has("--profile")) {
+    if (arguments.has("--json")) {
+      throw UsageError("--profile and --json exclude each other");
+    }
+    return inspect_profiles({arguments.positional.begin(), arguments.positional.end()}, streams.out,
+                            streams.err);
+  }
   return inspect_files({arguments.positional.begin(), arguments.positional.end()}, arguments.has("--json"),
                        streams.out, streams.err);
 }
@@ -204,11 +211,11 @@ int unavailable_command(const Arguments&, Streams) {
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"inspect",
-       "FILE... [--json]",
-       "lists the curves of STEP and IGES files",
+       "FILE... [--json | --profile]",
+       "lists the curves of STEP and IGES files; with --profile: the section that they draw",
        1,
        std::string::npos,
-       {{"--json", false}},
+       {{"--json", false}, {"--profile", false}},
        inspect_command},
       {"check",
        "CASE.json [--set path=value]...",

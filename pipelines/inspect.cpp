@@ -8,6 +8,7 @@
 
 #include "cad_import/import_curves.h"
 #include "pipelines/print_diagnostics.h"
+#include "pipelines/section_profile.h"
 
 namespace nurbeam {
 
@@ -137,6 +138,22 @@ int inspect_files(const std::vector<std::filesystem::path>& files, bool json, st
     out << all.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   }
   return readable ? 0 : 2;
+}
+
+int inspect_profiles(const std::vector<std::filesystem::path>& files, std::ostream& out, std::ostream& err) {
+  bool usable = true;
+  for (const std::filesystem::path& file : files) {
+    const ImportReport report = import_curves(file);
+    print_diagnostics(err, report.diagnostics);
+    const ProfileReport drawn = report.ok() ? section_profile(report.curves, file.string()) : ProfileReport{};
+    print_diagnostics(err, drawn.diagnostics);
+    usable = usable && drawn.value;
+    if (drawn.value) {
+      out << report.file << ": section\n";
+      print_profile(out, *drawn.value);
+    }
+  }
+  return usable ? 0 : 2;
 }
 
 }  // namespace nurbeam

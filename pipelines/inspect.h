@@ -10,4 +10,8 @@ namespace nurbeam {
 int inspect_files(const std::vector<std::filesystem::path>& files, bool json, std::ostream& out,
                   std::ostream& err);
 
+/// Prints the properties of the section that the curves of each CAD file draw on `out`, and what is wrong
+/// with them on `err`. Returns the exit code: 0, or 2 when a file cannot be read or draws no section.
+int inspect_profiles(const std::vector<std::filesystem::path>& files, std::ostream& out, std::ostream& err);
+
 }  // namespace nurbeam

@@ -158,8 +158,7 @@ class Run {
     RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
     const SimulationReport simulated = simulate_into(outputs);
     outputs.finish();
-    add_to_summary(outputs.diagnostics());
-    summarise(simulated, outputs.seconds());
+    summarise(simulated, outputs);
     write_run_summary(options_.out / "run.json", summary_);
     if (simulated.status != SimulationStatus::done)
       tell(case_.path.string() + ": error: " + simulated.message);
@@ -203,16 +202,12 @@ class Run {
     return simulated;
   }
 
-  void add_to_summary(const std::vector<Diagnostic>& diagnostics) {
-    print_diagnostics(std::cerr, diagnostics);
-    print_diagnostics(*log_, diagnostics);
-    summary_.diagnostics.insert(summary_.diagnostics.end(), diagnostics.begin(), diagnostics.end());
-  }
-
-  void summarise(const SimulationReport& simulated, double output_seconds) {
+  void summarise(const SimulationReport& simulated, const RunOutputs& outputs) {
     summary_.status = status_text(simulated.status, simulated.message);
-    summary_.wall_times.output = output_seconds;
-    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - output_seconds);
+    summary_.wall_times.output = outputs.seconds();
+    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
+    summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
+                                outputs.diagnostics().end());
     summary_.wall_times.length_control = simulated.length_control_seconds;
     if (from_) summary_.resumed_at = from_->state.t;
     summary_.end_time = simulated.time;
@@ -227,7 +222,11 @@ class Run {
       event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
-    if (const auto warning = energy_warning(case_, simulated)) add_to_summary({*warning});
+    if (const auto warning = energy_warning(case_, simulated)) {
+      print_diagnostics(std::cerr, {*warning});
+      print_diagnostics(*log_, {*warning});
+      summary_.diagnostics.push_back(*warning);
+    }
     summary_.files = directory_.files();
     summary_.files.emplace_back("run.json");
   }
@@ -298,6 +297,10 @@ int check_case(const CaseFile& c) {
         beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
         beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
         beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
+  }
+  for (const BeamProfile& drawn : report.value->profiles) {
+    std::cout << "section   of " << model.beams[drawn.beam].name << ": " << drawn.file.string() << '\n';
+    print_profile(std::cout, drawn.profile);
   }
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),

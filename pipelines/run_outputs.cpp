@@ -78,8 +78,7 @@ void RunOutputs::write(const Frame& local) {
     const Frame frame = to_world(built_.frame, local);
     results_.write(frame);
     if (paraview_) paraview_->write(frame);
-    const std::vector<Diagnostic> found = cad_.write(frame);
-    diagnostics_.insert(diagnostics_.end(), found.begin(), found.end());
+    cad_.write(frame, diagnostics_);
   });
 }
 

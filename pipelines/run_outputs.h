@@ -30,10 +30,10 @@ class RunOutputs {
   /// Puts all frames so far, and the point, on the disk.
   void write(const RestartPoint& point);
   void finish();
+  /// What could not be written into a CAD file; the run goes on.
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
-  /// What kept a shape out of a CAD file, each thing once.
-  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -47,9 +47,9 @@ class RunOutputs {
   ResultsWriter results_;
   CadOutput cad_;
   std::optional<ParaviewSeries> paraview_;
-  std::vector<Diagnostic> diagnostics_;
   Clock::time_point last_restart_ = Clock::now();
   double seconds_ = 0;
+  std::vector<Diagnostic> diagnostics_;
 };
 
 }  // namespace nurbeam

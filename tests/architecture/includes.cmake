@@ -14,13 +14,14 @@ set(pipelines_may_include pipelines cad_import fem nurbs solver)
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
   "[a-z_]+"                                                                       ".*"  # the standard library
-  "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseCore)"         ".*"
+  "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
   "(fcntl|poll|signal|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|edge_curve\\.h)"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|sundials_border\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case_(file|json|check|schema)\\.cpp|case_json\\.h|(inspect|run_summary)\\.cpp)"
   "netcdf\\.h"                                                                    "pipelines/netcdf_file\\.cpp"
+  "CGAL/.*"                                                                       "pipelines/cgal/with_cgal\\.cpp"
   "openssl/.*"                                                                    "pipelines/(file_hash|base64)\\.cpp")
 
 set_property(GLOBAL PROPERTY complaints 0)

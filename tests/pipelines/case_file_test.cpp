@@ -264,10 +264,18 @@ TEST_F(CaseFileTest, UnknownChoicesNameTheClosestOne) {
   expect_error({"supports[0].at=finish"}, "supports[0].at", {"\"start\", \"end\""});
 }
 
-TEST_F(CaseFileTest, WhatThisVersionDoesNotOfferSaysWhatItOffers) {
-  const std::string no = "not available in this version";
-  expect_error({R"(beams[0].section={"profile": {"file": "p.step"}})"}, "beams[0].section.profile",
-               {no, "\"radius\""});
+TEST_F(CaseFileTest, AProfileNamesItsFileAndTheAxisInThePlane) {
+  directory_.write("p.step", "");
+  const CaseFileReport report =
+      read(smallest_case, {R"(beams[0].section={"profile": {"file": "p.step", "in_plane": "x"}})"});
+  ASSERT_TRUE(report.value);
+  const CaseProfile profile = report.value->beams[0].section.profile.value();
+  EXPECT_EQ(profile.path, directory_.path() / "p.step");
+  EXPECT_TRUE(profile.x_in_plane);
+  expect_error({R"(beams[0].section={"profile": {"file": "q.step"}})"}, "beams[0].section.profile.file",
+               {"there is no file", "did you mean \"p.step\""});
+  expect_error({R"(beams[0].section={"profile": {"in_plane": "x"}})"}, "beams[0].section.profile",
+               {"\"file\" is missing"});
 }
 
 TEST_F(CaseFileTest, KeysThatExcludeEachOtherAreRefused) {
@@ -452,7 +460,7 @@ void collect_used_keys(const Json& value, std::set<std::string>& keys) {
 }
 
 TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
-  std::set<std::string> in_schema, in_cases = {"profile", "tolerance", "polyline", "speed"};
+  std::set<std::string> in_schema, in_cases = {"profile", "in_plane", "tolerance", "polyline", "speed"};
   collect_keys(Json::parse(case_file_schema()), in_schema);
   collect_used_keys(Json::parse(full_case, nullptr, true, true), in_cases);
   EXPECT_EQ(in_schema, in_cases);

@@ -86,7 +86,7 @@ inline const char* const full_case = R"({
     { "beam": "cable", "at": "start", "force": [0, -10, 0], "moves": { "speed": "72 km/h" } }
   ],
   "supports": [{ "beam": "cable", "at": "start", "type": "clamped" },
-               { "beam": "cable", "at": { "near": [1, "20 cm", 0] }, "type": "pinned" }],
+               { "beam": "cable", "at": { "near": [1, "20 cm", 0], "within": "1 cm" }, "type": "pinned" }],
   "sliding_joints": [
     { "body": "trolley", "beam": "cable", "at": { "length": "10 cm" }, "speed": 2,
       "slope": "discontinuous", "at_beam_end": "stop" },

@@ -1,0 +1,43 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "nurbs/bezier_path.h"
+
+namespace nurbeam {
+
+/// The part of a profile's boundary between two corners of a polygon: segment `segment` of a loop from u0 to
+/// u1.
+struct BoundaryPiece {
+  int loop;
+  int segment;
+  double u0, u1;
+};
+
+/// A closed polygon with its corners on a loop; piece i runs from corner i to the next.
+struct ProfilePolygon {
+  std::vector<Eigen::Vector2d> corners;  ///< [m]
+  std::vector<BoundaryPiece> pieces;
+
+  /// Positive when it runs anticlockwise [m^2].
+  double area() const;
+  /// By its winding number; either for a point on the polygon.
+  bool contains(const Eigen::Vector2d& point) const;
+};
+
+/// The point of a piece on the perpendicular bisector of its chord: its parameter.
+double middle_of(const BezierPath& loop, const BoundaryPiece& piece);
+
+/// A polygon for each closed loop in the plane z = 0: the segments cut until no leg of a piece's control
+/// polygon turns from its chord by more than `angle` [rad].
+std::vector<ProfilePolygon> profile_polygons(const std::vector<BezierPath>& loops, double angle);
+
+/// A point where two edges of the polygons cross or touch other than in a common corner.
+std::optional<Eigen::Vector2d> crossing(const std::vector<ProfilePolygon>& polygons);
+
+/// Polygons that do not cross: cut at 15 degrees, and finer where that is needed. Empty when they still cross
+/// at a hundredth of that.
+std::vector<ProfilePolygon> polygons_without_crossing(const std::vector<BezierPath>& loops);
+
+}  // namespace nurbeam
