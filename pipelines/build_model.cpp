@@ -30,6 +30,8 @@ constexpr double shortest_beam = 1e-6, longest_beam = 1e7, shortest_segment = 1e
 constexpr double same_place = 1e-9;
 // Radii nearer to each other than this part of them are the same radius.
 constexpr double same_radius = 1e-6;
+// Beams whose axes come within this part of their length of each other meet.
+constexpr double same_joint = 1e-6;
 
 std::string text(double value) {
   std::ostringstream stream;
@@ -86,7 +88,10 @@ class Builder {
     if (!failed()) {
       choose_frame();
       for (std::size_t b = 0; b < case_.beams.size() && !failed(); ++b) add_beam(static_cast<int>(b));
+      if (!failed()) join_beams();
+      for (std::size_t b = 0; b < case_.beams.size() && !failed(); ++b) divide_beam(static_cast<int>(b));
     }
+    if (!failed()) check_joined_supports();
     if (!failed()) {
       add_loads();
       add_joints();
@@ -159,6 +164,11 @@ class Builder {
       if (check_name(joint.beam, joint.path, names) && names[joint.beam].size() > 1)
         error(joint.path + ".beam", "is " + in_quotes(joint.beam) + ", which is several beams; choose one: " +
                                         quoted_list(names[joint.beam]));
+    for (const CaseBeamJoint& joint : case_.joints)
+      for (const std::string& name : joint.beams)
+        if (check_name(name, joint.path, names) && names[name].size() > 1)
+          error(joint.path + ".beams", "names " + in_quotes(name) + ", which is several beams; choose of: " +
+                                           quoted_list(names[name]));
     for (CaseProbe& probe : case_.output.probes)
       if (check_name(probe.beam, "output.probes", names) && names[probe.beam].size() > 1)
         error("output.probes", "probe " + in_quotes(probe.name) + " is on " + in_quotes(probe.beam) +
@@ -537,9 +547,15 @@ class Builder {
     beam.straight = is_straight(from, beam.curve);
     built_.model.beams.push_back(std::move(beam));
     built_.radii.push_back(section->radius);
+  }
 
-    Beam& added = built_.model.beams.back();
-    const std::vector<double> places = fixed_places(measured_[b], add_supports(b));
+  // Its supports and elements.
+  void divide_beam(int b) {
+    const CaseBeam& from = case_.beams[b];
+    Beam& added = built_.model.beams[b];
+    std::vector<double> held = add_supports(b);
+    held.insert(held.end(), joint_places_[b].begin(), joint_places_[b].end());
+    const std::vector<double> places = fixed_places(measured_[b], held);
     check_intervals(from, places);
     if (failed()) return;
     std::vector<int> counts;
@@ -561,6 +577,125 @@ class Builder {
     for (int corner : hinges_[b])
       for (HomeNode& node : added.home)
         if (node.s == added.curve.breaks()[corner]) node.hinge = true;
+  }
+
+  // A place of one beam, in reference arc length.
+  struct BeamPlace {
+    int beam;
+    double s;
+  };
+
+  // The place of the beam nearest to the point; an end that is near is that end.
+  BeamPlace nearest_place(int b, const Eigen::Vector3d& point) const {
+    const ClosestPoint found = closest_point(BezierPath{paths_[b], {}, 0}, point);
+    const double L = measured_[b].length(), s = measured_[b].arc_length(found.segment, found.u);
+    return {b, s < same_joint * L ? 0 : s > L * (1 - same_joint) ? L : s};
+  }
+
+  Eigen::Vector3d world_position(const BeamPlace& place) const {
+    return built_.frame.to_world(measured_[place.beam].position(place.s));
+  }
+  double distance(const std::pair<BeamPlace, BeamPlace>& places) const {
+    return (world_position(places.first) - world_position(places.second)).norm();
+  }
+
+  // Where two beams meet: nearest to the point, or else where an end of one is nearest to the other.
+  std::pair<BeamPlace, BeamPlace> meeting_place(int a, int b,
+                                                const std::optional<Eigen::Vector3d>& near) const {
+    if (near) return {nearest_place(a, *near), nearest_place(b, *near)};
+    std::vector<std::pair<BeamPlace, BeamPlace>> candidates;
+    for (const double s : {0.0, measured_[a].length()})
+      candidates.emplace_back(BeamPlace{a, s}, nearest_place(b, world_position({a, s})));
+    for (const double s : {0.0, measured_[b].length()})
+      candidates.emplace_back(nearest_place(a, world_position({b, s})), BeamPlace{b, s});
+    return *std::min_element(candidates.begin(), candidates.end(), [&](const auto& one, const auto& other) {
+      return distance(one) < distance(other);
+    });
+  }
+
+  void join_beams() {
+    joint_places_.resize(case_.beams.size());
+    for (const CaseBeamJoint& joint : case_.joints)
+      for (std::size_t i = 1; i < joint.beams.size(); ++i)
+        join_two(joint, beam_index(joint.beams[0]), beam_index(joint.beams[i]));
+    if (!case_.joints.empty() && case_.analysis.method == CaseAnalysis::Method::rk4)
+      error("analysis.integrator.type",
+            "\"rk4\" is for models without joints; use \"generalized-alpha\" or \"ida\"");
+  }
+
+  void join_two(const CaseBeamJoint& joint, int a, int b) {
+    const std::string beams = in_quotes(case_.beams[a].name) + " and " + in_quotes(case_.beams[b].name);
+    if (a == b) return error(joint.path + ".beams", "joins " + beams + "; give different beams");
+    const auto places = meeting_place(a, b, joint.near);
+    const auto& [at_a, at_b] = places;
+    const double allowed = same_joint * std::max(measured_[a].length(), measured_[b].length());
+    if (distance(places) > allowed)
+      return error(joint.path, beams + " do not meet: they are " + text(distance(places)) + " m apart at " +
+                                   text(world_position(at_a)) + " and " + text(world_position(at_b)) +
+                                   "; the limit is " + text(allowed) + " m");
+    for (const BeamPlace& place : {at_a, at_b}) check_sliders(joint, place);
+    if (joint.rigid) check_angle(joint, places, beams);
+    if (!unite(places))
+      return error(joint.path, beams + " are joined at " + text(world_position(at_a)) +
+                                   " already; leave out one of the joints");
+    for (const BeamPlace& place : {at_a, at_b}) {
+      std::vector<double>& own = joint_places_[place.beam];
+      if (std::find(own.begin(), own.end(), place.s) == own.end()) own.push_back(place.s);
+    }
+    built_.model.beam_joints.push_back(
+        {a, material_coordinate(a, at_a.s), b, material_coordinate(b, at_b.s), joint.rigid});
+  }
+
+  void check_sliders(const CaseBeamJoint& joint, const BeamPlace& place) {
+    const std::string& name = case_.beams[place.beam].name;
+    const bool at_end = place.s == 0 || place.s == measured_[place.beam].length();
+    for (const CaseSlidingJoint& slider : case_.sliding_joints)
+      if (slider.beam == name && !at_end)
+        error(joint.path, "is at s = " + text(place.s) + " m of beam " + in_quotes(name) +
+                              ", over which body " + in_quotes(slider.body) +
+                              " slides; a joint there must be at an end of the beam: "
+                              "divide the beam there");
+  }
+
+  // In space the angle of beams in one line has no derivative.
+  void check_angle(const CaseBeamJoint& joint, const std::pair<BeamPlace, BeamPlace>& places,
+                   const std::string& beams) {
+    if (built_.model.dimension == 2) return;
+    const auto tangent = [&](const BeamPlace& place) -> Eigen::Vector3d {
+      return measured_[place.beam].tangent(place.s);
+    };
+    constexpr double least_sine = 0.02;
+    if (tangent(places.first).cross(tangent(places.second)).norm() < least_sine)
+      error(joint.path + ".type",
+            "is \"rigid\", but " + beams +
+                " run in one line there, and this is a spatial model: make them one beam "
+                "(\"curve\" with \"chain\"), or use \"hinged\"");
+  }
+
+  // Puts both places into one group of places that are held together; false when they are in one.
+  bool unite(const std::pair<BeamPlace, BeamPlace>& places) {
+    const auto group_of = [&](const BeamPlace& place) {
+      const auto key = std::pair(place.beam, place.s);
+      return joined_.emplace(key, static_cast<int>(joined_.size())).first->second;
+    };
+    const int a = group_of(places.first), b = group_of(places.second);
+    for (auto& [place, group] : joined_)
+      if (group == b) group = a;
+    return a != b;
+  }
+
+  // Of places that are joined, one may be supported: the others are held by it.
+  void check_joined_supports() {
+    std::map<int, std::string> first;
+    for (const CaseSupport& support : case_.supports) {
+      const int b = beam_index(support.beam);
+      const auto found = joined_.find({b, place(support.at, b, support.path)});
+      if (found == joined_.end()) continue;
+      const auto [other, is_new] = first.emplace(found->second, support.path);
+      if (!is_new)
+        error(support.path, "holds beam " + in_quotes(support.beam) + " where " + other->second +
+                                " already holds a beam that is joined to it; keep one of them");
+    }
   }
 
   bool is_straight(const CaseBeam& from, const ReferenceCurve& curve) {
@@ -776,6 +911,10 @@ class Builder {
       start = start || (support.beam == b && support.s == 0);
       end = end || (support.beam == b && support.s == built_.model.beams[b].curve.length());
     }
+    for (const double s : joint_places_[b]) {
+      start = start || s == 0;
+      end = end || s == measured_[b].length();
+    }
     if (start || end)
       warn(joint.path + ".at_beam_end", std::string("the ") +
                                             (start && end ? "start and the end"
@@ -791,8 +930,10 @@ class Builder {
   BuiltModel built_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::vector<RationalCubic>> paths_;
-  std::vector<std::vector<int>> hinges_;  // per beam: breaks that are corners
-  std::vector<ReferenceCurve> measured_;  // per beam: the drawing in reference arc length
+  std::vector<std::vector<int>> hinges_;           // per beam: breaks that are corners
+  std::vector<std::vector<double>> joint_places_;  // per beam: where others are joined to it [m]
+  std::map<std::pair<int, double>, int> joined_;   // places by beam and s: which are held together
+  std::vector<ReferenceCurve> measured_;           // per beam: the drawing in reference arc length
   std::map<std::filesystem::path, ImportReport> imports_;
 };
 

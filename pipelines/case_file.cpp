@@ -361,6 +361,14 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
           .leave_at_end = text(json, "at_beam_end") != "stop"};
 }
 
+CaseBeamJoint read_beam_joint(const Json& json, const std::string& path) {
+  CaseBeamJoint joint{.path = path, .beams = {}, .rigid = text(json, "type") == "rigid", .near = {}};
+  for (const Json& name : part(json, "beams"))
+    if (!name.is_null()) joint.beams.push_back(name.get<std::string>());
+  if (has(part(json, "at"), "near")) joint.near = vector(json["at"], "near");
+  return joint;
+}
+
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;
   analysis.type = chosen<CaseAnalysis::Type>(
@@ -455,6 +463,9 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   for_each_item(json, "sliding_joints", "", [&](const Json& joint, const std::string& path) {
     result.sliding_joints.push_back(read_sliding_joint(joint, path));
   });
+  for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
+    result.joints.push_back(read_beam_joint(joint, path));
+  });
   result.analysis = read_analysis(part(json, "analysis"), findings);
   result.output = read_output(part(json, "output"), result.analysis);
   return result;
@@ -540,6 +551,13 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "supports", "", "beam", *beams, findings);
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
     check_references(json, part(json, "output"), "probes", "output", "beam", *beams, findings);
+    for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
+      for_each_item(joint, "beams", path, [&](const Json& name, const std::string& name_path) {
+        if (!is_one_of(name, *beams) && !is_beam_of_chain(name, json))
+          findings.error(name_path, "there is no beam " + in_quotes(name.get<std::string>()) +
+                                        known_names(name.get<std::string>(), *beams));
+      });
+    });
   }
   if (const auto bodies = names_under(json, "bodies")) {
     check_references(json, json, "sliding_joints", "", "body", *bodies, findings);

@@ -133,6 +133,14 @@ struct CaseSlidingJoint {
   bool leave_at_end = true;  ///< false: stop
 };
 
+/// Beams that meet at one place.
+struct CaseBeamJoint {
+  std::string path;
+  std::vector<std::string> beams;       ///< two or more; each is joined to the first
+  bool rigid = false;                   ///< else hinged
+  std::optional<Eigen::Vector3d> near;  ///< where [m]; else where an end of one meets the other
+};
+
 struct CaseAnalysis {
   enum class Type { dynamic, statics } type = Type::dynamic;
   enum class Method { generalized_alpha, ida, rk4 } method = Method::generalized_alpha;
@@ -172,6 +180,7 @@ struct CaseFile {
   std::vector<CaseLoad> loads;
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseBeamJoint> joints;
   CaseAnalysis analysis;
   CaseOutput output;
 };

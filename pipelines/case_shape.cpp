@@ -177,6 +177,13 @@ Shape sliding_joint() {
                 {{{"speed", "motion"}, false}});
 }
 
+Shape beam_joint() {
+  return object({{"beams", array(name(), 2), "the beams that meet", required},
+                 {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
+                 {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
+                  "where, if not at an end of one of them"}});
+}
+
 Shape analysis() {
   const Shape integrator = object({{"type", choice({"generalized-alpha", "ida", "rk4"}), "time integrator"},
                                    {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
@@ -257,6 +264,7 @@ const Shape& case_shape() {
        {"loads", array(load()), "forces and moments"},
        {"supports", array(support()), "where beams are held"},
        {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+       {"joints", array(beam_joint()), "which beams are joined to each other"},
        {"analysis", analysis(), "what to compute", required},
        {"output", output(), "what to store"}});
   return shape;

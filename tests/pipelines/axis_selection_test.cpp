@@ -231,10 +231,9 @@ TEST(PipeSection, IsThatOfTheDrawnPipe) {
   const test::TemporaryDirectory directory;
   const std::string file = std::string(NURBEAM_SOURCE_DIR) + "/tests/corpus/pygem-pipe.step";
   const auto build_pipe = [&](const std::string& axis) {
-    const CaseFileReport report =
-        read_case_file(directory.write("case.json", test::smallest_case),
-                       {"beams[0].axis={\"file\": \"" + file + "\"" + axis + "}",
-                        R"(beams[0].section={"from": "cad"})"});
+    const CaseFileReport report = read_case_file(
+        directory.write("case.json", test::smallest_case),
+        {"beams[0].axis={\"file\": \"" + file + "\"" + axis + "}", R"(beams[0].section={"from": "cad"})"});
     return build_model(report.value.value());
   };
   const BuildReport pipe = build_pipe("");

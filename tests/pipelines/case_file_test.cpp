@@ -121,6 +121,11 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(nurbs.control_points().col(1), Eigen::Vector4d(0.25, 0, 0, 0.5));
   EXPECT_EQ(c.beams[2].elements.count, 12);
 
+  ASSERT_EQ(c.joints.size(), 1u);
+  EXPECT_EQ(c.joints[0].beams, (std::vector<std::string>{"arch", "curve"}));
+  EXPECT_TRUE(c.joints[0].rigid);
+  EXPECT_EQ(c.joints[0].near.value(), Eigen::Vector3d::UnitX());
+
   EXPECT_DOUBLE_EQ(c.bodies.at(0).mass, 0.8);
   ASSERT_EQ(c.loads.size(), 4u);
   EXPECT_EQ(c.loads[0].kind, CaseLoad::Kind::force);

@@ -94,6 +94,7 @@ inline const char* const full_case = R"({
     { "body": "driven", "beam": "arch", "at": "start", "motion": { "speed": 5 } },
     { "body": "timed", "beam": "curve", "at": "start", "motion": { "table": [[0, 0], [1, "50 mm"]] } }
   ],
+  "joints": [{ "beams": ["arch", "curve"], "type": "rigid", "at": { "near": ["1 m", 0, 0] } }],
   "analysis": { "type": "dynamic", "initial": "equilibrium", "end_time": "700 ms", "step": 1e-3,
                 "integrator": { "type": "generalized-alpha", "rho_infinity": 0.7 },
                 "length_control": { "min": 0.4, "max": 1.6 } },
