@@ -314,6 +314,10 @@ int check_case(const CaseFile& c) {
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
                 model.bodies[joint.body].mass, model.beams[joint.beam].name.c_str(), joint.s);
+  for (const BeamJoint& joint : model.beam_joints)
+    std::printf("joint     %s at s = %.9g m and %s at s = %.9g m, %s\n",
+                model.beams[joint.beam_a].name.c_str(), joint.s_a, model.beams[joint.beam_b].name.c_str(),
+                joint.s_b, joint.rigid ? "rigid" : "hinged");
   std::printf("supports  %zu, point loads %zu, distributed loads %zu\n", model.supports.size(),
               model.point_loads.size(), model.line_loads.size());
   return done;
