@@ -27,24 +27,29 @@ bool reaches_the_disk(const fs::path& path) {
   return done;
 }
 
+[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
+  std::error_code ignored;
+  fs::remove(temporary_name(file), ignored);
+  throw std::runtime_error(file.string() + ": " + reason);
+}
+
 }  // namespace
 
 fs::path temporary_name(const fs::path& file) { return file.string() + ".part"; }
 
 void publish(const fs::path& file) {
-  const fs::path temporary = temporary_name(file);
-  const auto fail = [&](const std::string& reason) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw std::runtime_error(file.string() + ": " + reason);
-  };
-  if (!reaches_the_disk(temporary)) fail(std::string("cannot be written: ") + std::strerror(errno));
   std::error_code error;
-  fs::rename(temporary, file, error);
-  if (error) fail("cannot be renamed from its temporary name: " + error.message());
+  fs::rename(temporary_name(file), file, error);
+  if (error) fail(file, "cannot be renamed from its temporary name: " + error.message());
+}
+
+void publish_durably(const fs::path& file) {
+  if (!reaches_the_disk(temporary_name(file)))
+    fail(file, std::string("cannot be written: ") + std::strerror(errno));
+  publish(file);
   const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!reaches_the_disk(directory))
-    fail(std::string("its directory cannot be written: ") + std::strerror(errno));
+    fail(file, std::string("its directory cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace nurbeam

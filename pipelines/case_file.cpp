@@ -408,10 +408,9 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings&
     output.probes.push_back(
         {.name = text(probe, "name"), .beam = text(probe, "beam"), .at = read_place(probe)});
   });
-  for (const char* key : {"paraview", "report"}) {
-    if (flag(json, key)) {
-      findings.add(Severity::note, child("output", key), "this version does not write it");
-    }
+  output.paraview = flag(json, "paraview");
+  if (flag(json, "report")) {
+    findings.add(Severity::note, child("output", "report"), "this version does not write it");
   }
   return output;
 }
@@ -579,6 +578,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   std::optional<CaseFile> value;
   if (check_shape(case_shape(), *json, findings)) {
     value = read_case(*json, file, findings);
+    value->json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
     check_names(*json, findings);
     check_references(*json, findings);
     check_bodies(*json, *value, findings);

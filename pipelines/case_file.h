@@ -144,11 +144,13 @@ struct CaseOutput {
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   std::string cad_unit = "mm";
   std::vector<CaseProbe> probes;
+  bool paraview = false;  ///< a series of files for ParaView
 };
 
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
 struct CaseFile {
   std::filesystem::path path;
+  std::string json;  ///< as read, overrides applied, without comments and spaces
   std::string name;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);
   std::vector<CaseBeam> beams;

@@ -107,9 +107,6 @@ int check_command(const Arguments& arguments, Streams streams) {
 }
 
 int run_command(const Arguments& arguments, Streams streams) {
-  if (arguments.has("--resume")) {
-    throw UsageError("--resume is not available in this version");
-  }
   if (arguments.value("--out", "results").empty()) {
     throw UsageError("--out: is empty; give the directory for the results");
   }
@@ -119,8 +116,9 @@ int run_command(const Arguments& arguments, Streams streams) {
     return bad_input;
   }
   const std::string default_out = case_file->path.stem().string() + "_results";
-  return run_case(*case_file,
-                  {.out = arguments.value("--out", default_out), .quiet = arguments.has("--quiet")});
+  return run_case(*case_file, {.out = arguments.value("--out", default_out),
+                               .quiet = arguments.has("--quiet"),
+                               .resume = arguments.has("--resume")});
 }
 
 std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time) {
@@ -209,7 +207,7 @@ const std::vector<Command>& commands() {
        {{"--set", true}},
        check_command},
       {"run",
-       "CASE.json [--out DIR] [--quiet] [--set path=value]...",
+       "CASE.json [--out DIR] [--resume] [--quiet] [--set path=value]...",
        "runs a case",
        1,
        1,

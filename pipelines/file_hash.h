@@ -8,4 +8,7 @@ namespace nurbeam {
 /// file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
+/// SHA-256 of a text, likewise.
+std::string sha256_of_text(const std::string& text);
+
 }  // namespace nurbeam

@@ -92,7 +92,7 @@ PendulumMotion pendulum_motion(const PendulumMesh& mesh, const Method& integrato
     motion.length.push_back(frame.beams[0].length);
     motion.beam.push_back(frame.beams[0]);
   };
-  observer.progress = [](double) {};
+  observer.progress = [](const StepRecord&) {};
   observer.interrupted = [] { return false; };
   motion.report = simulate(model, {{0, model.beams[0].curve.length()}}, options, observer);
   return motion;

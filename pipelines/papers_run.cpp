@@ -78,7 +78,7 @@ Run run(BeamModel model, const Method& method, const Pace& pace) {
   Run result;
   SimulationObserver observer;
   observer.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
-  observer.progress = [](double) {};
+  observer.progress = [](const StepRecord&) {};
   observer.interrupted = [] { return false; };
   observer.mesh_changed = [&](const RunEvent& event, const std::vector<BeamRecord>& before,
                               const std::vector<BeamRecord>& after) {

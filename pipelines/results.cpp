@@ -68,7 +68,7 @@ void write_file(const fs::path& file, const FrameNames& names, const std::string
     fs::remove(temporary_name(file), ignored);
     throw;
   }
-  publish(file);
+  publish_durably(file);
 }
 
 /// Calls visit(frames) for the frames [0, count) of a reader, a batch at a time.
@@ -108,6 +108,10 @@ struct ResultsWriter::Implementation {
   }
 
   void merge() {
+    if (chunk_count == 1 && open.empty()) {
+      fs::rename(chunk_file(directory, 1), store_file(directory));
+      return;
+    }
     write_file(store_file(directory), names, title, [&](FrameStore& store) {
       for (const fs::path& file : chunks()) {
         const FrameReader chunk(file);
@@ -196,7 +200,7 @@ void ResultsWriter::finish() {
   Implementation& files = *implementation_;
   files.merge();
   files.histories.close();
-  publish(history_file(files.directory));
+  publish_durably(history_file(files.directory));
 }
 
 // --- Reading

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <regex>
@@ -23,8 +24,23 @@ namespace fs = std::filesystem;
 /// The names that a run gives to its files.
 bool is_of_a_run(const std::string& name) {
   static const std::regex ours(
-      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json)(\.part)?|deformed(_t[-+.e0-9]+)?\.(step|igs)(\.part[0-9]+)?)");
+      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|frames\.pvd|report\.html)(\.part)?|)"
+      R"(run\.log|deformed(_t[-+.e0-9]+)?\.(step|igs)(\.part[0-9]+)?)");
   return std::regex_match(name, ours);
+}
+
+constexpr const char* frames_directory = "frames";
+
+/// The names that a run gives to the files in frames/.
+bool is_a_frame(const std::string& name) {
+  static const std::regex ours(R"((beams|bodies)_[0-9]+\.vtu(\.part)?)");
+  return std::regex_match(name, ours);
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) fail(file, "of a former run cannot be removed: " + error.message());
 }
 
 }  // namespace
@@ -37,12 +53,6 @@ ResultsDirectory::ResultsDirectory(fs::path path) : path_(std::move(path)) {
                                   : "cannot be made a directory: " + error.message());
   }
   lock();
-  try {
-    clear();
-  } catch (...) {
-    close(descriptor_);
-    throw;
-  }
 }
 
 ResultsDirectory::~ResultsDirectory() { close(descriptor_); }
@@ -62,21 +72,29 @@ void ResultsDirectory::lock() {
 void ResultsDirectory::clear() const {
   std::vector<fs::path> former;
   for (const auto& entry : fs::directory_iterator(path_)) {
-    if (!is_of_a_run(entry.path().filename().string())) {
-      continue;
-    }
-    if (entry.is_directory()) {
-      fail(entry.path(), "is a directory; a run needs this name for a file");
-    }
+    if (!is_of_a_run(entry.path().filename().string())) continue;
+    if (entry.is_directory()) fail(entry.path(), "is a directory; a run needs this name for a file");
     former.push_back(entry.path());
   }
-  for (const fs::path& file : former) {
-    std::error_code error;
-    fs::remove(file, error);
-    if (error) {
-      fail(file, "of a former run cannot be removed: " + error.message());
-    }
+  const fs::path frames = path_ / frames_directory;
+  if (fs::is_directory(frames)) {
+    for (const auto& entry : fs::directory_iterator(frames))
+      if (is_a_frame(entry.path().filename().string())) former.push_back(entry.path());
+  } else if (fs::exists(frames)) {
+    fail(frames, "is a file; a run needs this name for a directory");
   }
+  for (const fs::path& file : former) remove_file(file);
+  if (fs::is_directory(frames) && fs::is_empty(frames)) remove_file(frames);
+}
+
+std::vector<fs::path> ResultsDirectory::files() const {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    const fs::path name = entry.path().filename();
+    if (name == frames_directory || is_of_a_run(name.string())) files.push_back(name);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace nurbeam

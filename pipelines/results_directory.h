@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <vector>
 
 namespace nurbeam {
 
@@ -7,19 +8,21 @@ namespace nurbeam {
 /// the operating system's on the open directory: it leaves no file behind and ends with the process.
 class ResultsDirectory {
  public:
-  /// Makes the directory, takes it, and removes what a former run has written there: histories.csv,
-  /// results.nc, run.json and deformed*.step and .igs, also under their temporary names. Throws
-  /// std::runtime_error (path and reason) when another run writes there or these names are not free.
+  /// Makes the directory and takes it. Throws std::runtime_error (path and reason) when another run writes
+  /// there.
   explicit ResultsDirectory(std::filesystem::path path);
   ~ResultsDirectory();
   ResultsDirectory(const ResultsDirectory&) = delete;
   ResultsDirectory& operator=(const ResultsDirectory&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  /// Removes what a former run has written there: the files of docs/results.md, also under their temporary
+  /// names. Throws std::runtime_error (path and reason) when these names are not free.
+  void clear() const;
+  /// What a run has written there, relative to it, in order; the files in frames/ count as one.
+  std::vector<std::filesystem::path> files() const;
 
  private:
   void lock();
-  void clear() const;
 
   std::filesystem::path path_;
   int descriptor_ = -1;

@@ -4,18 +4,17 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <sstream>
 
-#include "cad_import/export_curves.h"
 #include "pipelines/build_model.h"
-#include "pipelines/export_results.h"
 #include "pipelines/file_hash.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/progress.h"
-#include "pipelines/results.h"
 #include "pipelines/results_directory.h"
+#include "pipelines/run_outputs.h"
 #include "pipelines/run_summary.h"
 #include "pipelines/signals.h"
 #include "pipelines/simulation.h"
@@ -64,72 +63,6 @@ SimulationOptions simulation_options(const CaseFile& c) {
   return options;
 }
 
-void to_world(const ModelFrame& f, PointRecord& p) {
-  p.position = f.to_world(p.position);
-  p.velocity = f.direction_to_world(p.velocity);
-}
-
-Frame to_world(const ModelFrame& f, Frame frame) {
-  for (PointRecord& p : frame.probes) to_world(f, p);
-  for (BodyRecord& body : frame.bodies) {
-    to_world(f, body.point);
-    body.joint_force = f.direction_to_world(body.joint_force);
-  }
-  for (BeamRecord& beam : frame.beams) {
-    for (ElementRecord& e : beam.elements)
-      for (int i = 0; i < 4; ++i) {
-        const double w = e.control_points(3, i);
-        const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
-        e.control_points.col(i).head<3>() = w * p;
-        e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
-      }
-    for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
-    for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
-  }
-  frame.energy.gravity += f.gravity_energy;
-  frame.energy.total += f.gravity_energy;
-  return frame;
-}
-
-// Writes deformed curves at the frames whose times the case asks for.
-class CadOutput {
- public:
-  CadOutput(const CaseFile& c, const BuiltModel& built, const std::filesystem::path& directory)
-      : case_(c), built_(built), directory_(directory) {}
-
-  void write(const Frame& frame, std::vector<std::filesystem::path>& files) const {
-    const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
-    const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
-    const bool asked = std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
-                                   [&](double t) { return std::abs(t - frame.time) < same; });
-    if (!asked && !statics) return;
-    std::vector<NamedCurve> curves;
-    for (std::size_t b = 0; b < frame.beams.size(); ++b)
-      curves.push_back({built_.curve_names[b], deformed_curve(frame.beams[b].elements)});
-    for (const std::string& format : case_.output.cad_formats) {
-      std::ostringstream name;
-      name << "deformed";
-      if (!statics) name << "_t" << frame.time;
-      name << (format == "iges" ? ".igs" : ".step");
-      export_curves(directory_ / name.str(), curves, parse_length_unit(case_.output.cad_unit));
-      files.emplace_back(name.str());
-    }
-  }
-
- private:
-  const CaseFile& case_;
-  const BuiltModel& built_;
-  std::filesystem::path directory_;
-};
-
-FrameNames frame_names(const CaseFile& c) {
-  FrameNames names;
-  for (const CaseProbe& probe : c.output.probes) names.probes.push_back(probe.name);
-  for (const CaseBody& body : c.bodies) names.bodies.push_back(body.name);
-  for (const CaseBeam& beam : c.beams) names.beams.push_back(beam.name);
-  return names;
-}
-
 // A warning when energy changes in a run where nothing does work but the weight.
 std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
   constexpr double noticed = 0.05;  // of the largest kinetic energy
@@ -173,69 +106,165 @@ ExitCode exit_code(SimulationStatus status) {
 
 }  // namespace
 
+namespace {
+
+// What a restart point belongs to: the program, the case with its overrides, the CAD files.
+std::string digest_of_inputs(const CaseFile& c, const BuiltModel& built) {
+  std::string text = std::string(NURBEAM_VERSION) + "\n" + c.json + "\n";
+  for (const auto& file : built.inputs) text += sha256_of_file(file) + "\n";
+  return sha256_of_text(text);
+}
+
+std::filesystem::path restart_file(const std::filesystem::path& directory) {
+  return directory / "restart.nc";
+}
+
+// The restart point of a directory, if it belongs to these inputs. Throws std::invalid_argument.
+RestartPoint find_restart_point(const std::filesystem::path& directory, const std::string& inputs) {
+  const std::filesystem::path file = restart_file(directory);
+  RestartPoint point;
+  try {
+    point = read_restart_point(file);
+  } catch (const std::runtime_error& problem) {
+    throw std::invalid_argument(std::string(problem.what()) + "; run without --resume");
+  }
+  if (point.inputs != inputs)
+    throw std::invalid_argument(
+        file.string() +
+        ": belongs to another case: the case file, its overrides (--set), a CAD file or "
+        "nurbeam have changed since; run without --resume");
+  return point;
+}
+
+// The run itself, once everything it needs is there.
+class Run {
+ public:
+  Run(const CaseFile& c, const BuildReport& report, const RunOptions& options, RunSummary summary)
+      : case_(c),
+        built_(*report.value),
+        options_(options),
+        directory_(options.out),
+        inputs_(digest_of_inputs(c, built_)),
+        summary_(std::move(summary)) {
+    if (options.resume)
+      from_ = find_restart_point(options.out, inputs_);
+    else
+      directory_.clear();
+    log_.emplace(options.out / "run.log", options.resume ? std::ios::app : std::ios::trunc);
+  }
+
+  ExitCode play() {
+    begin_log();
+    RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
+    const SimulationReport simulated = simulate_into(outputs);
+    outputs.finish();
+    summarise(simulated, outputs.seconds());
+    write_run_summary(options_.out / "run.json", summary_);
+    if (simulated.status != SimulationStatus::done)
+      tell(case_.path.string() + ": error: " + simulated.message);
+    *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
+    return exit_code(simulated.status);
+  }
+
+ private:
+  // A line for people, and for the log.
+  void tell(const std::string& line) {
+    std::cerr << line << "\n";
+    *log_ << line << std::endl;
+  }
+
+  void begin_log() {
+    *log_ << "nurbeam " << NURBEAM_VERSION << ": " << case_.path.string()
+          << (from_ ? ", resumed at t = " + std::to_string(from_->state.t) + " s" : std::string())
+          << std::endl;
+    print_diagnostics(*log_, summary_.diagnostics);
+  }
+
+  SimulationReport simulate_into(RunOutputs& outputs) {
+    const double start_time = from_ ? from_->state.t : 0;
+    Progress shown(std::cerr, Progress::style_of_stderr(options_.quiet), start_time, case_.analysis.end_time);
+    Progress logged(*log_, Progress::Style::lines, start_time, case_.analysis.end_time);
+    std::vector<ProbePlace> probes;
+    for (const Probe& probe : built_.probes) probes.push_back({probe.beam, probe.s});
+    const InterruptGuard guard;
+    SimulationObserver observer;
+    observer.interrupted = [&] { return guard.interrupted(); };
+    observer.progress = [&](const StepRecord& step) {
+      shown.update(step);
+      logged.update(step);
+    };
+    observer.frame = [&](const Frame& frame) { outputs.write(frame); };
+    observer.restart_point_due = [&] { return outputs.restart_point_due(); };
+    observer.restart_point = [&](const RestartPoint& point) { outputs.write(point); };
+    SimulationReport simulated =
+        simulate(built_.model, probes, simulation_options(case_), observer, from_ ? &*from_ : nullptr);
+    shown.finish();
+    return simulated;
+  }
+
+  void summarise(const SimulationReport& simulated, double output_seconds) {
+    summary_.status = status_text(simulated.status, simulated.message);
+    summary_.wall_times.output = output_seconds;
+    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - output_seconds);
+    summary_.wall_times.length_control = simulated.length_control_seconds;
+    if (from_) summary_.resumed_at = from_->state.t;
+    summary_.end_time = simulated.time;
+    summary_.steps = simulated.steps;
+    summary_.rejected_steps = simulated.rejected_steps;
+    summary_.newton_iterations = simulated.newton_iterations;
+    summary_.energy_drift = simulated.energy_drift;
+    summary_.events = simulated.events;
+    for (RunEvent& event : summary_.events) {
+      event.energy_before += built_.frame.gravity_energy;
+      event.energy_after += built_.frame.gravity_energy;
+      event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
+      event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
+    }
+    if (const auto warning = energy_warning(case_, simulated)) {
+      print_diagnostics(std::cerr, {*warning});
+      print_diagnostics(*log_, {*warning});
+      summary_.diagnostics.push_back(*warning);
+    }
+    summary_.files = directory_.files();
+    summary_.files.emplace_back("run.json");
+  }
+
+  const CaseFile& case_;
+  const BuiltModel& built_;
+  const RunOptions& options_;
+  ResultsDirectory directory_;
+  std::string inputs_;
+  RunSummary summary_;
+  std::optional<RestartPoint> from_;
+  std::optional<std::ofstream> log_;
+};
+
+}  // namespace
+
 int run_case(const CaseFile& c, const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
+  if (options.resume && !std::filesystem::exists(restart_file(options.out))) {
+    std::cerr << "error: " << restart_file(options.out).string()
+              << ": does not exist: there is no run to resume; run without --resume\n";
+    return bad_input;
+  }
   const BuildReport report = build_model(c);
   print_diagnostics(std::cerr, report.diagnostics);
   if (!report.value) return bad_input;
-  const BuiltModel& built = *report.value;
 
   RunSummary summary;
   summary.version = NURBEAM_VERSION;
   summary.case_name = c.name;
   summary.diagnostics = report.diagnostics;
-  summary.wall_times.import = built.import_seconds;
-  summary.wall_times.model = seconds_since(start) - built.import_seconds;
+  summary.wall_times.import = report.value->import_seconds;
+  summary.wall_times.model = seconds_since(start) - report.value->import_seconds;
   summary.inputs.push_back({c.path, sha256_of_file(c.path)});
-  for (const auto& file : built.inputs) summary.inputs.push_back({file, sha256_of_file(file)});
-
+  for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
   try {
-    const ResultsDirectory directory(options.out);
-    ResultsWriter results(options.out, frame_names(c), c.name);
-    const CadOutput cad(c, built, options.out);
-    Progress progress(std::cerr, Progress::style_of_stderr(options.quiet), 0, c.analysis.end_time);
-    std::vector<ProbePlace> probes;
-    for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
-
-    const InterruptGuard guard;
-    SimulationObserver observer;
-    observer.interrupted = [&] { return guard.interrupted(); };
-    observer.progress = [&](double t) { progress.update(t); };
-    observer.frame = [&](const Frame& local) {
-      const auto output_start = std::chrono::steady_clock::now();
-      const Frame frame = to_world(built.frame, local);
-      results.write(frame);
-      cad.write(frame, summary.files);
-      summary.wall_times.output += seconds_since(output_start);
-    };
-    const SimulationReport simulated = simulate(built.model, probes, simulation_options(c), observer);
-    progress.finish();
-    results.finish();
-
-    summary.status = status_text(simulated.status, simulated.message);
-    summary.wall_times.motion = simulated.motion_seconds - summary.wall_times.output;
-    summary.wall_times.length_control = simulated.length_control_seconds;
-    summary.end_time = simulated.time;
-    summary.steps = simulated.steps;
-    summary.rejected_steps = simulated.rejected_steps;
-    summary.newton_iterations = simulated.newton_iterations;
-    summary.energy_drift = simulated.energy_drift;
-    summary.events = simulated.events;
-    for (RunEvent& event : summary.events) {
-      event.energy_before += built.frame.gravity_energy;
-      event.energy_after += built.frame.gravity_energy;
-      event.momentum_before = built.frame.direction_to_world(event.momentum_before);
-      event.momentum_after = built.frame.direction_to_world(event.momentum_after);
-    }
-    for (const char* name : {"histories.csv", "results.nc", "run.json"}) summary.files.emplace_back(name);
-    if (const auto warning = energy_warning(c, simulated)) {
-      print_diagnostics(std::cerr, {*warning});
-      summary.diagnostics.push_back(*warning);
-    }
-    write_run_summary(options.out / "run.json", summary);
-    if (simulated.status != SimulationStatus::done)
-      std::cerr << c.path.string() << ": error: " << simulated.message << "\n";
-    return exit_code(simulated.status);
+    return Run(c, report, options, std::move(summary)).play();
+  } catch (const std::invalid_argument& problem) {
+    std::cerr << "error: " << problem.what() << "\n";
+    return bad_input;
   } catch (const std::runtime_error& problem) {
     std::cerr << "error: " << problem.what() << "\n";
     return not_written;

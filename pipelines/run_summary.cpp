@@ -51,6 +51,7 @@ Json to_json(const RunSummary& summary) {
   return {{"nurbeam", summary.version},
           {"case", summary.case_name},
           {"status", summary.status},
+          {"resumed_at [s]", summary.resumed_at ? Json(*summary.resumed_at) : Json()},
           {"end_time [s]", summary.end_time},
           {"steps", summary.steps},
           {"rejected_steps", summary.rejected_steps},

@@ -43,7 +43,8 @@ struct RunSummary {
   std::string version;
   std::string case_name;
   std::vector<RunInput> inputs;
-  std::string status;  ///< "done", or why the run ended before its end
+  std::optional<double> resumed_at;  ///< simulated time of the restart point it went on from [s]
+  std::string status;                ///< "done", or why the run ended before its end
   PhaseTimes wall_times;
   double end_time = 0;  ///< simulated time reached [s]
   long steps = 0, rejected_steps = 0, newton_iterations = 0;

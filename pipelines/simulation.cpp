@@ -64,22 +64,32 @@ class Simulation {
              const SimulationObserver& observer)
       : model_(model), probes_(probes), options_(options), observer_(observer) {}
 
+  SimulationReport resume(const RestartPoint& from) {
+    go_on_from(from);
+    move(from.frames);
+    return report_up_to_now();
+  }
+
   SimulationReport run() {
-    const auto start = Clock::now();
     plan_ = initial_plan(model_);
     step_ = options_.step.value_or(step_);
     if (options_.statics)
       find_rest();
     else if (start_motion())
-      move();
-    report_.time = state_.t;
-    report_.motion_seconds = seconds_since(start) - report_.length_control_seconds;
-    return report_;
+      begin_motion();
+    return report_up_to_now();
   }
 
  private:
   const std::string& body_name(int joint) const { return model_.bodies[model_.joints[joint].body].name; }
   double beam_length_of(int joint) const { return model_.beams[model_.joints[joint].beam].curve.length(); }
+
+  SimulationReport report_up_to_now() const {
+    SimulationReport report = report_;
+    report.time = state_.t;
+    report.motion_seconds = seconds_before_ + seconds_since(start_) - report_.length_control_seconds;
+    return report;
+  }
 
   void fail(SimulationStatus status, std::string message) {
     report_.status = status;
@@ -250,6 +260,45 @@ class Simulation {
     return restart();
   }
 
+  // --- Restart points
+  // -----------------------------------------------------------------------------------------------
+
+  void hand_over(std::size_t frames) const {
+    if (!observer_.restart_point) return;
+    RestartPoint point;
+    point.frames = frames;
+    point.plan = system_->mesh().plan;
+    point.state = state_;
+    if (const auto* method = dynamic_cast<const GeneralizedAlphaIntegrator*>(integrator_.get()))
+      point.history = method->history();
+    point.next_step = step_;
+    point.last_step = last_step_;
+    point.dissipated = dissipated_;
+    point.start_energy = start_energy_;
+    point.iterations_in_frames = iterations_written_;
+    point.steps = steps_;
+    point.report = report_up_to_now();
+    observer_.restart_point(point);
+  }
+
+  void go_on_from(const RestartPoint& point) {
+    plan_ = point.plan;
+    system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
+    state_ = point.state;
+    integrator_ =
+        std::visit([&](const auto& settings) { return start(settings, state_); }, options_.integrator);
+    if (auto* method = dynamic_cast<GeneralizedAlphaIntegrator*>(integrator_.get()))
+      method->restore(point.history);
+    step_ = point.next_step;
+    last_step_ = point.last_step;
+    dissipated_ = point.dissipated;
+    start_energy_ = point.start_energy;
+    iterations_written_ = point.iterations_in_frames;
+    steps_ = point.steps;
+    report_ = point.report;
+    seconds_before_ = report_.motion_seconds + report_.length_control_seconds;
+  }
+
   // New integrator from state_, with consistent accelerations.
   bool restart() {
     const bool stiff = std::holds_alternative<GeneralizedAlpha>(options_.integrator);
@@ -297,9 +346,14 @@ class Simulation {
     return e.mechanical() + dissipated_;
   }
 
-  void move() {
+  void begin_motion() {
     start_energy_ = total_energy();
-    std::size_t next_output = 0;
+    settle_mesh(true);
+    if (report_.status == SimulationStatus::done) move(0);
+  }
+
+  // From state_ to the end, with the first output times behind it.
+  void move(std::size_t next_output) {
     const auto& times = options_.output_times;
     const double resolution = 1e-12 * std::max(1.0, options_.end_time);
     const auto write_due = [&] {
@@ -308,12 +362,11 @@ class Simulation {
         ++next_output;
       }
     };
-    settle_mesh(true);
-    if (report_.status != SimulationStatus::done) return;
     write_due();
     bool complete = true;
     while (state_.t < options_.end_time - resolution) {
       if (observer_.interrupted()) {
+        hand_over(next_output);
         fail(SimulationStatus::interrupted, "interrupted at t = " + text(state_.t) + " s");
         complete = false;
         break;
@@ -327,8 +380,10 @@ class Simulation {
       }
       if (std::abs(state_.t - target) < resolution) state_.t = target;
       write_due();
-      observer_.progress(state_.t);
+      observer_.progress(last_record_);
+      if (observer_.restart_point_due && observer_.restart_point_due()) hand_over(next_output);
     }
+    if (complete) hand_over(next_output);
     if (!complete && (times.empty() || state_.t > last_written_)) write_frame();
   }
 
@@ -349,7 +404,8 @@ class Simulation {
     if (!options_.step) step_ = taken.next_step;
     ++report_.steps;
     last_step_ = taken.step;
-    steps_.push_back({state_.t + taken.step, taken.step, taken.newton_iterations, taken.rejected});
+    last_record_ = {state_.t + taken.step, taken.step, taken.newton_iterations, taken.rejected};
+    steps_.push_back(last_record_);
     state_ = integrator_->state();
     const std::optional<BreakCrossing> crossing = first_crossing(before);
     if (crossing) {
@@ -624,12 +680,15 @@ class Simulation {
   const std::vector<ProbePlace>& probes_;
   const SimulationOptions& options_;
   const SimulationObserver& observer_;
+  const Clock::time_point start_ = Clock::now();
+  double seconds_before_ = 0;  // of the run that was interrupted
   SimulationReport report_;
   MeshPlan plan_;
   std::unique_ptr<BeamSystem<D>> system_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
-  double step_ = 1e-4;             // asked for next: fixed, or what error control suggests [s]
+  double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
+  StepRecord last_record_;
   std::vector<StepRecord> steps_;  // since the last frame
   double dissipated_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
   long iterations_written_ = 0;
@@ -638,9 +697,11 @@ class Simulation {
 }  // namespace
 
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
-                          const SimulationOptions& options, const SimulationObserver& observer) {
-  if (model.dimension == 2) return Simulation<2>(model, probes, options, observer).run();
-  return Simulation<3>(model, probes, options, observer).run();
+                          const SimulationOptions& options, const SimulationObserver& observer,
+                          const RestartPoint* from) {
+  const auto play = [&](auto simulation) { return from ? simulation.resume(*from) : simulation.run(); };
+  if (model.dimension == 2) return play(Simulation<2>(model, probes, options, observer));
+  return play(Simulation<3>(model, probes, options, observer));
 }
 
 }  // namespace nurbeam

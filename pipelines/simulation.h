@@ -8,7 +8,8 @@
 
 #include "fem/length_control.h"
 #include "pipelines/record_frame.h"
-#include "pipelines/run_summary.h"
+#include "pipelines/restart.h"
+#include "pipelines/simulation_report.h"
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
 #include "solver/ida_integrator.h"
@@ -27,35 +28,27 @@ struct SimulationOptions {
   LengthControl length_control;
 };
 
-enum class SimulationStatus { done, not_converged, interrupted };
-
-/// How a simulation ended, and what it took.
-struct SimulationReport {
-  SimulationStatus status = SimulationStatus::done;
-  std::string message;  ///< why it ended before its end: time, joint, place
-  double time = 0;      ///< reached [s]
-  long steps = 0, rejected_steps = 0, newton_iterations = 0;
-  double motion_seconds = 0, length_control_seconds = 0;
-  double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
-  double integration_error = 0;    ///< the same without what events changed [J]
-  double peak_kinetic_energy = 0;  ///< [J]
-  std::vector<RunEvent> events;
-};
-
 /// What happens on the way.
 struct SimulationObserver {
-  std::function<void(const Frame&)> frame;  ///< at every output time, in the model's own coordinates
-  std::function<void(double)> progress;     ///< simulated time after every step
-  std::function<bool()> interrupted;        ///< true asks to end after the current step
+  std::function<void(const Frame&)> frame;          ///< at every output time, in the model's own coordinates
+  std::function<void(const StepRecord&)> progress;  ///< after every step
+  std::function<bool()> interrupted;                ///< true asks to end after the current step
   /// If set: every change of the mesh, with the beams before and after it.
   std::function<void(const RunEvent&, const std::vector<BeamRecord>&, const std::vector<BeamRecord>&)>
       mesh_changed = nullptr;
+  /// If set: asked after every step whether a restart point is wanted.
+  std::function<bool()> restart_point_due = nullptr;
+  /// If set: takes restart points (`inputs` left empty): those asked for, and the last one.
+  std::function<void(const RestartPoint&)> restart_point = nullptr;
 };
 
 /// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies
 /// that leave or stop at a beam's end. A static analysis ends with one frame at time 0; sliding bodies come
-/// to rest.
+/// to rest. With `from`, which must belong to the same model and options, a motion goes on from there: with
+/// generalized-alpha and the explicit methods bit by bit as if it had never been interrupted; IDA starts
+/// afresh with a short step.
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
-                          const SimulationOptions& options, const SimulationObserver& observer);
+                          const SimulationOptions& options, const SimulationObserver& observer,
+                          const RestartPoint* from = nullptr);
 
 }  // namespace nurbeam

@@ -15,7 +15,7 @@ RunRecord run_model(const BeamModel& model, const std::vector<double>& times, do
   options.integrator = integrator;
   SimulationObserver observer;
   observer.frame = [&](const Frame& frame) { record.frames.push_back(frame); };
-  observer.progress = [](double) {};
+  observer.progress = [](const StepRecord&) {};
   observer.interrupted = [] { return false; };
   record.report = simulate(model, probes, options, observer);
   if (record.report.status != SimulationStatus::done) throw std::runtime_error(record.report.message);

@@ -76,6 +76,16 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   reference_.resize(n + m);
 }
 
+void GeneralizedAlphaIntegrator::restore(History history) {
+  check_size("algorithmic_acceleration", history.algorithmic_acceleration.size(), state_.q.size());
+  check_size("jerk", history.jerk.size(), state_.q.size());
+  algorithmic_acceleration_ = std::move(history.algorithmic_acceleration);
+  jerk_ = std::move(history.jerk);
+  last_step_ = history.last_step;
+  last_error_ = history.last_error;
+  mass_scale_ = history.mass_scale;
+}
+
 StepReport GeneralizedAlphaIntegrator::advance(double step) {
   StepReport report{.status = StepStatus::inadmissible, .next_step = step};
   const double limit = system_->step_limit(state_);

@@ -44,9 +44,21 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
 
   const State& state() const override { return state_; }
-  /// The method's own acceleration variable (for a restart point).
+  /// The method's own acceleration variable .
   const Eigen::VectorXd& algorithmic_acceleration() const { return algorithmic_acceleration_; }
   void set_algorithmic_acceleration(Eigen::VectorXd value) { algorithmic_acceleration_ = std::move(value); }
+  /// What the method keeps between steps besides the state.
+  struct History {
+    Eigen::VectorXd algorithmic_acceleration;  ///< (n) its own acceleration variable
+    Eigen::VectorXd jerk;                      ///< (n) d3q/dt3 over the last step
+    double last_step = 0, last_error = 0, mass_scale = 1;
+  };
+  History history() const {
+    return {algorithmic_acceleration_, jerk_, last_step_, last_error_, mass_scale_};
+  }
+  /// Goes on as the integrator would that had this history and the same state and settings. Throws
+  /// std::invalid_argument for a history of the wrong size.
+  void restore(History history);
   /// (n+m) x (n+m) the scaled matrix of the last Newton iteration.
   const Eigen::SparseMatrix<double>& iteration_matrix() const { return kkt_; }
 

@@ -272,7 +272,7 @@ TEST_F(CaseFileTest, AProfileNamesItsFileAndTheAxisInThePlane) {
   EXPECT_TRUE(profile.x_in_plane);
   expect_error({R"(beams[0].section={"profile": {"file": "q.step"}})"}, "beams[0].section.profile.file",
                {"there is no file", "did you mean \"p.step\""});
-  expect_error({R"(beams[0].section={"profile": {"in_plane": "z"}})"}, "beams[0].section.profile",
+  expect_error({R"(beams[0].section={"profile": {"in_plane": "x"}})"}, "beams[0].section.profile",
                {"\"file\" is missing"});
 }
 

@@ -6,10 +6,12 @@
 #include <sstream>
 
 #include "tests/pipelines/case_text.h"
+#include "tests/pipelines/frames.h"
 
 namespace nurbeam {
 namespace {
 
+using test::expect_equal;
 using test::TemporaryDirectory;
 
 /// A frame of two beams, one probe and one body; all numbers differ and depend on `time`.
@@ -149,52 +151,6 @@ TEST(Results, ATimeOutsideTheStoredRangeNamesTheRange) {
       EXPECT_NE(std::string(error.what()).find("from 0.25 s to 0.75 s"), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find("results.nc"), std::string::npos);
     }
-  }
-}
-
-void expect_equal(const Frame& a, const Frame& b) {
-  const auto equal = [](const PointRecord& x, const PointRecord& y) {
-    return x.position == y.position && x.velocity == y.velocity;
-  };
-  EXPECT_EQ(a.time, b.time);
-  EXPECT_EQ(a.step, b.step);
-  EXPECT_EQ(a.newton_iterations, b.newton_iterations);
-  EXPECT_EQ(a.energy.kinetic, b.energy.kinetic);
-  EXPECT_EQ(a.energy.dissipated, b.energy.dissipated);
-  EXPECT_EQ(a.energy.total, b.energy.total);
-  ASSERT_EQ(a.probes.size(), b.probes.size());
-  for (std::size_t i = 0; i < a.probes.size(); ++i) EXPECT_TRUE(equal(a.probes[i], b.probes[i]));
-  ASSERT_EQ(a.bodies.size(), b.bodies.size());
-  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-    EXPECT_TRUE(equal(a.bodies[i].point, b.bodies[i].point));
-    EXPECT_EQ(a.bodies[i].s, b.bodies[i].s);
-    EXPECT_EQ(a.bodies[i].joint_force, b.bodies[i].joint_force);
-  }
-  ASSERT_EQ(a.beams.size(), b.beams.size());
-  for (std::size_t i = 0; i < a.beams.size(); ++i) {
-    EXPECT_EQ(a.beams[i].length, b.beams[i].length);
-    EXPECT_EQ(a.beams[i].node_positions, b.beams[i].node_positions);
-    EXPECT_EQ(a.beams[i].node_slopes, b.beams[i].node_slopes);
-    EXPECT_EQ(a.beams[i].node_s, b.beams[i].node_s);
-    ASSERT_EQ(a.beams[i].elements.size(), b.beams[i].elements.size());
-    for (std::size_t e = 0; e < a.beams[i].elements.size(); ++e) {
-      const ElementRecord &x = a.beams[i].elements[e], &y = b.beams[i].elements[e];
-      EXPECT_EQ(x.control_points, y.control_points);
-      EXPECT_EQ(x.s_start, y.s_start);
-      EXPECT_EQ(x.s_end, y.s_end);
-      EXPECT_EQ(x.strain, y.strain);
-      EXPECT_EQ(x.curvature, y.curvature);
-      EXPECT_EQ(x.axial_force, y.axial_force);
-      EXPECT_EQ(x.bending_moment, y.bending_moment);
-      EXPECT_EQ(x.velocity, y.velocity);
-    }
-  }
-  ASSERT_EQ(a.steps.size(), b.steps.size());
-  for (std::size_t i = 0; i < a.steps.size(); ++i) {
-    EXPECT_EQ(a.steps[i].time, b.steps[i].time);
-    EXPECT_EQ(a.steps[i].size, b.steps[i].size);
-    EXPECT_EQ(a.steps[i].newton_iterations, b.steps[i].newton_iterations);
-    EXPECT_EQ(a.steps[i].rejected, b.steps[i].rejected);
   }
 }
 

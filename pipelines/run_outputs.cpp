@@ -1,0 +1,130 @@
+#include "pipelines/run_outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cad_import/export_curves.h"
+#include "pipelines/export_results.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// Between two restart points, at least.
+constexpr std::chrono::seconds restart_interval{2};
+
+void to_world(const ModelFrame& f, PointRecord& p) {
+  p.position = f.to_world(p.position);
+  p.velocity = f.direction_to_world(p.velocity);
+}
+
+Frame to_world(const ModelFrame& f, Frame frame) {
+  for (PointRecord& p : frame.probes) to_world(f, p);
+  for (BodyRecord& body : frame.bodies) {
+    to_world(f, body.point);
+    body.joint_force = f.direction_to_world(body.joint_force);
+  }
+  for (BeamRecord& beam : frame.beams) {
+    for (ElementRecord& e : beam.elements)
+      for (int i = 0; i < 4; ++i) {
+        const double w = e.control_points(3, i);
+        const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
+        e.control_points.col(i).head<3>() = w * p;
+        e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
+      }
+    for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
+    for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
+  }
+  frame.energy.gravity += f.gravity_energy;
+  frame.energy.total += f.gravity_energy;
+  return frame;
+}
+
+ResultsWriter results_writer(const CaseFile& c, const std::filesystem::path& directory,
+                             const RestartPoint* from) {
+  if (from) return ResultsWriter::resume(directory, frame_names(c), c.name, from->frames);
+  return ResultsWriter(directory, frame_names(c), c.name);
+}
+
+std::vector<double> times_before(const std::filesystem::path& directory, const RestartPoint* from) {
+  return from && from->frames > 0 ? StoredFrames(directory).times() : std::vector<double>{};
+}
+
+}  // namespace
+
+FrameNames frame_names(const CaseFile& c) {
+  FrameNames names;
+  for (const CaseProbe& probe : c.output.probes) names.probes.push_back(probe.name);
+  for (const CaseBody& body : c.bodies) names.bodies.push_back(body.name);
+  for (const CaseBeam& beam : c.beams) names.beams.push_back(beam.name);
+  return names;
+}
+
+RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
+                       const std::filesystem::path& directory, std::string inputs, const RestartPoint* from)
+    : case_(case_file),
+      built_(built),
+      directory_(directory),
+      inputs_(std::move(inputs)),
+      results_(results_writer(case_file, directory, from)) {
+  if (case_.output.paraview)
+    paraview_.emplace(directory_, frame_names(case_), times_before(directory_, from));
+}
+
+template <class Work>
+void RunOutputs::timed(Work work) {
+  const auto start = Clock::now();
+  work();
+  seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void RunOutputs::write(const Frame& local) {
+  timed([&] {
+    const Frame frame = to_world(built_.frame, local);
+    results_.write(frame);
+    if (paraview_) paraview_->write(frame);
+    write_cad(frame);
+  });
+}
+
+bool RunOutputs::restart_point_due() const { return Clock::now() - last_restart_ >= restart_interval; }
+
+void RunOutputs::write(const RestartPoint& point) {
+  timed([&] {
+    results_.close_chunk();
+    if (paraview_) paraview_->write_index();
+    RestartPoint mine = point;
+    mine.inputs = inputs_;
+    write_restart_point(directory_ / "restart.nc", mine);
+    last_restart_ = Clock::now();
+  });
+}
+
+void RunOutputs::finish() {
+  timed([&] {
+    results_.finish();
+    if (paraview_) paraview_->write_index();
+  });
+}
+
+// The deformed curves, if the case asks for them at this frame's time.
+void RunOutputs::write_cad(const Frame& frame) const {
+  const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
+  const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
+  const bool asked = std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
+                                 [&](double t) { return std::abs(t - frame.time) < same; });
+  if (!asked && !statics) return;
+  std::vector<NamedCurve> curves;
+  for (std::size_t b = 0; b < frame.beams.size(); ++b)
+    curves.push_back({built_.curve_names[b], deformed_curve(frame.beams[b].elements)});
+  for (const std::string& format : case_.output.cad_formats) {
+    std::ostringstream name;
+    name << "deformed";
+    if (!statics) name << "_t" << frame.time;
+    name << (format == "iges" ? ".igs" : ".step");
+    export_curves(directory_ / name.str(), curves, parse_length_unit(case_.output.cad_unit));
+  }
+}
+
+}  // namespace nurbeam
