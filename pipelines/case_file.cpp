@@ -284,6 +284,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .per_segment = optional_integer(elements, "per_segment"),
                    .grading = number(elements, "grading", 0)};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
+  beam.ring = flag(json, "closed");
   beam.hinged_corners = text(json, "corners") == "hinge";
   beam.element = chosen<ElementKind>(
       json, "element", {{"ale-rancf", ElementKind::ale_rancf}, {"ale-ancf", ElementKind::ale_ancf}});

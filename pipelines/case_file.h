@@ -75,6 +75,7 @@ struct CaseBeam {
   std::string path;  ///< JSON path of this object, for messages
   CaseAxis axis;
   double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  bool ring = false;                      ///< the axis is closed, and so is the beam
   bool hinged_corners = false;            ///< a corner of the axis is a hinge; else it is an error
   CaseSection section;
   CaseMaterial material;

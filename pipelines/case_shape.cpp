@@ -128,6 +128,7 @@ Shape beam() {
        {"curvature", choice({"material", "spatial"}), "curvature measure"},
        {"form", choice({"variational", "virtual-work"}),
         "form of the forces on moving elements; virtual-work: the paper's, for comparison"},
+       {"closed", boolean(), "true: a ring, whose end is its start; else a closed axis is open at its seam"},
        {"corners", choice({"error", "hinge"}), "what a corner of the axis is"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
         "greatest deviation of the cubics from an axis of degree above 3"}});
