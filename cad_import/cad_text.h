@@ -12,6 +12,11 @@ namespace nurbeam {
 /// than rounding). Not to be called by two threads at once: OpenCASCADE's translators share global state.
 std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit);
 
+/// The text of a STEP file (AP214) with a manifold solid for each pipe, else as step_text. Throws
+/// std::runtime_error also when a sweep gives no valid solid of the volume pi r^2 L. To be called in a child
+/// process: OpenCASCADE's sweep may crash.
+std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit);
+
 /// The text of an IGES 5.3 file with the curves as entities 126, the name in a Name property (406 form 15)
 /// and its first eight characters in the label. Else as step_text.
 std::string iges_text(const std::vector<NamedCurve>& curves, LengthUnit unit);

@@ -1,16 +1,15 @@
 #include "cad_import/export_curves.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <fstream>
+#include <chrono>
+#include <cmath>
 #include <mutex>
 #include <stdexcept>
-#include <system_error>
 
 #include "cad_import/cad_text.h"
+#include "cad_import/child_process.h"
+#include "cad_import/write_file.h"
 
 namespace nurbeam {
 namespace {
@@ -38,40 +37,18 @@ void check_name(const std::string& name) {
   }
 }
 
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error("cannot write " + file.string() + ": " + what);
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) fail(file, std::generic_category().message(errno));
-}
-
-// A reader of `file` sees the old content or the whole of the new one.
-void write_at_once(const fs::path& file, const std::string& text) {
-  fs::path temporary = file;
-  temporary += ".part" + std::to_string(getpid());
-  std::error_code ignored;
-  try {
-    write_text(temporary, text);
-    fs::rename(temporary, file);
-  } catch (const fs::filesystem_error& e) {
-    fs::remove(temporary, ignored);
-    fail(file, e.code().message());
-  } catch (const std::runtime_error&) {
-    fs::remove(temporary, ignored);
-    throw;
-  }
-}
-
 // OpenCASCADE's translators share global state.
 std::string cad_text(bool step, const std::vector<NamedCurve>& curves, LengthUnit unit) {
   static std::mutex opencascade;
   const std::lock_guard lock(opencascade);
   return step ? step_text(curves, unit) : iges_text(curves, unit);
+}
+
+void check_pipe(const NamedPipe& pipe) {
+  check_name(pipe.axis.name);
+  if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
+    throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + std::to_string(pipe.radius) +
+                                " m; it must be positive");
 }
 
 }  // namespace
@@ -89,6 +66,26 @@ void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, 
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
   for (const NamedCurve& curve : curves) check_name(curve.name);
   write_at_once(file, cad_text(step, curves, unit));
+}
+
+std::optional<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
+                                        LengthUnit unit) {
+  if (!is_step_name(file))
+    throw std::invalid_argument("solids are written to STEP only; name " + file.string() + " .step");
+  if (pipes.empty())
+    throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
+  for (const NamedPipe& pipe : pipes) check_pipe(pipe);
+  constexpr std::chrono::seconds patience{120};
+  const ChildResult result = run_in_child([&] { return step_solid_text(pipes, unit); }, {patience});
+  if (result.status == ChildResult::Status::finished) {
+    write_at_once(file, result.output);
+    return std::nullopt;
+  }
+  const std::string reason = result.status == ChildResult::Status::timed_out
+                                 ? "sweeping takes longer than " + std::to_string(patience.count()) + " s"
+                                 : result.complaint;
+  return Diagnostic{Severity::error, file.string(),
+                    "not written: " + reason + "; write the curves, which have every shape"};
 }
 
 }  // namespace nurbeam

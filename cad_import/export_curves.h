@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cad_import/import_report.h"
 #include "nurbs/nurbs_curve.h"
 
 namespace nurbeam {
@@ -10,6 +12,12 @@ namespace nurbeam {
 struct NamedCurve {
   std::string name;
   NurbsCurve curve;
+};
+
+/// A curve with a circular section.
+struct NamedPipe {
+  NamedCurve axis;
+  double radius;  ///< [m]
 };
 
 enum class LengthUnit { metre, millimetre, inch };
@@ -22,5 +30,13 @@ LengthUnit parse_length_unit(const std::string& text);
 /// name with a control character; std::runtime_error when the file cannot be written (it is then as it was
 /// before).
 void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
+
+/// Writes each pipe as a solid (its axis swept by a disk, ends cut square) under its name, to a STEP file,
+/// else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with pi r^2 L
+/// within 1e-3. When a curve cannot be swept (a corner, a bend sharper than the radius) nothing is written
+/// and the Diagnostic says why; it is empty when the file was written. Throws std::invalid_argument also for
+/// another extension than .step or .stp and for a radius that is not positive.
+[[nodiscard]] std::optional<Diagnostic> export_solids(const std::filesystem::path& file,
+                                                      const std::vector<NamedPipe>& pipes, LengthUnit unit);
 
 }  // namespace nurbeam

@@ -168,6 +168,13 @@ double unit_in_metres(int flag, const std::string& name) {
          "unit flag " + std::to_string(flag) + " with name '" + name +
              "' is no length unit; known are flags 1 to 11 and the names INCH MM FT MI M KM MIL UM CM UIN");
   }
+  const auto* const named =
+      std::find_if(kUnits.begin(), kUnits.end(), [&](const IgesUnit& u) { return u.name == wanted; });
+  if (named != kUnits.end() && named->in_metres != unit->in_metres) {
+    fail(kUnitName, "unit flag " + std::to_string(flag) + " is " + std::string(unit->name) +
+                        ", but the name is '" + name +
+                        "'; they must agree, and no one can tell which is right");
+  }
   return unit->in_metres;
 }
 

@@ -13,7 +13,7 @@ struct IgesGlobal {
 
 /// The Global section of an IGES file with this content (IGES 5.3, 2.2.4.3), read independently of
 /// OpenCASCADE. Throws std::runtime_error naming the parameter when a Hollerith count does not lead to a
-/// delimiter, when a number is none, or when flag and name give no known unit.
+/// delimiter, when a number is none, when flag and name give no known unit or name two different ones.
 IgesGlobal parse_iges_global(const std::string& content);
 
 }  // namespace nurbeam

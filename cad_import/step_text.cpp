@@ -1,5 +1,12 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepOffsetAPI_MakePipe.hxx>
 #include <BRep_Builder.hxx>
+#include <Eigen/Geometry>
+#include <GProp_GProps.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -14,15 +21,22 @@
 #include <StepGeom_TrimmedCurve.hxx>
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_GeometricSetSelect.hxx>
+#include <StepShape_ManifoldSolidBrep.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Wire.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -169,7 +183,79 @@ std::string text(STEPControl_Writer& writer) {
   return step_encoded(stream.str());
 }
 
+gp_Vec vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// OpenCASCADE does not always say that a sweep went wrong.
+void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
+  constexpr double allowed = 1e-3;
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(solid, properties, 0.01 * allowed);
+  const double radius = pipe.radius * kMillimetresPerMetre;
+  // Pappus: a section whose centroid is on the curve sweeps its area times the length.
+  const double expected = std::numbers::pi * radius * radius * length(pipe.axis.curve) * kMillimetresPerMetre;
+  if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
+      std::abs(properties.Mass() - expected) > allowed * expected)
+    throw std::runtime_error("OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
+                             " m along the curve '" + pipe.axis.name +
+                             "'; it may have a corner or bend more sharply than that radius");
+}
+
+// Largest curvature |r' x r''| / |r'|^3 at 33 places of each span [1/m].
+double largest_curvature(const NurbsCurve& curve) {
+  constexpr int count = 32;
+  const std::vector<double> breaks = curve.knots().breaks();
+  double largest = 0;
+  for (std::size_t j = 0; j + 1 < breaks.size(); ++j)
+    for (int i = 0; i <= count; ++i) {
+      const double u = breaks[j] + (breaks[j + 1] - breaks[j]) * i / count;
+      const Eigen::Matrix3Xd d = curve.derivatives(u, 2);
+      const Eigen::Vector3d first = d.col(1), second = d.col(2);
+      largest = std::max(largest, first.cross(second).norm() / std::pow(first.norm(), 3));
+    }
+  return largest;
+}
+
+TopoDS_Shape swept(const NamedPipe& pipe) {
+  const NurbsCurve& curve = pipe.axis.curve;
+  if (const double curvature = largest_curvature(curve); curvature * pipe.radius >= 1)
+    throw std::runtime_error("the curve '" + pipe.axis.name + "' bends to a radius of " +
+                             std::to_string(1 / curvature) + " m, too sharply for a section of radius " +
+                             std::to_string(pipe.radius) + " m");
+  const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
+  const gp_Pnt centre(vector(kMillimetresPerMetre * start.col(0)).XYZ());
+  const gp_Circ circle(gp_Ax2(centre, gp_Dir(vector(start.col(1)))), pipe.radius * kMillimetresPerMetre);
+  const TopoDS_Wire rim = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
+  const TopoDS_Wire spine = BRepBuilderAPI_MakeWire(edge(pipe.axis)).Wire();
+  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, BRepBuilderAPI_MakeFace(rim).Face()).Shape();
+  check_pipe(solid, pipe);
+  return solid;
+}
+
+// The solids of the model stand in the order in which they were transferred.
+void give_names(const StepData_StepModel& model, const std::vector<NamedPipe>& pipes) {
+  std::size_t named = 0;
+  for (int i = 1; i <= model.NbEntities() && named < pipes.size(); ++i)
+    if (const auto solid = Handle(StepShape_ManifoldSolidBrep)::DownCast(model.Value(i)))
+      solid->SetName(new TCollection_HAsciiString(pipes[named++].axis.name.c_str()));
+  if (named != pipes.size()) throw std::runtime_error("OpenCASCADE did not translate all solids to STEP");
+}
+
 }  // namespace
+
+std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit) {
+  try {
+    const SilentMessenger silence;
+    set_parameters(unit);
+    STEPControl_Writer writer;
+    for (const NamedPipe& pipe : pipes)
+      if (writer.Transfer(swept(pipe), STEPControl_ManifoldSolidBrep) != IFSelect_RetDone)
+        throw std::runtime_error("OpenCASCADE cannot translate the solids to STEP");
+    give_names(*writer.Model(), pipes);
+    return text(writer);
+  } catch (const Standard_Failure& e) {
+    throw std::runtime_error(std::string("OpenCASCADE cannot sweep a solid: ") + e.GetMessageString());
+  }
+}
 
 std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   try {

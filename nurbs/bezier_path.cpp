@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
 #include "nurbs/arc_length.h"
-#include "nurbs/closest_point.h"
+#include "nurbs/bezier.h"
 
 namespace nurbeam {
 namespace {
@@ -66,64 +67,119 @@ void append(BezierPath& path, const RationalCubic& cubic, double a, double b, in
   }
 }
 
-/// Homogeneous Bezier points of degree 1, 2 or 3, written with degree 3.
-Eigen::Matrix4d elevated(const Eigen::Matrix4Xd& bezier) {
-  Eigen::Matrix4d points;
-  if (bezier.cols() == 2)
-    points << bezier.col(0), (2 * bezier.col(0) + bezier.col(1)) / 3, (bezier.col(0) + 2 * bezier.col(1)) / 3,
-        bezier.col(1);
-  else if (bezier.cols() == 3)
-    points << bezier.col(0), (bezier.col(0) + 2 * bezier.col(1)) / 3, (2 * bezier.col(1) + bezier.col(2)) / 3,
-        bezier.col(2);
-  else
-    points = bezier;
-  return points;
-}
+// ------------------------------------------------------------------------------- degrees above three
 
-/// The cubic with the homogeneous end values and end derivatives of a Bezier curve of degree p >= 3.
-Eigen::Matrix4d hermite_cubic(const Eigen::Matrix4Xd& bezier) {
-  const Eigen::Index p = bezier.cols() - 1;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A curve as Bezier pieces on the intervals between its breaks.
+struct Source {
+  std::vector<double> breaks;
+  std::vector<BezierPoints> pieces;
+
+  /// The piece that begins at u or holds it.
+  std::size_t piece_at(double u) const {
+    const auto after = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, u);
+    return after - breaks.begin() - 1;
+  }
+  /// The part of piece j on [a, b], which lies within it.
+  BezierPoints part_of(std::size_t j, double a, double b) const {
+    const double from = breaks[j], length = breaks[j + 1] - from;
+    if (a == from && b == breaks[j + 1]) return pieces[j];
+    return part(pieces[j], (a - from) / length, b == breaks[j + 1] ? 1 : (b - from) / length);
+  }
+};
+
+/// The cubic with the homogeneous end values and end derivatives of the source on [a, b], and a proven bound
+/// on its distance from it [m].
+struct Approximation {
+  Eigen::Matrix4d points;
+  double deviation;
+};
+
+Approximation hermite(const Source& source, double a, double b) {
+  constexpr int halvings = 3;
+  const std::size_t first = source.piece_at(a);
+  std::size_t last = first;
+  while (source.breaks[last + 1] < b) ++last;
+  std::vector<BezierPoints> parts;
+  std::vector<double> shares{0};  // where the parts end in [a, b], as shares of it
+  for (std::size_t j = first; j <= last; ++j) {
+    const double end = std::min(b, source.breaks[j + 1]);
+    parts.push_back(source.part_of(j, std::max(a, source.breaks[j]), end));
+    shares.push_back(j == last ? 1 : (end - a) / (b - a));
+  }
+  const Eigen::Index p = parts[0].cols() - 1;
+  const BezierPoints &front = parts.front(), &back = parts.back();
   const double third = double(p) / 3;
-  Eigen::Matrix4d points;
-  points << bezier.col(0), bezier.col(0) + third * (bezier.col(1) - bezier.col(0)),
-      bezier.col(p) - third * (bezier.col(p) - bezier.col(p - 1)), bezier.col(p);
-  return points;
-}
-
-/// The left and right part of a homogeneous Bezier curve of any degree, cut at u (de Casteljau).
-std::pair<Eigen::Matrix4Xd, Eigen::Matrix4Xd> split(Eigen::Matrix4Xd right, double u) {
-  Eigen::Matrix4Xd left = right;
-  for (Eigen::Index r = 1; r < right.cols(); ++r) {
-    for (Eigen::Index j = 0; j + r < right.cols(); ++j)
-      right.col(j) = (1 - u) * right.col(j) + u * right.col(j + 1);
-    left.col(r) = right.col(0);
+  Approximation cubic;
+  cubic.points << front.col(0), front.col(0) + third / shares[1] * (front.col(1) - front.col(0)),
+      back.col(p) - third / (1 - shares[shares.size() - 2]) * (back.col(p) - back.col(p - 1)), back.col(p);
+  cubic.deviation = cubic.points.row(3).minCoeff() > 0 ? 0 : never;
+  for (std::size_t j = 0; j < parts.size() && cubic.deviation < never; ++j) {
+    const BezierPoints ours = elevated(part(cubic.points, shares[j], shares[j + 1]), p);
+    cubic.deviation = std::max(cubic.deviation, distance_bound(parts[j], ours, halvings));
   }
-  return {left, right};
+  return cubic;
 }
 
-/// Appends Hermite cubics for the Bezier curve, whose source lives on [a, b], halved until each is within the
-/// tolerance [m].
-void approximate(BezierPath& path, const Eigen::Matrix4Xd& bezier, double a, double b, double tolerance) {
-  const Eigen::Matrix4d points = hermite_cubic(bezier);
-  if (points.row(3).minCoeff() > 0) {
-    const BezierPath cubic{{RationalCubic(points)}, {0, 1}, 0};
-    const auto source = [&bezier](double u) -> Eigen::Vector3d {
-      return split(bezier, u).second.col(0).hnormalized();
-    };
-    // The middle is where Hermite interpolation errs most: it turns most hopeless cubics down at once.
-    double deviation = closest_point(cubic, source(0.5)).distance;
-    if (deviation <= tolerance) deviation = largest_distance(source, cubic);
-    if (deviation <= tolerance) {
-      path.deviation = std::max(path.deviation, deviation);
-      append(path, cubic.segments.front(), a, b);
-      return;
+/// The end of the longest interval from a, no farther than `end`, on which one cubic is within the tolerance.
+double longest_interval(const Source& source, double a, double end, double tolerance) {
+  constexpr int steps = 30;
+  if (hermite(source, a, end).deviation <= tolerance) return end;
+  double good = 0, bad = 1;  // shares of [a, end]
+  for (int i = 0; i < steps && (good == 0 || bad - good > 1e-3 * good); ++i) {
+    const double middle = good == 0 ? 0.5 * bad : 0.5 * (good + bad);
+    (hermite(source, a, a + middle * (end - a)).deviation <= tolerance ? good : bad) = middle;
+  }
+  return a + (good > 0 ? good : bad) * (end - a);
+}
+
+/// The breaks of the cubics from `start` to `end`, each as long as the tolerance [m] allows; as soon as there
+/// are more than `most` of them the rest is left out.
+std::vector<double> greedy_breaks(const Source& source, double start, double end, double tolerance,
+                                  std::size_t most) {
+  std::vector<double> breaks{start};
+  while (breaks.back() < end && breaks.size() <= most + 1)
+    breaks.push_back(longest_interval(source, breaks.back(), end, tolerance));
+  return breaks;
+}
+
+/// The breaks of the fewest cubics within the tolerance, as even in their deviation as that number allows.
+std::vector<double> fewest_breaks(const Source& source, double start, double end, double tolerance) {
+  std::vector<double> best = greedy_breaks(source, start, end, tolerance, std::size_t(1) << 30);
+  double low = 0.05 * tolerance, high = tolerance;
+  for (int i = 0; best.size() > 2 && i < 6; ++i) {
+    const double middle = 0.5 * (low + high);
+    std::vector<double> breaks = greedy_breaks(source, start, end, middle, best.size() - 1);
+    const bool enough = breaks.size() <= best.size() && breaks.back() == end;
+    (enough ? high : low) = middle;
+    if (enough) best = std::move(breaks);
+  }
+  return best;
+}
+
+/// Appends Hermite cubics within the tolerance [m] of the curve. Where it is only C0 a cubic ends.
+void approximate(BezierPath& path, const NurbsCurve& curve, double tolerance) {
+  Source source{curve.knots().breaks(), {}};
+  std::vector<double> ends;
+  for (std::size_t j = 0; j + 1 < source.breaks.size(); ++j) {
+    source.pieces.push_back(curve.bezier_points(curve.knots().find_span(source.breaks[j])));
+    const double end = source.breaks[j + 1];
+    if (end == curve.knots().end() || curve.knots().multiplicity(end) >= curve.degree()) ends.push_back(end);
+  }
+  double start = source.breaks.front();
+  for (const double end : ends) {
+    const std::vector<double> breaks = fewest_breaks(source, start, end, tolerance);
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      const Approximation cubic = hermite(source, breaks[i], breaks[i + 1]);
+      path.deviation = std::max(path.deviation, cubic.deviation);
+      append(path, RationalCubic(cubic.points), breaks[i], breaks[i + 1]);
     }
+    start = end;
   }
-  const auto [first, second] = split(bezier, 0.5);
-  const double middle = 0.5 * (a + b);
-  approximate(path, first, a, middle, tolerance);
-  approximate(path, second, middle, b, tolerance);
 }
+
+// ------------------------------------------------------------------------------------------- chains
 
 /// The cubic with its end moved to `point`; its end direction stays.
 RationalCubic with_end_at(const RationalCubic& cubic, const Eigen::Vector3d& point) {
@@ -213,13 +269,14 @@ BezierPath BezierPath::from_nurbs(const NurbsCurve& curve, double tolerance) {
   const double round_off = 1e-14 * curve.control_points().colwise().hnormalized().cwiseAbs().maxCoeff();
   const std::vector<double> source_breaks = curve.knots().breaks();
   BezierPath path{{}, {source_breaks.front()}, 0};
+  if (!exact) {
+    approximate(path, curve, std::max(tolerance, round_off));
+    return path;
+  }
   for (std::size_t i = 0; i + 1 < source_breaks.size(); ++i) {
     const double a = source_breaks[i], b = source_breaks[i + 1];
-    const Eigen::Matrix4Xd bezier = curve.bezier_points(curve.knots().find_span(a));
-    if (exact)
-      append(path, RationalCubic(elevated(bezier)), a, b);
-    else
-      approximate(path, bezier, a, b, std::max(tolerance, round_off));
+    const BezierPoints bezier = curve.bezier_points(curve.knots().find_span(a));
+    append(path, RationalCubic(elevated(bezier, 3)), a, b);
   }
   return path;
 }

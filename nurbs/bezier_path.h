@@ -15,19 +15,21 @@ struct Corner {
   double angle;           ///< between the two tangents [rad]
 };
 
-/// Cubics in order, their break parameters in the source, and the measured deviation from it.
+/// Cubics in order, their break parameters in the source, and a bound on the deviation from it.
 ///
 /// Consecutive segments share their end points (to the source's own accuracy).
 struct BezierPath {
   std::vector<RationalCubic> segments;
   std::vector<double> breaks;  ///< segments.size() + 1 parameters in the source curve, increasing
-  double deviation = 0;  ///< largest measured distance from the source [m]; 0 where the conversion is exact
+  double deviation = 0;        ///< bound on the distance from the source [m]; 0 where the conversion is exact
 
   /// Knot insertion to full multiplicity, degree elevation in homogeneous coordinates: exact (1e-15) up to
-  /// degree 3. Above, C1 Hermite interpolation in homogeneous coordinates, bisected until the measured
-  /// deviation is below `tolerance` [m]. Throws std::invalid_argument for tolerance <= 0 when degree > 3.
-  /// A tolerance below 1e-14 of the coordinates' size is taken as that; `deviation` tells what was reached.
-  /// Every rational piece that turns by more than 90 degrees is split until it does not (a cusp: ten times).
+  /// degree 3. Above, C1 Hermite interpolation in homogeneous coordinates on intervals each as long as the
+  /// tolerance [m] allows, across the source's knots but for those where it is only C0; the deviation is
+  /// proven, at equal parameters, from Bezier points of the difference. Throws std::invalid_argument for
+  /// tolerance <= 0 when degree > 3. A tolerance below 1e-14 of the coordinates' size is taken as that;
+  /// `deviation` tells what was reached. Every rational piece that turns by more than 90 degrees is split
+  /// until it does not (a cusp: ten times).
   static BezierPath from_nurbs(const NurbsCurve& curve, double tolerance);
 
   /// One cubic NURBS curve through all segments with triple interior knots at `breaks`, segment weights

@@ -65,6 +65,8 @@ bool fits_json_type(const Shape& shape, const Json& value) {
   switch (shape.kind) {
     case Kind::object:
       return value.is_object();
+    case Kind::array:
+      return value.is_array();
     case Kind::integer:
       return value.is_number();
     default:

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "cad_import/cad_format.h"
 #include "pipelines/case_json.h"
 #include "pipelines/closest_name.h"
 #include "pipelines/quantity.h"
@@ -262,7 +263,9 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
   }
   if (has(section, "radius")) {
     const double r = number(section, "radius");
-    return {.area = std::numbers::pi * r * r, .second_moment = std::numbers::pi * std::pow(r, 4) / 4};
+    return {.area = std::numbers::pi * r * r,
+            .second_moment = std::numbers::pi * std::pow(r, 4) / 4,
+            .radius = r};
   }
   return {.area = number(section, "area"), .second_moment = number(section, "second_moment")};
 }
@@ -395,13 +398,18 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings&
     output.cad_formats = {"step"};
     output.cad_times = {analysis.end_time};
     output.cad_unit = text(cad, "unit", output.cad_unit);
+    output.cad_parameter = chosen<CurveParameter>(
+        cad, "parameter", {{"free", CurveParameter::free}, {"material", CurveParameter::material}});
     if (has(cad, "formats")) {
       output.cad_formats.clear();
       for_each_item(cad, "formats", "", [&](const Json& format, const std::string&) {
         output.cad_formats.push_back(format.get<std::string>());
       });
     }
-    if (has(cad, "times")) {
+    if (has(cad, "times") && cad["times"].is_string()) {
+      output.cad_at_all_times = true;
+      output.cad_times.clear();
+    } else if (has(cad, "times")) {
       output.cad_times = numbers(cad, "times");
     }
   }
@@ -566,6 +574,40 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   }
 }
 
+void check_solids(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
+  if (solid == formats.end()) return;
+  for (const CaseBeam& beam : c.beams)
+    if (!beam.section.radius)
+      findings.error(child("output.cad.formats", solid - formats.begin()),
+                     "is \"step-solid\", but the section of the beam " + in_quotes(beam.name) +
+                         " has no radius; give it one, or use \"step\" for the curve");
+}
+
+bool is_step_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head(1000, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return format_of(head) == CadFormat::step;
+}
+
+void check_source(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto source = std::find(formats.begin(), formats.end(), "step-source");
+  if (source == formats.end()) return;
+  const auto* const first = std::get_if<AxisFile>(&c.beams.front().axis.source);
+  for (const CaseBeam& beam : c.beams) {
+    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
+    if (first && axis && axis->path == first->path && is_step_file(axis->path)) continue;
+    findings.error(child("output.cad.formats", source - formats.begin()),
+                   "is \"step-source\", but the axis of the beam " + in_quotes(beam.name) + " is not from " +
+                       (first && axis && axis != first ? "the same" : "a") +
+                       " STEP file; use \"step\" for the curve alone");
+    return;
+  }
+}
+
 }  // namespace
 
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -584,6 +626,8 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
     check_references(*json, findings);
     check_bodies(*json, *value, findings);
     check_times(*json, *value, findings);
+    check_solids(*value, findings);
+    check_source(*value, findings);
   }
   if (findings.has_errors() || !diagnostics.empty()) {
     value.reset();

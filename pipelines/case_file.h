@@ -9,6 +9,7 @@
 
 #include "cad_import/import_report.h"
 #include "fem/beam_model.h"
+#include "nurbs/smooth_nurbs.h"
 
 namespace nurbeam {
 
@@ -46,6 +47,7 @@ struct CaseProfile {
 struct CaseSection {
   double area = 0;                          ///< [m^2]
   double second_moment = 0;                 ///< [m^4]
+  std::optional<double> radius = {};        ///< of a disk [m]
   std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
 };
 
@@ -141,9 +143,11 @@ struct CaseProbe {
 
 struct CaseOutput {
   std::optional<double> every;           ///< [s]
-  std::vector<std::string> cad_formats;  ///< "step", "iges"
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid", "step-source"
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
+  bool cad_at_all_times = false;         ///< every stored frame, numbered
   std::string cad_unit = "mm";
+  CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
   bool paraview = false;  ///< a series of files for ParaView
 };

@@ -187,9 +187,13 @@ Shape analysis() {
 }
 
 Shape output() {
-  const Shape cad = object({{"formats", array(choice({"step", "iges"}), 1), "file formats"},
-                            {"times", array(quantity(Dimension::time, not_negative())), "times to write"},
-                            {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files"}});
+  const Shape cad =
+      object({{"formats", array(choice({"step", "iges", "step-solid", "step-source"}), 1), "file formats"},
+              {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
+               "times to write, or all stored frames as a numbered sequence"},
+              {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files"},
+              {"parameter", choice({"free", "material"}),
+               "parameter of the curves: free for the fewest control points, or reference arc length"}});
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});

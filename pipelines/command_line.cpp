@@ -121,20 +121,38 @@ int run_command(const Arguments& arguments, Streams streams) {
                                .resume = arguments.has("--resume")});
 }
 
-std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time) {
+std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time,
+                                                        CurveParameter parameter) {
   try {
-    return stored_curves(directory, time);
+    return stored_curves(directory, time, parameter);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(error.what());  // what cannot be read is bad input
   }
+}
+
+CurveParameter curve_parameter(const std::string& name) {
+  if (name == "free") return CurveParameter::free;
+  if (name == "material") return CurveParameter::material;
+  throw UsageError("--parameter: there is no " + in_quotes(name) + known_names(name, {"free", "material"}));
 }
 
 int export_command(const Arguments& arguments, Streams streams) {
   const double time = quantity_argument("--time", arguments.required("--time"), Dimension::time);
   const std::string file = arguments.required("--to");
   const LengthUnit unit = parse_length_unit(arguments.value("--unit", "mm"));
-  const auto [stored_time, curves] = read_results(arguments.positional[0], time);
-  export_curves(file, curves, unit);
+  const CurveParameter parameter = curve_parameter(arguments.value("--parameter", "free"));
+  const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
+  if (arguments.has("--solid")) {
+    const double radius = quantity_argument("--solid", arguments.required("--solid"), Dimension::length);
+    std::vector<NamedPipe> pipes;
+    for (const NamedCurve& curve : curves) pipes.push_back({curve, radius});
+    if (const auto problem = export_solids(file, pipes, unit)) {
+      print_diagnostics(streams.err, {*problem});
+      return not_written;
+    }
+  } else {
+    export_curves(file, curves, unit);
+  }
   streams.err << "note: " << file << ": the curves at " << stored_time << " s, the stored time nearest to "
               << time << " s\n";
   return done;
@@ -215,11 +233,12 @@ const std::vector<Command>& commands() {
        run_command,
        not_written},
       {"export",
-       "RESULTS_DIR --time T --to FILE.step|.igs [--unit mm|m|inch]",
-       "writes the deformed curves at a stored time",
+       "RESULTS_DIR --time T --to FILE.step|.igs [--unit mm|m|inch] [--parameter free|material] "
+       "[--solid RADIUS]",
+       "writes the deformed curves at a stored time; with --solid, as swept disks of that radius",
        1,
        1,
-       {{"--time", true}, {"--to", true}, {"--unit", true}},
+       {{"--time", true}, {"--to", true}, {"--unit", true}, {"--parameter", true}, {"--solid", true}},
        export_command,
        not_written},
       {"compare",

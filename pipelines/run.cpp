@@ -158,7 +158,7 @@ class Run {
     RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
     const SimulationReport simulated = simulate_into(outputs);
     outputs.finish();
-    summarise(simulated, outputs.seconds());
+    summarise(simulated, outputs);
     write_run_summary(options_.out / "run.json", summary_);
     if (simulated.status != SimulationStatus::done)
       tell(case_.path.string() + ": error: " + simulated.message);
@@ -202,10 +202,12 @@ class Run {
     return simulated;
   }
 
-  void summarise(const SimulationReport& simulated, double output_seconds) {
+  void summarise(const SimulationReport& simulated, const RunOutputs& outputs) {
     summary_.status = status_text(simulated.status, simulated.message);
-    summary_.wall_times.output = output_seconds;
-    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - output_seconds);
+    summary_.wall_times.output = outputs.seconds();
+    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
+    summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
+                                outputs.diagnostics().end());
     summary_.wall_times.length_control = simulated.length_control_seconds;
     if (from_) summary_.resumed_at = from_->state.t;
     summary_.end_time = simulated.time;

@@ -1,12 +1,5 @@
 #include "pipelines/run_outputs.h"
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
-#include "cad_import/export_curves.h"
-#include "pipelines/export_results.h"
-
 namespace nurbeam {
 
 namespace {
@@ -67,7 +60,8 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       built_(built),
       directory_(directory),
       inputs_(std::move(inputs)),
-      results_(results_writer(case_file, directory, from)) {
+      results_(results_writer(case_file, directory, from)),
+      cad_(case_file, built, directory, from ? from->frames : 0) {
   if (case_.output.paraview)
     paraview_.emplace(directory_, frame_names(case_), times_before(directory_, from));
 }
@@ -84,7 +78,7 @@ void RunOutputs::write(const Frame& local) {
     const Frame frame = to_world(built_.frame, local);
     results_.write(frame);
     if (paraview_) paraview_->write(frame);
-    write_cad(frame);
+    cad_.write(frame, diagnostics_);
   });
 }
 
@@ -106,25 +100,6 @@ void RunOutputs::finish() {
     results_.finish();
     if (paraview_) paraview_->write_index();
   });
-}
-
-// The deformed curves, if the case asks for them at this frame's time.
-void RunOutputs::write_cad(const Frame& frame) const {
-  const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
-  const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
-  const bool asked = std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
-                                 [&](double t) { return std::abs(t - frame.time) < same; });
-  if (!asked && !statics) return;
-  std::vector<NamedCurve> curves;
-  for (std::size_t b = 0; b < frame.beams.size(); ++b)
-    curves.push_back({built_.curve_names[b], deformed_curve(frame.beams[b].elements)});
-  for (const std::string& format : case_.output.cad_formats) {
-    std::ostringstream name;
-    name << "deformed";
-    if (!statics) name << "_t" << frame.time;
-    name << (format == "iges" ? ".igs" : ".step");
-    export_curves(directory_ / name.str(), curves, parse_length_unit(case_.output.cad_unit));
-  }
 }
 
 }  // namespace nurbeam

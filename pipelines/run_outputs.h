@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pipelines/build_model.h"
+#include "pipelines/cad_output.h"
 #include "pipelines/case_file.h"
 #include "pipelines/paraview.h"
 #include "pipelines/restart.h"
@@ -29,12 +30,13 @@ class RunOutputs {
   /// Puts all frames so far, and the point, on the disk.
   void write(const RestartPoint& point);
   void finish();
+  /// What could not be written into a CAD file; the run goes on.
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  void write_cad(const Frame& frame) const;
   template <class Work>
   void timed(Work work);
 
@@ -43,9 +45,11 @@ class RunOutputs {
   std::filesystem::path directory_;
   std::string inputs_;
   ResultsWriter results_;
+  CadOutput cad_;
   std::optional<ParaviewSeries> paraview_;
   Clock::time_point last_restart_ = Clock::now();
   double seconds_ = 0;
+  std::vector<Diagnostic> diagnostics_;
 };
 
 }  // namespace nurbeam

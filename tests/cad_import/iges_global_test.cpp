@@ -42,6 +42,15 @@ TEST(IgesGlobal, FlagThreeTakesTheUnitFromItsName) {
   EXPECT_NE(failure_of(with_unit("3,5HCUBIT")).find("CUBIT"), std::string::npos);
 }
 
+TEST(IgesGlobal, AFlagAndANameThatDisagreeAreAnError) {
+  const std::string message = failure_of(with_unit("2,4HINCH"));
+  EXPECT_NE(message.find("parameter 15"), std::string::npos) << message;
+  EXPECT_NE(message.find("MM"), std::string::npos) << message;
+  EXPECT_NE(message.find("INCH"), std::string::npos) << message;
+  EXPECT_EQ(parse_iges_global(with_unit("2,10HMILLIMETRE")).unit_in_metres, 1e-3);  // a name of no standard
+  EXPECT_EQ(parse_iges_global(with_unit("1,2HIN")).unit_in_metres, 0.0254);
+}
+
 TEST(IgesGlobal, AMissingUnitIsTheInchOfTheStandard) {
   EXPECT_EQ(parse_iges_global(with_unit(",")).unit_in_metres, 0.0254);
 }

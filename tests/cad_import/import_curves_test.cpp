@@ -195,6 +195,17 @@ TEST(ImportCurves, AWrongHollerithCountIsAnErrorNotASilentInch) {
   EXPECT_NE(report.diagnostics[0].message.find("Hollerith"), std::string::npos);
 }
 
+TEST(ImportCurves, UnitsThatDisagreeAreAnErrorThatNamesBoth) {
+  const ScratchDirectory scratch;
+  const std::string text = content_of(corpus_file("iges-126-bsplines.igs"));
+  const ImportReport report = import_curves(scratch.file("a.igs", with(text, "1,2HIN", "1,2HMM")));
+  EXPECT_FALSE(report.ok());
+  EXPECT_TRUE(report.curves.empty());
+  ASSERT_FALSE(report.diagnostics.empty());
+  EXPECT_NE(report.diagnostics.back().message.find("agree"), std::string::npos)
+      << report.diagnostics.back().message;
+}
+
 TEST(ImportCurves, AModelSpaceScaleThatIsNotAppliedIsNoted) {
   const ImportReport report = import_curves(corpus_file("iges-126-bsplines.igs"));
   ASSERT_EQ(report.diagnostics.size(), 1U);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <tuple>
 
 #include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
@@ -46,6 +47,17 @@ NurbsCurve undeformed_beam(const BezierPath& path) {
   return deformed_curve(testing::run_model(model, {0}, 1e-6).frames.at(0).beams.at(0).elements);
 }
 
+void expect_lowest_form(const std::string& entity, const NurbsCurve& curve) {
+  if (entity == "line") {
+    EXPECT_EQ(curve.degree(), 1);
+    EXPECT_EQ(curve.control_points().cols(), 2);
+  }
+  if (std::set<std::string>{"circle", "ellipse", "parabola", "hyperbola"}.contains(entity)) {
+    EXPECT_EQ(curve.degree(), 2);
+    EXPECT_LE(curve.control_points().cols(), 6);
+  }
+}
+
 class CorpusWalk : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(CorpusWalk, ReturnsEveryCurveWhereItWas) {
@@ -56,16 +68,19 @@ TEST_P(CorpusWalk, ReturnsEveryCurveWhereItWas) {
     beams.push_back({curve.name, undeformed_beam(BezierPath::from_nurbs(curve.curve, approximation))});
 
   const test::TemporaryDirectory directory;
-  for (const auto& [name, unit] :
-       {std::pair{"back.step", LengthUnit::millimetre}, {"back.igs", LengthUnit::inch}}) {
+  for (const auto& [name, unit, unit_name] : {std::tuple{"back.step", LengthUnit::millimetre, "mm"},
+                                              {"back.igs", LengthUnit::inch, "inch"},
+                                              {"back_in_metres.igs", LengthUnit::metre, "m"}}) {
     export_curves(directory.path() / name, beams, unit);
     const ImportReport back = import_curves(directory.path() / name);
     ASSERT_EQ(back.curves.size(), source.curves.size());
+    EXPECT_TRUE(back.diagnostics.empty());
+    EXPECT_EQ(back.unit, unit_name);
     for (std::size_t i = 0; i < back.curves.size(); ++i) {
       SCOPED_TRACE(std::string(name) + ", curve " + std::to_string(i + 1));
       const NurbsCurve& was = source.curves[i].curve;
       const double size = length(was);
-      const double allowed = was.degree() <= 3 ? 1e-9 * size : approximation;
+      const double allowed = was.degree() <= 3 ? 1e-12 * size : approximation;
       EXPECT_EQ(back.curves[i].name, source.curves[i].name);
       const BezierPath path = BezierPath::from_nurbs(back.curves[i].curve, approximation);
       const auto on_source = [&](double t) {
@@ -75,6 +90,9 @@ TEST_P(CorpusWalk, ReturnsEveryCurveWhereItWas) {
       if (was.degree() > 3) continue;
       EXPECT_NEAR(length(back.curves[i].curve), size, allowed);
       EXPECT_LT(hausdorff_distance(path, BezierPath::from_nurbs(was, approximation)), allowed);
+      EXPECT_LE(back.curves[i].curve.degree(), was.degree());
+      EXPECT_LE(back.curves[i].curve.control_points().cols(), was.control_points().cols());
+      expect_lowest_form(source.curves[i].entity, back.curves[i].curve);
     }
   }
 }

@@ -174,12 +174,44 @@ NurbsCurve quartic() {
 }
 
 TEST(BezierPathTest, TheDeviationOfAQuarticIsThatOfTheFormula) {
-  // Hermite interpolation of u^4/4 misses it by u^2 (1-u)^2 / 4 upwards; 1/64 at the middle. The distance is
-  // a little less than that, by the cosine of the slope and the curvature.
+  // Hermite interpolation of u^4/4 misses it by u^2 (1-u)^2 / 4 upwards; 1/64 at the middle.
   const BezierPath path = BezierPath::from_nurbs(quartic(), 1);
   ASSERT_EQ(path.segments.size(), 1u);
-  EXPECT_LT(path.deviation, 1.0 / 64);
-  EXPECT_GT(path.deviation, 0.95 / 64);
+  EXPECT_NEAR(path.deviation, 1.0 / 64, 1e-3 / 64);
+}
+
+TEST(BezierPathTest, AQuarticNeedsAsManyPiecesAsTheFormulaSays) {
+  // On an interval of length h the largest error is h^4 / 64.
+  for (const double tolerance : {1e-2, 1e-3, 3e-5, 1e-7, 1e-9}) {
+    const BezierPath path = BezierPath::from_nurbs(quartic(), tolerance);
+    EXPECT_EQ(path.segments.size(), std::size_t(std::ceil(std::pow(64 * tolerance, -0.25) * (1 - 1e-3))));
+    EXPECT_LE(path.deviation, tolerance);
+  }
+}
+
+TEST(BezierPathTest, KnotsThatDoNotShowCostNoPieces) {
+  // The same quartic with three more knots: de Boor points f(t_{i+1}, .., t_{i+4}) of (u, u^4/4), whose polar
+  // form is (mean, product / 4).
+  const std::vector<double> knots{0, 0, 0, 0, 0, 0.1, 0.5, 0.55, 1, 1, 1, 1, 1};
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 8);
+  for (int i = 0; i < 8; ++i) {
+    const double* t = knots.data() + i + 1;
+    points(0, i) = (t[0] + t[1] + t[2] + t[3]) / 4;
+    points(1, i) = t[0] * t[1] * t[2] * t[3] / 4;
+  }
+  const NurbsCurve curve = make_nurbs_curve(KnotVector(4, knots), points, Eigen::VectorXd::Ones(8));
+  EXPECT_EQ(BezierPath::from_nurbs(curve, 1e-4).segments.size(),
+            BezierPath::from_nurbs(quartic(), 1e-4).segments.size());
+}
+
+TEST(BezierPathTest, ACornerOfAQuarticStaysHoweverLooseTheTolerance) {
+  Eigen::Matrix3Xd points(3, 9);
+  points << 0, 1, 2, 3, 4, 4, 4, 4, 4, 0, 0, 0, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0;
+  const NurbsCurve curve = make_nurbs_curve(KnotVector(4, {0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2}), points,
+                                            Eigen::VectorXd::Ones(9));
+  const BezierPath path = BezierPath::from_nurbs(curve, 100);
+  ASSERT_EQ(path.segments.size(), 2u);
+  EXPECT_EQ(path.corners(1).size(), 1u);
 }
 
 TEST(BezierPathTest, TheDeviationFallsWithTheFourthPowerOfThePieces) {

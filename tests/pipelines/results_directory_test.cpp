@@ -35,8 +35,10 @@ TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
 
 TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
   const TemporaryDirectory temporary;
-  for (const char* name : {"histories.csv", "results.nc", "results.nc.part", "run.json", "deformed.step",
-                           "deformed_t0.5.igs", "deformed_t1e-05.step", "deformed_t0.5.step.part123"}) {
+  for (const char* name :
+       {"histories.csv", "results.nc", "results.nc.part", "run.json", "deformed.step", "deformed_t0.5.igs",
+        "deformed_t1e-05.step", "deformed_0012.igs", "deformed_t0.5_solid.step", "deformed_t0_source.step",
+        "deformed_t0.5.step.part123"}) {
     temporary.write(name, "");
   }
   const std::vector<std::string> others = {"deformed_tip.step", "notes.txt", "my_histories.csv",

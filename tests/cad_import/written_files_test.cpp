@@ -1,0 +1,240 @@
+// What we write, judged by OpenCASCADE's own readers, in their default settings, and checkers.
+
+#include <gtest/gtest.h>
+
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom_Curve.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_CheckSmallFace.hxx>
+#include <ShapeAnalysis_Edge.hxx>
+#include <ShapeAnalysis_FreeBounds.hxx>
+#include <ShapeAnalysis_Shell.hxx>
+#include <ShapeAnalysis_Wire.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Shell.hxx>
+#include <numbers>
+#include <stdexcept>
+
+#include "cad_import/export_curves.h"
+#include "cad_import/iges_global.h"
+#include "nurbs/arc_length.h"
+#include "nurbs/smooth_nurbs.h"
+#include "tests/cad_import/scratch_directory.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+using std::numbers::pi;
+
+/// A wavy cable of elements that share position and tangent, each with its own speed and its own weights, as
+/// a moving cable leaves them.
+BezierPath wavy_cable(int count, double weight_spread) {
+  const auto at = [](double t) { return Eigen::Vector3d(2 * t, 0.2 * std::sin(5 * t), 0.3 * t * t); };
+  const auto slope = [](double t) { return Eigen::Vector3d(2, std::cos(5 * t), 0.6 * t); };
+  BezierPath path{{}, {0}, 0};
+  for (int j = 0; j < count; ++j) {
+    const double a = double(j) / count, b = double(j + 1) / count, third = (b - a) / 3;
+    const double uneven = 1 + 0.2 * std::sin(double(7 * j));
+    Eigen::Matrix3Xd controls(3, 4);
+    controls << at(a), at(a) + uneven * third * slope(a), at(b) - third / uneven * slope(b), at(b);
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = 1 + weight_spread * std::sin(double(3 * j + 5 * i));
+      points.col(i) << weight * controls.col(i), weight;
+    }
+    path.segments.emplace_back(points);
+    path.breaks.push_back(path.breaks.back() + length(path.segments.back()));
+  }
+  return path;
+}
+
+NurbsCurve cable(int count, double weight_spread = 0) {
+  return smooth_nurbs(wavy_cable(count, weight_spread), CurveParameter::free, 1e-12).curve;
+}
+
+/// The shape that OpenCASCADE makes of a file when left alone.
+TopoDS_Shape second_reading(const fs::path& file) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  if (file.extension() == ".step") {
+    STEPControl_Reader reader;
+    EXPECT_EQ(reader.ReadFile(file.c_str()), IFSelect_RetDone);
+    reader.TransferRoots();
+    return reader.OneShape();
+  }
+  IGESControl_Reader reader;
+  Interface_Static::SetIVal("read.iges.bspline.continuity", 1);  // its default
+  EXPECT_EQ(reader.ReadFile(file.c_str()), IFSelect_RetDone);
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+std::vector<TopoDS_Edge> edges_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, TopAbs_EDGE, map);
+  std::vector<TopoDS_Edge> edges;
+  for (int i = 1; i <= map.Extent(); ++i) edges.push_back(TopoDS::Edge(map(i)));
+  return edges;
+}
+
+void expect_sound_edges(const TopoDS_Shape& shape) {
+  ASSERT_FALSE(shape.IsNull());
+  EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+  for (const TopoDS_Edge& edge : edges_of(shape)) {
+    ShapeAnalysis_Edge check;
+    EXPECT_TRUE(check.HasCurve3d(edge));
+    EXPECT_FALSE(check.CheckVerticesWithCurve3d(edge));
+    EXPECT_LE(BRep_Tool::Tolerance(edge), 1e-7);
+  }
+}
+
+struct Target {
+  const char* file;
+  LengthUnit unit;
+  double in_millimetres;
+};
+
+class WrittenFile : public testing::TestWithParam<Target> {};
+
+TEST_P(WrittenFile, OfASmoothCableIsOneSoundEdgeToASecondReader) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  for (const int count : {1, 2, 10, 60})
+    for (const double weight_spread : {0.0, 0.01}) {
+      SCOPED_TRACE(testing::Message() << count << " elements, weights " << weight_spread);
+      export_curves(file, {{"cable", cable(count, weight_spread)}}, GetParam().unit);
+      const TopoDS_Shape shape = second_reading(file);
+      expect_sound_edges(shape);
+      EXPECT_EQ(edges_of(shape).size(), 1u);
+    }
+}
+
+TEST_P(WrittenFile, HasItsPlaceInMillimetresToASecondReader) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  const NurbsCurve curve = cable(10);
+  export_curves(file, {{"cable", curve}}, GetParam().unit);
+  const std::vector<TopoDS_Edge> edges = edges_of(second_reading(file));
+  ASSERT_EQ(edges.size(), 1u);
+  double first = 0, last = 0;
+  const auto read = BRep_Tool::Curve(edges[0], first, last);
+  for (const double t : {0.0, 0.3, 1.0}) {
+    const gp_Pnt there = read->Value(first + t * (last - first));
+    const KnotVector& knots = curve.knots();
+    const Eigen::Vector3d here = 1000 * curve.point(knots.start() + t * (knots.end() - knots.start()));
+    EXPECT_LE((Eigen::Vector3d(there.X(), there.Y(), there.Z()) - here).norm(), 1e-11);
+  }
+}
+
+std::string content_of_file(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_P(WrittenFile, DeclaresItsUnit) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  export_curves(file, {{"cable", cable(2)}}, GetParam().unit);
+  const std::string text = content_of_file(file);
+  if (file.extension() == ".igs") {
+    const IgesGlobal global = parse_iges_global(text);
+    EXPECT_DOUBLE_EQ(global.unit_in_metres, 1e-3 * GetParam().in_millimetres);
+    EXPECT_EQ(global.scale, 1);
+    return;
+  }
+  const std::string declared = GetParam().in_millimetres == 1000 ? "SI_UNIT($,.METRE.)"
+                               : GetParam().in_millimetres == 1  ? "SI_UNIT(.MILLI.,.METRE.)"
+                                                                 : "CONVERSION_BASED_UNIT('INCH'";
+  EXPECT_NE(text.find(declared), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrittenFile,
+    testing::Values(Target{"a.step", LengthUnit::metre, 1000}, Target{"a.step", LengthUnit::millimetre, 1},
+                    Target{"a.step", LengthUnit::inch, 25.4}, Target{"a.igs", LengthUnit::metre, 1000},
+                    Target{"a.igs", LengthUnit::millimetre, 1}, Target{"a.igs", LengthUnit::inch, 25.4}),
+    [](const auto& test) {
+      return std::string(test.param.file + 2) + "_" + std::to_string(int(test.param.in_millimetres));
+    });
+
+NurbsCurve straight_line(double size) {
+  Eigen::Matrix3Xd points(3, 2);
+  points << 0, size, 0, 0.5 * size, 0, 0;
+  return make_nurbs_curve(KnotVector(1, {0, 0, 1, 1}), points, Eigen::Vector2d::Ones());
+}
+
+TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "solid.step";
+  const double radius = 0.02;
+  for (const NurbsCurve& curve : {cable(1), cable(10), cable(20, 0.01), straight_line(3)}) {
+    ASSERT_FALSE(export_solids(file, {{{"cable", curve}, radius}}, LengthUnit::inch));
+    const TopoDS_Shape shape = second_reading(file);
+    ASSERT_FALSE(shape.IsNull());
+    EXPECT_EQ(shape.ShapeType(), TopAbs_SOLID);
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(shape, properties, 1e-7);
+    EXPECT_NEAR(1e-9 * properties.Mass() / (pi * radius * radius * length(curve)), 1, 1e-4);
+    for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) {
+      ShapeAnalysis_Shell check;
+      check.LoadShells(shell.Current());
+      EXPECT_FALSE(check.CheckOrientedShells(shell.Current(), true));
+      EXPECT_FALSE(check.HasFreeEdges());
+    }
+    for (const TopoDS_Edge& edge : edges_of(shape))
+      if (!BRep_Tool::Degenerated(edge)) {
+        EXPECT_FALSE(ShapeAnalysis_Edge().CheckVerticesWithCurve3d(edge));
+      }
+  }
+}
+
+TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "solids.step";
+  ASSERT_FALSE(export_solids(file, {{{"left", cable(3)}, 0.01}, {{"right", straight_line(1)}, 0.02}},
+                             LengthUnit::millimetre));
+  const std::string text = content_of_file(file);
+  EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('left'"), std::string::npos);
+  EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('right'"), std::string::npos);
+  EXPECT_TRUE(BRepCheck_Analyzer(second_reading(file)).IsValid());
+}
+
+TEST(ExportSolids, RefusesWhatCannotBeSweptAndLeavesNoFile) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "solid.step";
+  const auto refused = [](const fs::path& target, const std::vector<NamedPipe>& pipes) {
+    EXPECT_THROW(static_cast<void>(export_solids(target, pipes, LengthUnit::metre)), std::invalid_argument);
+  };
+  refused(file, {{{"cable", cable(3)}, 0}});
+  refused(scratch.path() / "a.igs", {{{"cable", cable(3)}, 0.01}});
+  refused(file, {});
+  Eigen::Matrix3Xd points(3, 3);
+  points << 0, 1, 0.1, 0, 0, 0.1, 0, 0, 0;
+  const NurbsCurve corner = make_nurbs_curve(KnotVector(1, {0, 0, 1, 2, 2}), points, Eigen::Vector3d::Ones());
+  const auto problem = export_solids(file, {{{"bent cable", corner}, 0.3}}, LengthUnit::metre);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->where, file.string());
+  EXPECT_NE(problem->message.find("bent cable"), std::string::npos);
+  Eigen::Matrix3Xd parabola(3, 3);
+  parabola << -1, 0, 1, 1, -1, 1, 0, 0, 0;  // its smallest radius of curvature is 0.5
+  const NurbsCurve bend =
+      make_nurbs_curve(KnotVector(2, {0, 0, 0, 1, 1, 1}), parabola, Eigen::Vector3d::Ones());
+  EXPECT_TRUE(export_solids(file, {{{"bend", bend}, 0.51}}, LengthUnit::metre));
+  EXPECT_TRUE(fs::is_empty(scratch.path()));
+  EXPECT_FALSE(export_solids(file, {{{"bend", bend}, 0.49}}, LengthUnit::metre));
+}
+
+}  // namespace
+}  // namespace nurbeam
