@@ -45,6 +45,12 @@ ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimensio
                                 std::to_string(gap) + " m");
 }
 
+double ReferenceCurve::wrapped(double s) const {
+  if (!closed_) return s;
+  const double rest = s - length() * std::floor(s / length());
+  return rest < length() ? rest : 0;  // s a hair below 0
+}
+
 double ReferenceCurve::next_break(double s) const {
   const double turns = closed_ ? length() * std::floor(s / length()) : 0;
   for (int j = 1; j < segment_count() + (closed_ ? 2 : 0); ++j) {

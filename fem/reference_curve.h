@@ -50,7 +50,7 @@ class ReferenceCurve {
   const std::vector<double>& breaks() const { return breaks_; }
   double length() const { return breaks_.back(); }
   /// On a closed curve the same place in [0, length); else s itself.
-  double wrapped(double s) const { return closed_ ? s - length() * std::floor(s / length()) : s; }
+  double wrapped(double s) const;
   /// On a closed curve the same place within half a length of `near`; else s itself.
   double unrolled(double s, double near) const {
     return closed_ ? s + length() * std::round((near - s) / length()) : s;

@@ -237,7 +237,10 @@ class Builder {
       error(beam.path + ".axis", problem.what());
     }
     hinges_.emplace_back();
-    if (!failed() && beam.ring) close_ring(beam, segments);
+    if (!failed() && beam.ring) {
+      check_ring(beam);
+      close_ring(beam, segments);
+    }
     if (!failed() && !beam.ring) mention_closed_axis(beam, segments);
     if (!failed()) check_corners(beam, segments);
     return segments;
@@ -505,8 +508,6 @@ class Builder {
     beam.properties.damping = from.material.damping;
     beam.properties.curvature = from.curvature;
     beam.properties.form = from.form;
-    if (from.ring) check_ring(from);
-    if (failed()) return;
     if (from.metric == Metric::label) check_without_metric(from);
     beam.straight = is_straight(from, beam.curve);
     built_.model.beams.push_back(std::move(beam));

@@ -34,7 +34,7 @@ TEST(RingCurve, GoesOnOverItsSeam) {
                              true);
   const double L = curve.length();
   EXPECT_NEAR(L, 2 * M_PI * radius, 1e-14);
-  for (const double s : {-0.3, 0.0, 0.4, 4.3, 4.5, 9.0}) {
+  for (const double s : {-0.3, -1e-20, 0.0, 0.4, 4.3, 4.5, 9.0}) {
     const double angle = s / radius;
     EXPECT_LT((curve.position(s) - radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0)).norm(),
               1e-14);
@@ -116,7 +116,7 @@ TEST(Ring, SpinningIsStretchedByItsHoopForce) {
   map<2>(system, spin, Eigen::Vector2d::Zero(), state.v);
   map<2>(system, -omega * omega * Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero(), state.a);
   EXPECT_GT(e, 0.1);
-  EXPECT_LT(residual<2>(system, state).norm(), 1e-11 * p.axial_stiffness * e);
+  EXPECT_LT(residual<2>(system, state).norm(), 1e-10 * p.axial_stiffness * e);
   const double L = model.beams[0].curve.length();
   EXPECT_NEAR(system.energy(state).axial, p.axial_stiffness * e * e / 2 * L, 1e-10);
   EXPECT_NEAR(system.energy(state).kinetic,
@@ -150,7 +150,7 @@ void check_gradient(double place) {
 
 TEST(Ring, HasTheGradientOfItsEnergyAsForceWhereASliderSpansTheSeam) {
   const double L = 2 * M_PI * radius;
-  for (const double place : {0.001, L - 0.002, 0.3, L - 0.1, 2 * L + 0.001}) {
+  for (const double place : {0.001, L - 0.1, 2 * L - 0.002}) {
     check_gradient<2>(place);
     check_gradient<3>(place);
   }
@@ -209,7 +209,7 @@ TEST(Ring, LengthControlDoesAtTheSeamWhatItDoesAtEveryBreak) {
   for (const double speed : {1.0, -1.0}) {
     MeshPlan plan = initial_plan(model);
     std::vector<std::vector<std::pair<MeshChange, long>>> quarters(12);
-    constexpr int steps = 12 * 1000;
+    constexpr int per_quarter = 300, steps = 12 * per_quarter;
     for (int i = 0; i < steps; ++i) {
       plan.places[0] = L / 32 + speed * (i + 0.5) / steps * 3 * L;
       while (true) {
@@ -219,8 +219,8 @@ TEST(Ring, LengthControlDoesAtTheSeamWhatItDoesAtEveryBreak) {
         ASSERT_TRUE(system.admissible(state));
         const NextPlan next = next_plan<2>(system, state, LengthControl{});
         if (next.change == MeshChange::none) break;
-        quarters[i / 1000].emplace_back(next.change, i % 1000);
-        ASSERT_LE(quarters[i / 1000].size(), 30u);
+        quarters[i / per_quarter].emplace_back(next.change, i % per_quarter);
+        ASSERT_LE(quarters[i / per_quarter].size(), 30u);
         plan = next.plan;
       }
     }
