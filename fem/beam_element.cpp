@@ -58,14 +58,11 @@ void BeamElement<D>::for_each_point(const T& s_a, const T& s_b, Visit&& visit) c
     }
   };
   T lo = s_a;
-  if (chart_.segment < 0) {
-    const auto& breaks = curve_->breaks();
-    for (int j = curve_->segment_at(value(s_a)) + 1; j < curve_->segment_count() && breaks[j] < value(s_b);
-         ++j) {
-      visit_part(lo, T(breaks[j]));
-      lo = T(breaks[j]);
+  if (chart_.segment < 0)
+    for (double s = curve_->next_break(value(s_a)); s < value(s_b); s = curve_->next_break(s)) {
+      visit_part(lo, T(s));
+      lo = T(s);
     }
-  }
   visit_part(lo, s_b);
 }
 
@@ -328,7 +325,7 @@ double BeamElement<D>::place(const ElementVector<D>& q, double u) const {
   const double s_a = q[4 * D], s_b = q[4 * D + 1];
   if (u == 0 || u == 1 || chart_.segment < 0) return u == 1 ? s_b : s_a + u * (s_b - s_a);
   const double u_a = curve_->parameter(chart_.segment, s_a), u_b = curve_->parameter(chart_.segment, s_b);
-  return curve_->arc_length(chart_.segment, u_a + u * (u_b - u_a));
+  return curve_->unrolled(curve_->arc_length(chart_.segment, u_a + u * (u_b - u_a)), (s_a + s_b) / 2);
 }
 
 template <int D>

@@ -53,6 +53,7 @@ class BeamElement {
   BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart, double s_a,
               double s_b, bool fixed, bool straight);
 
+  const ReferenceCurve& curve() const { return *curve_; }
   const Chart& chart() const { return chart_; }
   bool fixed() const { return fixed_; }
 

@@ -9,6 +9,28 @@
 
 namespace nurbeam {
 
+namespace {
+
+/// floor(h / n) for n > 0.
+int turns_of(int h, int n) { return (h >= 0 ? h : h - n + 1) / n; }
+
+}  // namespace
+
+int Beam::home_index(int h) const {
+  return is_ring() ? h - home_intervals() * turns_of(h, home_intervals()) : h;
+}
+
+double Beam::home_place(int h) const {
+  return home[home_index(h)].s + (is_ring() ? curve.length() * turns_of(h, home_intervals()) : 0);
+}
+
+int Beam::home_interval(double s) const {
+  const double at = curve.wrapped(s);
+  int h = 0;
+  while (h + 1 < home_intervals() && home[h + 1].s <= at) ++h;
+  return h + home_intervals() * static_cast<int>(std::round((s - at) / curve.length()));
+}
+
 std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places) {
   const double near = 1e-9 * curve.length();
   std::vector<double> places = curve.breaks();

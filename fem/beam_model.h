@@ -36,7 +36,17 @@ struct Beam {
   bool straight = false;  ///< stress-free shape without curvature
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
-  std::vector<HomeNode> home;  ///< s increasing, from 0 to the length
+  std::vector<HomeNode> home;  ///< s increasing, from 0 to the length; of a ring the last is the first again
+
+  /// A ring: a closed curve, and no ends.
+  bool is_ring() const { return curve.closed(); }
+  int home_intervals() const { return static_cast<int>(home.size()) - 1; }
+  /// Number in `home` of home node h; on a ring h goes on over the seam, both ways.
+  int home_index(int h) const;
+  /// s of home node h; on a ring beyond [0, length) for h over the seam [m].
+  double home_place(int h) const;
+  /// The home interval [h, h + 1] that holds s; over the seam on a ring.
+  int home_interval(double s) const;
 };
 
 struct Body {

@@ -40,6 +40,11 @@ std::vector<int> without_absent(const std::vector<int>& dofs) {
   return present;
 }
 
+template <int D>
+ShapeFunctions<Jet> shape_at(const MeshElement<D>& e, const ElementVector<D>& q, double s) {
+  return e.element.shape_series(q, e.local(q, s));
+}
+
 int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
   const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
   const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
@@ -132,8 +137,7 @@ template <int D>
 typename BeamSystem<D>::Point BeamSystem<D>::point_at(int element, double s, const State& drawn) const {
   const MeshElement<D>& e = mesh_.elements[element];
   Point point{element, s, {}};
-  if (e.element.fixed())
-    point.fixed_shape = e.element.shape_series(gather<D>(e, drawn.q, drawn.v, drawn.a).q, s);
+  if (e.element.fixed()) point.fixed_shape = shape_at(e, gather<D>(e, drawn.q, drawn.v, drawn.a).q, s);
   return point;
 }
 
@@ -200,12 +204,12 @@ void BeamSystem<D>::for_each_point_load(const State& state, Visit&& visit) const
   for (const PointLoad& load : model_->point_loads) {
     const Beam& beam = model_->beams[load.beam];
     const double s = load.s + load.speed * state.t;
-    if (s < 0 || s > beam.curve.length()) continue;
+    if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) continue;
     const int index = find_element<D>(*model_, mesh_, state.q, load.beam, s);
     const MeshElement<D>& e = mesh_.elements[index];
     const ElementState<D> x = gather<D>(e, state.q, state.v, state.a);
     const Eigen::Matrix<double, D, 4> nodes = Eigen::Map<const Eigen::Matrix<double, D, 4>>(x.q.data());
-    const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, s);
+    const ShapeFunctions<Jet> shape = shape_at(e, x.q, s);
     const PointField<D> rs(shape.d1, nodes);
     const Eigen::Vector3d slope = widened<D>(rs.value);
     TurnedVector p = load_vector(load, beam.curve.tangent(s), slope);
@@ -248,8 +252,7 @@ typename BeamSystem<D>::ConstraintTerms BeamSystem<D>::constraint_terms(
   const Eigen::Matrix<double, D, 4> nodes = Eigen::Map<const Eigen::Matrix<double, D, 4>>(x.q.data());
   const bool on_point = c.kind == ConstraintKind::body_on_point;
   const double s = on_point ? state.q[c.block.dofs[n + D]] : c.point.s;
-  const ShapeFunctions<Jet> shape =
-      c.point.fixed_shape ? *c.point.fixed_shape : e.element.shape_series(x.q, s);
+  const ShapeFunctions<Jet> shape = c.point.fixed_shape ? *c.point.fixed_shape : shape_at(e, x.q, s);
   const ReferenceCurve& curve = model_->beams[e.beam].curve;
 
   if (c.kind == ConstraintKind::direction) {
@@ -296,8 +299,7 @@ void BeamSystem<D>::add_joint_terms(const Constraint& c, const State& state, con
     const MeshElement<D>& e = mesh_.elements[point.element];
     const ElementVector<D> q = gather<D>(e, state.q, state.v, state.a).q;
     const Eigen::Matrix<double, D, 4> nodes = Eigen::Map<const Eigen::Matrix<double, D, 4>>(q.data());
-    const ShapeFunctions<Jet> shape =
-        point.fixed_shape ? *point.fixed_shape : e.element.shape_series(q, point.s);
+    const ShapeFunctions<Jet> shape = point.fixed_shape ? *point.fixed_shape : shape_at(e, q, point.s);
     return std::pair(PointField<D>(is_position ? shape.value : shape.d1, nodes), nodes);
   };
   const auto [a, nodes_a] = field_at(c.point);
@@ -455,9 +457,8 @@ template <int D>
 bool BeamSystem<D>::admissible(const State& state) const {
   constexpr double shortest = 1e-3;  // of the element's length when the mesh was made
   for (const MeshElement<D>& e : mesh_.elements) {
-    const double s_a = e.dofs[4 * D] >= 0 ? state.q[e.dofs[4 * D]] : e.s_a;
-    const double s_b = e.dofs[4 * D + 1] >= 0 ? state.q[e.dofs[4 * D + 1]] : e.s_b;
-    if (!(s_b - s_a > shortest * (e.s_b - e.s_a))) return false;
+    const double length = end_of<D>(e, state.q) - start_of<D>(e, state.q);
+    if (!(length > shortest * (e.s_b - e.s_a))) return false;
   }
   return true;
 }
@@ -515,11 +516,11 @@ Eigen::Vector3d BeamSystem<D>::momentum(const State& state) const {
                material_point<D>(e, state.q, state.v, s).velocity;
       }
     };
-    for (double s : model_->beams[e.beam].curve.breaks())
-      if (s > lo && s < s_b) {
-        add_part(lo, s);
-        lo = s;
-      }
+    const ReferenceCurve& curve = model_->beams[e.beam].curve;
+    for (double s = curve.next_break(s_a); s < s_b; s = curve.next_break(s)) {
+      add_part(lo, s);
+      lo = s;
+    }
     add_part(lo, s_b);
   }
   for (std::size_t j = 0; j < mesh_.joints.size(); ++j)
@@ -596,13 +597,16 @@ void BeamSystem<D>::start_joints(State& state) const {
     const SlidingJoint& joint = model_->joints[j];
     const double speed = joint.motion ? value_and_slope(*joint.motion, state.t).second : joint.speed;
     const double s = state.q[at.place];
-    const int index = find_element<D>(*model_, mesh_, state.q, joint.beam, s);
+    const int first = mesh_.first_element[joint.beam], end = mesh_.first_element[joint.beam + 1];
+    const int index =
+        at.node >= 0 ? first + at.node : find_element<D>(*model_, mesh_, state.q, joint.beam, s);
     const MaterialPoint<D> right = material_point<D>(mesh_.elements[index], state.q, state.v, s);
     state.v.segment<D>(at.r) = speed * right.rs;
     state.v[at.place] = speed;
     if (at.node < 0) continue;
     // The material is at rest, so the slopes at the moving node change by what the node meets.
-    const MaterialPoint<D> left = material_point<D>(mesh_.elements[index - 1], state.q, state.v, s);
+    const auto& before = mesh_.elements[(index > first ? index : end) - 1];
+    const MaterialPoint<D> left = material_point<D>(before, state.q, state.v, s);
     const MeshNode& node = mesh_.nodes[joint.beam][at.node];
     const bool shared = node.slope_left == node.slope_right;
     state.v.segment<D>(node.slope_left) = speed * (shared ? Vector((left.rss + right.rss) / 2) : left.rss);

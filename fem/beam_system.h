@@ -54,7 +54,7 @@ class BeamSystem final : public SecondOrderSystem {
   Eigen::Vector3d joint_force(const State& state, int joint) const;
   /// Multiplier of a held or prescribed joint: the force along the beam [N] that keeps it there.
   double holding_force(const State& state, int joint) const;
-  /// s of a joint's body [m]; empty when it flies free.
+  /// s of a joint's body [m], on a ring with the turns since the start; empty when it flies free.
   std::optional<double> place(const State& state, int joint) const;
   double place_rate(const State& state, int joint) const;
 

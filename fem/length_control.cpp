@@ -17,46 +17,73 @@ double position_of(const MeshNode& node, const Eigen::VectorXd& q) {
   return node.place >= 0 ? q[node.place] : node.s;
 }
 
-// The rules of length control for one joint, seen from its two neighbours.
+// The rules of length control for one joint, seen from its two neighbours. Home nodes and places of a ring go
+// on over the seam (Beam::home_place), as seen from the joint.
 template <int D>
 class JointRules {
  public:
   JointRules(const BeamSystem<D>& system, const State& state, const LengthControl& control, int joint,
              NextPlan& next)
-      : mesh_(system.mesh()), state_(state), control_(control), joint_(joint), next_(next) {
-    beam_ = system.model().joints[joint].beam;
-    home_ = &system.model().beams[beam_].home;
-    s_ = *system.place(state, joint);
-    rate_ = system.place_rate(state, joint);
+      : mesh_(system.mesh()),
+        control_(control),
+        joint_(joint),
+        index_(system.model().joints[joint].beam),
+        beam_(system.model().beams[index_]),
+        next_(next),
+        rate_(system.place_rate(state, joint)) {
+    const auto s = system.place(state, joint);
+    if (s) s_ = *s;
+    if (mesh_.plan.modes[joint_] == JointMode::node) look_around(state.q);
   }
 
   bool apply() {
     if (mesh_.plan.modes[joint_] == JointMode::point) return leave_end();
     if (mesh_.plan.modes[joint_] != JointMode::node) return false;
-    const auto& nodes = mesh_.nodes[beam_];
-    const int i = mesh_.joints[joint_].node;
-    left_ = &nodes[i - 1];
-    right_ = &nodes[i + 1];
     return enter_end() || move_late_nodes() || exchange_nodes();
   }
 
  private:
-  double at(int h) const { return (*home_)[h].s; }
-  int last() const { return static_cast<int>(home_->size()) - 1; }
-  bool present(int h) const { return next_.plan.present[beam_][h]; }
+  // The nodes of the beam where they are now, those of a ring three times around.
+  void look_around(const Eigen::VectorXd& q) {
+    const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
+    const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
+    const int first = mesh_.first_element[index_], around = beam_.is_ring() ? 1 : 0;
+    const double L = beam_.curve.length();
+    const auto now = [&](int i) {
+      return i + 1 < count || beam_.is_ring() ? start_of<D>(mesh_.elements[first + i], q)
+                                              : end_of<D>(mesh_.elements[first + i - 1], q);
+    };
+    const int turns = beam_.is_ring() ? static_cast<int>(std::round((s_ - now(own)) / L)) : 0;
+    for (int turn = turns - around; turn <= turns + around; ++turn)
+      for (int i = 0; i < count; ++i) {
+        nodes_.push_back(nodes[i]);
+        nodes_.back().s = now(i) + turn * L;
+        if (nodes[i].home >= 0) nodes_.back().home += turn * beam_.home_intervals();
+      }
+    left_ = &nodes_[around * count + own - 1];
+    right_ = &nodes_[around * count + own + 1];
+  }
+
+  double at(int h) const { return beam_.home_place(h); }
+  const HomeNode& home(int h) const { return beam_.home[beam_.home_index(h)]; }
+  int last() const { return beam_.home_intervals(); }
+  bool is_end(int h) const { return !beam_.is_ring() && (h == 0 || h == last()); }
+  // The home nodes that can come and go: all but the ends, or those of one turn around the joint.
+  int lowest() const { return beam_.is_ring() ? beam_.home_interval(s_) - last() / 2 + 1 : 1; }
+  int highest() const { return beam_.is_ring() ? lowest() + last() - 1 : last() - 1; }
+  bool present(int h) const { return next_.plan.present[index_][beam_.home_index(h)]; }
   // Length of the home interval that holds s.
   double spacing(double s) const {
-    int h = 1;
-    while (h < last() && at(h) <= s) ++h;
-    return at(h) - at(h - 1);
+    const int h = beam_.home_interval(s);
+    return at(h + 1) - at(h);
   }
   bool change(MeshChange kind) {
     next_.change = kind;
     next_.joint = joint_;
     return true;
   }
-  void insert(int h) { next_.plan.present[beam_][h] = true; }
-  void remove(int h) { next_.plan.present[beam_][h] = false; }
+  void insert(int h) { next_.plan.present[index_][beam_.home_index(h)] = true; }
+  void remove(int h) { next_.plan.present[index_][beam_.home_index(h)] = false; }
 
   bool leave_end() {
     const double from_end = std::min(s_, at(last()) - s_);
@@ -67,44 +94,41 @@ class JointRules {
 
   bool enter_end() {
     for (const MeshNode* node : {left_, right_}) {
-      if (node->home != 0 && node->home != last()) continue;
+      if (node->joint >= 0 || !is_end(node->home)) continue;
       const bool approaching = (node == right_) == (rate_ > 0);
       if (!approaching || std::abs(node->s - s_) > end_zone * spacing(s_)) continue;
       next_.plan.modes[joint_] = JointMode::point;
       for (int h = 0; h <= last(); ++h)
-        if (at(h) > position_of(*left_, state_.q) && at(h) < position_of(*right_, state_.q)) insert(h);
+        if (at(h) > left_->s && at(h) < right_->s) insert(h);
       return change(MeshChange::becomes_point);
     }
     return false;
   }
 
-  bool hidden(int h) const {
-    return !present(h) && at(h) > position_of(*left_, state_.q) && at(h) < position_of(*right_, state_.q);
-  }
+  bool hidden(int h) const { return !present(h) && at(h) > left_->s && at(h) < right_->s; }
 
   // Whether a neighbour that is itself a moving node is within some home intervals of a home node.
   bool another_joint_near(int h, double reach) const {
     for (const MeshNode* node : {left_, right_}) {
       if (node->joint < 0) continue;
-      const double other = position_of(*node, state_.q);
-      const double gap = at(h) < other ? at(h + 1) - at(h) : at(h) - at(h - 1);
-      if (std::abs(at(h) - other) <= reach * gap) return true;
+      const double gap = at(h) < node->s ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      if (std::abs(at(h) - node->s) <= reach * gap) return true;
     }
     return false;
   }
 
   bool move_late_nodes() {
-    for (int h = 1; h < last(); ++h) {
-      if (!(*home_)[h].late) continue;
+    for (int h = lowest(); h <= highest(); ++h) {
+      if (!home(h).late) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
       if (hidden(h) && distance > late_return * gap && !another_joint_near(h, late_return)) {
         insert(h);
         return change(MeshChange::merge);  // charts change too: velocities are projected
       }
-      const bool neighbour = h == left_->home || h == right_->home;
+      const auto is_here = [&](const MeshNode* node) { return node->joint < 0 && node->home == h; };
       const bool approaching = (at(h) > s_) == (rate_ > 0);
-      if (neighbour && approaching && distance < late_removal * gap) {
+      if ((is_here(left_) || is_here(right_)) && approaching && distance < late_removal * gap) {
         remove(h);
         return change(MeshChange::merge);
       }
@@ -114,9 +138,9 @@ class JointRules {
 
   // Returns whether a hidden home node comes back in the element towards `far`.
   bool insert_towards(const MeshNode& far) {
-    if (far.home < 0) return insert_between_joints(far);
-    for (int h = 1; h < last(); ++h) {
-      if (!hidden(h) || (*home_)[h].late || (at(h) > s_) != (far.s > s_)) continue;
+    if (far.joint >= 0) return insert_between_joints(far);
+    for (int h = lowest(); h <= highest(); ++h) {
+      if (!hidden(h) || home(h).late || (at(h) > s_) != (far.s > s_)) continue;
       if (std::abs(far.s - s_) <= control_.max * std::abs(far.s - at(h))) continue;
       insert(h);
       return true;
@@ -126,11 +150,10 @@ class JointRules {
 
   // The far end is another moving node: a hidden node returns when it is half a standard length from both.
   bool insert_between_joints(const MeshNode& far) {
-    const double other = position_of(far, state_.q);
-    for (int h = 1; h < last(); ++h) {
-      if (!hidden(h) || (*home_)[h].late || (at(h) > s_) != (other > s_)) continue;
+    for (int h = lowest(); h <= highest(); ++h) {
+      if (!hidden(h) || home(h).late || (at(h) > s_) != (far.s > s_)) continue;
       const double margin = (control_.max - 1) * spacing(at(h));
-      if (std::abs(at(h) - s_) <= margin || std::abs(at(h) - other) <= margin) continue;
+      if (std::abs(at(h) - s_) <= margin || std::abs(at(h) - far.s) <= margin) continue;
       insert(h);
       return true;
     }
@@ -139,7 +162,7 @@ class JointRules {
 
   bool remove_at(const MeshNode& near) {
     const int h = near.home;
-    if (h <= 0 || h >= last() || (*home_)[h].late) return false;
+    if (near.joint >= 0 || is_end(h) || home(h).late) return false;
     // The next node may be another moving one: then a home node beyond it is hidden by that one.
     const MeshNode& beyond = near.s < s_ ? *(&near - 1) : *(&near + 1);
     if (beyond.joint < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
@@ -150,8 +173,8 @@ class JointRules {
     // Another hidden node comes back first, unless it is too near to a second joint and this one too near
     // here.
     constexpr double last_moment = 0.1;
-    for (int k = 1; k < last() && distance > last_moment * here; ++k)
-      if (hidden(k) && !(*home_)[k].late) return false;
+    for (int k = lowest(); k <= highest() && distance > last_moment * here; ++k)
+      if (hidden(k) && !home(k).late) return false;
     remove(h);
     return true;
   }
@@ -164,12 +187,12 @@ class JointRules {
   }
 
   const Mesh<D>& mesh_;
-  const State& state_;
   const LengthControl& control_;
-  int joint_, beam_;
+  int joint_, index_;
+  const Beam& beam_;
   NextPlan& next_;
-  const std::vector<HomeNode>* home_;
-  double s_, rate_;
+  double s_ = 0, rate_;
+  std::vector<MeshNode> nodes_;
   const MeshNode *left_ = nullptr, *right_ = nullptr;
 };
 
@@ -232,7 +255,8 @@ Eigen::VectorXd momentum_on(const BeamSystem<D>& from, const State& state, const
   for (const MeshElement<D>& e : mesh.elements) {
     const Beam& beam = model.beams[e.beam];
     std::vector<double> parts{e.s_a, e.s_b};
-    const auto add = [&](double s) {
+    const auto add = [&](double place) {
+      const double s = beam.curve.unrolled(place, (e.s_a + e.s_b) / 2);
       if (s > e.s_a && s < e.s_b) parts.push_back(s);
     };
     for (const MeshNode& node : from.mesh().nodes[e.beam]) add(position_of(node, state.q));
@@ -396,7 +420,9 @@ class Remap {
     const auto& nodes = to_.mesh().nodes[e.beam];
     const MeshNode* a = same_node<D>(old.nodes[e.beam], nodes[e.node_a]);
     const MeshNode* b = same_node<D>(old.nodes[e.beam], nodes[e.node_b]);
-    return a != nullptr && b != nullptr && b - a == 1;
+    const long count = static_cast<long>(old.nodes[e.beam].size());
+    const bool ring = to_.model().beams[e.beam].is_ring();
+    return a != nullptr && b != nullptr && (b - a == 1 || (ring && b - a == 1 - count));
   }
 
   const BeamSystem<D>& from_;

@@ -10,30 +10,29 @@ namespace nurbeam {
 
 namespace {
 
-double spacing_near(const std::vector<HomeNode>& home, double s) {
-  std::size_t i = 1;
-  while (i + 1 < home.size() && home[i].s <= s) ++i;
-  return home[i].s - home[i - 1].s;
+double spacing_near(const Beam& beam, double s) {
+  const int h = beam.home_interval(s);
+  return beam.home_place(h + 1) - beam.home_place(h);
 }
 
-// Interior home node that gives way to a moving node at s, or -1.
-int node_to_replace(const std::vector<HomeNode>& home, double s) {
-  int nearest = -1;
-  for (int i = 1; i + 1 < static_cast<int>(home.size()); ++i)
-    if (nearest < 0 || std::abs(home[i].s - s) < std::abs(home[nearest].s - s)) nearest = i;
-  if (nearest < 0) return -1;
-  const double gap =
-      home[nearest].s < s ? home[nearest + 1].s - home[nearest].s : home[nearest].s - home[nearest - 1].s;
-  const double reach = home[nearest].late ? late_removal : 0.5;
-  return std::abs(home[nearest].s - s) <= reach * gap ? nearest : -1;
+// Home node, but none at an end, that gives way to a moving node at s, or -1.
+int node_to_replace(const Beam& beam, double s) {
+  const int h = beam.home_interval(s);
+  const auto at = [&](int i) { return beam.home_place(i); };
+  const auto can_go = [&](int i) { return beam.is_ring() || (i > 0 && i < beam.home_intervals()); };
+  const bool first = can_go(h) && (!can_go(h + 1) || s - at(h) <= at(h + 1) - s);
+  const int nearest = first ? h : h + 1;
+  if (!can_go(nearest)) return -1;
+  const double gap = at(nearest) < s ? at(nearest + 1) - at(nearest) : at(nearest) - at(nearest - 1);
+  const HomeNode& node = beam.home[beam.home_index(nearest)];
+  const double reach = node.late ? late_removal : 0.5;
+  return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
 // Whether a break of the drawing that has no node lies strictly between two places.
 bool spans_break(const Beam& beam, double s_a, double s_b) {
   const double near = 1e-12 * beam.curve.length();
-  const auto& breaks = beam.curve.breaks();
-  return std::any_of(breaks.begin() + 1, breaks.end() - 1,
-                     [&](double s) { return s > s_a + near && s < s_b - near; });
+  return beam.curve.next_break(s_a + near) < s_b - near;
 }
 
 std::array<double, 4> drawn_weights(const ReferenceCurve& curve, int segment, double s_a, double s_b) {
@@ -72,11 +71,11 @@ MeshPlan initial_plan(const BeamModel& model) {
   for (const SlidingJoint& joint : model.joints) {
     const Beam& beam = model.beams[joint.beam];
     const double from_end = std::min(joint.s, beam.curve.length() - joint.s);
-    const bool at_end = from_end < end_zone * spacing_near(beam.home, joint.s);
+    const bool at_end = !beam.is_ring() && from_end < end_zone * spacing_near(beam, joint.s);
     plan.modes.push_back(at_end ? JointMode::point : JointMode::node);
     plan.places.push_back(joint.s);
     if (at_end) continue;
-    const int replaced = node_to_replace(beam.home, joint.s);
+    const int replaced = node_to_replace(beam, joint.s);
     if (replaced >= 0) plan.present[joint.beam][replaced] = false;
   }
   return plan;
@@ -91,11 +90,12 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
   for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) {
     const Beam& beam = model.beams[b];
     std::vector<MeshNode> nodes;
-    for (int h = 0; h < static_cast<int>(beam.home.size()); ++h)
+    const double L = beam.curve.length();
+    for (int h = 0; h < beam.home_intervals() + (beam.is_ring() ? 0 : 1); ++h)
       if (plan.present[b][h]) nodes.push_back({beam.home[h].s, h, -1, 0, 0, 0, -1});
     for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
       if (model.joints[j].beam == b && plan.modes[j] == JointMode::node)
-        nodes.push_back({plan.places[j], -1, j, 0, 0, 0, -1});
+        nodes.push_back({beam.curve.wrapped(plan.places[j]), -1, j, 0, 0, 0, -1});
     std::sort(nodes.begin(), nodes.end(), [](const MeshNode& x, const MeshNode& y) { return x.s < y.s; });
 
     for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
@@ -111,11 +111,14 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
     }
 
     mesh.first_element.push_back(static_cast<int>(mesh.elements.size()));
-    for (int i = 0; i + 1 < static_cast<int>(nodes.size()); ++i) {
-      const MeshNode &a = nodes[i], &b_node = nodes[i + 1];
+    const int count = static_cast<int>(nodes.size());
+    const auto node = [&](int i) -> const MeshNode& { return nodes[(i + count) % count]; };
+    const auto at = [&](int i) { return node(i).s + (i < 0 ? -L : i >= count ? L : 0); };
+    const auto shift = [&](int i) { return node(i).joint >= 0 ? at(i) - plan.places[node(i).joint] : 0; };
+    for (int i = 0; i < count - (beam.is_ring() ? 0 : 1); ++i) {
+      const MeshNode &a = node(i), &b_node = node(i + 1);
       // Both elements beside a moving node are plain cubics in arc length while it hides a break.
-      const double left = a.joint >= 0 ? nodes[i - 1].s : a.s;
-      const double right = b_node.joint >= 0 ? nodes[i + 2].s : b_node.s;
+      const double left = at(a.joint >= 0 ? i - 1 : i), right = at(b_node.joint >= 0 ? i + 2 : i + 1);
       std::array<int, element_size<D>> dofs;
       for (int d = 0; d < D; ++d) {
         dofs[d] = a.r + d;
@@ -125,9 +128,10 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
       }
       dofs[4 * D] = a.place;
       dofs[4 * D + 1] = b_node.place;
-      Chart chart = choose_chart(beam, plan, b, a.s, b_node.s, spans_break(beam, left, right));
-      mesh.elements.push_back({b, i, i + 1, a.s, b_node.s, dofs, drawn_slope_jump<D>(beam, b_node),
-                               BeamElement<D>(beam.curve, beam.properties, std::move(chart), a.s, b_node.s,
+      Chart chart = choose_chart(beam, plan, b, a.s, at(i + 1), spans_break(beam, left, right));
+      mesh.elements.push_back({b, i, (i + 1) % count, a.s, at(i + 1), shift(i), shift(i + 1), dofs,
+                               drawn_slope_jump<D>(beam, b_node),
+                               BeamElement<D>(beam.curve, beam.properties, std::move(chart), a.s, at(i + 1),
                                               a.place < 0 && b_node.place < 0, beam.straight)});
     }
     mesh.nodes.push_back(std::move(nodes));
@@ -144,13 +148,12 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
 }
 
 template <int D>
-int find_element(const BeamModel&, const Mesh<D>& mesh, const Eigen::VectorXd& q, int beam, double s) {
-  const int last = mesh.first_element[beam + 1] - 1;
-  for (int i = mesh.first_element[beam]; i < last; ++i) {
-    const MeshElement<D>& e = mesh.elements[i];
-    const int dof = e.dofs[4 * D + 1];
-    if (s < (dof >= 0 ? q[dof] : e.s_b)) return i;
-  }
+int find_element(const BeamModel& model, const Mesh<D>& mesh, const Eigen::VectorXd& q, int beam, double s) {
+  const int first = mesh.first_element[beam], last = mesh.first_element[beam + 1] - 1;
+  const double start = start_of<D>(mesh.elements[first], q);
+  if (model.beams[beam].is_ring()) s = start + model.beams[beam].curve.wrapped(s - start);
+  for (int i = first; i < last; ++i)
+    if (s < end_of<D>(mesh.elements[i], q)) return i;
   return last;
 }
 
@@ -159,12 +162,12 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
                                 double s) {
   using Nodes = Eigen::Matrix<double, D, 4>;
   const ElementState<D> x = gather<D>(e, q, v, v);
-  const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, s);
+  const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, e.local(x.q, s));
   const Nodes nodes = Eigen::Map<const Nodes>(x.q.data()), rates = Eigen::Map<const Nodes>(x.v.data());
   const std::array<double, 2> w{x.v[4 * D], x.v[4 * D + 1]};
   const PointField<D> r(shape.value, nodes), rs(shape.d1, nodes), rss(shape.d2, nodes);
-  return {r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w),
-          shape.kappa0.value()};
+  return {
+      r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w), shape.kappa0.value()};
 }
 
 template Mesh<2> make_mesh<2>(const BeamModel&, MeshPlan);

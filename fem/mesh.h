@@ -30,7 +30,8 @@ struct MeshPlan {
 };
 
 struct MeshNode {
-  double s;         ///< reference arc length; of a moving node: when the mesh was made [m]
+  double s;         ///< reference arc length, on a ring in [0, length); of a moving node: when the mesh was
+                    ///< made [m]
   int home;         ///< index of the home node, -1 for a moving node
   int joint;        ///< index of the sliding joint, -1 for a home node
   int r;            ///< first of D position coordinates
@@ -41,14 +42,20 @@ struct MeshNode {
 
 template <int D>
 struct MeshElement {
-  int beam, node_a, node_b;               ///< node indices in the beam
-  double s_a, s_b;                        ///< of fixed ends; of moving ends when the mesh was made [m]
+  int beam, node_a, node_b;  ///< node indices in the beam
+  double s_a, s_b;           ///< of fixed ends; of moving ends when the mesh was made [m]
+  double shift_a, shift_b;   ///< of s from its coordinate at a moving end: full turns of a ring [m]
   std::array<int, element_size<D>> dofs;  ///< global coordinates; -1 where a fixed end has none
   /// Of the slope at the right end from the node's, which is the one of the element after it: the small angle
   /// of the drawing there, kept so that the drawn shape is exact. Fixed in space, so only to first order of
   /// the angle under rotation.
   Eigen::Matrix<double, D, 1> slope_offset;
   BeamElement<D> element;
+
+  /// s as the element counts it: on a ring without the turns by which it is away.
+  double local(const ElementVector<D>& q_element, double s) const {
+    return element.curve().unrolled(s, (q_element[4 * D] + q_element[4 * D + 1]) / 2);
+  }
 };
 
 /// Coordinates of a sliding joint's body.
@@ -62,7 +69,7 @@ struct MeshJoint {
 template <int D>
 struct Mesh {
   MeshPlan plan;
-  std::vector<std::vector<MeshNode>> nodes;  ///< per beam, in order
+  std::vector<std::vector<MeshNode>> nodes;  ///< per beam, in order; on a ring the first follows the last
   std::vector<MeshElement<D>> elements;      ///< in order along the beams
   std::vector<int> first_element;            ///< per beam, plus the end
   std::vector<MeshJoint> joints;
@@ -76,8 +83,20 @@ MeshPlan initial_plan(const BeamModel& model);
 template <int D>
 Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan);
 
+/// Where an element starts and ends for the coordinates q [m].
+template <int D>
+double start_of(const MeshElement<D>& e, const Eigen::VectorXd& q) {
+  const int dof = e.dofs[4 * D];
+  return dof >= 0 ? q[dof] + e.shift_a : e.s_a;
+}
+template <int D>
+double end_of(const MeshElement<D>& e, const Eigen::VectorXd& q) {
+  const int dof = e.dofs[4 * D + 1];
+  return dof >= 0 ? q[dof] + e.shift_b : e.s_b;
+}
+
 /// Index into mesh.elements of the element of a beam that holds s for the coordinates q; at a node the one
-/// after it (the last one at the end).
+/// after it (the last one at the end of a beam that is no ring).
 template <int D>
 int find_element(const BeamModel& model, const Mesh<D>& mesh, const Eigen::VectorXd& q, int beam, double s);
 
@@ -89,6 +108,7 @@ ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const 
   for (int i = 0; i < element_size<D>; ++i) {
     const int dof = e.dofs[i];
     x.q[i] = dof >= 0 ? q[dof] : (i == 4 * D ? e.s_a : e.s_b);
+    if (dof >= 0 && i >= 4 * D) x.q[i] += i == 4 * D ? e.shift_a : e.shift_b;
     x.v[i] = dof >= 0 ? v[dof] : 0;
     x.a[i] = dof >= 0 ? a[dof] : 0;
   }
@@ -96,7 +116,7 @@ ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const 
   return x;
 }
 
-/// Position and material velocity fields at one material point.
+/// Position and material velocity fields at one material point; on a ring s may be any full turns away.
 template <int D>
 struct MaterialPoint {
   Eigen::Matrix<double, D, 1> r, rs, rss;            ///< [m], [-], [1/m]

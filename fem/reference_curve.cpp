@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace nurbeam {
@@ -24,8 +25,8 @@ std::array<double, 3> cross_product_derivatives(const Eigen::Matrix<double, 3, 6
 
 }  // namespace
 
-ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric)
-    : segments_(std::move(segments)), dimension_(dimension), metric_(metric) {
+ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric, bool closed)
+    : segments_(std::move(segments)), dimension_(dimension), metric_(metric), closed_(closed) {
   if (segments_.empty())
     throw std::invalid_argument("a reference curve needs at least one segment, got none");
   if (dimension != 2 && dimension != 3)
@@ -35,9 +36,33 @@ ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimensio
     maps_.emplace_back(segment);
     breaks_.push_back(breaks_.back() + maps_.back().length());
   }
+  if (!closed_) return;
+  if (segment_count() < 2 || metric_ == Metric::label)
+    throw std::invalid_argument("a closed reference curve needs two segments or more and its metric");
+  const double gap = (segments_.front().point(0) - segments_.back().point(1)).norm();
+  if (gap > 1e-9 * length())
+    throw std::invalid_argument("a closed reference curve ends where it starts; there is a gap of " +
+                                std::to_string(gap) + " m");
+}
+
+double ReferenceCurve::wrapped(double s) const {
+  if (!closed_) return s;
+  const double rest = s - length() * std::floor(s / length());
+  return rest < length() ? rest : 0;  // s a hair below 0
+}
+
+double ReferenceCurve::next_break(double s) const {
+  const double turns = closed_ ? length() * std::floor(s / length()) : 0;
+  for (int j = 1; j < segment_count() + (closed_ ? 2 : 0); ++j) {
+    const double place = j <= segment_count() ? breaks_[j] : length() + breaks_[1];
+    if (place + turns > s) return place + turns;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 int ReferenceCurve::segment_at(double s, bool from_left) const {
+  s = wrapped(s);
+  if (closed_ && from_left && s == 0) return segment_count() - 1;
   const auto inner_begin = breaks_.begin() + 1, inner_end = breaks_.end() - 1;
   const auto next =
       from_left ? std::lower_bound(inner_begin, inner_end, s) : std::upper_bound(inner_begin, inner_end, s);

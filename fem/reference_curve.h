@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -29,24 +30,39 @@ enum class Metric {
 /// parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is signed,
 /// positive where the curve turns from the first axis to the second; in space kappa_0 >= 0. With
 /// Metric::label, "arc length" below is that label.
+///
+/// A closed curve (a ring) goes on over its seam: s and s + length() are one place, and any s may be asked
+/// for.
 class ReferenceCurve {
  public:
   /// Throws std::invalid_argument when there is no segment, the dimension is not 2 or 3, or the speed
-  /// vanishes.
-  ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric = Metric::arc_length);
+  /// vanishes; for a `closed` curve also when it has less than two segments or no metric, or its end is not
+  /// its start to 1e-9 of its length.
+  ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric = Metric::arc_length,
+                 bool closed = false);
 
   Metric metric() const { return metric_; }
+  bool closed() const { return closed_; }
   int dimension() const { return dimension_; }
   int segment_count() const { return static_cast<int>(segments_.size()); }
   const RationalCubic& segment(int j) const { return segments_[j]; }
   /// segment_count() + 1 reference arc lengths [m].
   const std::vector<double>& breaks() const { return breaks_; }
   double length() const { return breaks_.back(); }
+  /// On a closed curve the same place in [0, length); else s itself.
+  double wrapped(double s) const;
+  /// On a closed curve the same place within half a length of `near`; else s itself.
+  double unrolled(double s, double near) const {
+    return closed_ ? s + length() * std::round((near - s) / length()) : s;
+  }
+  /// The first break between segments after s; infinity where none follows.
+  double next_break(double s) const;
 
   /// The segment that covers s; at a break the one before it when `from_left`, else the one after it.
   int segment_at(double s, bool from_left = false) const;
   /// u of segment j at s [m]; slightly outside it extrapolates.
   double parameter(int j, double s) const {
+    s = unrolled(s, (breaks_[j] + breaks_[j + 1]) / 2);
     return metric_ == Metric::label ? (s - breaks_[j]) / segment_length(j)
                                     : maps_[j].parameter(s - breaks_[j]);
   }
@@ -73,6 +89,7 @@ class ReferenceCurve {
   std::vector<double> breaks_;
   int dimension_;
   Metric metric_;
+  bool closed_;
 };
 
 }  // namespace nurbeam

@@ -302,6 +302,11 @@ class Builder {
     }
     hinges_.emplace_back();
     if (!failed() && beam.corners == Corners::smooth) segments = smoothed(beam, segments);
+    if (!failed() && beam.ring) {
+      check_ring(beam);
+      close_ring(beam, segments);
+    }
+    if (!failed() && !beam.ring) mention_closed_axis(beam, segments);
     if (!failed()) check_corners(beam, segments);
     return segments;
   }
@@ -331,6 +336,44 @@ class Builder {
                                        " degrees were smoothed; largest deviation " + text(smooth.deviation) +
                                        " m");
     return smooth.segments;
+  }
+
+  static double gap_of(const std::vector<RationalCubic>& segments) {
+    return (segments.front().control_point(0) - segments.back().control_point(3)).norm();
+  }
+
+  // A closed axis has its end on its start, to this part of its length.
+  static constexpr double closed_gap = 1e-6;
+
+  // The axis of a ring: its end on its start, without a corner there, and two segments at least.
+  void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments) {
+    const std::string where = beam.path + ".closed";
+    const Eigen::Vector3d start = segments.front().control_point(0), end = segments.back().control_point(3);
+    const double L = BezierPath{segments, {}, 0}.length();
+    if (gap_of(segments) > closed_gap * L)
+      return error(where, "is true, but the axis starts at " + text(start) + " and ends at " + text(end) +
+                              ", " + text(gap_of(segments)) + " m apart; a ring may have a gap of " +
+                              text(closed_gap * L) + " m: close the curve, or leave \"closed\" out");
+    const std::vector<Corner> seam =
+        BezierPath{{segments.back(), segments.front()}, {}, 0}.corners(default_corner_angle);
+    if (!seam.empty())
+      return error(where, "is true, but the axis has a corner of " + text(seam[0].angle * 180 / M_PI) +
+                              " degrees at its seam, " + text(start) +
+                              "; a ring is smooth: round the corner, or leave \"closed\" out");
+    if (segments.size() == 1) {
+      const auto [first, second] = segments[0].split(0.5);
+      segments = {first, second};
+    }
+    Eigen::Matrix4d points = segments.back().points();
+    points.col(3).head<3>() = points(3, 3) * start;
+    segments.back() = RationalCubic(points);
+  }
+
+  void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
+    if (gap_of(segments) <= closed_gap * BezierPath{segments, {}, 0}.length())
+      warn(beam.path + ".axis", "is closed; the beam is open at its seam, " +
+                                    text(segments.front().control_point(0)) +
+                                    ": \"closed\": true makes it a ring");
   }
 
   void check_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
@@ -431,10 +474,10 @@ class Builder {
     try {
       std::vector<RationalCubic> local;
       for (const RationalCubic& cubic : paths_[b]) local.push_back(to_local(cubic));
-      measured_.emplace_back(local, built_.model.dimension);
+      measured_.emplace_back(local, built_.model.dimension, Metric::arc_length, from.ring);
       check_lengths(from, measured_.back());
       if (failed()) return {};
-      return ReferenceCurve(local, built_.model.dimension, from.metric);
+      return ReferenceCurve(local, built_.model.dimension, from.metric, from.ring);
     } catch (const std::invalid_argument& problem) {
       error(from.path + ".axis", problem.what());
       return {};
@@ -574,6 +617,10 @@ class Builder {
       warn(from.path + ".elements.grading",
            text(from.elements.grading) + " m has no effect with one element per segment; take 2 or more");
     for (HomeNode& node : added.home) node.s = material_coordinate(b, node.s);
+    if (from.ring) {
+      added.home.front().late = added.home.back().late = true;  // the seam is a break of the drawing
+      check_ring_elements(from, added);
+    }
     for (int corner : hinges_[b])
       for (HomeNode& node : added.home)
         if (node.s == added.curve.breaks()[corner]) node.hinge = true;
@@ -698,6 +745,29 @@ class Builder {
     }
   }
 
+  // What is there for comparison with the papers, whose beams have ends.
+  void check_ring(const CaseBeam& from) {
+    if (from.weights == WeightRule::constant)
+      error(from.path + ".weights",
+            "\"constant\" is a comparison for beams with ends; a ring needs \"material\"");
+    if (from.metric == Metric::label)
+      error(from.path + ".metric",
+            "\"none\" is a comparison for beams with ends; a ring needs \"reference\"");
+    if (from.corners == Corners::hinge)
+      error(from.path + ".corners", "\"hinge\" is not available on a ring; leave it out");
+  }
+
+  void check_ring_elements(const CaseBeam& from, const Beam& beam) {
+    const int sliders = static_cast<int>(
+        std::count_if(case_.sliding_joints.begin(), case_.sliding_joints.end(),
+                      [&](const CaseSlidingJoint& joint) { return joint.beam == from.name; }));
+    const int fewest = 4 + 2 * sliders;
+    if (beam.home_intervals() < fewest)
+      error(from.path + ".elements", "gives " + std::to_string(beam.home_intervals()) +
+                                         " elements; a ring with " + std::to_string(sliders) +
+                                         " sliding bodies needs at least " + std::to_string(fewest));
+  }
+
   bool is_straight(const CaseBeam& from, const ReferenceCurve& curve) {
     if (built_.model.dimension == 2 || from.stress_free == StressFree::straight)
       return from.stress_free == StressFree::straight;
@@ -800,7 +870,7 @@ class Builder {
     if (!(s >= -1e-9 * L && s <= L * (1 + 1e-9)))
       error(where + ".at",
             text(s) + " m is not on beam \"" + case_.beams[b].name + "\", which is " + text(L) + " m long");
-    if (s < 1e-9 * L) return 0;
+    if (s < 1e-9 * L || (curve.closed() && s > L * (1 - 1e-9))) return 0;
     return s > L * (1 - 1e-9) ? L : s;
   }
 
@@ -827,7 +897,7 @@ class Builder {
       const double s = material_coordinate(b, place(load.at, b, load.path));
       const ReferenceCurve& curve = built_.model.beams[b].curve;
       const double speed = load.moving_speed.value_or(0);
-      if ((s == 0 && speed < 0) || (s == curve.length() && speed > 0))
+      if (!curve.closed() && ((s == 0 && speed < 0) || (s == curve.length() && speed > 0)))
         warn(load.path + ".moves.speed", "is " + text(speed) +
                                              " m/s: the force leaves the beam at once and does "
                                              "nothing; it moves from the " +
@@ -880,9 +950,11 @@ class Builder {
       }
       if (joint.motion_speed) {
         const double speed = *joint.motion_speed, L = built_.model.beams[b].curve.length();
-        const double end = speed > 0 ? L : 0;
-        added.motion = speed == 0 ? TimeTable{{0, added.s}, {1, added.s}}
-                                  : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
+        const double end = built_.model.beams[b].is_ring() ? added.s + speed * case_.analysis.end_time
+                           : speed > 0                     ? L
+                                                           : 0;
+        added.motion = speed == 0 || end == added.s ? TimeTable{{0, added.s}, {1, added.s}}
+                                                    : TimeTable{{0, added.s}, {(end - added.s) / speed, end}};
       }
       if (joint.leave_at_end) warn_of_held_ends(joint, b);
       built_.model.joints.push_back(std::move(added));
@@ -897,6 +969,7 @@ class Builder {
                                               text(s) + " m; it must start where \"at\" is");
     for (std::size_t i = 0; i < joint.motion_table.size(); ++i) {
       const double row = joint.motion_table[i].second;
+      if (built_.model.beams[beam_index(joint.beam)].is_ring()) continue;  // as often around as it says
       if (!(row >= -same_place * L && row <= L * (1 + same_place)))
         error(joint.path + ".motion.table[" + std::to_string(i) + "]",
               text(row) + " m is not on beam \"" + joint.beam + "\", which is " + text(L) +
@@ -905,7 +978,7 @@ class Builder {
   }
 
   void warn_of_held_ends(const CaseSlidingJoint& joint, int b) {
-    if (case_.analysis.type == CaseAnalysis::Type::statics) return;
+    if (case_.analysis.type == CaseAnalysis::Type::statics || built_.model.beams[b].is_ring()) return;
     bool start = false, end = false;
     for (const Support& support : built_.model.supports) {
       start = start || (support.beam == b && support.s == 0);

@@ -297,6 +297,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .per_segment = optional_integer(elements, "per_segment"),
                    .grading = number(elements, "grading", 0)};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
+  beam.ring = flag(json, "closed");
   beam.corners = chosen<Corners>(
       json, "corners", {{"error", Corners::error}, {"smooth", Corners::smooth}, {"hinge", Corners::hinge}});
   constexpr double default_degrees = 5;

@@ -85,6 +85,7 @@ struct CaseBeam {
   std::string path;  ///< JSON path of this object, for messages
   CaseAxis axis;
   double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  bool ring = false;                      ///< the axis is closed, and so is the beam
   Corners corners = Corners::error;
   double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]
   CaseSection section;

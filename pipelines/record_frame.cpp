@@ -39,13 +39,14 @@ ElementRecord record_element(const Beam& beam, const MeshElement<D>& e, const St
 template <int D>
 BeamRecord record_beam(const BeamSystem<D>& system, const State& state, int b) {
   const Mesh<D>& mesh = system.mesh();
+  const Beam& beam_model = system.model().beams[b];
   BeamRecord record;
   for (int i = mesh.first_element[b]; i < mesh.first_element[b + 1]; ++i)
-    record.elements.push_back(record_element<D>(system.model().beams[b], mesh.elements[i], state));
+    record.elements.push_back(record_element<D>(beam_model, mesh.elements[i], state));
   for (const MeshNode& node : mesh.nodes[b]) {
     record.node_positions.push_back(widened<D>(state.q, node.r));
     record.node_slopes.push_back(widened<D>(state.q, node.slope_left));
-    record.node_s.push_back(node.place >= 0 ? state.q[node.place] : node.s);
+    record.node_s.push_back(node.place >= 0 ? beam_model.curve.wrapped(state.q[node.place]) : node.s);
   }
   record.length = system.beam_length(state, b);
   return record;
@@ -75,9 +76,10 @@ Frame record_frame(const BeamSystem<D>& system, const State& state, const std::v
   frame.bodies.resize(model.bodies.size());
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const int r = mesh.joints[j].r, joint = static_cast<int>(j);
-    frame.bodies[model.joints[j].body] = {{widened<D>(state.q, r), widened<D>(state.v, r)},
-                                          system.place(state, joint),
-                                          system.joint_force(state, joint)};
+    std::optional<double> place = system.place(state, joint);
+    if (place) place = model.beams[model.joints[j].beam].curve.wrapped(*place);
+    frame.bodies[model.joints[j].body] = {
+        {widened<D>(state.q, r), widened<D>(state.v, r)}, place, system.joint_force(state, joint)};
   }
   frame.beams = record_beams<D>(system, state);
   const SystemEnergy e = system.energy(state);

@@ -302,10 +302,10 @@ int check_case(const CaseFile& c) {
       longest = std::max(longest, length);
     }
     std::printf(
-        "beam      %s: length %.9g m, mass %.6g kg, %d CAD segments, %zu elements of %.6g to %.6g m, "
+        "beam      %s: %slength %.9g m, mass %.6g kg, %d CAD segments, %zu elements of %.6g to %.6g m, "
         "EA %.6g N, EI %.6g N m^2, stress-free %s\n",
-        beam.name.c_str(), L, L * beam.properties.mass_per_length, beam.curve.segment_count(),
-        beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
+        beam.name.c_str(), beam.is_ring() ? "a ring, " : "", L, L * beam.properties.mass_per_length,
+        beam.curve.segment_count(), beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
         beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
   }
   for (const BeamProfile& drawn : report.value->profiles) {

@@ -82,6 +82,7 @@ class Simulation {
 
  private:
   const std::string& body_name(int joint) const { return model_.bodies[model_.joints[joint].body].name; }
+  const ReferenceCurve& curve_of(int joint) const { return model_.beams[model_.joints[joint].beam].curve; }
   double beam_length_of(int joint) const { return model_.beams[model_.joints[joint].beam].curve.length(); }
 
   SimulationReport report_up_to_now() const {
@@ -144,8 +145,11 @@ class Simulation {
   double room_to_move(std::size_t joint, int direction) const {
     const MeshJoint& at = system_->mesh().joints[joint];
     if (at.node < 0) return std::numeric_limits<double>::infinity();
-    const MeshNode& next = system_->mesh().nodes[model_.joints[joint].beam][at.node + direction];
-    return 0.8 * std::abs((next.place >= 0 ? state_.q[next.place] : next.s) - state_.q[at.place]);
+    const int beam = model_.joints[joint].beam, first = system_->mesh().first_element[beam];
+    const int count = system_->mesh().first_element[beam + 1] - first;
+    const int index = direction > 0 ? at.node : (at.node + count - 1) % count;
+    const MeshElement<D>& e = system_->mesh().elements[first + index];
+    return 0.8 * (end_of<D>(e, state_.q) - start_of<D>(e, state_.q));
   }
 
   void move_place(std::size_t joint, double ds) {
@@ -175,7 +179,8 @@ class Simulation {
     for (int other = 0; other < static_cast<int>(model_.joints.size()); ++other) {
       const auto s = system_->place(state_, other);
       if (other == joint || !s || model_.joints[other].beam != model_.joints[joint].beam) continue;
-      distance = std::min(distance, std::abs(*s - *system_->place(state_, joint)));
+      const double here = *system_->place(state_, joint);
+      distance = std::min(distance, std::abs(curve_of(joint).unrolled(*s, here) - here));
     }
     return distance;
   }
@@ -210,7 +215,8 @@ class Simulation {
         force[j] = now;
         const double s = *system_->place(state_, joint), L = beam_length_of(joint);
         const double room = 0.4 * distance_to_others(joint);
-        ds[j] = std::clamp(std::clamp(now < 0 ? move[j] : -move[j], -room, room), -s, L - s);
+        ds[j] = std::clamp(now < 0 ? move[j] : -move[j], -room, room);
+        if (!curve_of(joint).closed()) ds[j] = std::clamp(ds[j], -s, L - s);
         at_end[j] = ds[j] == 0;
         if (now == 0) ds[j] = 0;
         if (ds[j] == 0) move[j] = 0;
@@ -451,7 +457,8 @@ class Simulation {
     std::string places;
     for (std::size_t j = 0; j < model_.joints.size(); ++j)
       if (const auto s = system_->place(state_, static_cast<int>(j)))
-        places += "; \"" + body_name(static_cast<int>(j)) + "\" is at s = " + text(*s) + " m of beam \"" +
+        places += "; \"" + body_name(static_cast<int>(j)) +
+                  "\" is at s = " + text(curve_of(static_cast<int>(j)).wrapped(*s)) + " m of beam \"" +
                   model_.beams[model_.joints[j].beam].name +
                   "\" with ds/dt = " + text(system_->place_rate(state_, static_cast<int>(j))) + " m/s";
     return places;
@@ -514,7 +521,8 @@ class Simulation {
     for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j) {
       if (system_->mesh().plan.modes[j] != JointMode::node) continue;
       const double from = *system_->place(before, j), to = *system_->place(state_, j);
-      for (double s : model_.beams[model_.joints[j].beam].curve.breaks()) {
+      const double last = std::max(from, to);
+      for (double s = curve_of(j).next_break(std::min(from, to)); s < last; s = curve_of(j).next_break(s)) {
         if (std::abs(s - from) <= 2 * landing_tolerance(j)) continue;  // landed there, and turned round
         if ((s - from) * (s - to) >= 0 || (s - from) / (to - from) >= earliest) continue;
         earliest = (s - from) / (to - from);
@@ -642,7 +650,7 @@ class Simulation {
     event.kind = kind;
     event.beam = model_.beams[model_.joints[joint].beam].name;
     event.body = body_name(joint);
-    event.s = system_->place(state_, joint);
+    if (const auto s = system_->place(state_, joint)) event.s = curve_of(joint).wrapped(*s);
     event.energy_before = system_->energy(state_).mechanical();
     event.momentum_before = system_->momentum(state_);
     event.length_before = system_->beam_length(state_, model_.joints[joint].beam);

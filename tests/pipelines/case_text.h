@@ -61,7 +61,7 @@ inline const char* const full_case = R"({
       "elements": { "per_segment": 2, "grading": "-2 cm" },
       "element": "ale-ancf", "weights": "constant", "merge": "paper", "metric": "reference",
       "stress_free": "straight", "curvature": "spatial", "form": "variational",
-      "corners": "hinge", "smooth_up_to": 3, "approximation_tolerance": "1 um"
+      "corners": "hinge", "smooth_up_to": 3, "closed": false, "approximation_tolerance": "1 um"
     },
     {
       "name": "arch",
