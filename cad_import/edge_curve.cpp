@@ -138,7 +138,10 @@ ImportedCurve imported_curve(const TopoDS_Edge& edge, double tolerance) {
   NurbsCurve curve = nurbs_curve(*result.curve);
   check_length(curve);
   if (edge.Orientation() == TopAbs_REVERSED) curve = curve.reversed();
-  return {"", entity, true, exact, result.deviation / kMillimetresPerMetre, std::move(curve)};
+  return {.entity = entity,
+          .exact = exact,
+          .deviation = result.deviation / kMillimetresPerMetre,
+          .curve = std::move(curve)};
 }
 
 }  // namespace nurbeam

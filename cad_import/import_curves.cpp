@@ -1,5 +1,6 @@
 #include "cad_import/import_curves.h"
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -21,8 +22,10 @@ ImportReport error_report(const fs::path& file, const std::string& message) {
   return report;
 }
 
+std::string megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
+
 // Why the path cannot hold a CAD file at all; "" if it may.
-std::string unusable(const fs::path& file) {
+std::string unusable(const fs::path& file, std::size_t size_limit) {
   constexpr const char* kExpected = "; expected a STEP or IGES file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -30,7 +33,11 @@ std::string unusable(const fs::path& file) {
   if (error) return error.message() + kExpected;
   if (fs::is_directory(status)) return std::string("it is a directory") + kExpected;
   if (!fs::is_regular_file(status)) return std::string("it is not a regular file") + kExpected;
-  if (fs::file_size(file, error) == 0) return std::string("the file is empty") + kExpected;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (size == 0) return std::string("the file is empty") + kExpected;
+  if (size > size_limit)
+    return "the file has " + megabytes(size) + ", more than the limit of " + megabytes(size_limit) +
+           "; export only the curves that are needed, or raise size_limit_bytes";
   return "";
 }
 
@@ -51,8 +58,6 @@ ImportReport read_in_child(const fs::path& file, double tolerance) {
   if (!missing.empty()) return error_report(file, missing);
   return read_cad_file(file, content, *format, tolerance);
 }
-
-std::string megabytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
 
 ImportReport report_of(const ChildResult& result, const fs::path& file, const ImportOptions& options) {
   switch (result.status) {
@@ -84,7 +89,7 @@ ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
     throw std::invalid_argument("tolerance is " + std::to_string(options.tolerance) +
                                 " m; it must be positive");
   }
-  const std::string reason = unusable(file);
+  const std::string reason = unusable(file, options.size_limit_bytes);
   if (!reason.empty()) return error_report(file, reason);
   const ChildResult result = run_in_child([&] { return to_bytes(read_in_child(file, options.tolerance)); },
                                           {options.time_limit, options.memory_limit_bytes});

@@ -7,9 +7,10 @@
 
 namespace nurbeam {
 
-/// Limits on the child process that reads one file.
+/// Limits on one file and on the child process that reads it.
 struct ImportOptions {
-  std::chrono::seconds time_limit{30};                    ///< wall and CPU time
+  std::size_t size_limit_bytes = std::size_t{512} << 20;  ///< of the file; a larger one is not opened
+  std::chrono::seconds time_limit{28};                    ///< wall and CPU time
   std::size_t memory_limit_bytes = std::size_t{2} << 30;  ///< address space; 0: no limit (sanitizer builds)
   double tolerance = 1e-7;                                ///< for entities that have no exact NURBS form [m]
 };

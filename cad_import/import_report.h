@@ -17,13 +17,19 @@ struct Diagnostic {
 
 /// One curve of a CAD file, in metres, in world coordinates (locations and transforms applied).
 struct ImportedCurve {
-  std::string name;      ///< as in the file; "" if it has none there
-  std::string entity;    ///< kind in the file's terms: "line", "circle", "ellipse", "parabola", "hyperbola",
-                         ///< "bspline", "bezier", "offset", "other"
-  bool free = true;      ///< no face uses it
-  bool exact = true;     ///< whether `curve` is the entity exactly
-  double deviation = 0;  ///< measured distance from the entity when not exact [m]
+  std::string name = {};    ///< as in the file; "" if it has none there
+  std::string entity = {};  ///< kind in the file's terms: "line", "circle", "ellipse", "parabola",
+                            ///< "hyperbola", "bspline", "bezier", "offset", "other"; "centre line" of a pipe
+  std::string layer = {};   ///< STEP: name of its layer; IGES: number of its level; "" for none
+  std::string colour = {};  ///< "#rrggbb"; "" for none
+  bool free = true;         ///< no face uses it
+  bool exact = true;        ///< whether `curve` is the entity exactly
+  double deviation = 0;     ///< measured distance from the entity when not exact [m]
+  double pipe_radius = 0;   ///< of a centre line: the pipe's outer radius [m]; 0 for a curve of the file
+  double bore_radius = 0;   ///< of a centre line: the pipe's inner radius [m]; 0 for a solid rod
   NurbsCurve curve;
+
+  bool is_centre_line() const { return pipe_radius > 0; }
 };
 
 /// The curves found in a file, and a Diagnostic for every entity skipped or altered.
@@ -31,6 +37,8 @@ struct ImportReport {
   std::string file;
   std::string unit;  ///< the file's length unit as declared: "mm", "m", "inch", ...
   double unit_in_metres = 0;
+  double resolution =
+      0;  ///< distance within which points of the file are one, as declared [m]; 0: undeclared
   std::vector<ImportedCurve> curves;
   std::vector<Diagnostic> diagnostics;
   bool ok() const;  ///< no diagnostic is an error

@@ -24,6 +24,7 @@
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_EdgeCurve.hxx>
@@ -40,6 +41,7 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
@@ -51,6 +53,8 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/appearance.h"
+#include "cad_import/centre_line.h"
 #include "cad_import/edge_curve.h"
 #include "cad_import/iges_global.h"
 #include "cad_import/spline_defect.h"
@@ -65,6 +69,7 @@ constexpr int kMostReportedFailures = 20;
 struct Origin {
   std::string name;
   std::string label;
+  Appearance appearance;
   bool defective = false;
 };
 // By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
@@ -109,13 +114,15 @@ std::string entity_label(const Interface_InterfaceModel& model, const Handle(Sta
   return text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
 }
 
-void add_origins(const TopoDS_Shape& shape, const Origin& origin, Origins& origins) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
-  for (int i = 1; i <= edges.Extent(); ++i) {
-    Origin& known = origins[edges(i).TShape().get()];
+void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin& origin, Origins& origins) {
+  TopTools_IndexedMapOfShape parts;
+  TopExp::MapShapes(shape, part, parts);
+  for (int i = 1; i <= parts.Extent(); ++i) {
+    Origin& known = origins[parts(i).TShape().get()];
     if (known.label.empty()) known.label = origin.label;
     if (known.name.empty()) known.name = origin.name;
+    if (known.appearance.layer.empty()) known.appearance.layer = origin.appearance.layer;
+    if (known.appearance.colour.empty()) known.appearance.colour = origin.appearance.colour;
     known.defective |= origin.defective && shape.ShapeType() != TopAbs_COMPOUND;
   }
 }
@@ -158,22 +165,48 @@ bool refers_to(const Handle(Standard_Transient) & start, const Entities& wanted,
   return false;
 }
 
-// An edge's own entity first, then the wire or set that holds it.
-Origins origins_of_edges(const XSControl_Reader& reader, ImportReport& report) {
+/// An entity of the file and the shape that was made of it.
+struct Translated {
+  Handle(Standard_Transient) entity;
+  TopoDS_Shape shape;
+};
+
+// All of them, edges first and compounds last.
+std::vector<Translated> translated_entities(const XSControl_Reader& reader) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  std::vector<Translated> all;
+  for (int i = 1; i <= process->NbMapped(); ++i) {
+    const Handle(Standard_Transient) entity = process->Mapped(i);
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+    if (!shape.IsNull()) all.push_back({entity, shape});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Translated& a, const Translated& b) {
+    return a.shape.ShapeType() > b.shape.ShapeType();
+  });
+  return all;
+}
+
+// Of an edge's own entity first, then of the smallest of those that hold it: wire or set, face, solid. Of a
+// face's own entity, then of its shell or solid.
+Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report) {
   Origins origins;
   const Entities defective = defective_splines(*reader.Model(), report);
   const Interface_Graph& graph = reader.WS()->Graph();
-  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
-  for (const bool single_edges : {true, false}) {
-    for (int i = 1; i <= process->NbMapped(); ++i) {
-      const Handle(Standard_Transient) entity = process->Mapped(i);
-      const TopoDS_Shape result = TransferBRep::ShapeResult(process, entity);
-      if (result.IsNull() || (result.ShapeType() == TopAbs_EDGE) != single_edges) continue;
-      if (!names_its_edges(entity, result)) continue;
-      const Origin origin{entity_name(entity), entity_label(*reader.Model(), entity),
-                          refers_to(entity, defective, graph)};
-      add_origins(result, origin, origins);
+  const Appearances appearances = appearances_of(*reader.WS());
+  for (const auto& [entity, shape] : translated_entities(reader)) {
+    const auto shown = appearances.find(entity.get());
+    Origin origin;
+    if (shown != appearances.end()) origin.appearance = shown->second;
+    if (names_its_edges(entity, shape)) {
+      origin.name = entity_name(entity);
+      origin.label = entity_label(*reader.Model(), entity);
+      origin.defective = refers_to(entity, defective, graph);
     }
+    add_origins(shape, TopAbs_EDGE, origin, origins);
+    if (shape.ShapeType() > TopAbs_FACE) continue;
+    origin.name = entity_name(entity);
+    origin.label = entity_label(*reader.Model(), entity);
+    add_origins(shape, TopAbs_FACE, origin, origins);
   }
   return origins;
 }
@@ -200,6 +233,8 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
     OCC_CATCH_SIGNALS
     ImportedCurve curve = imported_curve(edge, tolerance);
     curve.name = origin.name;
+    curve.layer = origin.appearance.layer;
+    curve.colour = origin.appearance.colour;
     curve.free = free;
     note_approximation(curve, label, tolerance, report);
     report.curves.push_back(std::move(curve));
@@ -212,10 +247,29 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
   }
 }
 
+// Centre lines stand after the curves of the file, whose numbers they leave as they are.
+void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, double tolerance,
+                      ImportReport& report) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  CentreLines found = centre_lines(shape, tolerance);
+  for (CentreLine& line : found.lines) {
+    const auto known = origins.find(faces(line.face).TShape().get());
+    if (known != origins.end()) {
+      if (known->second.defective) continue;
+      line.curve.name = known->second.name;
+      line.curve.layer = known->second.appearance.layer;
+      line.curve.colour = known->second.appearance.colour;
+    }
+    report.curves.push_back(std::move(line.curve));
+  }
+  for (const std::string& remark : found.remarks) add(report, Severity::note, "", remark);
+}
+
 void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return;
-  const Origins origins = origins_of_edges(reader, report);
+  const Origins origins = origins_of_edges_and_faces(reader, report);
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -226,6 +280,7 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     if (origin.defective) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, tolerance, report);
   }
+  add_centre_lines(shape, origins, tolerance, report);
 }
 
 // What OpenCASCADE failed to read or to translate.
@@ -341,21 +396,43 @@ Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transi
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
 }
 
-// The length units of all representation contexts of the file [m].
-std::set<double> length_units(const Interface_InterfaceModel& model) {
-  std::set<double> units;
+Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty_of(const Handle(Standard_Transient) & entity) {
+  const auto context =
+      Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(entity);
+  return context.IsNull() ? Handle(StepRepr_GlobalUncertaintyAssignedContext)()
+                          : context->GlobalUncertaintyAssignedContext();
+}
+
+/// What the representation contexts of a file declare.
+struct StepContexts {
+  std::set<double> length_units;  // [m]
+  double resolution = 0;          // the coarsest [m]
+};
+
+StepContexts contexts_of(const Interface_InterfaceModel& model) {
+  StepContexts contexts;
   for (int i = 1; i <= model.NbEntities(); ++i) {
-    const Handle(StepRepr_GlobalUnitAssignedContext) context = units_of(model.Value(i));
-    if (context.IsNull()) continue;
+    const Handle(StepRepr_GlobalUnitAssignedContext) units = units_of(model.Value(i));
+    if (units.IsNull()) continue;
     STEPConstruct_UnitContext factors;
-    factors.ComputeFactors(context);
-    if (factors.LengthDone()) units.insert(factors.LengthFactor() * kMetresPerMillimetre);
+    factors.ComputeFactors(units);
+    if (!factors.LengthDone()) continue;
+    contexts.length_units.insert(factors.LengthFactor() * kMetresPerMillimetre);
+    const Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty = uncertainty_of(model.Value(i));
+    if (uncertainty.IsNull()) continue;
+    factors.ComputeTolerance(uncertainty);
+    if (!factors.HasUncertainty()) continue;
+    // OpenCASCADE leaves the number in the context's own length unit.
+    const double resolution = factors.Uncertainty() * factors.LengthFactor() * kMetresPerMillimetre;
+    if (std::isfinite(resolution)) contexts.resolution = std::max(contexts.resolution, resolution);
   }
-  return units;
+  return contexts;
 }
 
 void report_step_unit(const Interface_InterfaceModel& model, ImportReport& report) {
-  const std::set<double> units = length_units(model);
+  const StepContexts contexts = contexts_of(model);
+  const std::set<double>& units = contexts.length_units;
+  report.resolution = contexts.resolution;
   if (units.empty()) {
     add(report, Severity::warning, "", "the file declares no length unit; millimetres are assumed");
   }
@@ -406,6 +483,8 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
   IGESControl_Reader reader;
   read(reader, file, report);
   compare_units(global, reader.IGESModel()->GlobalSection());
+  const double resolution = reader.IGESModel()->GlobalSection().Resolution();
+  if (std::isfinite(resolution) && resolution > 0) report.resolution = resolution * global.unit_in_metres;
   transfer(reader, tolerance, report);
 }
 

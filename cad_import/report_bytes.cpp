@@ -1,5 +1,6 @@
 #include "cad_import/report_bytes.h"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -85,21 +86,30 @@ NurbsCurve read_nurbs_curve(Reader& in) {
 }
 
 void write(Writer& out, const ImportedCurve& curve) {
-  out.text(curve.name);
-  out.text(curve.entity);
+  for (const std::string& text : {curve.name, curve.entity, curve.layer, curve.colour}) out.text(text);
   out.number(curve.free);
   out.number(curve.exact);
-  out.number(curve.deviation);
+  for (double number : {curve.deviation, curve.pipe_radius, curve.bore_radius}) out.number(number);
   write(out, curve.curve);
 }
 
 ImportedCurve read_imported_curve(Reader& in) {
-  std::string name = in.text();
-  std::string entity = in.text();
+  std::array<std::string, 4> texts;
+  for (std::string& text : texts) text = in.text();
   const bool free = in.number<char>() != 0;
   const bool exact = in.number<char>() != 0;
-  const double deviation = in.number<double>();
-  return {std::move(name), std::move(entity), free, exact, deviation, read_nurbs_curve(in)};
+  std::array<double, 3> numbers{};
+  for (double& number : numbers) number = in.number<double>();
+  return {.name = texts[0],
+          .entity = texts[1],
+          .layer = texts[2],
+          .colour = texts[3],
+          .free = free,
+          .exact = exact,
+          .deviation = numbers[0],
+          .pipe_radius = numbers[1],
+          .bore_radius = numbers[2],
+          .curve = read_nurbs_curve(in)};
 }
 
 void write(Writer& out, const Diagnostic& diagnostic) {
@@ -123,6 +133,7 @@ std::string to_bytes(const ImportReport& report) {
   out.text(report.file);
   out.text(report.unit);
   out.number(report.unit_in_metres);
+  out.number(report.resolution);
   out.count(report.curves.size());
   for (const ImportedCurve& curve : report.curves) write(out, curve);
   out.count(report.diagnostics.size());
@@ -136,6 +147,7 @@ ImportReport report_from_bytes(const std::string& bytes) {
   report.file = in.text();
   report.unit = in.text();
   report.unit_in_metres = in.number<double>();
+  report.resolution = in.number<double>();
   const std::size_t curves = in.count(1);
   for (std::size_t i = 0; i < curves; ++i) report.curves.push_back(read_imported_curve(in));
   const std::size_t diagnostics = in.count(1);

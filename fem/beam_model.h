@@ -87,6 +87,16 @@ struct SlidingJoint {
   bool leave_at_end = true;  ///< else it stops there
 };
 
+/// Joins two beams at a place of each, which no body slides over: their material points there stay together
+/// (at the distance they have in the drawing).
+struct BeamJoint {
+  int beam_a;
+  double s_a;  ///< [m]
+  int beam_b;
+  double s_b;          ///< [m]
+  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle); else a hinge
+};
+
 /// Elements' home places, supports, bodies, loads and joints: all that does not change during a run.
 ///
 /// Coordinates are the model's own frame: for dimension 2 the plane of the model (third components zero).
@@ -99,6 +109,7 @@ struct BeamModel {
   std::vector<PointLoad> point_loads;
   std::vector<LineLoad> line_loads;
   std::vector<SlidingJoint> joints;
+  std::vector<BeamJoint> beam_joints;
 };
 
 /// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and

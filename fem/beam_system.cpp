@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/held_angle.h"
 #include "fem/inertia.h"
 #include "fem/point_load.h"
 
@@ -52,11 +53,11 @@ int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
 
 }  // namespace
 
-// Value, gradient and contracted Hessian of one constraint in its local coordinates (the element's, then the
-// body's position, then sigma).
+// Value, gradient and contracted Hessian of one constraint in its local coordinates: the element's, then the
+// body's position, then sigma; of a joint of two beams those of both elements.
 template <int D>
 struct BeamSystem<D>::ConstraintTerms {
-  static constexpr int size = element_size<D> + D + 1;
+  static constexpr int size = 2 * element_size<D>;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, D, 1> value;
   Eigen::Matrix<double, Eigen::Dynamic, size, 0, D, size> gradient;
   Eigen::Matrix<double, size, size> hessian;
@@ -74,12 +75,11 @@ template <int D>
 void BeamSystem<D>::build_constraints() {
   const State drawn = drawn_state();
   const auto add = [&](ConstraintKind kind, int rows, int index, int element, double s) {
-    Constraint c{kind, constraint_count_, rows, index, element, s, std::nullopt, {}, {}, {}};
+    Constraint c{kind, constraint_count_, rows, index, {element, s, {}}, {}, {}, {}, {}};
     if (element >= 0) {
-      const MeshElement<D>& e = mesh_.elements[element];
-      c.block.dofs.assign(e.dofs.begin(), e.dofs.end());
-      if (e.element.fixed() && kind != ConstraintKind::body_on_point)
-        c.fixed_shape = shape_at(e, gather<D>(e, drawn.q, drawn.v, drawn.a).q, s);
+      if (kind != ConstraintKind::body_on_point) c.point = point_at(element, s, drawn);
+      const auto& dofs = mesh_.elements[element].dofs;
+      c.block.dofs.assign(dofs.begin(), dofs.end());
     }
     if (kind == ConstraintKind::body_on_point)
       for (int d = 0; d < D; ++d) c.block.dofs.push_back(mesh_.joints[index].r + d);
@@ -107,6 +107,38 @@ void BeamSystem<D>::build_constraints() {
       add(ConstraintKind::place, 1, j, -1, s);
     }
   }
+  const auto add_joint = [&](ConstraintKind kind, int rows, int index) {
+    const BeamJoint& joint = model_->beam_joints[index];
+    const int a = find_element<D>(*model_, mesh_, drawn.q, joint.beam_a, joint.s_a);
+    const int b = find_element<D>(*model_, mesh_, drawn.q, joint.beam_b, joint.s_b);
+    Constraint c{kind,
+                 constraint_count_,
+                 rows,
+                 index,
+                 point_at(a, joint.s_a, drawn),
+                 point_at(b, joint.s_b, drawn),
+                 {},
+                 {},
+                 {}};
+    for (int element : {a, b}) {
+      const auto& dofs = mesh_.elements[element].dofs;
+      c.block.dofs.insert(c.block.dofs.end(), dofs.begin(), dofs.end());
+    }
+    constraint_count_ += rows;
+    constraints_.push_back(std::move(c));
+  };
+  for (int i = 0; i < static_cast<int>(model_->beam_joints.size()); ++i) {
+    add_joint(ConstraintKind::joint_position, D, i);
+    if (model_->beam_joints[i].rigid) add_joint(ConstraintKind::joint_angle, 1, i);
+  }
+}
+
+template <int D>
+typename BeamSystem<D>::Point BeamSystem<D>::point_at(int element, double s, const State& drawn) const {
+  const MeshElement<D>& e = mesh_.elements[element];
+  Point point{element, s, {}};
+  if (e.element.fixed()) point.fixed_shape = shape_at(e, gather<D>(e, drawn.q, drawn.v, drawn.a).q, s);
+  return point;
 }
 
 template <int D>
@@ -210,17 +242,22 @@ typename BeamSystem<D>::ConstraintTerms BeamSystem<D>::constraint_terms(
     return terms;
   }
 
-  const MeshElement<D>& e = mesh_.elements[c.element];
+  if (c.other) {
+    add_joint_terms(c, state, y, multiplier != nullptr, terms);
+    return terms;
+  }
+
+  const MeshElement<D>& e = mesh_.elements[c.point.element];
   const ElementState<D> x = gather<D>(e, state.q, state.v, state.a);
   const Eigen::Matrix<double, D, 4> nodes = Eigen::Map<const Eigen::Matrix<double, D, 4>>(x.q.data());
   const bool on_point = c.kind == ConstraintKind::body_on_point;
-  const double s = on_point ? state.q[c.block.dofs[n + D]] : c.s;
-  const ShapeFunctions<Jet> shape = c.fixed_shape ? *c.fixed_shape : shape_at(e, x.q, s);
+  const double s = on_point ? state.q[c.block.dofs[n + D]] : c.point.s;
+  const ShapeFunctions<Jet> shape = c.point.fixed_shape ? *c.point.fixed_shape : shape_at(e, x.q, s);
   const ReferenceCurve& curve = model_->beams[e.beam].curve;
 
   if (c.kind == ConstraintKind::direction) {
     const PointField<D> rs(shape.d1, nodes);
-    const Eigen::Matrix<double, D - 1, D> across = directions_across<D>(curve.tangent(c.s));
+    const Eigen::Matrix<double, D - 1, D> across = directions_across<D>(curve.tangent(c.point.s));
     terms.value = across * rs.value;
     terms.gradient.template leftCols<n>() = across * rs.gradient;
     if (multiplier) rs.add_hessian(across.transpose() * y.template head<D - 1>(), 1, nodes, terms.hessian);
@@ -229,7 +266,7 @@ typename BeamSystem<D>::ConstraintTerms BeamSystem<D>::constraint_terms(
 
   const PointField<D> r(shape.value, nodes);
   if (c.kind == ConstraintKind::position) {
-    terms.value = r.value - curve.position(c.s).template head<D>();
+    terms.value = r.value - curve.position(c.point.s).template head<D>();
     terms.gradient.template leftCols<n>() = r.gradient;
     if (multiplier) r.add_hessian(y, 1, nodes, terms.hessian);
     return terms;
@@ -249,6 +286,50 @@ typename BeamSystem<D>::ConstraintTerms BeamSystem<D>::constraint_terms(
     terms.hessian(n + D, n + D) += y.dot(rss.value);
   }
   return terms;
+}
+
+// Terms of r_a - r_b less their distance in the drawing, or of the held angle between the slopes. `terms` are
+// zero before; y: multipliers.
+template <int D>
+void BeamSystem<D>::add_joint_terms(const Constraint& c, const State& state, const Vector& y,
+                                    bool with_hessian, ConstraintTerms& terms) const {
+  constexpr int n = element_size<D>;
+  const bool is_position = c.kind == ConstraintKind::joint_position;
+  const auto field_at = [&](const Point& point) {
+    const MeshElement<D>& e = mesh_.elements[point.element];
+    const ElementVector<D> q = gather<D>(e, state.q, state.v, state.a).q;
+    const Eigen::Matrix<double, D, 4> nodes = Eigen::Map<const Eigen::Matrix<double, D, 4>>(q.data());
+    const ShapeFunctions<Jet> shape = point.fixed_shape ? *point.fixed_shape : shape_at(e, q, point.s);
+    return std::pair(PointField<D>(is_position ? shape.value : shape.d1, nodes), nodes);
+  };
+  const auto [a, nodes_a] = field_at(c.point);
+  const auto [b, nodes_b] = field_at(*c.other);
+  const BeamJoint& joint = model_->beam_joints[c.index];
+  const ReferenceCurve &curve_a = model_->beams[joint.beam_a].curve,
+                       &curve_b = model_->beams[joint.beam_b].curve;
+  auto hessian_b = terms.hessian.template bottomRightCorner<n, n>();
+  if (is_position) {
+    const Eigen::Vector3d drawn = curve_a.position(joint.s_a) - curve_b.position(joint.s_b);
+    terms.value = a.value - b.value - drawn.head<D>();
+    terms.gradient.template leftCols<n>() = a.gradient;
+    terms.gradient.template rightCols<n>() = -b.gradient;
+    if (!with_hessian) return;
+    a.add_hessian(y, 1, nodes_a, terms.hessian);
+    b.add_hessian(y, -1, nodes_b, hessian_b);
+    return;
+  }
+  const HeldAngle<D> angle(curve_a.tangent(joint.s_a).template head<D>(),
+                           curve_b.tangent(joint.s_b).template head<D>());
+  const typename HeldAngle<D>::Terms held = angle.terms(a.value, b.value);
+  Eigen::Matrix<double, 2 * D, 2 * n> slopes = Eigen::Matrix<double, 2 * D, 2 * n>::Zero();
+  slopes.template topLeftCorner<D, n>() = a.gradient;
+  slopes.template bottomRightCorner<D, n>() = b.gradient;
+  terms.value[0] = held.value;
+  terms.gradient = held.gradient.transpose() * slopes;
+  if (!with_hessian) return;
+  terms.hessian = y[0] * slopes.transpose() * held.hessian * slopes;
+  a.add_hessian(held.gradient.template head<D>(), y[0], nodes_a, terms.hessian);
+  b.add_hessian(held.gradient.template tail<D>(), y[0], nodes_b, hessian_b);
 }
 
 template <int D>

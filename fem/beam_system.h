@@ -19,7 +19,8 @@ struct SystemEnergy {
 /// Coordinates: per beam and node r (D), r_s (D; twice where a joint's slope is discontinuous), s (moving
 /// nodes), then position (D) and sigma of bodies carried as points or flying free. Multipliers: supports in
 /// order (D for the position, D - 1 for a clamped direction), then per joint D for a body on a point, 1 where
-/// s is prescribed or held.
+/// s is prescribed or held, then per joint of two beams D for the position and 1 for the angle of a rigid
+/// one.
 template <int D>
 class BeamSystem final : public SecondOrderSystem {
  public:
@@ -69,14 +70,19 @@ class BeamSystem final : public SecondOrderSystem {
     std::vector<int> dofs;
     std::vector<int> values;  // dofs.size()^2, column by column; -1 where a dof is -1
   };
-  enum class ConstraintKind { position, direction, place, body_on_point };
+  enum class ConstraintKind { position, direction, place, body_on_point, joint_position, joint_angle };
+  // A material point of one element.
+  struct Point {
+    int element;  // -1 for place
+    double s;     // of supports and joints of two beams [m]
+    std::optional<ShapeFunctions<Jet>> fixed_shape;
+  };
   struct Constraint {
     ConstraintKind kind;
     int row, rows;
-    int index;    // support or joint
-    int element;  // -1 for place
-    double s;     // of supports [m]
-    std::optional<ShapeFunctions<Jet>> fixed_shape;
+    int index;  // support, sliding joint or joint of two beams
+    Point point;
+    std::optional<Point> other;  // on the second of two beams
     Block block;
     std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
   };
@@ -85,9 +91,12 @@ class BeamSystem final : public SecondOrderSystem {
   Vector line_load(int beam, double t) const;
   Vector gravity() const { return load_factor_ * model_->gravity.head<D>(); }
   void build_constraints();
+  Point point_at(int element, double s, const State& drawn) const;
   void build_pattern();
   ConstraintTerms constraint_terms(const Constraint& c, const State& state,
                                    const Eigen::VectorXd* multiplier) const;
+  void add_joint_terms(const Constraint& c, const State& state, const Vector& y, bool with_hessian,
+                       ConstraintTerms& terms) const;
   template <class Visit>
   void for_each_point_load(const State& state, Visit&& visit) const;
 

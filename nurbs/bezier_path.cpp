@@ -10,6 +10,7 @@
 
 #include "nurbs/arc_length.h"
 #include "nurbs/bezier.h"
+#include "nurbs/curve_vertices.h"
 
 namespace nurbeam {
 namespace {
@@ -206,24 +207,12 @@ double close_gap(RationalCubic& before, RationalCubic& after) {
 /// For each end of a curve (2 i: start of curve i, 2 i + 1: its end) the one other end that meets it, or -1
 /// where none or more than one does.
 std::vector<int> meeting_ends(const std::vector<NurbsCurve>& curves, double tolerance) {
-  std::vector<Eigen::Vector3d> points;
-  for (const NurbsCurve& curve : curves) {
-    points.push_back(curve.point(curve.knots().start()));
-    points.push_back(curve.point(curve.knots().end()));
+  std::vector<int> partner(2 * curves.size(), -1);
+  for (const CurveVertex& vertex : vertices_of(curves, tolerance)) {
+    if (vertex.ends.size() != 2) continue;
+    partner[vertex.ends[0]] = vertex.ends[1];
+    partner[vertex.ends[1]] = vertex.ends[0];
   }
-  const int count = static_cast<int>(points.size());
-  std::vector<int> partner(points.size(), -1);
-  for (int i = 0; i < count; ++i) {
-    int meeting = 0;
-    for (int j = 0; j < count; ++j)
-      if (j != i && (points[i] - points[j]).norm() <= tolerance) {
-        ++meeting;
-        partner[i] = j;
-      }
-    if (meeting != 1) partner[i] = -1;
-  }
-  for (int i = 0; i < count; ++i)
-    if (partner[i] >= 0 && partner[partner[i]] != i) partner[i] = -1;
   return partner;
 }
 

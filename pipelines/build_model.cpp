@@ -8,24 +8,30 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "cad_import/import_curves.h"
 #include "nurbs/bezier_path.h"
+#include "nurbs/closest_point.h"
+#include "nurbs/smooth_corners.h"
+#include "pipelines/axis_selection.h"
 #include "pipelines/cgal_geometry.h"
+#include "pipelines/closest_name.h"
 #include "pipelines/section_profile.h"
 
 namespace nurbeam {
 
 namespace {
 
-// Angle above which a joint of two curves is a corner [rad].
-constexpr double corner_angle = 1e-4;
-
 // What a beam's axis may measure [m], and its shortest segment as a part of it.
 constexpr double shortest_beam = 1e-6, longest_beam = 1e7, shortest_segment = 1e-6;
 // Places nearer to each other than this part of the beam's length are the same place.
 constexpr double same_place = 1e-9;
+// Radii nearer to each other than this part of them are the same radius.
+constexpr double same_radius = 1e-6;
+// Beams whose axes come within this part of their length of each other meet.
+constexpr double same_joint = 1e-6;
 
 std::string text(double value) {
   std::ostringstream stream;
@@ -73,14 +79,19 @@ std::vector<RationalCubic> arc_cubics(const CaseAxis::Arc& arc) {
 
 class Builder {
  public:
-  explicit Builder(const CaseFile& case_file) : case_(case_file) {}
+  explicit Builder(CaseFile case_file) : case_(std::move(case_file)) {}
 
   BuildReport build() {
-    for (const CaseBeam& beam : case_.beams) paths_.push_back(axis_of(beam));
+    choose_chains();
+    for (std::size_t b = 0; b < case_.beams.size() && !failed(); ++b)
+      paths_.push_back(axis_of(case_.beams[b], chains_[b]));
     if (!failed()) {
       choose_frame();
       for (std::size_t b = 0; b < case_.beams.size() && !failed(); ++b) add_beam(static_cast<int>(b));
+      if (!failed()) join_beams();
+      for (std::size_t b = 0; b < case_.beams.size() && !failed(); ++b) divide_beam(static_cast<int>(b));
     }
+    if (!failed()) check_joined_supports();
     if (!failed()) {
       add_loads();
       add_joints();
@@ -125,102 +136,155 @@ class Builder {
     return imports_.emplace(file, std::move(report)).first->second;
   }
 
-  static std::string list_of(const std::vector<ImportedCurve>& curves) {
-    std::string names;
-    for (std::size_t i = 0; i < curves.size() && i < 20; ++i)
-      names += (i ? ", " : "") + std::to_string(i + 1) +
-               (curves[i].name.empty() ? "" : " \"" + curves[i].name + "\"");
-    return names + (curves.size() > 20 ? ", ..." : "");
-  }
-
-  // Index of the curve that the case names, -1 with a diagnostic when there is none or several.
-  int chosen_curve(const CaseBeam& beam, const AxisFile& axis, const std::vector<ImportedCurve>& curves) {
-    const std::string where = beam.path + ".axis.curve";
-    if (axis.curve_index) {
-      if (*axis.curve_index >= 1 && *axis.curve_index <= static_cast<int>(curves.size()))
-        return *axis.curve_index - 1;
-      error(where, "index " + std::to_string(*axis.curve_index) + " is out of range: " + axis.path.string() +
-                       " has " + std::to_string(curves.size()) + " curves: " + list_of(curves));
-      return -1;
-    }
-    std::vector<int> found;
-    for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i].name == *axis.curve_name) found.push_back(static_cast<int>(i));
-    if (found.size() == 1) return found[0];
-    error(where, (found.empty() ? "no curve is named \"" : "several curves are named \"") + *axis.curve_name +
-                     "\" in " + axis.path.string() + "; its curves (index and name): " + list_of(curves));
-    return -1;
-  }
-
-  std::vector<RationalCubic> axis_from_file(const CaseBeam& beam, const AxisFile& axis) {
-    const ImportReport& report = imported(axis.path);
-    if (!report.ok()) return {};
-    std::vector<NurbsCurve> curves;
-    double size = 0;
-    for (const ImportedCurve& c : report.curves) {
-      curves.push_back(c.curve);
-      size = std::max(size, length(c.curve));
-    }
-    const double gap = 1e-6 * size;
-    Chain chain;
-    std::string name;
-    if (axis.curve_name || axis.curve_index) {
-      const int chosen = chosen_curve(beam, axis, report.curves);
-      if (chosen < 0) return {};
-      name = report.curves[chosen].name;
-      chain = {{chosen}, {false}, false};
-      if (axis.chain) chain = smooth_chain_around(curves, chosen, gap);
-    } else {
-      const std::vector<Chain> chains = find_chains(curves, gap);
-      if (chains.size() != 1) {
-        error(beam.path + ".axis",
-              axis.path.string() + " has " + std::to_string(chains.size()) +
-                  " separate chains of curves; choose one with \"curve\": " + list_of(report.curves));
-        return {};
+  // Replaces a beam of several chains by one beam for each, named "name 1", "name 2", ...; what was said of
+  // the beam is said of each of them.
+  void choose_chains() {
+    std::vector<CaseBeam> beams;
+    std::map<std::string, std::vector<std::string>> names;  // of the beams that a name stands for
+    for (const CaseBeam& beam : case_.beams) {
+      const auto* file = std::get_if<AxisFile>(&beam.axis.source);
+      const std::vector<Chain> chains = file ? chosen_chains(beam, *file) : std::vector<Chain>{{}};
+      for (std::size_t i = 0; i < chains.size(); ++i) {
+        CaseBeam one = beam;
+        if (file && file->all_chains) {
+          one.name += " " + std::to_string(i + 1);
+          names[beam.name].push_back(one.name);
+        }
+        names[one.name] = {one.name};
+        if (one.section.from_cad) one.section = pipe_section(one, chains[i]);
+        beams.push_back(std::move(one));
+        chains_.push_back(chains[i]);
       }
-      chain = chains[0];
-      name = report.curves[chain.curves[0]].name;
     }
+    case_.beams = std::move(beams);
+    if (failed()) return;
+    name_each_beam(case_.loads, names);
+    name_each_beam(case_.supports, names);
+    for (CaseSlidingJoint& joint : case_.sliding_joints)
+      if (check_name(joint.beam, joint.path, names) && names[joint.beam].size() > 1)
+        error(joint.path + ".beam", "is " + in_quotes(joint.beam) + ", which is several beams; choose one: " +
+                                        quoted_list(names[joint.beam]));
+    for (const CaseBeamJoint& joint : case_.joints)
+      for (const std::string& name : joint.beams)
+        if (check_name(name, joint.path, names) && names[name].size() > 1)
+          error(joint.path + ".beams", "names " + in_quotes(name) + ", which is several beams; choose of: " +
+                                           quoted_list(names[name]));
+    for (CaseProbe& probe : case_.output.probes)
+      if (check_name(probe.beam, "output.probes", names) && names[probe.beam].size() > 1)
+        error("output.probes", "probe " + in_quotes(probe.name) + " is on " + in_quotes(probe.beam) +
+                                   ", which is several beams; choose one: " + quoted_list(names[probe.beam]));
+  }
+
+  // What was said of a name is said of every beam that it stands for.
+  template <class Item>
+  void name_each_beam(std::vector<Item>& items,
+                      const std::map<std::string, std::vector<std::string>>& names) {
+    std::vector<Item> each;
+    for (const Item& item : items) {
+      if (!check_name(item.beam, item.path, names)) continue;
+      for (const std::string& name : names.at(item.beam)) {
+        each.push_back(item);
+        each.back().beam = name;
+      }
+    }
+    items = std::move(each);
+  }
+
+  bool check_name(const std::string& name, const std::string& path,
+                  const std::map<std::string, std::vector<std::string>>& names) {
+    if (names.contains(name)) return true;
+    std::vector<std::string> known;
+    for (const CaseBeam& beam : case_.beams) known.push_back(beam.name);
+    error(path + ".beam", "there is no beam " + in_quotes(name) + known_names(name, known));
+    return false;
+  }
+
+  // The chains of curves that the case chooses; one empty chain, with a diagnostic, where it cannot.
+  std::vector<Chain> chosen_chains(const CaseBeam& beam, const AxisFile& axis) {
+    const ImportReport& report = imported(axis.path);
+    if (!report.ok()) return {{}};
+    const AxisSelection selection = select_axis(axis, report);
+    const std::string where = beam.path + ".axis";
+    if (!selection.error.empty()) {
+      error(selection.key.empty() ? where : where + "." + selection.key, selection.error);
+      return {{}};
+    }
+    for (const Gap& gap : selection.gaps)
+      warn(where, "the gap of " + text(gap.width) + " m between curves " + std::to_string(gap.curve_a + 1) +
+                      " and " + std::to_string(gap.curve_b + 1) + " of " + report.file + " at " +
+                      text(gap.point) + " was closed");
+    note_junctions(where, selection.chains, report, gap_tolerance(report, axis.gap));
+    return selection.chains;
+  }
+
+  // Where other curves meet the chosen ones.
+  void note_junctions(const std::string& where, const std::vector<Chain>& chains, const ImportReport& report,
+                      double tolerance) {
+    std::set<int> chosen;
+    for (const Chain& chain : chains) chosen.insert(chain.curves.begin(), chain.curves.end());
+    for (const Junction& junction : junctions(report, tolerance)) {
+      if (std::none_of(junction.curves.begin(), junction.curves.end(),
+                       [&](int curve) { return chosen.contains(curve); }))
+        continue;
+      diagnostics_.push_back({Severity::note, case_.path.string() + ": " + where,
+                              "curves " + list_of_curves(report, junction.curves) + " of " + report.file +
+                                  " meet at " + text(junction.point)});
+    }
+  }
+
+  // The section of the pipe whose centre line the chain is.
+  CaseSection pipe_section(const CaseBeam& beam, const Chain& chain) {
+    const auto* file = std::get_if<AxisFile>(&beam.axis.source);
+    const std::string where = beam.path + ".section.from";
+    if (!file) {
+      error(where, "\"cad\" needs an axis from a file; give \"radius\"");
+      return {};
+    }
+    if (chain.curves.empty()) return {};
+    const std::vector<ImportedCurve>& curves = imported(file->path).curves;
+    const ImportedCurve& first = curves[chain.curves.front()];
+    for (int i : chain.curves) {
+      const ImportedCurve& curve = curves[i];
+      if (!curve.is_centre_line())
+        error(where, "is \"cad\", but curve " + std::to_string(i + 1) + " of " + file->path.string() +
+                         " is a " + curve.entity + " and no centre line of a pipe; give \"radius\"");
+      else if (std::abs(curve.pipe_radius - first.pipe_radius) > same_radius * first.pipe_radius ||
+               std::abs(curve.bore_radius - first.bore_radius) > same_radius * first.pipe_radius)
+        error(where, "the pipe has the radius " + text(first.pipe_radius) + " m (bore " +
+                         text(first.bore_radius) + " m) at curve " +
+                         std::to_string(chain.curves.front() + 1) + " and " + text(curve.pipe_radius) +
+                         " m (bore " + text(curve.bore_radius) + " m) at curve " + std::to_string(i + 1) +
+                         "; a beam has one section: give \"radius\", or choose a part with \"curve\"");
+    }
+    const double outer = first.pipe_radius, inner = first.bore_radius;
+    return {.area = M_PI * (outer * outer - inner * inner),
+            .second_moment = M_PI / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
+            .radius = outer};
+  }
+
+  std::vector<RationalCubic> axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain& chain) {
+    const ImportReport& report = imported(axis.path);
+    std::vector<NurbsCurve> curves;
+    for (const ImportedCurve& curve : report.curves) curves.push_back(curve.curve);
+    const std::string& name = report.curves[chain.curves[0]].name;
     built_.curve_names.back() = name.empty() ? beam.name : name;
     const BezierPath path = join(curves, chain, beam.approximation_tolerance);
-    if (path.deviation > 0)
+    const bool approximated =
+        std::any_of(chain.curves.begin(), chain.curves.end(), [&](int i) { return curves[i].degree() > 3; });
+    if (approximated)
       warn(beam.path + ".axis",
            "a curve of degree above 3 was approximated; largest deviation " + text(path.deviation) + " m");
     return path.segments;
   }
 
-  // The connected curves that continue without a corner on both sides of one curve.
-  Chain smooth_chain_around(const std::vector<NurbsCurve>& curves, int chosen, double gap) {
-    for (const Chain& chain : find_chains(curves, gap)) {
-      const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
-      if (at == chain.curves.end()) continue;
-      const auto tangent = [&](std::size_t i, bool at_end) -> Eigen::Vector3d {
-        const NurbsCurve curve =
-            chain.reversed[i] ? curves[chain.curves[i]].reversed() : curves[chain.curves[i]];
-        return curve.derivatives(at_end ? curve.knots().end() : curve.knots().start(), 1).col(1).normalized();
-      };
-      const auto smooth = [&](std::size_t i) {
-        return (tangent(i, true) - tangent(i + 1, false)).norm() < corner_angle;
-      };
-      std::size_t first = at - chain.curves.begin(), last = first;
-      while (first > 0 && smooth(first - 1)) --first;
-      while (last + 1 < chain.curves.size() && smooth(last)) ++last;
-      Chain part;
-      part.curves.assign(chain.curves.begin() + first, chain.curves.begin() + last + 1);
-      part.reversed.assign(chain.reversed.begin() + first, chain.reversed.begin() + last + 1);
-      return part;
-    }
-    return {{chosen}, {false}, false};
-  }
-
-  std::vector<RationalCubic> axis_of(const CaseBeam& beam) {
+  std::vector<RationalCubic> axis_of(const CaseBeam& beam, const Chain& chain) {
     built_.curve_names.push_back(beam.name);
     std::vector<RationalCubic> segments;
     try {
       segments = std::visit(
           [&](const auto& source) -> std::vector<RationalCubic> {
             using Source = std::decay_t<decltype(source)>;
-            if constexpr (std::is_same_v<Source, AxisFile>) return axis_from_file(beam, source);
+            if constexpr (std::is_same_v<Source, AxisFile>) return axis_from_file(beam, source, chain);
             if constexpr (std::is_same_v<Source, NurbsCurve>)
               return BezierPath::from_nurbs(source, beam.approximation_tolerance).segments;
             if constexpr (std::is_same_v<Source, CaseAxis::Arc>) return arc_cubics(source);
@@ -237,6 +301,7 @@ class Builder {
       error(beam.path + ".axis", problem.what());
     }
     hinges_.emplace_back();
+    if (!failed() && beam.corners == Corners::smooth) segments = smoothed(beam, segments);
     if (!failed() && beam.ring) {
       check_ring(beam);
       close_ring(beam, segments);
@@ -281,7 +346,7 @@ class Builder {
                               ", " + text(gap_of(segments)) + " m apart; a ring may have a gap of " +
                               text(closed_gap * L) + " m: close the curve, or leave \"closed\" out");
     const std::vector<Corner> seam =
-        BezierPath{{segments.back(), segments.front()}, {}, 0}.corners(corner_angle);
+        BezierPath{{segments.back(), segments.front()}, {}, 0}.corners(default_corner_angle);
     if (!seam.empty())
       return error(where, "is true, but the axis has a corner of " + text(seam[0].angle * 180 / M_PI) +
                               " degrees at its seam, " + text(start) +
@@ -302,14 +367,27 @@ class Builder {
                                     ": \"closed\": true makes it a ring");
   }
 
+  std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
+    const BezierPath smooth = smooth_corners({segments, {}, 0}, beam.smooth_angle);
+    if (smooth.deviation > 0)
+      warn(beam.path + ".corners", "corners of up to " + text(beam.smooth_angle * 180 / M_PI) +
+                                       " degrees were smoothed; largest deviation " + text(smooth.deviation) +
+                                       " m");
+    return smooth.segments;
+  }
+
   void check_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
-    for (const Corner& corner : BezierPath{segments, {}, 0}.corners(corner_angle)) {
+    for (const Corner& corner : BezierPath{segments, {}, 0}.corners(default_corner_angle)) {
       hinges_.back().push_back(corner.after_segment + 1);
       const bool slides = std::any_of(case_.sliding_joints.begin(), case_.sliding_joints.end(),
                                       [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
       const std::string place = "the axis has a corner of " + text(corner.angle * 180 / M_PI) +
                                 " degrees at " + text(corner.point) + "; ";
-      if (!beam.hinged_corners)
+      if (beam.corners == Corners::smooth)
+        error(beam.path + ".corners", place + "those of up to " + text(beam.smooth_angle * 180 / M_PI) +
+                                          " degrees are smoothed (\"smooth_up_to\"): round it, or make it a "
+                                          "hinge with \"corners\": \"hinge\"");
+      else if (beam.corners == Corners::error)
         error(beam.path + ".axis",
               place +
                   "a beam needs a smooth axis: round the corner, or make it a hinge with "
@@ -511,9 +589,16 @@ class Builder {
     if (from.metric == Metric::label) check_without_metric(from);
     beam.straight = is_straight(from, beam.curve);
     built_.model.beams.push_back(std::move(beam));
+    built_.radii.push_back(section->radius);
+  }
 
-    Beam& added = built_.model.beams.back();
-    const std::vector<double> places = fixed_places(measured_[b], add_supports(b));
+  // Its supports and elements.
+  void divide_beam(int b) {
+    const CaseBeam& from = case_.beams[b];
+    Beam& added = built_.model.beams[b];
+    std::vector<double> held = add_supports(b);
+    held.insert(held.end(), joint_places_[b].begin(), joint_places_[b].end());
+    const std::vector<double> places = fixed_places(measured_[b], held);
     check_intervals(from, places);
     if (failed()) return;
     std::vector<int> counts;
@@ -549,7 +634,7 @@ class Builder {
     if (from.metric == Metric::label)
       error(from.path + ".metric",
             "\"none\" is a comparison for beams with ends; a ring needs \"reference\"");
-    if (from.hinged_corners)
+    if (from.corners == Corners::hinge)
       error(from.path + ".corners", "\"hinge\" is not available on a ring; leave it out");
   }
 
@@ -562,6 +647,132 @@ class Builder {
       error(from.path + ".elements", "gives " + std::to_string(beam.home_intervals()) +
                                          " elements; a ring with " + std::to_string(sliders) +
                                          " sliding bodies needs at least " + std::to_string(fewest));
+  }
+
+  // A place of one beam, in reference arc length.
+  struct BeamPlace {
+    int beam;
+    double s;
+  };
+
+  // The place of the beam nearest to the point; an end that is near is that end.
+  BeamPlace nearest_place(int b, const Eigen::Vector3d& point) const {
+    const ClosestPoint found = closest_point(BezierPath{paths_[b], {}, 0}, point);
+    const double L = measured_[b].length(), s = measured_[b].arc_length(found.segment, found.u);
+    const double end = measured_[b].closed() ? 0 : L;
+    return {b, s < same_joint * L ? 0 : s > L * (1 - same_joint) ? end : s};
+  }
+
+  Eigen::Vector3d world_position(const BeamPlace& place) const {
+    return built_.frame.to_world(measured_[place.beam].position(place.s));
+  }
+  double distance(const std::pair<BeamPlace, BeamPlace>& places) const {
+    return (world_position(places.first) - world_position(places.second)).norm();
+  }
+
+  // A ring has none, but its seam is a place where a joint may be.
+  std::vector<double> ends_of(int b) const {
+    return measured_[b].closed() ? std::vector<double>{0} : std::vector<double>{0, measured_[b].length()};
+  }
+
+  // Where two beams meet: nearest to the point, or else where an end of one is nearest to the other.
+  std::pair<BeamPlace, BeamPlace> meeting_place(int a, int b,
+                                                const std::optional<Eigen::Vector3d>& near) const {
+    if (near) return {nearest_place(a, *near), nearest_place(b, *near)};
+    std::vector<std::pair<BeamPlace, BeamPlace>> candidates;
+    for (const double s : ends_of(a))
+      candidates.emplace_back(BeamPlace{a, s}, nearest_place(b, world_position({a, s})));
+    for (const double s : ends_of(b))
+      candidates.emplace_back(nearest_place(a, world_position({b, s})), BeamPlace{b, s});
+    return *std::min_element(candidates.begin(), candidates.end(), [&](const auto& one, const auto& other) {
+      return distance(one) < distance(other);
+    });
+  }
+
+  void join_beams() {
+    joint_places_.resize(case_.beams.size());
+    for (const CaseBeamJoint& joint : case_.joints)
+      for (std::size_t i = 1; i < joint.beams.size(); ++i)
+        join_two(joint, beam_index(joint.beams[0]), beam_index(joint.beams[i]));
+    if (!case_.joints.empty() && case_.analysis.method == CaseAnalysis::Method::rk4)
+      error("analysis.integrator.type",
+            "\"rk4\" is for models without joints; use \"generalized-alpha\" or \"ida\"");
+  }
+
+  void join_two(const CaseBeamJoint& joint, int a, int b) {
+    const std::string beams = in_quotes(case_.beams[a].name) + " and " + in_quotes(case_.beams[b].name);
+    if (a == b) return error(joint.path + ".beams", "joins " + beams + "; give different beams");
+    const auto places = meeting_place(a, b, joint.near);
+    const auto& [at_a, at_b] = places;
+    const double allowed = same_joint * std::max(measured_[a].length(), measured_[b].length());
+    if (distance(places) > allowed)
+      return error(joint.path, beams + " do not meet: they are " + text(distance(places)) + " m apart at " +
+                                   text(world_position(at_a)) + " and " + text(world_position(at_b)) +
+                                   "; the limit is " + text(allowed) + " m");
+    for (const BeamPlace& place : {at_a, at_b}) check_sliders(joint, place);
+    if (joint.rigid) check_angle(joint, places, beams);
+    if (!unite(places))
+      return error(joint.path, beams + " are joined at " + text(world_position(at_a)) +
+                                   " already; leave out one of the joints");
+    for (const BeamPlace& place : {at_a, at_b}) {
+      std::vector<double>& own = joint_places_[place.beam];
+      if (std::find(own.begin(), own.end(), place.s) == own.end()) own.push_back(place.s);
+    }
+    built_.model.beam_joints.push_back(
+        {a, material_coordinate(a, at_a.s), b, material_coordinate(b, at_b.s), joint.rigid});
+  }
+
+  void check_sliders(const CaseBeamJoint& joint, const BeamPlace& place) {
+    const std::string& name = case_.beams[place.beam].name;
+    const ReferenceCurve& curve = measured_[place.beam];
+    const bool at_end = !curve.closed() && (place.s == 0 || place.s == curve.length());
+    for (const CaseSlidingJoint& slider : case_.sliding_joints)
+      if (slider.beam == name && !at_end)
+        error(joint.path, "is at s = " + text(place.s) + " m of beam " + in_quotes(name) +
+                              ", over which body " + in_quotes(slider.body) +
+                              " slides; a joint there must be at an end of the beam: "
+                              "divide the beam there");
+  }
+
+  // In space the angle of beams in one line has no derivative.
+  void check_angle(const CaseBeamJoint& joint, const std::pair<BeamPlace, BeamPlace>& places,
+                   const std::string& beams) {
+    if (built_.model.dimension == 2) return;
+    const auto tangent = [&](const BeamPlace& place) -> Eigen::Vector3d {
+      return measured_[place.beam].tangent(place.s);
+    };
+    constexpr double least_sine = 0.02;
+    if (tangent(places.first).cross(tangent(places.second)).norm() < least_sine)
+      error(joint.path + ".type",
+            "is \"rigid\", but " + beams +
+                " run in one line there, and this is a spatial model: make them one beam "
+                "(\"curve\" with \"chain\"), or use \"hinged\"");
+  }
+
+  // Puts both places into one group of places that are held together; false when they are in one.
+  bool unite(const std::pair<BeamPlace, BeamPlace>& places) {
+    const auto group_of = [&](const BeamPlace& place) {
+      const auto key = std::pair(place.beam, place.s);
+      return joined_.emplace(key, static_cast<int>(joined_.size())).first->second;
+    };
+    const int a = group_of(places.first), b = group_of(places.second);
+    for (auto& [place, group] : joined_)
+      if (group == b) group = a;
+    return a != b;
+  }
+
+  // Of places that are joined, one may be supported: the others are held by it.
+  void check_joined_supports() {
+    std::map<int, std::string> first;
+    for (const CaseSupport& support : case_.supports) {
+      const int b = beam_index(support.beam);
+      const auto found = joined_.find({b, place(support.at, b, support.path)});
+      if (found == joined_.end()) continue;
+      const auto [other, is_new] = first.emplace(found->second, support.path);
+      if (!is_new)
+        error(support.path, "holds beam " + in_quotes(support.beam) + " where " + other->second +
+                                " already holds a beam that is joined to it; keep one of them");
+    }
   }
 
   bool is_straight(const CaseBeam& from, const ReferenceCurve& curve) {
@@ -780,6 +991,10 @@ class Builder {
       start = start || (support.beam == b && support.s == 0);
       end = end || (support.beam == b && support.s == built_.model.beams[b].curve.length());
     }
+    for (const double s : joint_places_[b]) {
+      start = start || s == 0;
+      end = end || s == measured_[b].length();
+    }
     if (start || end)
       warn(joint.path + ".at_beam_end", std::string("the ") +
                                             (start && end ? "start and the end"
@@ -790,12 +1005,15 @@ class Builder {
                                             " supported: there \"leave\" acts like \"stop\"");
   }
 
-  const CaseFile& case_;
+  CaseFile case_;
+  std::vector<Chain> chains_;  // per beam: the curves of its file
   BuiltModel built_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::vector<RationalCubic>> paths_;
-  std::vector<std::vector<int>> hinges_;  // per beam: breaks that are corners
-  std::vector<ReferenceCurve> measured_;  // per beam: the drawing in reference arc length
+  std::vector<std::vector<int>> hinges_;           // per beam: breaks that are corners
+  std::vector<std::vector<double>> joint_places_;  // per beam: where others are joined to it [m]
+  std::map<std::pair<int, double>, int> joined_;   // places by beam and s: which are held together
+  std::vector<ReferenceCurve> measured_;           // per beam: the drawing in reference arc length
   std::map<std::filesystem::path, ImportReport> imports_;
 };
 

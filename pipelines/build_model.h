@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct BeamProfile {
 struct BuiltModel {
   BeamModel model;
   ModelFrame frame;
-  std::vector<std::string> curve_names;  ///< per beam, for export
+  std::vector<std::string> curve_names;      ///< per beam, for export
+  std::vector<std::optional<double>> radii;  ///< per beam: of its section, where that is a disk or a pipe [m]
   std::vector<Probe> probes;
   std::vector<BeamProfile> profiles;
   std::vector<std::filesystem::path> inputs;  ///< CAD files read

@@ -90,7 +90,7 @@ std::vector<NamedCurve> CadOutput::curves(const Frame& frame, CurveParameter par
 std::vector<Diagnostic> CadOutput::write_solids(const Frame& frame, const std::filesystem::path& file) const {
   std::vector<NamedPipe> pipes;
   for (NamedCurve& axis : curves(frame, CurveParameter::free))
-    pipes.push_back({std::move(axis), case_.beams[pipes.size()].section.radius.value()});
+    pipes.push_back({std::move(axis), built_.radii[pipes.size()].value()});
   const auto problem = export_solids(file, pipes, parse_length_unit(case_.output.cad_unit));
   return problem ? std::vector{*problem} : std::vector<Diagnostic>{};
 }

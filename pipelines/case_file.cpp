@@ -38,6 +38,9 @@ std::optional<int> optional_integer(const Json& object, const char* key) {
 std::string text(const Json& object, const char* key, const std::string& otherwise = {}) {
   return has(object, key) ? object[key].get<std::string>() : otherwise;
 }
+std::optional<std::string> optional_text(const Json& object, const char* key) {
+  return has(object, key) ? std::optional(object[key].get<std::string>()) : std::nullopt;
+}
 bool flag(const Json& object, const char* key) { return has(object, key) && object[key].get<bool>(); }
 
 const Json& part(const Json& object, const char* key) {
@@ -154,6 +157,12 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
   CaseAxis::File file;
   file.path = (directory / text(axis, "file")).lexically_normal();
   file.chain = flag(axis, "chain");
+  file.layer = optional_text(axis, "layer");
+  file.colour = optional_text(axis, "colour");
+  if (has(axis, "near")) file.near = vector(axis, "near");
+  file.longest = flag(axis, "longest");
+  file.all_chains = text(axis, "chains") == "all";
+  file.gap = optional_number(axis, "gap");
   if (has(axis, "curve")) {
     const Json& curve = axis["curve"];
     if (curve.is_string()) {
@@ -267,6 +276,7 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
             .second_moment = std::numbers::pi * std::pow(r, 4) / 4,
             .radius = r};
   }
+  if (has(section, "from")) return {.from_cad = true};
   return {.area = number(section, "area"), .second_moment = number(section, "second_moment")};
 }
 
@@ -288,7 +298,10 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .grading = number(elements, "grading", 0)};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
   beam.ring = flag(json, "closed");
-  beam.hinged_corners = text(json, "corners") == "hinge";
+  beam.corners = chosen<Corners>(
+      json, "corners", {{"error", Corners::error}, {"smooth", Corners::smooth}, {"hinge", Corners::hinge}});
+  constexpr double default_degrees = 5;
+  beam.smooth_angle = number(json, "smooth_up_to", default_degrees) * std::numbers::pi / 180;
   beam.element = chosen<ElementKind>(
       json, "element", {{"ale-rancf", ElementKind::ale_rancf}, {"ale-ancf", ElementKind::ale_ancf}});
   beam.weights = chosen<WeightRule>(json, "weights",
@@ -349,6 +362,14 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
           .leave_at_end = text(json, "at_beam_end") != "stop"};
 }
 
+CaseBeamJoint read_beam_joint(const Json& json, const std::string& path) {
+  CaseBeamJoint joint{.path = path, .beams = {}, .rigid = text(json, "type") == "rigid", .near = {}};
+  for (const Json& name : part(json, "beams"))
+    if (!name.is_null()) joint.beams.push_back(name.get<std::string>());
+  if (has(part(json, "at"), "near")) joint.near = vector(json["at"], "near");
+  return joint;
+}
+
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;
   analysis.type = chosen<CaseAnalysis::Type>(
@@ -386,7 +407,7 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   return analysis;
 }
 
-CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
+CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   CaseOutput output;
   output.every = optional_number(json, "every");
   constexpr int default_frames = 100;
@@ -418,9 +439,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings&
         {.name = text(probe, "name"), .beam = text(probe, "beam"), .at = read_place(probe)});
   });
   output.paraview = flag(json, "paraview");
-  if (flag(json, "report")) {
-    findings.add(Severity::note, child("output", "report"), "this version does not write it");
-  }
+  output.report = !has(json, "report") || flag(json, "report");
   return output;
 }
 
@@ -445,8 +464,11 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   for_each_item(json, "sliding_joints", "", [&](const Json& joint, const std::string& path) {
     result.sliding_joints.push_back(read_sliding_joint(joint, path));
   });
+  for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
+    result.joints.push_back(read_beam_joint(joint, path));
+  });
   result.analysis = read_analysis(part(json, "analysis"), findings);
-  result.output = read_output(part(json, "output"), result.analysis, findings);
+  result.output = read_output(part(json, "output"), result.analysis);
   return result;
 }
 
@@ -499,12 +521,25 @@ bool is_one_of(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Whether it is "net 3", where the beam "net" takes every chain of its file: how many there are, the file
+/// will tell.
+bool is_beam_of_chain(const std::string& name, const Json& json) {
+  const std::size_t space = name.rfind(' ');
+  if (space == std::string::npos || name.find_first_not_of("0123456789", space + 1) != std::string::npos)
+    return false;
+  bool found = false;
+  for_each_item(json, "beams", "", [&](const Json& beam, const std::string&) {
+    found = found || (text(beam, "name") == name.substr(0, space) && has(part(beam, "axis"), "chains"));
+  });
+  return found;
+}
+
 /// Reports, for every item under the key, a name under `reference` that is not among the known ones.
-void check_references(const Json& holder, const char* key, const std::string& path, const char* reference,
-                      const std::vector<std::string>& known, Findings& findings) {
+void check_references(const Json& json, const Json& holder, const char* key, const std::string& path,
+                      const char* reference, const std::vector<std::string>& known, Findings& findings) {
   for_each_item(holder, key, path, [&](const Json& item, const std::string& item_path) {
     const std::string name = text(item, reference);
-    if (!name.empty() && !is_one_of(name, known)) {
+    if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json)) {
       findings.error(child(item_path, reference), "there is no " + std::string(reference) + " " +
                                                       in_quotes(name) + known_names(name, known));
     }
@@ -513,13 +548,20 @@ void check_references(const Json& holder, const char* key, const std::string& pa
 
 void check_references(const Json& json, Findings& findings) {
   if (const auto beams = names_under(json, "beams")) {
-    check_references(json, "loads", "", "beam", *beams, findings);
-    check_references(json, "supports", "", "beam", *beams, findings);
-    check_references(json, "sliding_joints", "", "beam", *beams, findings);
-    check_references(part(json, "output"), "probes", "output", "beam", *beams, findings);
+    check_references(json, json, "loads", "", "beam", *beams, findings);
+    check_references(json, json, "supports", "", "beam", *beams, findings);
+    check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
+    check_references(json, part(json, "output"), "probes", "output", "beam", *beams, findings);
+    for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
+      for_each_item(joint, "beams", path, [&](const Json& name, const std::string& name_path) {
+        if (!is_one_of(name, *beams) && !is_beam_of_chain(name, json))
+          findings.error(name_path, "there is no beam " + in_quotes(name.get<std::string>()) +
+                                        known_names(name.get<std::string>(), *beams));
+      });
+    });
   }
   if (const auto bodies = names_under(json, "bodies")) {
-    check_references(json, "sliding_joints", "", "body", *bodies, findings);
+    check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
   }
 }
 
@@ -579,7 +621,7 @@ void check_solids(const CaseFile& c, Findings& findings) {
   const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
   if (solid == formats.end()) return;
   for (const CaseBeam& beam : c.beams)
-    if (!beam.section.radius)
+    if (!beam.section.radius && !beam.section.from_cad)
       findings.error(child("output.cad.formats", solid - formats.begin()),
                      "is \"step-solid\", but the section of the beam " + in_quotes(beam.name) +
                          " has no radius; give it one, or use \"step\" for the curve");

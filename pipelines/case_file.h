@@ -21,12 +21,17 @@ struct Place {
   std::optional<double> within = {};  ///< greatest distance of the point from the axis [m] for near
 };
 
-/// Curves of a CAD file.
+/// Which curves of a CAD file.
 struct AxisFile {
   std::filesystem::path path;  ///< absolute
-  std::optional<std::string> curve_name;
-  std::optional<int> curve_index;  ///< from 1
+  std::optional<std::string> curve_name = {};
+  std::optional<int> curve_index = {};  ///< from 1
   bool chain = false;
+  std::optional<std::string> layer = {}, colour = {};
+  std::optional<Eigen::Vector3d> near = {};  ///< [m]
+  bool longest = false;
+  bool all_chains = false;
+  std::optional<double> gap = {};  ///< largest gap to close [m]
 };
 
 struct CaseAxis {
@@ -49,6 +54,7 @@ struct CaseSection {
   double second_moment = 0;                 ///< [m^4]
   std::optional<double> radius = {};        ///< of a disk [m]
   std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
+  bool from_cad = false;                    ///< all are those of the pipe whose centre line the axis is
 };
 
 struct CaseMaterial {
@@ -70,6 +76,8 @@ constexpr int most_frames = 1'000'000;
 constexpr double most_steps = 1e9;
 
 enum class ElementKind { ale_rancf, ale_ancf };
+/// What a corner of the axis is; `smooth`: up to `smooth_angle`, else an error.
+enum class Corners { error, smooth, hinge };
 enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
 
 struct CaseBeam {
@@ -78,7 +86,8 @@ struct CaseBeam {
   CaseAxis axis;
   double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
   bool ring = false;                      ///< the axis is closed, and so is the beam
-  bool hinged_corners = false;            ///< a corner of the axis is a hinge; else it is an error
+  Corners corners = Corners::error;
+  double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]
   CaseSection section;
   CaseMaterial material;
   CaseElements elements;
@@ -125,6 +134,14 @@ struct CaseSlidingJoint {
   bool leave_at_end = true;  ///< false: stop
 };
 
+/// Beams that meet at one place.
+struct CaseBeamJoint {
+  std::string path;
+  std::vector<std::string> beams;       ///< two or more; each is joined to the first
+  bool rigid = false;                   ///< else hinged
+  std::optional<Eigen::Vector3d> near;  ///< where [m]; else where an end of one meets the other
+};
+
 struct CaseAnalysis {
   enum class Type { dynamic, statics } type = Type::dynamic;
   enum class Method { generalized_alpha, ida, rk4 } method = Method::generalized_alpha;
@@ -150,6 +167,7 @@ struct CaseOutput {
   CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
   bool paraview = false;  ///< a series of files for ParaView
+  bool report = true;     ///< report.html
 };
 
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
@@ -163,6 +181,7 @@ struct CaseFile {
   std::vector<CaseLoad> loads;
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseBeamJoint> joints;
   CaseAnalysis analysis;
   CaseOutput output;
 };

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "pipelines/closest_name.h"
+#include "pipelines/quantity.h"
 
 namespace nurbeam {
 
@@ -297,13 +298,6 @@ std::string apply_override(Json& root, const std::string& path, const Json& new_
 }
 
 }  // namespace
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(15);
-  text << value;
-  return text.str();
-}
 
 const Key* find_key(const Shape& shape, const std::string& name) {
   const auto found =

@@ -41,9 +41,6 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// With 15 digits, for messages.
-std::string text_of(double value);
-
 /// The key of an object shape, nullptr if it has none of that name.
 const Key* find_key(const Shape& shape, const std::string& name);
 std::vector<std::string> key_names(const Shape& shape);

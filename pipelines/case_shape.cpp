@@ -75,11 +75,18 @@ Shape axis() {
       {{"file", text(), "STEP or IGES file, relative to the case file"},
        {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
         false, "file"},
-       {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "file"},
+       {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
+       {"layer", text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
+       {"colour", text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
+       {"near", vector(Dimension::length), "the chain of curves nearest to this point", false, "file"},
+       {"longest", boolean(), "the longest chain of curves", false, "file"},
+       {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
+       {"gap", quantity(Dimension::length, not_negative()),
+        "ends of curves up to this far apart meet; the file's own resolution when omitted", false, "file"},
        {"nurbs", nurbs, "an inline NURBS curve"},
        {"polyline", array(vector(Dimension::length), 2), "straight pieces through these points"},
        {"arc", arc, "a circular arc"}},
-      {{{"file", "nurbs", "polyline", "arc"}, required}});
+      {{{"file", "nurbs", "polyline", "arc"}, required}, {{"curve", "near", "longest", "chains"}, false}});
 }
 
 Shape section() {
@@ -94,8 +101,9 @@ Shape section() {
         "second_moment"},
        {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
         false, "area"},
-       {"profile", profile, "section drawn in a CAD file"}},
-      {{{"radius", "area", "profile"}, required}});
+       {"profile", profile, "section drawn in a CAD file"},
+       {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
+      {{{"radius", "area", "profile", "from"}, required}});
 }
 
 Shape elements() {
@@ -129,7 +137,9 @@ Shape beam() {
        {"form", choice({"variational", "virtual-work"}),
         "form of the forces on moving elements; virtual-work: the paper's, for comparison"},
        {"closed", boolean(), "true: a ring, whose end is its start; else a closed axis is open at its seam"},
-       {"corners", choice({"error", "hinge"}), "what a corner of the axis is"},
+       {"corners", choice({"error", "smooth", "hinge"}), "what a corner of the axis is"},
+       {"smooth_up_to", quantity(Dimension::number, {.lower = 0, .upper = 45, .open = true}),
+        "greatest corner that \"smooth\" rounds, in degrees", false, "corners"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
         "greatest deviation of the cubics from an axis of degree above 3"}});
 }
@@ -166,6 +176,13 @@ Shape sliding_joint() {
                  {"slope", choice({"continuous", "discontinuous"}), "slope of the beam at the body"},
                  {"at_beam_end", choice({"leave", "stop"}), "what happens at the beam's end"}},
                 {{{"speed", "motion"}, false}});
+}
+
+Shape beam_joint() {
+  return object({{"beams", array(name(), 2), "the beams that meet", required},
+                 {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
+                 {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
+                  "where, if not at an end of one of them"}});
 }
 
 Shape analysis() {
@@ -248,6 +265,7 @@ const Shape& case_shape() {
        {"loads", array(load()), "forces and moments"},
        {"supports", array(support()), "where beams are held"},
        {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+       {"joints", array(beam_joint()), "which beams are joined to each other"},
        {"analysis", analysis(), "what to compute", required},
        {"output", output(), "what to store"}});
   return shape;

@@ -15,6 +15,7 @@
 #include "pipelines/papers.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/quantity.h"
+#include "pipelines/report.h"
 #include "pipelines/run.h"
 #include "pipelines/signals.h"
 #include "pipelines/verify.h"
@@ -204,6 +205,13 @@ int verify_command(const Arguments& arguments, Streams streams) {
   return verify(problems, streams.out, streams.err);
 }
 
+int report_command(const Arguments& arguments, Streams streams) {
+  const std::filesystem::path directory = arguments.positional[0];
+  write_report(directory);
+  streams.err << "note: " << (directory / "report.html").string() << " written\n";
+  return done;
+}
+
 int unavailable_command(const Arguments&, Streams) {
   throw UsageError("this command is not available in this version");
 }
@@ -251,11 +259,12 @@ const std::vector<Command>& commands() {
       {"schema", "[case]", "prints the JSON schema of the case file", 0, 1, {}, schema_command},
       {"report",
        "RESULTS_DIR",
-       "not available in this version",
-       0,
-       std::string::npos,
+       "writes report.html anew: the 3-D view, plots and tables of a run",
+       1,
+       1,
        {},
-       unavailable_command},
+       report_command,
+       not_written},
       {"study", "STUDY.json", "not available in this version", 0, std::string::npos, {}, unavailable_command},
       {"verify",
        "[NAME | papers [--out DIR]]",

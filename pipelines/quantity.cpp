@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <vector>
 
 #include "pipelines/closest_name.h"
@@ -236,6 +237,13 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
                   si_unit(dimension));
   }
   return {value, {}};
+}
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text.precision(15);
+  text << value;
+  return text.str();
 }
 
 }  // namespace nurbeam

@@ -11,8 +11,10 @@
 
 #include "pipelines/build_model.h"
 #include "pipelines/file_hash.h"
+#include "pipelines/model_summary.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/progress.h"
+#include "pipelines/report.h"
 #include "pipelines/results_directory.h"
 #include "pipelines/run_outputs.h"
 #include "pipelines/run_summary.h"
@@ -158,8 +160,11 @@ class Run {
     RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
     const SimulationReport simulated = simulate_into(outputs);
     outputs.finish();
-    summarise(simulated, outputs);
+    // A run that ended before its first frame has nothing to show.
+    const bool with_report = case_.output.report && !StoredFrames(options_.out).times().empty();
+    summarise(simulated, outputs, with_report);
     write_run_summary(options_.out / "run.json", summary_);
+    if (with_report) write_report(options_.out);
     if (simulated.status != SimulationStatus::done)
       tell(case_.path.string() + ": error: " + simulated.message);
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
@@ -202,7 +207,7 @@ class Run {
     return simulated;
   }
 
-  void summarise(const SimulationReport& simulated, const RunOutputs& outputs) {
+  void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
     summary_.status = status_text(simulated.status, simulated.message);
     summary_.wall_times.output = outputs.seconds();
     summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
@@ -229,6 +234,9 @@ class Run {
     }
     summary_.files = directory_.files();
     summary_.files.emplace_back("run.json");
+    if (with_report) summary_.files.emplace_back("report.html");
+    std::sort(summary_.files.begin(), summary_.files.end());  // a resumed run finds both there
+    summary_.files.erase(std::unique(summary_.files.begin(), summary_.files.end()), summary_.files.end());
   }
 
   const CaseFile& case_;
@@ -257,6 +265,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   RunSummary summary;
   summary.version = NURBEAM_VERSION;
   summary.case_name = c.name;
+  summary.model = model_summary(c, *report.value);
   summary.diagnostics = report.diagnostics;
   summary.wall_times.import = report.value->import_seconds;
   summary.wall_times.model = seconds_since(start) - report.value->import_seconds;
@@ -305,6 +314,10 @@ int check_case(const CaseFile& c) {
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
                 model.bodies[joint.body].mass, model.beams[joint.beam].name.c_str(), joint.s);
+  for (const BeamJoint& joint : model.beam_joints)
+    std::printf("joint     %s at s = %.9g m and %s at s = %.9g m, %s\n",
+                model.beams[joint.beam_a].name.c_str(), joint.s_a, model.beams[joint.beam_b].name.c_str(),
+                joint.s_b, joint.rigid ? "rigid" : "hinged");
   std::printf("supports  %zu, point loads %zu, distributed loads %zu\n", model.supports.size(),
               model.point_loads.size(), model.line_loads.size());
   return done;

@@ -34,10 +34,10 @@ Frame to_world(const ModelFrame& f, Frame frame) {
   return frame;
 }
 
-ResultsWriter results_writer(const CaseFile& c, const std::filesystem::path& directory,
-                             const RestartPoint* from) {
-  if (from) return ResultsWriter::resume(directory, frame_names(c), c.name, from->frames);
-  return ResultsWriter(directory, frame_names(c), c.name);
+ResultsWriter results_writer(const std::string& title, const BuiltModel& built,
+                             const std::filesystem::path& directory, const RestartPoint* from) {
+  if (from) return ResultsWriter::resume(directory, frame_names(built), title, from->frames);
+  return ResultsWriter(directory, frame_names(built), title);
 }
 
 std::vector<double> times_before(const std::filesystem::path& directory, const RestartPoint* from) {
@@ -46,24 +46,23 @@ std::vector<double> times_before(const std::filesystem::path& directory, const R
 
 }  // namespace
 
-FrameNames frame_names(const CaseFile& c) {
+FrameNames frame_names(const BuiltModel& built) {
   FrameNames names;
-  for (const CaseProbe& probe : c.output.probes) names.probes.push_back(probe.name);
-  for (const CaseBody& body : c.bodies) names.bodies.push_back(body.name);
-  for (const CaseBeam& beam : c.beams) names.beams.push_back(beam.name);
+  for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
+  for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
+  for (const Beam& beam : built.model.beams) names.beams.push_back(beam.name);
   return names;
 }
 
 RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
                        const std::filesystem::path& directory, std::string inputs, const RestartPoint* from)
-    : case_(case_file),
-      built_(built),
+    : built_(built),
       directory_(directory),
       inputs_(std::move(inputs)),
-      results_(results_writer(case_file, directory, from)),
+      results_(results_writer(case_file.name, built, directory, from)),
       cad_(case_file, built, directory, from ? from->frames : 0) {
-  if (case_.output.paraview)
-    paraview_.emplace(directory_, frame_names(case_), times_before(directory_, from));
+  if (case_file.output.paraview)
+    paraview_.emplace(directory_, frame_names(built), times_before(directory_, from));
 }
 
 template <class Work>

@@ -13,7 +13,7 @@
 namespace nurbeam {
 
 /// Names in the order of the vectors of a Frame.
-FrameNames frame_names(const CaseFile& case_file);
+FrameNames frame_names(const BuiltModel& built);
 
 /// All that a run writes frame by frame: stored frames, CAD files, ParaView files, restart points.
 class RunOutputs {
@@ -40,7 +40,6 @@ class RunOutputs {
   template <class Work>
   void timed(Work work);
 
-  const CaseFile& case_;
   const BuiltModel& built_;
   std::filesystem::path directory_;
   std::string inputs_;

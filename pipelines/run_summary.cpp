@@ -64,6 +64,7 @@ Json to_json(const RunSummary& summary) {
             {"length_control", wall.length_control},
             {"output", wall.output}}},
           {"inputs", list(summary.inputs)},
+          {"model", summary.model.empty() ? Json() : Json::parse(summary.model)},
           {"events", list(summary.events)},
           {"diagnostics", list(summary.diagnostics)},
           {"files", list(summary.files)}};

@@ -43,6 +43,7 @@ struct RunSummary {
   std::string version;
   std::string case_name;
   std::vector<RunInput> inputs;
+  std::string model;                 ///< JSON object, of model_summary()
   std::optional<double> resumed_at;  ///< simulated time of the restart point it went on from [s]
   std::string status;                ///< "done", or why the run ended before its end
   PhaseTimes wall_times;

@@ -532,16 +532,20 @@ class Simulation {
     return first;
   }
 
-  bool end_is_supported(int joint) const {
+  // By a support or by another beam.
+  bool end_is_held(int joint) const {
     const bool at_end = state_.q[system_->mesh().joints[joint].place] > beam_length_of(joint) / 2;
     const double s = at_end ? beam_length_of(joint) : 0;
-    return std::any_of(model_.supports.begin(), model_.supports.end(), [&](const Support& support) {
-      return support.beam == model_.joints[joint].beam && support.s == s;
-    });
+    const int beam = model_.joints[joint].beam;
+    return std::any_of(model_.supports.begin(), model_.supports.end(),
+                       [&](const Support& support) { return support.beam == beam && support.s == s; }) ||
+           std::any_of(model_.beam_joints.begin(), model_.beam_joints.end(), [&](const BeamJoint& other) {
+             return (other.beam_a == beam && other.s_a == s) || (other.beam_b == beam && other.s_b == s);
+           });
   }
 
   bool end_sliding(int joint) {
-    const bool leaves = model_.joints[joint].leave_at_end && !end_is_supported(joint);
+    const bool leaves = model_.joints[joint].leave_at_end && !end_is_held(joint);
     RunEvent event = event_before(leaves ? "left the beam" : "stopped at the end", joint);
     plan_ = system_->mesh().plan;
     for (std::size_t j = 0; j < plan_.places.size(); ++j)

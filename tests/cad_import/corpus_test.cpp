@@ -22,6 +22,8 @@ struct Expected {
   std::map<std::string, int> entities;
   int highest_degree;
   double length_mm;
+  std::vector<std::string> diagnostics = {};  // part of each message, in order
+  std::vector<double> pipe_radii_mm = {};     // of the centre lines, which are not among the curves above
 };
 
 void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
@@ -35,10 +37,31 @@ const std::vector<Expected> kManifest{
      3,
      66.3084143},
     {"pyiges-example-arcs.iges", "mm", 3, 3, {{"bspline", 1}, {"circle", 1}, {"ellipse", 1}}, 6, 1006.894770},
-    {"iges-102-composite.igs", "inch", 3, 3, {{"bspline", 1}, {"circle", 1}, {"line", 1}}, 3, 53.361324},
-    {"iges-104-conics.igs", "inch", 8, 8, {{"ellipse", 1}, {"line", 6}, {"parabola", 1}}, 2, 377.370820},
+    {"iges-102-composite.igs",
+     "inch",
+     3,
+     3,
+     {{"bspline", 1}, {"circle", 1}, {"line", 1}},
+     3,
+     53.361324,
+     {"model space scale 3.000000"}},
+    {"iges-104-conics.igs",
+     "inch",
+     8,
+     8,
+     {{"ellipse", 1}, {"line", 6}, {"parabola", 1}},
+     2,
+     377.370820,
+     {"D29 ConicArc"}},
     {"iges-112-parametric-spline.igs", "inch", 1, 1, {{"bspline", 1}}, 3, 91.357338},
-    {"iges-126-bsplines.igs", "inch", 2, 2, {{"bspline", 2}}, 3, 5615.395610},
+    {"iges-126-bsplines.igs",
+     "inch",
+     2,
+     2,
+     {{"bspline", 2}},
+     3,
+     5615.395610,
+     {"model space scale 10.000000"}},
     {"iges-124-transform.igs", "inch", 4, 4, {{"line", 4}}, 1, 70.261236},
     {"dealii-line.iges", "inch", 1, 1, {{"bspline", 1}}, 3, 3.357520},
     {"dealii-line.step", "mm", 1, 1, {{"bspline", 1}}, 3, 3.357520},
@@ -46,7 +69,7 @@ const std::vector<Expected> kManifest{
     {"parastell-magnet.step", "mm", 32, 0, {{"bspline", 32}}, 3, 28463.189900},
     {"ideas-dm1.stp", "inch", 93, 0, {{"bspline", 93}}, 2, 2576.061870},
     {"rhino-sliced-cylinder.step", "cm", 9, 0, {{"bspline", 7}, {"circle", 2}}, 3, 1376.947590},
-    {"pygem-pipe.step", "mm", 18, 0, {{"bspline", 18}}, 2, 105132.741000}};
+    {"pygem-pipe.step", "mm", 18, 0, {{"bspline", 18}}, 2, 105132.741000, {}, {1000}}};
 
 class CorpusFile : public testing::TestWithParam<Expected> {};
 
@@ -59,7 +82,12 @@ TEST_P(CorpusFile, GivesTheCurvesOfTheManifest) {
   int free = 0;
   int highest_degree = 0;
   double length_mm = 0;
+  std::vector<double> pipe_radii_mm;
   for (const ImportedCurve& curve : report.curves) {
+    if (curve.is_centre_line()) {
+      pipe_radii_mm.push_back(1000 * curve.pipe_radius);
+      continue;
+    }
     ++entities[curve.entity];
     free += curve.free;
     highest_degree = std::max(highest_degree, curve.curve.degree());
@@ -67,12 +95,20 @@ TEST_P(CorpusFile, GivesTheCurvesOfTheManifest) {
     EXPECT_TRUE(curve.exact);
     EXPECT_EQ(curve.deviation, 0);
   }
-  EXPECT_EQ(static_cast<int>(report.curves.size()), expected.curves);
+  EXPECT_EQ(static_cast<int>(report.curves.size() - pipe_radii_mm.size()), expected.curves);
   EXPECT_EQ(free, expected.free);
   EXPECT_EQ(entities, expected.entities);
   EXPECT_EQ(highest_degree, expected.highest_degree);
   // The recorded lengths have six decimals or nine digits.
   EXPECT_NEAR(length_mm, expected.length_mm, std::max(1e-8 * expected.length_mm, 6e-7));
+  ASSERT_EQ(pipe_radii_mm.size(), expected.pipe_radii_mm.size());
+  for (std::size_t i = 0; i < pipe_radii_mm.size(); ++i)
+    EXPECT_NEAR(pipe_radii_mm[i], expected.pipe_radii_mm[i], 1e-6 * expected.pipe_radii_mm[i]);
+  ASSERT_EQ(report.diagnostics.size(), expected.diagnostics.size());
+  for (std::size_t i = 0; i < report.diagnostics.size(); ++i) {
+    const Diagnostic& d = report.diagnostics[i];
+    EXPECT_NE((d.where + ": " + d.message).find(expected.diagnostics[i]), std::string::npos) << d.message;
+  }
 }
 
 TEST_P(CorpusFile, GivesTheSameReportTwice) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -210,6 +211,45 @@ TEST(HostileFile, AFileThatTakesForEverEndsAtTheTimeLimit) {
   const ImportReport report = import_curves(file, {.time_limit = std::chrono::seconds(1)});
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(4));
   expect_error(report, file, "time limit of 1 s");
+}
+
+// Twice as many segments at each level: 2^40 in a file of a few kilobytes.
+TEST(HostileFile, ANestOfCompositeCurvesEndsAtTheTimeLimit) {
+  const ScratchDirectory scratch;
+  std::string entities = "#100 = CIRCLE('',#11,1.);\n", below = "#100";
+  for (int level = 0; level < 40; ++level) {
+    const int id = 101 + 3 * level;
+    const auto reference = [&](int i) { return "#" + std::to_string(id + i); };
+    for (int i : {0, 1})
+      entities += reference(i) + " = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.," + below + ");\n";
+    entities += reference(2) + " = COMPOSITE_CURVE('',(" + reference(0) + "," + reference(1) + "),.F.);\n";
+    below = reference(2);
+  }
+  const fs::path file = scratch.file("nest.step", step_text_of(below, entities));
+  const auto begin = std::chrono::steady_clock::now();
+  const ImportReport report = import_curves(file, {.time_limit = std::chrono::seconds(2)});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  expect_error(report, file, "limit");
+}
+
+TEST(HostileFile, AFileOfAGigabyteIsRefusedAtOnce) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.file("large.step", "ISO-10303-21;\n");
+  fs::resize_file(file, std::uintmax_t{1} << 30);  // sparse: it takes no room
+  const auto begin = std::chrono::steady_clock::now();
+  expect_error(import_curves(file), file, "1024 MiB, more than the limit of 512 MiB");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
+TEST(HostileFile, AFileWithinTheSizeLimitIsReadWithinTheMemoryLimit) {
+  if (!can_limit_memory()) GTEST_SKIP() << "built with the address sanitizer";
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.file("blank.step", "ISO-10303-21;\n");
+  fs::resize_file(file, std::uintmax_t{500} << 20);
+  expect_error(import_curves(file), file, "");
+  rusage children{};
+  getrusage(RUSAGE_CHILDREN, &children);
+  EXPECT_LT(children.ru_maxrss, 2L << 20);  // [kB]
 }
 
 TEST(HostileFile, TheMemoryLimitIsAnError) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -124,6 +125,76 @@ TEST(ImportCurves, APieceOfABSplineIsExact) {
   const NurbsCurve piece = only_curve(step_text_of("#100", spline)).curve;
   EXPECT_EQ(piece.knots().breaks(), (std::vector<double>{0.5, 1, 2, 2.25}));
   for (double u = 0.5; u <= 2.25; u += 0.125) EXPECT_LT((piece.point(u) - whole.point(u)).norm(), 1e-14);
+}
+
+// Control points of the splines below [m].
+Eigen::Matrix3Xd four_points() {
+  Eigen::Matrix3Xd points(3, 4);
+  points << 0, 1, 2, 3, 0, 2, -1, 0, 0, 0, 0.5, 1;
+  return points;
+}
+const std::string kFourPoints = R"(
+#110 = CARTESIAN_POINT('',(0.,0.,0.));
+#111 = CARTESIAN_POINT('',(1000.,2000.,0.));
+#112 = CARTESIAN_POINT('',(2000.,-1000.,500.));
+#113 = CARTESIAN_POINT('',(3000.,0.,1000.));)";
+
+void expect_same(const NurbsCurve& curve, const NurbsCurve& expected) {
+  const auto at = [](const NurbsCurve& c, int i) -> Eigen::Vector3d {
+    return c.point(c.knots().start() + (c.knots().end() - c.knots().start()) * i / 50);
+  };
+  for (int i = 0; i <= 50; ++i) EXPECT_LT((at(curve, i) - at(expected, i)).norm(), 1e-14);
+}
+
+TEST(ImportCurves, EveryKindOfStepSplineIsExact) {
+  struct Kind {
+    std::string entity;
+    KnotVector knots;
+    Eigen::Vector4d weights;
+  };
+  const std::string form = "3,(#110,#111,#112,#113),.UNSPECIFIED.,.F.,.F.";
+  const KnotVector bezier(3, {0, 0, 0, 0, 1, 1, 1, 1}), quadratic(2, {0, 0, 0, 1, 2, 2, 2});
+  const Eigen::Vector4d ones = Eigen::Vector4d::Ones();
+  for (const Kind& kind :
+       {Kind{"BEZIER_CURVE(''," + form + ")", bezier, ones},
+        Kind{"QUASI_UNIFORM_CURVE('',2" + form.substr(1) + ")", quadratic, ones},
+        Kind{"UNIFORM_CURVE('',2" + form.substr(1) + ")", KnotVector(2, {-2, -1, 0, 1, 2, 3, 4}), ones},
+        Kind{"( BOUNDED_CURVE() B_SPLINE_CURVE(" + form +
+                 ") B_SPLINE_CURVE_WITH_KNOTS((4,4),(0.,1.),.UNSPECIFIED.) CURVE() "
+                 "GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((1.,2.,0.5,1.)) "
+                 "REPRESENTATION_ITEM('') )",
+             bezier,
+             {1, 2, 0.5, 1}}}) {
+    SCOPED_TRACE(kind.entity);
+    const ImportedCurve curve = only_curve(step_text_of("#100", "#100 = " + kind.entity + ";" + kFourPoints));
+    EXPECT_TRUE(curve.exact);
+    EXPECT_EQ(curve.curve.degree(), kind.knots.degree());
+    expect_same(curve.curve, make_nurbs_curve(kind.knots, four_points(), kind.weights));
+  }
+}
+
+TEST(ImportCurves, APolylineIsABSplineOfDegreeOne) {
+  const ImportedCurve curve =
+      only_curve(step_text_of("#100", "#100 = POLYLINE('',(#110,#111,#112,#113));" + kFourPoints));
+  EXPECT_TRUE(curve.exact);
+  EXPECT_EQ(curve.curve.degree(), 1);
+  const Eigen::Matrix3Xd points = curve.curve.control_points().colwise().hnormalized();
+  EXPECT_LT((points - four_points()).norm(), 1e-15);
+}
+
+TEST(ImportCurves, ACompositeCurveIsItsParts) {
+  const std::string entities = trimmed("CIRCLE('',#11,1000.)", 0, 1) +
+                               R"(#200 = COMPOSITE_CURVE('whole',(#201,#202),.F.);
+#201 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#100);
+#202 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#203);
+#203 = POLYLINE('',(#204,#205));
+#204 = CARTESIAN_POINT('',(540.302305868139717,841.470984807896507,0.));
+#205 = CARTESIAN_POINT('',(0.,2000.,0.));)";
+  const ImportReport report = import_text(step_text_of("#200", entities));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_EQ(report.curves[0].entity, "circle");
+  EXPECT_EQ(report.curves[0].name, "whole");
+  EXPECT_LT((end_of(report.curves[0].curve) - start_of(report.curves[1].curve)).norm(), 1e-14);
 }
 
 TEST(ImportCurves, AnOffsetCurveIsApproximatedWithItsMeasuredDeviation) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/cad_import/step_text_of.h"
 #include "tests/end_to_end/case_run.h"
 
 namespace nurbeam {
@@ -238,6 +240,43 @@ TEST(Process, AFullDiskEndsWithFourAndLeavesNoHalfFileUnderAFinalName) {
       EXPECT_TRUE(name == "run.log" || name == "histories.csv.part") << name;
     }
   }
+}
+
+/// Curves made of curves made of curves, each twice: 2^40 of them in a few kilobytes.
+std::string nest_of_curves() {
+  std::string entities = "#100 = CIRCLE('',#11,1.);\n", below = "#100";
+  for (int level = 0; level < 40; ++level) {
+    const auto reference = [&](int i) { return "#" + std::to_string(101 + 3 * level + i); };
+    for (int i : {0, 1})
+      entities += reference(i) + " = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.," + below + ");\n";
+    entities += reference(2) + " = COMPOSITE_CURVE('',(" + reference(0) + "," + reference(1) + "),.F.);\n";
+    below = reference(2);
+  }
+  return step_text_of(below, entities);
+}
+
+TEST(Process, HostileCadFilesEndWithExitCode2WithinThirtySecondsAndTwoGibibytes) {
+  const TemporaryDirectory directory;
+  directory.write("nest.step", nest_of_curves());
+  directory.write("large.step", "ISO-10303-21;\n");
+  std::filesystem::resize_file(directory.path() / "large.step", std::uintmax_t{1} << 30);
+  std::string references = "#100";
+  for (int i = 0; i < 100'000; ++i) references += ",#100";
+  // The one curve of the long list has no length.
+  const std::string no_curve = "#100 = POLYLINE('',(#12,#12));";
+  directory.write("list.step", step_text_of(references, no_curve));
+  for (const char* file : {"nest.step", "large.step", "list.step"}) {
+    const auto begin = std::chrono::steady_clock::now();
+    Process process(directory, "inspect " + (directory.path() / file).string());
+    EXPECT_EQ(process.code(), 2) << file;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30)) << file;
+    EXPECT_NE(process.messages().find(std::string("error: ") + (directory.path() / file).string()),
+              std::string::npos)
+        << process.messages();
+  }
+  rusage children{};
+  getrusage(RUSAGE_CHILDREN, &children);
+  EXPECT_LT(children.ru_maxrss, 2L << 20);  // [kB]
 }
 
 }  // namespace

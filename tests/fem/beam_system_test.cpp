@@ -12,6 +12,7 @@ namespace nurbeam {
 namespace {
 
 using testing::disturbed_state;
+using testing::joined_model;
 using testing::line_cubic;
 using testing::model_with_everything;
 using testing::one_beam;
@@ -59,11 +60,13 @@ void expect_second_order(const F& f, const Eigen::VectorXd& derivative, double h
 }
 
 template <int D>
-void check_tangent(int seed) {
+void check_tangent(int seed, const auto& make_model) {
   std::mt19937 random(seed);
-  const BeamModel model = model_with_everything(random, D);
+  const BeamModel model = make_model(random, D);
   for (const bool held : {false, true}) {
-    const BeamSystem<D> system(model, initial_plan(model), {held, held, false});
+    std::vector<bool> all_held(model.joints.size(), false);
+    std::fill_n(all_held.begin(), std::min<std::size_t>(all_held.size(), 2), held);
+    const BeamSystem<D> system(model, initial_plan(model), all_held);
     State state = disturbed_state(system, random);
     state.t = 0.3;
     const int n = system.coordinate_count(), m = system.constraint_count();
@@ -87,13 +90,19 @@ void check_tangent(int seed) {
   }
 }
 
-TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInThePlane) { check_tangent<2>(1); }
-TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInSpace) { check_tangent<3>(2); }
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInThePlane) {
+  check_tangent<2>(1, model_with_everything);
+  check_tangent<2>(5, joined_model);
+}
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInSpace) {
+  check_tangent<3>(2, model_with_everything);
+  check_tangent<3>(6, joined_model);
+}
 
 template <int D>
-void check_constraints(int seed) {
+void check_constraints(int seed, const auto& make_model) {
   std::mt19937 random(seed);
-  const BeamModel model = model_with_everything(random, D);
+  const BeamModel model = make_model(random, D);
   const BeamSystem<D> system(model, initial_plan(model));
   State state = disturbed_state(system, random);
   state.t = 0.3;
@@ -113,8 +122,14 @@ void check_constraints(int seed) {
   EXPECT_LT((second - expected).norm(), 1e-3 * expected.norm());
 }
 
-TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInThePlane) { check_constraints<2>(3); }
-TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInSpace) { check_constraints<3>(4); }
+TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInThePlane) {
+  check_constraints<2>(3, model_with_everything);
+  check_constraints<2>(7, joined_model);
+}
+TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInSpace) {
+  check_constraints<3>(4, model_with_everything);
+  check_constraints<3>(8, joined_model);
+}
 
 // The coordinates after r -> A r + b of the whole model.
 template <int D>

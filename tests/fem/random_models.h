@@ -75,4 +75,23 @@ inline BeamModel model_with_everything(std::mt19937& random, int dimension) {
   return model;
 }
 
+/// Two beams of two uneven segments each, the second one clamped and turned, joined rigidly in their midst
+/// and hinged at the ends that are nearest there; a body slides on the first one.
+inline BeamModel joined_model(std::mt19937& random, int dimension) {
+  const BeamProperties properties{300, 2, 0.7, 0.02, {}};
+  BeamModel model = one_beam(uneven_axis(random, dimension), dimension, properties, 6, {{0, true}});
+  std::vector<RationalCubic> turned;
+  for (const RationalCubic& cubic : uneven_axis(random, dimension)) {
+    Eigen::Matrix4d points = cubic.points();
+    points.row(0).swap(points.row(1));
+    turned.push_back(RationalCubic(points));
+  }
+  const BeamModel other = one_beam(turned, dimension, properties, 6, {});
+  model.beams.push_back(other.beams[0]);
+  const double L = model.beams[0].curve.length(), M = model.beams[1].curve.length();
+  model.beam_joints = {{0, L, 1, 0.4 * M, true}, {1, 0, 0, 0, false}};
+  add_slider(model, 0.8, 0.33 * L);
+  return model;
+}
+
 }  // namespace nurbeam::testing

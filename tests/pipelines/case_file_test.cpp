@@ -94,6 +94,9 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(axis.curve_name, "Spline1");
   EXPECT_FALSE(axis.curve_index);
   EXPECT_TRUE(axis.chain);
+  EXPECT_EQ(axis.layer, "cables");
+  EXPECT_EQ(axis.colour, "#FF8000");
+  EXPECT_DOUBLE_EQ(axis.gap.value(), 1e-4);
   EXPECT_DOUBLE_EQ(cable.section.area, 3e-4);
   EXPECT_DOUBLE_EQ(cable.section.second_moment, 7e-10);
   EXPECT_DOUBLE_EQ(cable.material.density, 7200);
@@ -106,7 +109,8 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(cable.merge, MergeRule::paper);
   EXPECT_EQ(cable.stress_free, StressFree::straight);
   EXPECT_EQ(cable.curvature, CurvatureMeasure::spatial);
-  EXPECT_TRUE(cable.hinged_corners);
+  EXPECT_EQ(cable.corners, Corners::hinge);
+  EXPECT_DOUBLE_EQ(cable.smooth_angle, 3 * std::numbers::pi / 180);
   EXPECT_DOUBLE_EQ(cable.approximation_tolerance, 1e-6);
   const auto& arc = std::get<CaseAxis::Arc>(c.beams.at(1).axis.source);
   EXPECT_EQ(arc.end, Eigen::Vector3d::UnitY());
@@ -116,6 +120,11 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(nurbs.degree(), 2);
   EXPECT_EQ(nurbs.control_points().col(1), Eigen::Vector4d(0.25, 0, 0, 0.5));
   EXPECT_EQ(c.beams[2].elements.count, 12);
+
+  ASSERT_EQ(c.joints.size(), 1u);
+  EXPECT_EQ(c.joints[0].beams, (std::vector<std::string>{"arch", "curve"}));
+  EXPECT_TRUE(c.joints[0].rigid);
+  EXPECT_EQ(c.joints[0].near.value(), Eigen::Vector3d::UnitX());
 
   EXPECT_DOUBLE_EQ(c.bodies.at(0).mass, 0.8);
   ASSERT_EQ(c.loads.size(), 4u);
@@ -160,11 +169,15 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(c.output.probes.at(0).name, "tip");
 }
 
-TEST_F(CaseFileTest, OutputsThisVersionDoesNotWriteAreNoted) {
-  const CaseFileReport report = read(full_case);
-  ASSERT_EQ(report.diagnostics.size(), 2u) << messages(report);
-  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
-  EXPECT_EQ(report.diagnostics[0].where, file() + ": output.paraview");
+TEST_F(CaseFileTest, AReportIsWrittenUnlessRefusedAndParaviewFilesWhenAskedFor) {
+  const CaseFileReport silent = read(full_case, {"output.report=null", "output.paraview=null"});
+  ASSERT_TRUE(silent.value) << messages(silent);
+  EXPECT_TRUE(silent.value->output.report);
+  EXPECT_FALSE(silent.value->output.paraview);
+  const CaseFileReport said = read(full_case, {"output.report=false", "output.paraview=true"});
+  ASSERT_TRUE(said.value) << messages(said);
+  EXPECT_FALSE(said.value->output.report);
+  EXPECT_TRUE(said.value->output.paraview);
 }
 
 TEST_F(CaseFileTest, UnknownKeysNameTheClosestKnownKey) {
@@ -460,7 +473,8 @@ void collect_used_keys(const Json& value, std::set<std::string>& keys) {
 }
 
 TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
-  std::set<std::string> in_schema, in_cases = {"profile", "in_plane", "tolerance", "polyline", "speed"};
+  std::set<std::string> in_schema,
+      in_cases = {"profile", "in_plane", "from", "longest", "chains", "tolerance", "polyline", "speed"};
   collect_keys(Json::parse(case_file_schema()), in_schema);
   collect_used_keys(Json::parse(full_case, nullptr, true, true), in_cases);
   EXPECT_EQ(in_schema, in_cases);

@@ -54,13 +54,14 @@ inline const char* const full_case = R"({
   "beams": [
     {
       "name": "cable",
-      "axis": { "file": "zipline.step", "curve": "Spline1", "chain": true },
+      "axis": { "file": "zipline.step", "curve": "Spline1", "chain": true,
+                "layer": "cables", "colour": "#FF8000", "gap": "0.1 mm" },
       "section": { "area": "3 cm^2", "second_moment": "700 mm^4" },
       "material": { "density": "7.2 g/cm^3", "youngs_modulus": "20 MPa", "damping": "1 ms" },
       "elements": { "per_segment": 2, "grading": "-2 cm" },
       "element": "ale-ancf", "weights": "constant", "merge": "paper", "metric": "reference",
       "stress_free": "straight", "curvature": "spatial", "form": "variational",
-      "corners": "hinge", "closed": false, "approximation_tolerance": "1 um"
+      "corners": "hinge", "smooth_up_to": 3, "closed": false, "approximation_tolerance": "1 um"
     },
     {
       "name": "arch",
@@ -93,6 +94,7 @@ inline const char* const full_case = R"({
     { "body": "driven", "beam": "arch", "at": "start", "motion": { "speed": 5 } },
     { "body": "timed", "beam": "curve", "at": "start", "motion": { "table": [[0, 0], [1, "50 mm"]] } }
   ],
+  "joints": [{ "beams": ["arch", "curve"], "type": "rigid", "at": { "near": ["1 m", 0, 0] } }],
   "analysis": { "type": "dynamic", "initial": "equilibrium", "end_time": "700 ms", "step": 1e-3,
                 "integrator": { "type": "generalized-alpha", "rho_infinity": 0.7 },
                 "length_control": { "min": 0.4, "max": 1.6 } },

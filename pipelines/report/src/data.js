@@ -1,0 +1,148 @@
+// The data of the page: what pipelines/report.cpp has written, decoded only where and when it is looked at.
+
+const digit_of = new Uint8Array(128);
+[...'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'].forEach((c, i) => {
+  digit_of[c.charCodeAt(0)] = i;
+});
+
+/** Decodes `bytes` bytes of base64 text that starts at `offset` into `out`; allocates nothing. */
+export function decode_base64(text, offset, bytes, out) {
+  let from = offset;
+  let to = 0;
+  const whole = bytes - (bytes % 3);
+  while (to < whole) {
+    const word =
+      (digit_of[text.charCodeAt(from)] << 18) |
+      (digit_of[text.charCodeAt(from + 1)] << 12) |
+      (digit_of[text.charCodeAt(from + 2)] << 6) |
+      digit_of[text.charCodeAt(from + 3)];
+    out[to] = word >> 16;
+    out[to + 1] = word >> 8;
+    out[to + 2] = word;
+    from += 4;
+    to += 3;
+  }
+  if (to < bytes) {
+    const a = digit_of[text.charCodeAt(from)];
+    const b = digit_of[text.charCodeAt(from + 1)];
+    const c = digit_of[text.charCodeAt(from + 2)];
+    out[to] = (a << 2) | (b >> 4);
+    if (to + 1 < bytes) {
+      out[to + 1] = (b << 4) | (c >> 2);
+    }
+  }
+}
+
+/** Characters that `bytes` bytes take in base64, with its padding. */
+const base64_length = (bytes) => 4 * Math.ceil(bytes / 3);
+
+function decoded(text, Type) {
+  const bytes = (text.length / 4) * 3 - (text.endsWith('==') ? 2 : text.endsWith('=') ? 1 : 0);
+  const buffer = new ArrayBuffer(bytes);
+  decode_base64(text, 0, bytes, new Uint8Array(buffer));
+  return new Type(buffer);
+}
+
+/** One time history; `values` is a Float64Array with one value per frame, decoded at its first use. */
+class Column {
+  constructor(column, values) {
+    this.of = column.of;
+    this.index = column.index;
+    this.name = column.name;
+    this.unit = column.unit;
+    this.text = values;
+  }
+  get values() {
+    if (this.text !== null) {
+      this.decoded = decoded(this.text, Float64Array);
+      this.text = null;
+    }
+    return this.decoded;
+  }
+}
+
+/**
+ * The shapes of all beams at all frames. Each frame is one piece of base64, decoded into a buffer that is used
+ * again for every frame. Of each beam with n elements it holds, one after the other:
+ *   points   3 n + 1 control points (x, y, z), float32, relative to `origin`; neighbours share their end
+ *   weights  4 n, float32, if `rational`
+ *   fields   per field 4 n bytes: the values at u = 0, 1/3, 2/3, 1, from 0 at the field's least value of the
+ *            whole run to 255 at its greatest
+ */
+class Shapes {
+  constructor(description, text, beam_count, frame_count) {
+    this.rational = description.rational;
+    this.fields = description.fields;
+    this.origin = description.origin;
+    this.text = text;
+    this.beam_count = beam_count;
+    this.counts = decoded(description.element_counts, Uint32Array);
+    this.offsets = new Float64Array(frame_count);
+    let offset = 0;
+    let most_bytes = 0;
+    this.most_elements = new Uint32Array(beam_count);
+    for (let frame = 0; frame < frame_count; ++frame) {
+      let bytes = 0;
+      for (let beam = 0; beam < beam_count; ++beam) {
+        const n = this.count(frame, beam);
+        bytes += this.bytes_of(n);
+        this.most_elements[beam] = Math.max(this.most_elements[beam], n);
+      }
+      this.offsets[frame] = offset;
+      offset += base64_length(bytes);
+      most_bytes = Math.max(most_bytes, bytes);
+    }
+    this.bytes = new Uint8Array(most_bytes);
+    this.floats = new Float32Array(this.bytes.buffer, 0, most_bytes >> 2);
+    this.starts = new Uint32Array(beam_count);
+    this.frame = -1;
+  }
+  count(frame, beam) {
+    return this.counts[frame * this.beam_count + beam];
+  }
+  bytes_of(n) {
+    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + 4 * n * this.fields.length;
+  }
+  /** Decodes a frame into `bytes` (also seen as `floats`), the beams from `starts` on. */
+  load(frame) {
+    if (frame === this.frame) {
+      return;
+    }
+    let bytes = 0;
+    for (let beam = 0; beam < this.beam_count; ++beam) {
+      this.starts[beam] = bytes;
+      bytes += this.bytes_of(this.count(frame, beam));
+    }
+    decode_base64(this.text, this.offsets[frame], bytes, this.bytes);
+    this.frame = frame;
+  }
+  points_start(beam) {
+    return this.starts[beam] >> 2;
+  }
+  weights_start(frame, beam) {
+    return (this.starts[beam] >> 2) + 3 * (3 * this.count(frame, beam) + 1);
+  }
+  field_start(frame, beam, field) {
+    const n = this.count(frame, beam);
+    return this.starts[beam] + 12 * (3 * n + 1) + (this.rational ? 16 * n : 0) + 4 * n * field;
+  }
+}
+
+/** Reads the page's own data. */
+export function read_data() {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const columns = data.columns.map((column, i) => new Column(column, data.values[i]));
+  const time = columns.find((column) => column.of === 'run' && column.name === 'time').values;
+  const shapes = new Shapes(data.shapes, document.getElementById('shapes').textContent, data.names.beams.length,
+    time.length);
+  return {
+    title: data.title,
+    names: data.names,
+    run: data.run,
+    stored_frames: data.stored_frames,
+    box: data.box,
+    time,
+    shapes,
+    column: (of, index, name) => columns.find((c) => c.of === of && c.index === index && c.name === name),
+  };
+}

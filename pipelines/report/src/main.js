@@ -1,0 +1,254 @@
+// The page: picture, time, plots and tables, and what links them.
+import { css_gradient } from './colours.js';
+import { read_data } from './data.js';
+import { common_exponent, element, number, scaled_unit } from './format.js';
+import { Player, speeds } from './player.js';
+import { Plot, plots_of } from './plots.js';
+import { diagnostics_list, energy_table, events_table, model_tables, run_tables, values_tables } from './tables.js';
+import { View } from './view.js';
+
+const $ = (id) => document.getElementById(id);
+const data = read_data();
+const { time, run } = data;
+const is_static = time.length === 1;
+const events = run?.events ?? [];
+
+let view = null;
+let plots = [];
+let last_reading = 0;
+const player = new Player(time, show);
+
+/** Shows the player's frame everywhere. While it plays, numbers change ten times a second: enough to read them. */
+function show() {
+  const { frame, playing } = player;
+  view?.show(frame);
+  for (const plot of plots) {
+    plot.move_cursor(frame);
+  }
+  const now = performance.now();
+  if (!playing || now - last_reading > 100) {
+    last_reading = now;
+    show_numbers(frame);
+  }
+}
+
+function show_numbers(frame) {
+  for (const plot of plots) {
+    plot.read(frame);
+  }
+  const text = `${time[frame].toFixed(time_decimals)} s`;
+  $('time').textContent = text;
+  $('slider').value = frame;
+  $('slider').setAttribute('aria-valuetext', text);
+  $('slider').style.setProperty('--part', frame / Math.max(player.last, 1));
+  $('play').setAttribute('aria-label', player.playing ? 'Pause' : 'Play');
+  $('play').classList.toggle('playing', player.playing);
+  const counts = data.shapes.counts;
+  let elements = 0;
+  for (let beam = 0; beam < data.shapes.beam_count; ++beam) {
+    elements += counts[frame * data.shapes.beam_count + beam];
+  }
+  $('element-count').textContent = `${elements} elements`;
+}
+
+const duration = time[time.length - 1] - time[0];
+const time_decimals = is_static ? 0
+  : Math.min(9, Math.max(0, Math.ceil(-Math.log10(duration / (time.length - 1)) - 1e-9)));
+
+function set_header() {
+  $('title').textContent = data.title;
+  if (!run) {
+    return;
+  }
+  const done = run.status === 'done';
+  $('status').textContent = done ? 'done' : 'ended early';
+  $('status').classList.toggle('early', !done);
+  $('status').title = run.status;
+  const warnings = run.diagnostics.filter(({ severity }) => severity !== 'note').length;
+  const facts = [is_static ? 'static equilibrium' : `${number(time[0])} to ${number(time[time.length - 1])} s`,
+    is_static ? null : `${time.length} frames`,
+    warnings ? `${warnings} warning${warnings > 1 ? 's' : ''}` : null, `nurbeam ${run.nurbeam}`];
+  $('facts').textContent = facts.filter(Boolean).join(' · ');
+}
+
+function set_notes() {
+  const notes = [];
+  if (run && run.status !== 'done') {
+    notes.push(`The run ended early: ${run.status}`);
+  }
+  if (data.stored_frames > time.length) {
+    notes.push(`This page holds ${time.length} of the ${data.stored_frames} stored frames, evenly chosen; `
+      + 'histories.csv and results.nc hold all of them.');
+  }
+  $('notes').append(...notes.map((text) => element('p', { class: 'card notice' }, text)));
+}
+
+function start_view() {
+  try {
+    view = new View($('canvas'), $('overlay'), data);
+  } catch (error) {
+    // The tables and plots are of use without a picture.
+    $('stage').classList.add('broken');
+    $('stage').append(element('p', { class: 'notice' }, `No 3-D picture: ${error.message}`));
+    return;
+  }
+  const fields = data.shapes.fields;
+  $('field').append(...fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
+  $('field').value = is_static ? 0 : fields.findIndex(({ name }) => name === 'speed');
+  const choose = () => {
+    const { low, high, stops } = view.set_field(Number($('field').value));
+    $('legend-bar').style.background = css_gradient(stops);
+    const exponent = common_exponent(Math.max(Math.abs(low), Math.abs(high)));
+    const texts = [low, (low + high) / 2, high].map((value) => number(value / 10 ** exponent, 4));
+    ['legend-low', 'legend-middle', 'legend-high'].forEach((id, i) => { $(id).textContent = texts[i]; });
+    $('legend-unit').textContent = scaled_unit(exponent, '');
+  };
+  $('field').addEventListener('change', choose);
+  choose();
+  for (const button of document.querySelectorAll('[data-view]')) {
+    button.addEventListener('click', () => view.set_view(button.dataset.view));
+  }
+  $('fit').addEventListener('click', () => view.fit());
+  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start' };
+  for (const [id, method] of Object.entries(options)) {
+    $(id).addEventListener('change', () => view[method]($(id).checked));
+    view[method]($(id).checked);
+  }
+  $('names').addEventListener('change', () => $('overlay').classList.toggle('no-names', !$('names').checked));
+  $('canvas').addEventListener('keydown', (event) => {
+    if (event.key === 'f') {
+      view.fit();
+      return;
+    }
+    const moves = { ArrowLeft: [-20, 0], ArrowRight: [20, 0], ArrowUp: [0, -20], ArrowDown: [0, 20] };
+    if (event.shiftKey && moves[event.key]) {
+      view.view.orbit(...moves[event.key]);
+    } else if (event.key === '+' || event.key === '=') {
+      view.view.zoom(1.25);
+    } else if (event.key === '-') {
+      view.view.zoom(0.8);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+    view.moved();
+  });
+  const follow_scheme = () => view.set_scheme();
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', follow_scheme);
+  // Paper gets a copy of the picture in the light scheme and the paper's size, whatever the screen has.
+  const set_printed = (printed) => {
+    document.documentElement.classList.toggle('printed', printed);
+    view.set_scheme();
+    view.resize();
+  };
+  addEventListener('beforeprint', () => {
+    set_printed(true);
+    const copy = $('print-picture');
+    copy.width = $('canvas').width;
+    copy.height = $('canvas').height;
+    copy.getContext('2d').drawImage($('canvas'), 0, 0);
+  });
+  addEventListener('afterprint', () => set_printed(false));
+}
+
+function start_player() {
+  if (is_static) {
+    $('transport').hidden = true;
+    for (const label of document.querySelectorAll('.of-time')) {
+      label.hidden = true;
+    }
+    return;
+  }
+  $('slider').max = player.last;
+  $('slider').addEventListener('input', () => {
+    player.playing = false;
+    player.go(Number($('slider').value));
+  });
+  $('play').addEventListener('click', () => player.toggle());
+  $('speed').append(...speeds.map((speed) => element('option', { value: speed },
+    speed < 1 ? `1/${Math.round(1 / speed)} ×` : `${speed} ×`)));
+  $('speed').value = player.speed;
+  $('speed').addEventListener('change', () => { player.speed = Number($('speed').value); });
+  $('loop').addEventListener('change', () => { player.loop = $('loop').checked; });
+  document.addEventListener('keydown', on_key);
+}
+
+/** Keys of time, unless a control has its own use for them. */
+function on_key(event) {
+  const { target } = event;
+  if (event.ctrlKey || event.metaKey || event.altKey || target.closest('select, .scroll, .table-card')) {
+    return;
+  }
+  const is_slider = target === $('slider');
+  const has_own_space = target.closest('button, input, a') && !is_slider;
+  const step = event.shiftKey ? 10 : 1;
+  const actions = {
+    ' ': has_own_space ? null : () => player.toggle(),
+    ArrowLeft: () => player.go(player.frame - step),
+    ArrowRight: () => player.go(player.frame + step),
+    Home: () => player.go(0),
+    End: () => player.go(player.last),
+  };
+  const action = actions[event.key];
+  if (action) {
+    event.preventDefault();
+    if (event.key !== ' ') {
+      player.playing = false;
+    }
+    action();
+  }
+}
+
+function start_plots() {
+  if (is_static) {
+    $('plots-title').textContent = 'Values';
+    $('plots').append(...values_tables(data).filter(Boolean));
+    return;
+  }
+  const mesh_kinds = ['split', 'merge'];
+  const marks = {
+    mesh: events.filter(({ kind }) => mesh_kinds.includes(kind)).map((event) => event['time [s]']),
+    body: events.filter(({ kind }) => kind.startsWith('left') || kind.startsWith('stopped')).map((event) =>
+      ({ time: event['time [s]'], text: `${event.body}: ${event.kind} at ${number(event['time [s]'])} s` })),
+  };
+  const pick = (t) => {
+    player.playing = false;
+    player.go_to_time(t);
+  };
+  plots = plots_of(data).map((description) => {
+    const plot = new Plot(description, time, marks, pick);
+    plot.element.dataset.plot = description.id;
+    return plot;
+  });
+  $('plots').append(...plots.map((plot) => plot.element));
+  const layout = () => {
+    for (const plot of plots) {
+      plot.layout(Math.floor(plot.element.clientWidth - 24));
+    }
+  };
+  new ResizeObserver(layout).observe($('plots'));
+  layout();
+  if (marks.mesh.length || marks.body.length) {
+    $('plots-note').textContent = 'Short marks above the time axis: elements split or merged. '
+      + (marks.body.length ? 'Dashed lines: a body left its beam or stopped. ' : '');
+  }
+}
+
+function fill_tables() {
+  const fill = (id, ...parts) => $(id).append(...parts.flat().filter(Boolean));
+  fill('model', model_tables(run));
+  fill('balance', energy_table(data));
+  fill('events', events_table(events, (t) => player.go_to_time(t)));
+  fill('warnings', diagnostics_list(run?.diagnostics ?? []));
+  fill('run', run_tables(run));
+}
+
+set_header();
+set_notes();
+start_view();
+start_player();
+start_plots();
+fill_tables();
+show();
+document.documentElement.classList.add('ready');

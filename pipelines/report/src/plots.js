@@ -1,0 +1,236 @@
+// Time histories as small SVG pictures with one common cursor.
+import { line_style } from './colours.js';
+import { common_exponent, element, number, number_beside, round_down, scaled_unit } from './format.js';
+
+const height = 150, left = 58, right = 14, top = 10, bottom = 24;
+
+/** Round values between low and high, about `wanted` of them. */
+export function ticks(low, high, wanted) {
+  const span = high - low;
+  let step = round_down(span / wanted);
+  if (span / step > 1.9 * wanted) {
+    step = round_down(2.5 * step);
+  }
+  const values = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * span; ++k) {
+    values.push(k * step);
+  }
+  return { step, values };
+}
+
+/** Labels with as many decimals as the step needs, and the power of ten they are taken from. */
+function labels_of({ step, values }) {
+  const largest = Math.max(...values.map(Math.abs), step);
+  const exponent = common_exponent(largest);
+  const scale = 10 ** -exponent;
+  const decimals = Math.max(0, -Math.floor(Math.log10(step * scale) + 1e-9));
+  return {
+    exponent,
+    texts: values.map((value) => (value * scale).toFixed(Math.min(decimals, 12)).replace('-', '−')),
+  };
+}
+
+/** Least and greatest value of all series; a margin where they are (nearly) equal. */
+function range_of(series) {
+  let low = Infinity, high = -Infinity;
+  for (const { values } of series) {
+    for (const value of values) {
+      if (value < low) { low = value; }
+      if (value > high) { high = value; }
+    }
+  }
+  if (low > high) {
+    return [0, 1];
+  }
+  const least_span = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1e-12;
+  if (high - low < least_span) {
+    return [low - least_span, high + least_span];
+  }
+  const margin = 0.04 * (high - low);
+  return [low - margin, high + margin];
+}
+
+/**
+ * The path of a history. Where many frames share a pixel only the first, least, greatest and last of them are drawn,
+ * which gives the same picture. A gap where values are not numbers; `steps`: constant up to each frame.
+ */
+function path_of(time, values, x_of, y_of, pixels, steps) {
+  let path = '';
+  let pen_up = true;
+  const add = (i) => {
+    if (Number.isNaN(values[i])) {
+      pen_up = true;
+      return;
+    }
+    const x = x_of(time[i]).toFixed(2), y = y_of(values[i]).toFixed(2);
+    path += pen_up ? `M${x} ${y}` : steps ? `V${y}H${x}` : `L${x} ${y}`;
+    pen_up = false;
+  };
+  const frames = time.length;
+  const per_pixel = frames / pixels;
+  if (per_pixel <= 2) {
+    for (let i = 0; i < frames; ++i) {
+      add(i);
+    }
+    return path;
+  }
+  for (let p = 0; p < pixels; ++p) {
+    const from = Math.floor(p * per_pixel), to = Math.min(Math.floor((p + 1) * per_pixel), frames);
+    let least = from, greatest = from;
+    for (let i = from; i < to; ++i) {
+      if (values[i] < values[least]) { least = i; }
+      if (values[i] > values[greatest]) { greatest = i; }
+    }
+    const drawn = [...new Set([from, Math.min(least, greatest), Math.max(least, greatest), to - 1])];
+    drawn.forEach(add);
+  }
+  return path;
+}
+
+export class Plot {
+  /**
+   * series: [{ name, values, style }]; marks: { mesh: [times], body: [{ time, text }] };
+   * pick(time) is called when the reader points at a time.
+   */
+  constructor({ title, unit, series, steps = false }, time, marks, pick) {
+    this.title = title;
+    this.unit = unit;
+    this.series = series;
+    this.largest = 0;
+    this.steps = steps;
+    this.time = time;
+    this.marks = marks;
+    series.forEach((one, i) => { one.style = line_style(one.style ?? i); });
+    this.svg = element('svg:svg', { class: 'plot', role: 'img', height });
+    this.cursor = element('svg:line', { class: 'cursor', y1: top - 4, y2: height - bottom });
+    this.keys = series.map((one) => {
+      const reading = element('data', { class: 'reading' });
+      const swatch = element('svg:svg', { class: 'swatch', viewBox: '0 0 26 8', 'aria-hidden': 'true' },
+        element('svg:line', { x1: 0, x2: 26, y1: 4, y2: 4, style: `stroke: ${one.style.colour}`,
+          'stroke-dasharray': one.style.dash }));
+      return { reading, item: element('li', {}, swatch, element('span', { class: 'key' }, one.name), reading) };
+    });
+    this.element = element('figure', { class: 'card plot-card' },
+      element('figcaption', {}, element('span', { class: 'plot-title' }, title), ' ',
+        element('span', { class: 'unit' }, `[${unit}]`)),
+      element('ul', { class: 'keys' }, ...this.keys.map(({ item }) => item)), this.svg);
+    const follow = (event) => {
+      const box = this.svg.getBoundingClientRect();
+      const [start, end] = [time[0], time[time.length - 1]];
+      const part = (event.clientX - box.left - left) / (box.width - left - right);
+      pick(start + Math.min(Math.max(part, 0), 1) * (end - start));
+    };
+    this.svg.addEventListener('pointerdown', (event) => {
+      this.svg.setPointerCapture(event.pointerId);
+      follow(event);
+    });
+    this.svg.addEventListener('pointermove', (event) => {
+      if (event.buttons & 1) {
+        follow(event);
+      }
+    });
+  }
+
+  /** Draws for a width in pixels. */
+  layout(width) {
+    if (width === this.width || width < 120) {
+      return;
+    }
+    this.width = width;
+    const { time, svg } = this;
+    const [low, high] = range_of(this.series);
+    this.largest = Math.max(Math.abs(low), Math.abs(high));
+    const [start, end] = [time[0], time[time.length - 1]];
+    const x_of = (t) => left + ((t - start) / (end - start)) * (width - left - right);
+    const y_of = (value) => height - bottom - ((value - low) / (high - low)) * (height - bottom - top);
+    this.x_of = x_of;
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    svg.setAttribute('width', width);
+    const y_ticks = ticks(low, high, 4), x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90)));
+    const y_labels = labels_of(y_ticks), x_labels = labels_of(x_ticks);
+    const parts = [];
+    y_ticks.values.forEach((value, i) => {
+      const y = y_of(value).toFixed(1);
+      parts.push(element('svg:line', { class: value === 0 ? 'zero' : 'gridline', x1: left, x2: width - right, y1: y, y2: y }),
+        element('svg:text', { x: left - 6, y, dy: '0.35em', 'text-anchor': 'end' }, y_labels.texts[i]));
+    });
+    x_ticks.values.forEach((value, i) => {
+      const x = x_of(value).toFixed(1);
+      const last = i === x_ticks.values.length - 1 && x > width - right - 12;
+      parts.push(element('svg:line', { class: 'tick', x1: x, x2: x, y1: height - bottom, y2: height - bottom + 4 }),
+        element('svg:text', { x: last ? width - 2 : x, y: height - 7, 'text-anchor': last ? 'end' : 'middle' },
+          x_labels.texts[i] + (last ? ` ${scaled_unit(x_labels.exponent, 's')}` : '')));
+    });
+    if (y_labels.exponent) {
+      parts.push(element('svg:text', { x: 2, y: height - 7 }, scaled_unit(y_labels.exponent, '')));
+    }
+    parts.push(element('svg:line', { class: 'axis', x1: left, x2: width - right, y1: height - bottom, y2: height - bottom }));
+    parts.push(element('svg:path', { class: 'mesh-marks',
+      d: this.marks.mesh.map((t) => `M${x_of(t).toFixed(1)} ${height - bottom}v-5`).join('') }));
+    for (const { time: t, text } of this.marks.body) {
+      const x = x_of(t).toFixed(1);
+      parts.push(element('svg:line', { class: 'body-mark', x1: x, x2: x, y1: top, y2: height - bottom },
+        element('svg:title', {}, text)));
+    }
+    for (const { values, style } of this.series) {
+      parts.push(element('svg:path', { class: 'history', style: `stroke: ${style.colour}`, 'stroke-dasharray': style.dash,
+        d: path_of(time, values, x_of, y_of, Math.round(width - left - right), this.steps) }));
+    }
+    svg.replaceChildren(...parts, this.cursor);
+    svg.setAttribute('aria-label', `${this.title} [${this.unit}] from ${number(start)} s to ${number(end)} s: `
+      + this.series.map(({ name, values }) => `${name} ends at ${number(values[values.length - 1])}`).join(', '));
+    this.move_cursor(this.frame ?? 0);
+  }
+
+  move_cursor(frame) {
+    this.frame = frame;
+    if (this.x_of) {
+      this.cursor.setAttribute('transform', `translate(${this.x_of(this.time[frame]).toFixed(1)} 0)`);
+    }
+  }
+
+  read(frame) {
+    this.keys.forEach(({ reading }, i) => {
+      const value = this.series[i].values[frame];
+      reading.value = Number.isNaN(value) ? '' : value;
+      reading.textContent = number_beside(value, this.largest);
+    });
+  }
+}
+
+/** What there is to plot of a run; nothing is read before it is drawn. */
+export function plots_of(data) {
+  const { names, time } = data;
+  const values = (of, index, name) => data.column(of, index, name).values;
+  const length_of = (of, index, parts) => {
+    const vectors = parts.map((name) => values(of, index, name));
+    return Float64Array.from(time, (_, i) => Math.hypot(...vectors.map((v) => v[i])));
+  };
+  const points = [...names.bodies.map((name, index) => ({ of: 'body', name, index })),
+    ...names.probes.map((name, index) => ({ of: 'probe', name, index }))];
+  const plots = points.map(({ of, name, index }) => ({
+    title: `Position of ${name}`, unit: 'm', id: `${of}-${index}-position`,
+    series: ['x', 'y', 'z'].map((part) => ({ name: part, values: values(of, index, part) })),
+  }));
+  if (points.length) {
+    plots.push({ title: 'Speed', unit: 'm/s', id: 'speed',
+      series: points.map(({ of, name, index }) => ({ name, values: length_of(of, index, ['vx', 'vy', 'vz']) })) });
+  }
+  if (names.bodies.length) {
+    plots.push({ title: 'Place on the beam s', unit: 'm', id: 's',
+      series: names.bodies.map((name, i) => ({ name, values: values('body', i, 's') })) });
+    plots.push({ title: 'Joint force', unit: 'N', id: 'joint-force',
+      series: names.bodies.map((name, i) => ({ name, values: length_of('body', i, ['fx', 'fy', 'fz']) })) });
+  }
+  plots.push({ title: 'Length of the beam', unit: 'm', id: 'length',
+    series: names.beams.map((name, i) => ({ name, values: values('beam', i, 'length') })) });
+  const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total'];
+  plots.push({ title: 'Energy', unit: 'J', id: 'energy',
+    series: energies.map((name) => ({ name, values: values('energy', 0, name) })) });
+  const total = values('energy', 0, 'total');
+  plots.push({ title: 'Change of the total energy', unit: 'J', id: 'energy-change',
+    series: [{ name: 'total − start', values: total.map((e) => e - total[0]), style: 5 }] });
+  plots.push({ title: 'Step size', unit: 's', id: 'step', steps: true,
+    series: [{ name: 'step', values: values('run', 0, 'step') }] });
+  return plots;
+}

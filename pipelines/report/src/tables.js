@@ -1,0 +1,172 @@
+// What run.json says, and the model, as tables.
+import { element, number, number_beside, unit_text } from './format.js';
+
+/** "length [m]" as its two parts. */
+function name_and_unit(key) {
+  const match = /^(.*) \[(.*)\]$/.exec(key);
+  return match ? { name: match[1], unit: unit_text(match[2]) } : { name: key, unit: '' };
+}
+
+function cell_text(value) {
+  if (value === null || value === undefined || value === '') {
+    return '–';
+  }
+  if (Array.isArray(value)) {
+    const largest = Math.max(...value.map(Math.abs));
+    return `(${value.map((v) => number_beside(v, largest)).join(', ')})`;
+  }
+  return typeof value === 'number' ? number(value) : String(value);
+}
+
+/** A table of objects that all have the same keys; numbers to the right. */
+export function table_of(caption, rows, keys = Object.keys(rows[0] ?? {})) {
+  if (rows.length === 0) {
+    return null;
+  }
+  const heads = keys.map((key) => {
+    const { name, unit } = name_and_unit(key);
+    const numeric = rows.some((row) => typeof row[key] === 'number');
+    return element('th', { scope: 'col', class: numeric ? 'number' : null }, name.replaceAll('_', ' '),
+      unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
+  });
+  const body = rows.map((row) => element('tr', {}, ...keys.map((key, i) => element(i === 0 ? 'th' : 'td', {
+    scope: i === 0 ? 'row' : null,
+    class: typeof row[key] === 'number' ? 'number' : null,
+  }, cell_text(row[key])))));
+  return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': caption },
+    element('table', {}, element('caption', {}, caption), element('thead', {}, element('tr', {}, ...heads)),
+      element('tbody', {}, ...body)));
+}
+
+/** The same with one column per object, for few objects of many properties. */
+function table_of_columns(caption, rows) {
+  if (rows.length === 0 || rows.length > 4) {
+    return table_of(caption, rows);
+  }
+  const [first, ...keys] = Object.keys(rows[0]);
+  const body = keys.map((key) => {
+    const { name, unit } = name_and_unit(key);
+    return element('tr', {}, element('th', { scope: 'row' }, name, unit ? element('span', { class: 'unit' }, ` [${unit}]`)
+      : null), ...rows.map((row) => element('td', { class: 'number' }, cell_text(row[key]))));
+  });
+  return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': caption },
+    element('table', {}, element('caption', {}, caption),
+      element('thead', {}, element('tr', {}, element('td'), ...rows.map((row) =>
+        element('th', { scope: 'col', class: 'number' }, row[first])))),
+      element('tbody', {}, ...body)));
+}
+
+/** Names and values, one below the other. */
+export function facts_of(caption, facts) {
+  return element('div', { class: 'card' }, caption ? element('h3', {}, caption) : null,
+    element('dl', { class: 'facts' }, ...facts.flatMap(([name, value]) =>
+      [element('dt', {}, name), element('dd', {}, value)])));
+}
+
+/** Tables of the model; none if run.json was written before it held one. */
+export function model_tables(run) {
+  const model = run?.model;
+  if (!model) {
+    return [element('p', { class: 'none' }, 'run.json of these results does not describe the model.')];
+  }
+  const gravity = model['gravity [m/s^2]'];
+  return [
+    facts_of('', [
+      ['Kind', model.dimension === 2 ? 'planar' : 'spatial'],
+      ['Gravity', `${cell_text(gravity)} m/s²`],
+      ['Units', 'SI: metre, kilogram, second, newton, joule'],
+    ]),
+    table_of_columns('Beams', model.beams),
+    table_of('Bodies', model.bodies),
+    table_of('Supports', model.supports.map(({ outward, ...rest }) => rest)),
+    table_of_columns('Sliding joints', model.joints),
+    table_of('Loads', model.loads),
+  ];
+}
+
+/** Where the energy was at the start and the end of the run. */
+export function energy_table(data) {
+  const last = data.time.length - 1;
+  const rows = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total'].map((name) => {
+    const { values } = data.column('energy', 0, name);
+    return last === 0 ? { energy: name, 'value [J]': values[0] }
+      : { energy: name, 'start [J]': values[0], 'end [J]': values[last], 'change [J]': values[last] - values[0] };
+  });
+  const drift = data.run?.['energy_drift [J]'];
+  return [
+    table_of('Energy balance', rows),
+    typeof drift === 'number' && last > 0
+      ? element('p', { class: 'note' }, `The total, with what was dissipated, departed by at most ${number(drift, 3)} J from its start.`)
+      : null,
+  ];
+}
+
+/** Events with a button that shows their time. */
+export function events_table(events, go_to_time) {
+  if (!events.length) {
+    return element('p', { class: 'none' }, 'No element was split or merged, and no body left its beam.');
+  }
+  const rows = events.map((event) => element('tr', {},
+    element('th', { scope: 'row', class: 'number' },
+      button_to(event['time [s]'], go_to_time)),
+    element('td', {}, event.kind),
+    element('td', {}, event.body || '–'),
+    element('td', {}, event.beam || '–'),
+    element('td', { class: 'number' }, cell_text(event['s [m]'])),
+    element('td', { class: 'number' }, number(event['energy_before [J]'], 8)),
+    element('td', { class: 'number' }, number(event['energy_after [J]'], 8)),
+    element('td', { class: 'number' }, number(event['energy_after [J]'] - event['energy_before [J]'], 3))));
+  const head = (name, unit) => element('th', { scope: 'col', class: unit ? 'number' : null }, name,
+    unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
+  return element('div', { class: 'card table-card scroll', tabindex: 0, role: 'region', 'aria-label': 'Events' },
+    element('table', {}, element('caption', {}, `${events.length} events`),
+      element('thead', {}, element('tr', {}, head('time', 's'), head('kind'), head('body'), head('beam'),
+        head('s', 'm'), head('energy before', 'J'), head('after', 'J'), head('change', 'J'))),
+      element('tbody', {}, ...rows)));
+}
+
+function button_to(time, go_to_time) {
+  const button = element('button', { type: 'button', class: 'link', title: 'Show this time' }, number(time));
+  button.addEventListener('click', () => go_to_time(time));
+  return button;
+}
+
+export function diagnostics_list(diagnostics) {
+  if (!diagnostics.length) {
+    return element('p', { class: 'none' }, 'None.');
+  }
+  return element('ul', { class: 'diagnostics' }, ...diagnostics.map(({ severity, where, message }) =>
+    element('li', { class: `card ${severity}` }, element('strong', {}, severity), ' ',
+      element('span', { class: 'where' }, where), element('span', { class: 'message' }, message))));
+}
+
+export function run_tables(run) {
+  if (!run) {
+    return [];
+  }
+  const seconds = (key) => `${number(run['wall_times [s]'][key], 3)} s`;
+  return [
+    facts_of('', [
+      ['Status', run.status],
+      ['nurbeam', run.nurbeam],
+      ['Steps', `${run.steps} (${run.rejected_steps} rejected), ${run.newton_iterations} Newton iterations`],
+    ]),
+    facts_of('Wall time', [['Import', seconds('import')], ['Model', seconds('model')], ['Motion', seconds('motion')],
+      ['Length control', seconds('length_control')], ['Output', seconds('output')]]),
+    element('div', { class: 'card' }, element('h3', {}, 'Input files and their SHA-256'), element('ul', { class: 'files' },
+      ...run.inputs.map(({ file, sha256 }) => element('li', {}, file, element('code', {}, sha256))))),
+  ];
+}
+
+/** The values of a static analysis, which has no histories to plot. */
+export function values_tables(data) {
+  const rows = (of, names, parts) => names.map((name, i) => Object.fromEntries([['name', name],
+    ...parts.map(([label, part]) => [label, data.column(of, i, part).values[0]])]));
+  const place = [['x [m]', 'x'], ['y [m]', 'y'], ['z [m]', 'z']];
+  return [
+    table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),
+      ...rows('probe', data.names.probes, place)]),
+    table_of('Joint forces', rows('body', data.names.bodies, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz']])),
+    table_of('Beams', rows('beam', data.names.beams, [['deformed length [m]', 'length']])),
+  ];
+}

@@ -1,0 +1,395 @@
+// The 3-D picture: beams, bodies, supports, grid and signs of scale and direction. It is drawn only when it changes.
+import {
+  AmbientLight, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, DataTexture, DirectionalLight,
+  Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, OctahedronGeometry, Points,
+  PointsMaterial, Quaternion, Scene, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+import { BeamMesh } from './beam_mesh.js';
+import { ViewCamera, steer, view_directions } from './camera.js';
+import { field_colours } from './colours.js';
+import { element, number, round_down } from './format.js';
+
+const y_axis = new Vector3(0, 1, 0);
+
+/** The corners of a box, relative to the origin of the shapes. */
+function corners([low, high], origin) {
+  const points = [];
+  for (let i = 0; i < 8; ++i) {
+    points.push(new Vector3(...[0, 1, 2].map((k) => ((i >> k) & 1 ? high : low)[k] - origin[k])));
+  }
+  return points;
+}
+
+/** Lines every `step` metres over the points' shadow on the plane of directions a and b through `base`. */
+function grid_lines(points, a, b, base, step) {
+  const bounds = (d) => {
+    const along = points.map((p) => p.dot(d));
+    return [Math.floor(Math.min(...along) / step - 0.75), Math.ceil(Math.max(...along) / step + 0.75)];
+  };
+  const [a0, a1] = bounds(a), [b0, b1] = bounds(b);
+  const ends = [];
+  const add = (i, j) => {
+    const p = base.clone().addScaledVector(a, i * step).addScaledVector(b, j * step);
+    ends.push(p.x, p.y, p.z);
+  };
+  for (let i = a0; i <= a1; ++i) { add(i, b0); add(i, b1); }
+  for (let j = b0; j <= b1; ++j) { add(a0, j); add(a1, j); }
+  return new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(ends), 3));
+}
+
+export class View {
+  constructor(canvas, overlay, data) {
+    this.canvas = canvas;
+    this.data = data;
+    this.frame = 0;
+    this.field = 0;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.scene = new Scene();
+    const model = data.run?.model;
+    const plane_normal = model?.plane_normal ?? flat_direction(data.box);
+    this.directions = view_directions(model?.['gravity [m/s^2]'], plane_normal);
+    this.planar = Boolean(plane_normal);
+    this.box_points = corners(data.box, data.shapes.origin);
+    this.view = new ViewCamera(this.directions, this.box_points);
+    this.uniforms = {
+      pixels: { value: new Vector2(1, 1) },
+      width: { value: 1 },
+      map: { value: this.map_texture() },
+      outline: { value: [0, 0, 0] },
+    };
+    this.pinned_size = [];  // objects drawn in pixels: their scale follows the zoom
+    this.add_light();
+    this.add_grid();
+    this.add_beams();
+    this.add_supports(model?.supports ?? []);
+    this.add_points();
+    this.add_overlay(overlay, model?.['gravity [m/s^2]']);
+    steer(canvas, this.view, () => this.moved());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.view.set_view(this.planar ? 'front' : 'iso');
+    this.is_fitted = true;  // and stays so when the window changes, until the reader moves the camera
+    this.resize();
+    this.set_scheme();
+  }
+
+  map_texture() {
+    const texture = new DataTexture(new Uint8Array(4 * 256), 256, 1);
+    texture.magFilter = texture.minFilter = 1006;  // linear
+    return texture;
+  }
+
+  add_light() {
+    this.light = new DirectionalLight(0xffffff, 2.2);
+    this.scene.add(new AmbientLight(0xffffff, 1.4), this.light, this.light.target);
+  }
+
+  add_grid() {
+    const { up, front } = this.directions;
+    const right = up.clone().cross(front);
+    const size = Math.max(...[right, up, front].map((d) => {
+      const along = this.box_points.map((p) => p.dot(d));
+      return Math.max(...along) - Math.min(...along);
+    })) || 1;
+    this.grid_step = round_down(size / 6);
+    const second = this.planar ? up : front;
+    const normal = this.planar ? front : up;
+    const lowest = Math.min(...this.box_points.map((p) => p.dot(normal)));
+    const base = normal.clone().multiplyScalar(this.planar ? lowest : lowest - 0.5 * this.grid_step);
+    this.grid_material = new LineBasicMaterial();
+    this.grid = new LineSegments(grid_lines(this.box_points, right, second, base, this.grid_step), this.grid_material);
+    this.grid.renderOrder = -2;
+    this.scene.add(this.grid);
+  }
+
+  add_beams() {
+    const { shapes } = this.data;
+    const ghost = { pixels: this.uniforms.pixels, width: { value: 1 }, plain: { value: [0, 0, 0] } };
+    this.ghost_uniforms = ghost;
+    this.ghost = new Group();
+    this.beams = [...shapes.most_elements].map((most) => new BeamMesh(most, shapes.rational, this.uniforms));
+    shapes.load(0);
+    for (let beam = 0; beam < this.beams.length; ++beam) {
+      const start = new BeamMesh(shapes.count(0, beam), shapes.rational, ghost);
+      start.load(shapes, 0, beam, 0);
+      start.object.renderOrder = -1;  // below the beams, whichever is nearer
+      start.object.material.depthWrite = false;
+      this.ghost.add(start.object);
+      this.scene.add(this.beams[beam].object);
+    }
+    this.scene.add(this.ghost);
+    const most = shapes.most_elements.reduce((sum, n) => sum + n + 1, 0);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * most), 3));
+    this.node_material = new PointsMaterial({ size: 5, sizeAttenuation: false });
+    this.nodes = new Points(geometry, this.node_material);
+    this.nodes.frustumCulled = false;
+    this.nodes.visible = false;
+    this.scene.add(this.nodes);
+  }
+
+  add_symbol(geometry, material, pixels) {
+    const symbol = new Mesh(geometry, material);
+    symbol.userData.pixels = pixels;
+    this.pinned_size.push(symbol);
+    this.scene.add(symbol);
+    return symbol;
+  }
+
+  add_supports(supports) {
+    this.support_material = new MeshLambertMaterial();
+    const cone = new ConeGeometry(0.62, 1, 4, 1).translate(0, -0.5, 0);  // its tip at the support
+    const block = new BoxGeometry(1.5, 0.45, 1.5).translate(0, 0.225, 0);  // behind the clamped end
+    for (const support of supports) {
+      const clamped = support.type === 'clamped';
+      const symbol = this.add_symbol(clamped ? block : cone, this.support_material, 17);
+      symbol.position.copy(this.local(support['position [m]']));
+      const away = clamped ? new Vector3(...support.outward) : this.directions.up;
+      symbol.quaternion.copy(new Quaternion().setFromUnitVectors(y_axis, away));
+    }
+  }
+
+  /** Bodies, probes and the paths of the bodies. */
+  add_points() {
+    const { names } = this.data;
+    this.body_material = new MeshLambertMaterial();
+    this.probe_material = new MeshLambertMaterial();
+    this.path_material = new LineBasicMaterial();
+    const sphere = new SphereGeometry(1, 32, 20), diamond = new OctahedronGeometry(1);
+    const histories = (of, i) => ['x', 'y', 'z'].map((name) => this.data.column(of, i, name));
+    const point = (of, name, i) => ({
+      name,
+      symbol: this.add_symbol(of === 'body' ? sphere : diamond, of === 'body' ? this.body_material
+        : this.probe_material, of === 'body' ? 9 : 6),
+      histories: histories(of, i),
+      of,
+    });
+    this.points = [...names.bodies.map((name, i) => point('body', name, i)),
+      ...names.probes.map((name, i) => point('probe', name, i))];
+    this.paths = new Group();
+    this.scene.add(this.paths);
+  }
+
+  local(world) {
+    const { origin } = this.data.shapes;
+    return new Vector3(world[0] - origin[0], world[1] - origin[1], world[2] - origin[2]);
+  }
+
+  add_overlay(overlay, gravity) {
+    for (const point of this.points) {
+      point.label = element('span', { class: `label ${point.of}` }, point.name);
+    }
+    this.scale_bar = element('span', { class: 'scale-bar' });
+    this.scale_text = element('span');
+    const directions = [['x', [1, 0, 0]], ['y', [0, 1, 0]], ['z', [0, 0, 1]]];
+    if (gravity && Math.hypot(...gravity) > 0) {
+      directions.push(['g', gravity]);
+    }
+    this.triad = directions.map(([name, direction]) => ({
+      direction: new Vector3(...direction).normalize(),
+      line: element('svg:line', { class: `axis-${name}` }),
+      tip: element('svg:path', { class: `tip axis-${name}`, d: 'M6 0 L-3 3 L-3 -3 Z' }),
+      text: element('svg:text', { class: `axis-${name}`, 'text-anchor': 'middle', dy: '0.35em' }, name),
+      reach: name === 'g' ? 24 : 30,
+    }));
+    const triad = element('svg:svg', { class: 'triad', viewBox: '-46 -46 92 92', 'aria-hidden': 'true' },
+      ...this.triad.flatMap(({ line, tip, text }) => [line, tip, text]));
+    const grid_hint = element('span', { class: 'grid-hint' }, `grid ${number(this.grid_step)} m`);
+    this.labels = element('div', { class: 'labels' }, ...this.points.map((point) => point.label));
+    overlay.append(this.labels, triad,
+      element('div', { class: 'scale' }, this.scale_bar, this.scale_text, grid_hint));
+  }
+
+  /** Makes the paths of the bodies when they are first wanted. */
+  show_paths(visible) {
+    if (visible && this.paths.children.length === 0) {
+      const { origin } = this.data.shapes;
+      for (const { histories } of this.points.filter((point) => point.of === 'body')) {
+        const places = new Float32Array(3 * this.data.time.length);
+        histories.forEach(({ values }, k) => values.forEach((value, i) => { places[3 * i + k] = value - origin[k]; }));
+        this.paths.add(new Line(new BufferGeometry().setAttribute('position', new BufferAttribute(places, 3)),
+          this.path_material));
+      }
+    }
+    this.paths.visible = visible;
+    this.redraw();
+  }
+
+  show_nodes(visible) {
+    this.nodes.visible = visible;
+    this.show(this.frame);
+  }
+
+  show_start(visible) {
+    this.ghost.visible = visible;
+    this.redraw();
+  }
+
+  set_field(field) {
+    this.field = field;
+    const colours = field_colours(this.data.shapes.fields[field]);
+    const { min, max } = this.data.shapes.fields[field];
+    // Bytes go from min to max, the map from low to high.
+    const texture = this.uniforms.map.value;
+    const span = colours.high - colours.low;
+    for (let k = 0; k < 256; ++k) {
+      const value = min + ((max - min) * k) / 255;
+      const i = span > 0 ? Math.round((255 * (value - colours.low)) / span) : 0;
+      texture.image.data.set(colours.table.subarray(4 * i, 4 * i + 4), 4 * k);
+    }
+    texture.needsUpdate = true;
+    this.show(this.frame);
+    return colours;
+  }
+
+  /** Colours of the page's present scheme. */
+  set_scheme() {
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name) => new Color().setStyle(style.getPropertyValue(name).trim(), SRGBColorSpace);
+    this.renderer.setClearColor(colour('--scene'), 1);
+    this.grid_material.color = colour('--scene-grid');
+    this.support_material.color = colour('--scene-support');
+    this.body_material.color = colour('--scene-body');
+    this.probe_material.color = colour('--scene-probe');
+    this.path_material.color = colour('--scene-path');
+    this.node_material.color = colour('--scene-node');
+    // The beams' own shaders write the colours of the screen as they are.
+    const screen_colour = (name) => colour(name).convertLinearToSRGB().toArray();
+    this.ghost_uniforms.plain.value = screen_colour('--scene-ghost');
+    this.uniforms.outline.value = screen_colour('--scene-outline');
+    this.redraw();
+  }
+
+  resize() {
+    const box = this.canvas.parentElement.getBoundingClientRect();
+    if (box.width < 1 || box.height < 1) {
+      return;
+    }
+    const first = this.view.width === 1;
+    const factor = Math.min(box.width / this.view.width, box.height / this.view.height);
+    this.renderer.setSize(box.width, box.height, false);
+    this.uniforms.pixels.value.set(box.width, box.height);
+    this.uniforms.width.value = box.width < 600 ? 5 : 7;
+    this.ghost_uniforms.width.value = 2;
+    if (!first) {
+      this.view.scale *= factor;
+      this.view.fitted *= factor;
+    }
+    this.view.resize(box.width, box.height);
+    if (this.is_fitted) {
+      this.view.fit();
+    }
+    this.draw();
+  }
+
+  fit() {
+    this.view.fit();
+    this.is_fitted = true;
+    this.redraw();
+  }
+
+  /** The reader has moved the camera. */
+  moved() {
+    this.is_fitted = false;
+    this.redraw();
+  }
+
+  set_view(name) {
+    this.view.set_view(name);
+    this.fit();
+  }
+
+  /** Shows a frame: only what depends on time. */
+  show(frame) {
+    this.frame = frame;
+    const { shapes } = this.data;
+    shapes.load(frame);
+    for (let beam = 0; beam < this.beams.length; ++beam) {
+      this.beams[beam].load(shapes, frame, beam, this.field);
+    }
+    for (const { symbol, histories } of this.points) {
+      symbol.position.set(histories[0].values[frame] - shapes.origin[0], histories[1].values[frame] - shapes.origin[1],
+        histories[2].values[frame] - shapes.origin[2]);
+    }
+    if (this.nodes.visible) {
+      this.load_nodes(frame);
+    }
+    this.redraw();
+  }
+
+  load_nodes(frame) {
+    const { shapes } = this.data;
+    const places = this.nodes.geometry.attributes.position;
+    let to = 0;
+    for (let beam = 0; beam < this.beams.length; ++beam) {
+      let from = shapes.points_start(beam);
+      for (let i = shapes.count(frame, beam); i >= 0; --i, from += 9) {
+        places.array[to++] = shapes.floats[from];
+        places.array[to++] = shapes.floats[from + 1];
+        places.array[to++] = shapes.floats[from + 2];
+      }
+    }
+    this.nodes.geometry.setDrawRange(0, to / 3);
+    places.needsUpdate = true;
+  }
+
+  /** Draws before the next picture of the screen; many calls make one drawing. */
+  redraw() {
+    if (!this.pending) {
+      this.pending = requestAnimationFrame(this.draw_pending ??= () => {
+        this.pending = 0;
+        this.draw();
+      });
+    }
+  }
+
+  draw() {
+    const { view } = this;
+    this.light.position.copy(view.z).addScaledVector(view.y, 0.8).addScaledVector(view.x, -0.4);
+    for (const symbol of this.pinned_size) {
+      symbol.scale.setScalar(symbol.userData.pixels / view.scale);
+    }
+    this.renderer.render(this.scene, view.camera);
+    this.draw_overlay();
+  }
+
+  draw_overlay() {
+    const { view } = this;
+    for (const { symbol, label } of this.points) {
+      const p = symbol.position;
+      const dx = p.x - view.target.x, dy = p.y - view.target.y, dz = p.z - view.target.z;
+      const x = view.width / 2 + view.scale * (dx * view.x.x + dy * view.x.y + dz * view.x.z);
+      const y = view.height / 2 - view.scale * (dx * view.y.x + dy * view.y.y + dz * view.y.z);
+      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    }
+    if (this.drawn_scale !== view.scale) {
+      this.drawn_scale = view.scale;
+      const length = round_down(130 / view.scale);
+      this.scale_bar.style.width = `${length * view.scale}px`;
+      this.scale_text.textContent = `${number(length)} m`;
+    }
+    if (this.drawn_azimuth !== view.azimuth || this.drawn_elevation !== view.elevation) {
+      this.drawn_azimuth = view.azimuth;
+      this.drawn_elevation = view.elevation;
+      for (const { direction, line, tip, text, reach } of this.triad) {
+        const x = direction.dot(view.x), y = -direction.dot(view.y);
+        const short = Math.hypot(x, y) < 0.15;  // it points at the viewer
+        line.setAttribute('x2', (x * reach).toFixed(1));
+        line.setAttribute('y2', (y * reach).toFixed(1));
+        tip.setAttribute('transform',
+          `translate(${x * reach} ${y * reach}) rotate(${(Math.atan2(y, x) * 180) / Math.PI})`);
+        tip.style.display = text.style.display = short ? 'none' : '';
+        text.setAttribute('x', (x * (reach + 11)).toFixed(1));
+        text.setAttribute('y', (y * (reach + 11)).toFixed(1));
+      }
+    }
+  }
+}
+
+/** The direction in which a box has no extent worth speaking of, if there is just one. */
+function flat_direction([low, high]) {
+  const extents = low.map((value, k) => high[k] - value);
+  const largest = Math.max(...extents);
+  const flat = extents.map((extent) => extent <= 1e-9 * largest);
+  return flat.filter(Boolean).length === 1 ? flat.map(Number) : null;
+}

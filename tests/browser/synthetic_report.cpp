@@ -1,0 +1,102 @@
+// synthetic_report arc|large FILE: writes a report of frames that no run has computed.
+//   arc    a quarter of a circle of radius 1 m about the origin, one rational element
+//   large  1000 frames of a wave on 1000 elements
+#include <Eigen/Core>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <numbers>
+#include <string>
+
+#include "pipelines/report.h"
+
+namespace {
+
+using nurbeam::BeamRecord;
+using nurbeam::ElementRecord;
+using nurbeam::Frame;
+using nurbeam::ReportFrames;
+
+// Every frame and element here has all its numbers.
+Frame frame_of(double time, std::vector<ElementRecord> elements) {
+  Frame frame;
+  frame.time = time;
+  frame.step = 1e-3;
+  frame.beams.push_back({});
+  frame.beams[0].elements = std::move(elements);
+  frame.beams[0].length = 1;
+  return frame;
+}
+
+// The rational quadratic (1, 0), (1, 1), (0, 1) with weights 1, 1/sqrt 2, 1 is the quarter circle; here with
+// its degree elevated by one.
+ElementRecord quarter_circle() {
+  const double half = std::numbers::sqrt2 / 2;
+  const Eigen::Vector4d a(1, 0, 0, 1), b(half, half, 0, half), c(0, 1, 0, 1);
+  ElementRecord element;
+  element.control_points << a, (a + 2 * b) / 3, (2 * b + c) / 3, c;
+  element.s_end = std::numbers::pi / 2;
+  element.strain = element.axial_force = element.bending_moment = Eigen::Vector4d::Zero();
+  element.curvature = Eigen::Vector4d::Ones();
+  element.velocity.setZero();
+  return element;
+}
+
+// A cubic through a travelling wave: its ends and end slopes are the wave's.
+ElementRecord wave_element(double time, int i, int count) {
+  const double x0 = 10.0 * i / count, x1 = 10.0 * (i + 1) / count, third = (x1 - x0) / 3;
+  const auto height = [&](double x) { return std::sin(2 * x - 6 * time) + 0.3 * std::sin(7 * x + time); };
+  const auto slope = [&](double x) { return 2 * std::cos(2 * x - 6 * time) + 2.1 * std::cos(7 * x + time); };
+  ElementRecord element;
+  element.control_points << x0, x0 + third, x1 - third, x1,                                    //
+      height(x0), height(x0) + third * slope(x0), height(x1) - third * slope(x1), height(x1),  //
+      0.2 * height(x0), 0.2 * height(x0), 0.2 * height(x1), 0.2 * height(x1), Eigen::RowVector4d::Ones();
+  element.s_start = x0;
+  element.s_end = x1;
+  for (int k = 0; k < 4; ++k) {
+    const double x = x0 + k * third;
+    element.strain[k] = 1e-3 * height(x);
+    element.curvature[k] = slope(x);
+    element.axial_force[k] = 1e3 * height(x);
+    element.bending_moment[k] = 5 * slope(x);
+    element.velocity.col(k) << 0, slope(x), 0;
+  }
+  return element;
+}
+
+ReportFrames arc() {
+  return {"arc", {{}, {}, {"arc"}}, {0}, [](std::size_t, std::size_t) {
+            return std::vector<Frame>{frame_of(0, {quarter_circle()})};
+          }};
+}
+
+ReportFrames large() {
+  constexpr int frame_count = 1000, element_count = 1000;
+  ReportFrames frames{"large", {{}, {}, {"beam"}}, {}, {}};
+  for (int i = 0; i < frame_count; ++i) {
+    frames.times.push_back(0.01 * i);
+  }
+  frames.read = [](std::size_t first, std::size_t count) {
+    std::vector<Frame> piece;
+    for (std::size_t i = first; i < first + count; ++i) {
+      std::vector<ElementRecord> elements;
+      for (int e = 0; e < element_count; ++e) {
+        elements.push_back(wave_element(0.01 * static_cast<double>(i), e, element_count));
+      }
+      piece.push_back(frame_of(0.01 * static_cast<double>(i), std::move(elements)));
+    }
+    return piece;
+  };
+  return frames;
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  const std::string kind = arguments[1];
+  std::ofstream file(arguments[2], std::ios::binary);
+  nurbeam::write_report_page(file, kind == "arc" ? arc() : large(), R"({"nurbeam": "test", "status": "done",
+    "steps": 1, "rejected_steps": 0, "newton_iterations": 1, "energy_drift [J]": 0, "inputs": [], "events": [],
+    "diagnostics": [], "wall_times [s]": {"import": 0, "model": 0, "motion": 0, "length_control": 0, "output": 0}})");
+  return file ? 0 : 1;
+}

@@ -1,0 +1,306 @@
+// Reads mutated corpus files, each in a child process forked from this one with OpenCASCADE warm, and checks
+// that every one of them ends in curves or in a diagnostic that names the file.
+//
+//   fuzz_reader step|iges [--seconds N] [--cases N] [--seed N] [--counts FILE] [--keep DIRECTORY]
+//
+// Without --seed it is the date, 20240521. --counts adds up the outcomes of many runs in a file; --keep keeps
+// each input that crashed the reader or ran out of time. Exit code 1 when a case was not survived.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "cad_import/import_curves.h"
+#include "cad_import/read_cad_file.h"
+#include "tests/fuzz/mutation.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kTimeLimit{4};
+constexpr std::size_t kMemoryLimit = std::size_t{2} << 30;
+// Above the limit of one file: the ends of the child process and of its memory are waited for.
+constexpr std::chrono::seconds kLongestCase{8};
+constexpr std::uint64_t kCasesBetweenCanaries = 500;
+
+struct Options {
+  CadFormat format = CadFormat::step;
+  double seconds = 1e9;
+  std::uint64_t cases = ~std::uint64_t{0};
+  std::uint64_t seed = 0;
+  std::string counts, keep;
+};
+
+using Counts = std::map<std::string, std::uint64_t>;
+
+struct CorpusText {
+  std::string name, content;
+  std::size_t curves;
+};
+
+std::uint64_t today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm date{};
+  gmtime_r(&now, &date);
+  return static_cast<std::uint64_t>((date.tm_year + 1900) * 10000 + (date.tm_mon + 1) * 100 + date.tm_mday);
+}
+
+Options read_arguments(int count, char** arguments) {
+  Options options;
+  options.seed = today();
+  if (count < 2) throw std::invalid_argument("expected step or iges");
+  const std::string format = arguments[1];
+  if (format != "step" && format != "iges")
+    throw std::invalid_argument("unknown format '" + format + "'; expected step or iges");
+  options.format = format == "step" ? CadFormat::step : CadFormat::iges;
+  for (int i = 2; i + 1 < count; i += 2) {
+    const std::string key = arguments[i], value = arguments[i + 1];
+    if (key == "--seconds")
+      options.seconds = std::stod(value);
+    else if (key == "--cases")
+      options.cases = std::stoull(value);
+    else if (key == "--seed")
+      options.seed = std::stoull(value);
+    else if (key == "--counts")
+      options.counts = value;
+    else if (key == "--keep")
+      options.keep = value;
+    else
+      throw std::invalid_argument("unknown option '" + key + "'");
+  }
+  return options;
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The corpus files of the format with the curves that each holds, the smallest first.
+std::vector<CorpusText> corpus_of(CadFormat format) {
+  std::vector<CorpusText> corpus;
+  for (const auto& entry : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests" / "corpus")) {
+    const std::string content = content_of(entry.path());
+    if (format_of(content) != format) continue;
+    corpus.push_back({entry.path(), content, import_curves(entry.path()).curves.size()});
+  }
+  std::sort(corpus.begin(), corpus.end(), [](const CorpusText& a, const CorpusText& b) {
+    return std::pair(a.content.size(), a.name) < std::pair(b.content.size(), b.name);
+  });
+  if (corpus.empty()) throw std::runtime_error("the corpus has no file of this format");
+  return corpus;
+}
+
+// Loads what OpenCASCADE sets up once into this process, so that the children need not.
+void warm_up(const CorpusText& text, CadFormat format) {
+  read_cad_file(text.name, text.content, format, 1e-7);
+  for (int number : {SIGSEGV, SIGFPE, SIGBUS, SIGILL}) std::signal(number, SIG_DFL);
+}
+
+// A small file four times as often as one of four times its size: a case should cost little.
+const CorpusText& random_text(const std::vector<CorpusText>& corpus, std::mt19937_64& random) {
+  std::vector<double> sums;
+  for (const CorpusText& text : corpus)
+    sums.push_back((sums.empty() ? 0 : sums.back()) + 1 / std::max(3000.0, double(text.content.size())));
+  const double at = sums.back() * (static_cast<double>(random() >> 11) * 0x1p-53);
+  const auto found = std::upper_bound(sums.begin(), sums.end(), at);
+  return corpus[std::min<std::size_t>(found - sums.begin(), corpus.size() - 1)];
+}
+
+std::string outcome_of(const ImportReport& report) {
+  if (report.ok()) return "imported";
+  const auto error = std::find_if(report.diagnostics.begin(), report.diagnostics.end(),
+                                  [](const Diagnostic& d) { return d.severity == Severity::error; });
+  for (const auto& [words, outcome] : {std::pair{"the reader crashed", "crashed_and_contained"},
+                                       {"the reader was damaged", "crashed_and_contained"},
+                                       {"time limit of", "timed_out"},
+                                       {"memory limit of", "out_of_memory"},
+                                       {"no process to read", "not_started"}})
+    if (error->message.find(words) != std::string::npos) return outcome;
+  return "diagnosed";
+}
+
+// What must hold of every report; "" if it does.
+std::string violation(const ImportReport& report, const fs::path& file) {
+  if (report.ok() && report.curves.empty()) return "neither a curve nor an error";
+  for (const Diagnostic& d : report.diagnostics) {
+    if (d.where.find(file.filename().string()) == std::string::npos)
+      return "a diagnostic does not name the file: " + d.where;
+    if (d.message.empty()) return "a diagnostic says nothing";
+  }
+  for (const ImportedCurve& curve : report.curves) {
+    if (!curve.curve.control_points().allFinite()) return "a control point is not finite";
+    if (!(curve.curve.control_points().row(3).minCoeff() > 0)) return "a weight is not positive";
+  }
+  return "";
+}
+
+std::ptrdiff_t open_descriptors() { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); }
+
+long resident_kilobytes() {
+  std::ifstream statm("/proc/self/statm");
+  long size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+void add_to_file(const std::string& path, const Counts& counts) {
+  if (path.empty()) return;
+  Counts sums = counts;
+  std::ifstream in(path);
+  std::string name;
+  for (std::uint64_t count = 0; in >> name >> count;) sums[name] += count;
+  std::ofstream out(path + ".new");
+  for (const auto& [outcome, count] : sums) out << outcome << ' ' << count << '\n';
+  out.close();
+  fs::rename(path + ".new", path);
+}
+
+/// A directory of its own, removed at the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "nurbeam_fuzz_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+  }
+  ~Scratch() { fs::remove_all(path_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path file(const std::string& content) const {
+    const fs::path file = path_ / "case.cad";
+    std::ofstream(file, std::ios::binary) << content;
+    return file;
+  }
+
+ private:
+  fs::path path_;
+};
+
+class Fuzzer {
+ public:
+  explicit Fuzzer(const Options& options)
+      : options_(options), random_(options.seed), corpus_(corpus_of(options.format)) {
+    for (const CorpusText& text : corpus_) contents_.push_back(text.content);
+    warm_up(corpus_.front(), options.format);
+  }
+
+  // The number of cases that were not survived.
+  int run() {
+    const Clock::time_point begin = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+    check_canary();
+    const std::ptrdiff_t descriptors = open_descriptors();
+    const long resident = resident_kilobytes();
+    std::uint64_t done = 0;
+    for (; done < options_.cases && elapsed() < options_.seconds; ++done) {
+      run_case();
+      if ((done + 1) % kCasesBetweenCanaries == 0) {
+        check_canary();
+        hand_over();
+      }
+    }
+    check_canary();
+    if (open_descriptors() != descriptors) fail("file descriptors are left open");
+    if (waitpid(-1, nullptr, WNOHANG) != -1) fail("child processes are left");
+    constexpr long kMostGrowth = 100'000;  // [kB]
+    if (resident_kilobytes() > resident + kMostGrowth) fail("the parent's memory grows");
+    hand_over();
+    print(done, elapsed());
+    return failures_;
+  }
+
+ private:
+  void run_case() {
+    const std::uint64_t seed = random_();
+    std::mt19937_64 random(seed);
+    const CorpusText& source = random_text(corpus_, random);
+    const std::string content = mutated(source.content, contents_, random);
+    const fs::path file = scratch_.file(content);
+    const Clock::time_point begin = Clock::now();
+    const ImportReport report =
+        import_curves(file, {.time_limit = kTimeLimit, .memory_limit_bytes = kMemoryLimit});
+    const auto took = Clock::now() - begin;
+    const std::string outcome = outcome_of(report);
+    ++counts_[outcome];
+    slowest_ = std::max(slowest_, std::chrono::duration<double>(took).count());
+    std::string wrong = violation(report, file);
+    if (took > kLongestCase) wrong = "it took longer than its time limit allows";
+    if (outcome == "not_started") wrong = "no child process could be started";
+    if (!wrong.empty()) fail(source.name + ", case " + std::to_string(seed) + ": " + wrong);
+    const bool remarkable = !wrong.empty() || (outcome != "imported" && outcome != "diagnosed");
+    if (remarkable && !options_.keep.empty()) keep(content, outcome, seed);
+  }
+
+  void keep(const std::string& content, const std::string& outcome, std::uint64_t seed) {
+    fs::create_directories(options_.keep);
+    std::ofstream(fs::path(options_.keep) / (outcome + "_" + std::to_string(seed) + ".cad"), std::ios::binary)
+        << content;
+  }
+
+  // A good file is still read as it was before any bad one.
+  void check_canary() {
+    const CorpusText& good = corpus_[canary_++ % corpus_.size()];
+    const std::size_t curves = import_curves(good.name).curves.size();
+    if (curves != good.curves) fail(good.name + " now gives " + std::to_string(curves) + " curves");
+  }
+
+  void fail(const std::string& what) {
+    ++failures_;
+    std::cout << "NOT SURVIVED: " << what << std::endl;
+  }
+
+  void hand_over() {
+    add_to_file(options_.counts, counts_);
+    for (const auto& [outcome, count] : counts_) totals_[outcome] += count;
+    counts_.clear();
+  }
+
+  void print(std::uint64_t done, double seconds) const {
+    rusage children{};
+    getrusage(RUSAGE_CHILDREN, &children);
+    std::cout << done << " cases, seed " << options_.seed << ", " << seconds << " s:";
+    for (const auto& [outcome, count] : totals_) std::cout << ' ' << outcome << ' ' << count << ',';
+    std::cout << " slowest " << slowest_ << " s, largest child " << children.ru_maxrss / 1024 << " MiB\n";
+  }
+
+  const Options options_;
+  std::mt19937_64 random_;
+  const std::vector<CorpusText> corpus_;
+  std::vector<std::string> contents_;
+  const Scratch scratch_;
+  Counts counts_, totals_;
+  double slowest_ = 0;
+  std::size_t canary_ = 0;
+  int failures_ = 0;
+};
+
+}  // namespace
+}  // namespace nurbeam
+
+int main(int count, char** arguments) {
+  try {
+    return nurbeam::Fuzzer(nurbeam::read_arguments(count, arguments)).run() == 0 ? 0 : 1;
+  } catch (const std::exception& e) {
+    std::cerr << "fuzz_reader: " << e.what() << '\n';
+    return 2;
+  }
+}
