@@ -101,47 +101,62 @@ Shape section() {
         "second_moment"},
        {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
         false, "area"},
-       {"profile", profile, "section drawn in a CAD file"},
+       {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
       {{{"radius", "area", "profile", "from"}, required}});
 }
 
 Shape elements() {
-  return object({{"count", integer(element_count()), "number of elements of the beam"},
-                 {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
-                 {"per_segment", integer(element_count()), "elements per cubic segment of the axis"},
-                 {"grading", quantity(Dimension::length),
-                  "how much longer each element is than the one before it in its segment; negative: shorter",
-                  false, "per_segment"}},
-                {{{"count", "max_length", "per_segment"}, false}});
+  return object(
+      {{"count", integer(element_count()),
+        "number of elements of the beam; 20 when nothing is said, or as many as there are segments"},
+       {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
+       {"per_segment", integer(element_count()),
+        "elements per cubic segment of the axis, cut at the supports"},
+       {"grading", quantity(Dimension::length),
+        "how much longer each element is than the one before it in its segment; negative: shorter", false,
+        "per_segment"}},
+      {{{"count", "max_length", "per_segment"}, false}});
 }
 
 Shape beam() {
   const Shape material = object(
       {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
        {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
-       {"damping", quantity(Dimension::time, plausible(0, 1e9)), "stiffness-proportional damping time"}});
+       {"damping", quantity(Dimension::time, plausible(0, 1e9)),
+        "time c of the stress c E d(strain)/dt; 0 when omitted"}});
   return object(
       {{"name", name(), "name of the beam", required},
        {"axis", axis(), "the beam's axis as drawn", required},
        {"section", section(), "cross-section", required},
        {"material", material, "material", required},
        {"elements", elements(), "how the axis is divided"},
-       {"element", choice({"ale-rancf", "ale-ancf"}), "rational elements, or all weights 1"},
-       {"weights", choice({"material", "constant"}), "whether weights follow the material"},
-       {"merge", choice({"default", "paper", "ones"}), "weights of a merged element"},
+       {"element", choice({"ale-rancf", "ale-ancf"}),
+        "rational elements, or all weights 1; ale-rancf when omitted"},
+       {"weights", choice({"material", "constant"}),
+        "whether weights follow the material or stay with the element, as the paper's; material when "
+        "omitted"},
+       {"merge", choice({"default", "paper", "ones"}),
+        "for comparison, with constant weights: the paper's weights of merged elements (Eqs. 31-38), or "
+        "ones; "
+        "the nodes keep their velocities then"},
        {"metric", choice({"reference", "none"}),
-        "metric of the material coordinate; none: the subdivision paper's elements, for comparison"},
-       {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}), "the unstressed shape"},
-       {"curvature", choice({"material", "spatial"}), "curvature measure"},
+        "metric of the material coordinate; none: the subdivision paper's elements, for comparison, with "
+        "spatial "
+        "curvature and no sliding bodies; reference when omitted"},
+       {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
+        "the unstressed shape; as-drawn in planar models, straight in spatial ones when omitted"},
+       {"curvature", choice({"material", "spatial"}),
+        "curvature measure; spatial: the papers'; material when omitted"},
        {"form", choice({"variational", "virtual-work"}),
-        "form of the forces on moving elements; virtual-work: the paper's, for comparison"},
+        "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
+        "variational when omitted"},
        {"closed", boolean(), "true: a ring, whose end is its start; else a closed axis is open at its seam"},
-       {"corners", choice({"error", "smooth", "hinge"}), "what a corner of the axis is"},
+       {"corners", choice({"error", "smooth", "hinge"}), "what a corner of the axis is; error when omitted"},
        {"smooth_up_to", quantity(Dimension::number, {.lower = 0, .upper = 45, .open = true}),
-        "greatest corner that \"smooth\" rounds, in degrees", false, "corners"},
+        "greatest corner that \"smooth\" rounds, in degrees; 5 when omitted", false, "corners"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
-        "greatest deviation of the cubics from an axis of degree above 3"}});
+        "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m when omitted"}});
 }
 
 Shape load() {
@@ -152,7 +167,7 @@ Shape load() {
        {"force", vector(Dimension::force), "point force, fixed in space", false, "at"},
        {"moment", vector(Dimension::moment), "point moment", false, "at"},
        {"force_per_length", vector(Dimension::force_per_length), "per metre of reference arc length"},
-       {"follower", boolean(), "the force turns with the section", false, "force"},
+       {"follower", boolean(), "the force turns with the section; false when omitted", false, "force"},
        {"moves", moves, "a force that moves along the beam", false, "force"},
        {"time", table(Dimension::number), "factor over time, linear between rows, constant outside"}},
       {{{"force", "moment", "force_per_length"}, required}, {{"at", "force_per_length"}, false}});
@@ -161,21 +176,25 @@ Shape load() {
 Shape support() {
   return object({{"beam", name(), "the supported beam", required},
                  {"at", place(), "where", required},
-                 {"type", choice({"clamped", "pinned"}), "clamped or pinned", required}});
+                 {"type", choice({"clamped", "pinned"}),
+                  "clamped: position and direction are held; pinned: the position", required}});
 }
 
 Shape sliding_joint() {
   const Shape motion = object({{"speed", quantity(Dimension::speed), "constant speed along the beam"},
                                {"table", table(Dimension::length), "reference arc length over time"}},
                               {{{"speed", "table"}, required}});
-  return object({{"body", name(), "the sliding body", required},
-                 {"beam", name(), "the beam it slides on", required},
-                 {"at", place(), "where it starts", required},
-                 {"speed", quantity(Dimension::speed), "initial speed in reference arc length"},
-                 {"motion", motion, "prescribes the body's place on the beam"},
-                 {"slope", choice({"continuous", "discontinuous"}), "slope of the beam at the body"},
-                 {"at_beam_end", choice({"leave", "stop"}), "what happens at the beam's end"}},
-                {{{"speed", "motion"}, false}});
+  return object(
+      {{"body", name(), "the sliding body", required},
+       {"beam", name(), "the beam it slides on", required},
+       {"at", place(), "where it starts", required},
+       {"speed", quantity(Dimension::speed), "initial speed in reference arc length; 0 when omitted"},
+       {"motion", motion, "prescribes the body's place, from `at` on"},
+       {"slope", choice({"continuous", "discontinuous"}),
+        "whether the beam may have a kink at the body; continuous when omitted"},
+       {"at_beam_end", choice({"leave", "stop"}),
+        "what happens at the beam's end; leave when omitted; at a supported end a body stops"}},
+      {{{"speed", "motion"}, false}});
 }
 
 Shape beam_joint() {
@@ -186,39 +205,52 @@ Shape beam_joint() {
 }
 
 Shape analysis() {
-  const Shape integrator = object({{"type", choice({"generalized-alpha", "ida", "rk4"}), "time integrator"},
-                                   {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
-                                    "spectral radius at infinity"}});
+  const Shape integrator =
+      object({{"type", choice({"generalized-alpha", "ida", "rk4"}),
+               "ida: SUNDIALS' BDF of variable order; rk4: explicit, fixed `step`, no sliding bodies; "
+               "generalized-alpha when omitted"},
+              {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+               "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
   const Shape length_control =
       object({{"min", quantity(Dimension::number, {.lower = 0, .upper = 1, .open = true}),
-               "a shorter element is merged"},
-              {"max", quantity(Dimension::number, {.lower = 1, .open = true}), "a longer element is split"}});
-  return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium"},
-                 {"initial", choice({"as-drawn", "equilibrium"}), "state at time 0"},
-                 {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)), "end of the motion"},
-                 {"step", quantity(Dimension::time, time_step()), "fixed step"},
-                 {"tolerance", quantity(Dimension::number, positive()), "local error of adaptive steps"},
+               "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
+              {"max", quantity(Dimension::number, {.lower = 1, .open = true}),
+               "a longer element is split; 1.15 when omitted (the paper's: 1.5)"}});
+  return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium; dynamic when omitted"},
+                 {"initial", choice({"as-drawn", "equilibrium"}),
+                  "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
+                  "when omitted"},
+                 {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
+                  "end of the motion; a dynamic analysis needs it"},
+                 {"step", quantity(Dimension::time, time_step()),
+                  "fixed step; with ida how often length control looks"},
+                 {"tolerance", quantity(Dimension::number, positive()),
+                  "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
                  {"integrator", integrator, "time integrator"},
-                 {"length_control", length_control, "in multiples of the standard element length"}},
+                 {"length_control", length_control,
+                  "when elements beside a sliding body change, in standard element lengths"}},
                 {{{"step", "tolerance"}, false}});
 }
 
 Shape output() {
   const Shape cad =
-      object({{"formats", array(choice({"step", "iges", "step-solid", "step-source"}), 1), "file formats"},
+      object({{"formats", array(choice({"step", "iges", "step-solid", "step-source"}), 1),
+               "file formats; step when omitted"},
               {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
-               "times to write, or all stored frames as a numbered sequence"},
-              {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files"},
+               "times to write, or all stored frames as a numbered sequence; the end time when omitted"},
+              {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files; mm when omitted"},
               {"parameter", choice({"free", "material"}),
-               "parameter of the curves: free for the fewest control points, or reference arc length"}});
+               "parameter of the curves: free for the fewest control points, or reference arc length; free "
+               "when omitted"}});
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});
-  return object({{"every", quantity(Dimension::time, time_step()), "time between stored frames"},
+  return object({{"every", quantity(Dimension::time, time_step()),
+                  "time between stored frames; a hundredth of `end_time` when omitted"},
                  {"cad", cad, "deformed axes as CAD files"},
                  {"probes", array(probe), "points whose motion is stored"},
-                 {"paraview", boolean(), "ParaView files"},
-                 {"report", boolean(), "HTML report"}});
+                 {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
+                 {"report", boolean(), "report.html; true when omitted"}});
 }
 
 Shape body() {
@@ -261,7 +293,7 @@ const Shape& case_shape() {
        {"name", text(), "title of the case; the file's name when omitted"},
        {"gravity", vector(Dimension::acceleration), "acceleration of gravity; [0, 0, -9.81] when omitted"},
        {"beams", array(beam(), 1), "the beams", required},
-       {"bodies", array(body()), "point masses that slide on beams"},
+       {"bodies", array(body()), "point masses that slide on beams; each needs a sliding joint"},
        {"loads", array(load()), "forces and moments"},
        {"supports", array(support()), "where beams are held"},
        {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},

@@ -213,6 +213,7 @@ class Run {
     summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
                                 outputs.diagnostics().end());
+    print_diagnostics(*log_, outputs.diagnostics());
     summary_.wall_times.length_control = simulated.length_control_seconds;
     if (from_) summary_.resumed_at = from_->state.t;
     summary_.end_time = simulated.time;

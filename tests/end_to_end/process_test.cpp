@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "pipelines/results.h"
 #include "tests/cad_import/step_text_of.h"
 #include "tests/end_to_end/case_run.h"
 
@@ -149,6 +150,9 @@ TEST(Process, ARunThatIsKilledAtRandomMomentsAndResumedIsTheRunWithoutABreak) {
     }
     code = run.code();
     ASSERT_TRUE(code == done || code == -SIGKILL || code == interrupted) << code << run.messages();
+    if (code == -SIGKILL && std::filesystem::exists(cut / "restart.nc")) {
+      EXPECT_FALSE(read_results(cut).frames.empty()) << "killed after " << moments << "s";
+    }
   }
   ASSERT_EQ(code, done);
   for (const char* file : {"histories.csv", "frames.pvd"})
@@ -174,6 +178,18 @@ TEST(Process, AnInterruptedRunIsResumedByItsOwnCaseOnly) {
   second.send(SIGINT);
   EXPECT_EQ(second.code(), interrupted) << second.messages();
   EXPECT_GT(lines_in(out / "histories.csv"), before);
+}
+
+TEST(Process, ARunLeavesALogOfWhatItHasSaid) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  Process run(directory, run_of("0.01", out));
+  ASSERT_EQ(run.code(), done) << run.messages();
+  const std::string log = content_of(out / "run.log");
+  EXPECT_EQ(log.find("nurbeam "), 0u) << log;
+  EXPECT_NE(log.find("warning: "), std::string::npos) << log;  // the joint starts beside a held end
+  EXPECT_NE(log.find("100 %  t = 0.01 of 0.01 s"), std::string::npos) << log;
+  EXPECT_NE(log.find("ended at t = 0.01 s after 10 steps"), std::string::npos) << log;
 }
 
 TEST(Process, ThereMustBeARunToResume) {

@@ -1,6 +1,6 @@
 """check_series.py RESULTS_DIR [PICTURE.png]
 
-Reads a ParaView series back with VTK and holds it against results.nc: every cell is the exact rational cubic, every
+Reads a ParaView series back with VTK and holds it against results.nc, which xarray must be able to read whole: every cell is the exact rational cubic, every
 field takes its samples. With PICTURE.png, renders all stored times into one picture and checks that it shows the beams.
 Exits with 1, and says where, when something differs.
 """
@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ElementTree
 import netCDF4
 import numpy as np
 import vtk
+import xarray
 from vtk.util.numpy_support import vtk_to_numpy
 
 FIELDS = ["strain", "curvature", "axial_force", "bending_moment", "velocity"]
@@ -137,6 +138,7 @@ def render(grids, file):
 
 
 def main(directory, picture=None):
+    xarray.load_dataset(os.path.join(directory, "results.nc")).close()
     store = netCDF4.Dataset(os.path.join(directory, "results.nc"))
     times = store["time"][:]
     counts = store["element_count"][:].sum(axis=1)

@@ -80,7 +80,7 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
 
 TEST(CommandLine, WhatThisVersionDoesNotOfferSaysSo) {
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"study", "s.json"}, {"run", "c.json", "--resume"}, {"schema", "study"}}) {
+       {std::vector<std::string>{"study", "s.json"}, {"schema", "study"}}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, 2);
     EXPECT_TRUE(holds(outcome.err, "not available in this version")) << outcome.err;

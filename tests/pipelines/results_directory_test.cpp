@@ -14,6 +14,7 @@ using test::TemporaryDirectory;
 std::string refusal(const std::filesystem::path& path) {
   try {
     const ResultsDirectory directory(path);
+    directory.clear();
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -35,9 +36,12 @@ TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
 
 TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
   const TemporaryDirectory temporary;
+  std::filesystem::create_directory(temporary.path() / "frames");
   for (const char* name :
-       {"histories.csv", "results.nc", "results.nc.part", "run.json", "deformed.step", "deformed_t0.5.igs",
-        "deformed_t1e-05.step", "deformed_0012.igs", "deformed_t0.5_solid.step", "deformed_t0_source.step",
+       {"histories.csv", "results.nc", "results.nc.part", "results.chunk0001.nc", "restart.nc",
+        "restart.nc.part", "run.json", "run.log", "report.html", "frames.pvd", "frames/beams_000000.vtu",
+        "frames/bodies_000012.vtu", "deformed.step", "deformed_t0.5.igs", "deformed_t1e-05.step",
+        "deformed_0012.igs", "deformed_t0.5_solid.step", "deformed_t0_source.step",
         "deformed_t0.5.step.part123"}) {
     temporary.write(name, "");
   }
@@ -52,6 +56,24 @@ TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(temporary.path()), {}),
             static_cast<std::ptrdiff_t>(others.size()));
+}
+
+TEST(ResultsDirectory, KeepsWhatElseLiesAmongTheFrames) {
+  const TemporaryDirectory temporary;
+  std::filesystem::create_directory(temporary.path() / "frames");
+  temporary.write("frames/beams_000000.vtu", "");
+  temporary.write("frames/camera.pvcc", "");
+  ResultsDirectory(temporary.path()).clear();
+  EXPECT_FALSE(std::filesystem::exists(temporary.path() / "frames/beams_000000.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(temporary.path() / "frames/camera.pvcc"));
+}
+
+TEST(ResultsDirectory, NamesTheFilesOfItsRunInOrder) {
+  const TemporaryDirectory temporary;
+  for (const char* name : {"run.log", "histories.csv", "notes.txt", "deformed_t0.igs"})
+    temporary.write(name, "");
+  EXPECT_EQ(ResultsDirectory(temporary.path()).files(),
+            (std::vector<std::filesystem::path>{"deformed_t0.igs", "histories.csv", "run.log"}));
 }
 
 TEST(ResultsDirectory, SaysWhatStandsInItsWay) {
