@@ -52,12 +52,12 @@ double ReferenceCurve::wrapped(double s) const {
 }
 
 double ReferenceCurve::next_break(double s) const {
-  const double turns = closed_ ? length() * std::floor(s / length()) : 0;
-  for (int j = 1; j < segment_count() + (closed_ ? 2 : 0); ++j) {
-    const double place = j <= segment_count() ? breaks_[j] : length() + breaks_[1];
-    if (place + turns > s) return place + turns;
-  }
-  return std::numeric_limits<double>::infinity();
+  const double turns = s - wrapped(s);
+  const auto end = breaks_.end() - (closed_ ? 0 : 1);
+  auto next = std::upper_bound(breaks_.begin() + 1, end, wrapped(s));
+  if (next != end && *next + turns <= s) ++next;  // round-off of a full turn
+  if (next != end) return *next + turns;
+  return closed_ ? length() + breaks_[1] + turns : std::numeric_limits<double>::infinity();
 }
 
 int ReferenceCurve::segment_at(double s, bool from_left) const {

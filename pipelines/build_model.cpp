@@ -329,15 +329,6 @@ class Builder {
                                      text(shortest_beam) + " m (is the unit right?)");
   }
 
-  std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
-    const BezierPath smooth = smooth_corners({segments, {}, 0}, beam.smooth_angle);
-    if (smooth.deviation > 0)
-      warn(beam.path + ".corners", "corners of up to " + text(beam.smooth_angle * 180 / M_PI) +
-                                       " degrees were smoothed; largest deviation " + text(smooth.deviation) +
-                                       " m");
-    return smooth.segments;
-  }
-
   static double gap_of(const std::vector<RationalCubic>& segments) {
     return (segments.front().control_point(0) - segments.back().control_point(3)).norm();
   }
@@ -374,6 +365,15 @@ class Builder {
       warn(beam.path + ".axis", "is closed; the beam is open at its seam, " +
                                     text(segments.front().control_point(0)) +
                                     ": \"closed\": true makes it a ring");
+  }
+
+  std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
+    const BezierPath smooth = smooth_corners({segments, {}, 0}, beam.smooth_angle);
+    if (smooth.deviation > 0)
+      warn(beam.path + ".corners", "corners of up to " + text(beam.smooth_angle * 180 / M_PI) +
+                                       " degrees were smoothed; largest deviation " + text(smooth.deviation) +
+                                       " m");
+    return smooth.segments;
   }
 
   void check_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
@@ -626,6 +626,29 @@ class Builder {
         if (node.s == added.curve.breaks()[corner]) node.hinge = true;
   }
 
+  // What is there for comparison with the papers, whose beams have ends.
+  void check_ring(const CaseBeam& from) {
+    if (from.weights == WeightRule::constant)
+      error(from.path + ".weights",
+            "\"constant\" is a comparison for beams with ends; a ring needs \"material\"");
+    if (from.metric == Metric::label)
+      error(from.path + ".metric",
+            "\"none\" is a comparison for beams with ends; a ring needs \"reference\"");
+    if (from.corners == Corners::hinge)
+      error(from.path + ".corners", "\"hinge\" is not available on a ring; leave it out");
+  }
+
+  void check_ring_elements(const CaseBeam& from, const Beam& beam) {
+    const int sliders = static_cast<int>(
+        std::count_if(case_.sliding_joints.begin(), case_.sliding_joints.end(),
+                      [&](const CaseSlidingJoint& joint) { return joint.beam == from.name; }));
+    const int fewest = 4 + 2 * sliders;
+    if (beam.home_intervals() < fewest)
+      error(from.path + ".elements", "gives " + std::to_string(beam.home_intervals()) +
+                                         " elements; a ring with " + std::to_string(sliders) +
+                                         " sliding bodies needs at least " + std::to_string(fewest));
+  }
+
   // A place of one beam, in reference arc length.
   struct BeamPlace {
     int beam;
@@ -636,7 +659,8 @@ class Builder {
   BeamPlace nearest_place(int b, const Eigen::Vector3d& point) const {
     const ClosestPoint found = closest_point(BezierPath{paths_[b], {}, 0}, point);
     const double L = measured_[b].length(), s = measured_[b].arc_length(found.segment, found.u);
-    return {b, s < same_joint * L ? 0 : s > L * (1 - same_joint) ? L : s};
+    const double end = measured_[b].closed() ? 0 : L;
+    return {b, s < same_joint * L ? 0 : s > L * (1 - same_joint) ? end : s};
   }
 
   Eigen::Vector3d world_position(const BeamPlace& place) const {
@@ -646,14 +670,19 @@ class Builder {
     return (world_position(places.first) - world_position(places.second)).norm();
   }
 
+  // A ring has none, but its seam is a place where a joint may be.
+  std::vector<double> ends_of(int b) const {
+    return measured_[b].closed() ? std::vector<double>{0} : std::vector<double>{0, measured_[b].length()};
+  }
+
   // Where two beams meet: nearest to the point, or else where an end of one is nearest to the other.
   std::pair<BeamPlace, BeamPlace> meeting_place(int a, int b,
                                                 const std::optional<Eigen::Vector3d>& near) const {
     if (near) return {nearest_place(a, *near), nearest_place(b, *near)};
     std::vector<std::pair<BeamPlace, BeamPlace>> candidates;
-    for (const double s : {0.0, measured_[a].length()})
+    for (const double s : ends_of(a))
       candidates.emplace_back(BeamPlace{a, s}, nearest_place(b, world_position({a, s})));
-    for (const double s : {0.0, measured_[b].length()})
+    for (const double s : ends_of(b))
       candidates.emplace_back(nearest_place(a, world_position({b, s})), BeamPlace{b, s});
     return *std::min_element(candidates.begin(), candidates.end(), [&](const auto& one, const auto& other) {
       return distance(one) < distance(other);
@@ -695,7 +724,8 @@ class Builder {
 
   void check_sliders(const CaseBeamJoint& joint, const BeamPlace& place) {
     const std::string& name = case_.beams[place.beam].name;
-    const bool at_end = place.s == 0 || place.s == measured_[place.beam].length();
+    const ReferenceCurve& curve = measured_[place.beam];
+    const bool at_end = !curve.closed() && (place.s == 0 || place.s == curve.length());
     for (const CaseSlidingJoint& slider : case_.sliding_joints)
       if (slider.beam == name && !at_end)
         error(joint.path, "is at s = " + text(place.s) + " m of beam " + in_quotes(name) +
@@ -743,29 +773,6 @@ class Builder {
         error(support.path, "holds beam " + in_quotes(support.beam) + " where " + other->second +
                                 " already holds a beam that is joined to it; keep one of them");
     }
-  }
-
-  // What is there for comparison with the papers, whose beams have ends.
-  void check_ring(const CaseBeam& from) {
-    if (from.weights == WeightRule::constant)
-      error(from.path + ".weights",
-            "\"constant\" is a comparison for beams with ends; a ring needs \"material\"");
-    if (from.metric == Metric::label)
-      error(from.path + ".metric",
-            "\"none\" is a comparison for beams with ends; a ring needs \"reference\"");
-    if (from.corners == Corners::hinge)
-      error(from.path + ".corners", "\"hinge\" is not available on a ring; leave it out");
-  }
-
-  void check_ring_elements(const CaseBeam& from, const Beam& beam) {
-    const int sliders = static_cast<int>(
-        std::count_if(case_.sliding_joints.begin(), case_.sliding_joints.end(),
-                      [&](const CaseSlidingJoint& joint) { return joint.beam == from.name; }));
-    const int fewest = 4 + 2 * sliders;
-    if (beam.home_intervals() < fewest)
-      error(from.path + ".elements", "gives " + std::to_string(beam.home_intervals()) +
-                                         " elements; a ring with " + std::to_string(sliders) +
-                                         " sliding bodies needs at least " + std::to_string(fewest));
   }
 
   bool is_straight(const CaseBeam& from, const ReferenceCurve& curve) {

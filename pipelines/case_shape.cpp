@@ -151,8 +151,7 @@ Shape beam() {
        {"form", choice({"variational", "virtual-work"}),
         "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
         "variational when omitted"},
-       {"closed", boolean(),
-        "true: a ring, whose end is its start; false, or omitted: a closed axis is open at its seam"},
+       {"closed", boolean(), "true: a ring, whose end is its start; else a closed axis is open at its seam"},
        {"corners", choice({"error", "smooth", "hinge"}), "what a corner of the axis is; error when omitted"},
        {"smooth_up_to", quantity(Dimension::number, {.lower = 0, .upper = 45, .open = true}),
         "greatest corner that \"smooth\" rounds, in degrees; 5 when omitted", false, "corners"},

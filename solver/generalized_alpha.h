@@ -53,9 +53,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
     Eigen::VectorXd jerk;                      ///< (n) d3q/dt3 over the last step
     double last_step = 0, last_error = 0, mass_scale = 1;
   };
-  History history() const {
-    return {algorithmic_acceleration_, jerk_, last_step_, last_error_, mass_scale_};
-  }
+  History history() const { return {algorithmic_acceleration_, jerk_, last_step_, last_error_, mass_scale_}; }
   /// Goes on as the integrator would that had this history and the same state and settings. Throws
   /// std::invalid_argument for a history of the wrong size.
   void restore(History history);
