@@ -76,12 +76,12 @@ std::size_t lines_in(const std::filesystem::path& file) {
   return std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
 }
 
-/// Until a run has written some frames; false after half a minute.
-bool wait_for_frames(const std::filesystem::path& out) {
-  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < 4; ++i) {
+/// Until a run has written some lines of its histories; false after half a minute.
+bool wait_for_frames(const std::filesystem::path& out, std::size_t lines = 4) {
+  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < lines; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return lines_in(out / "histories.csv.part") >= 4;
+  return lines_in(out / "histories.csv.part") >= lines;
 }
 
 constexpr const char* endless = "500";
@@ -213,6 +213,23 @@ TEST(Process, EverySignalThatAsksForTheEndIsAnsweredWithResults) {
       EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
     }
   }
+}
+
+TEST(Process, TheSecondSignalEndsARunWithinItsStep) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  // So many elements that a step takes longer than the time between the signals.
+  Process run(directory, "run " + test::sample("falling_beam/falling_beam.json").string() +
+                             " --quiet --set beams[0].elements.count=20000 --set analysis.step=1e-6 "
+                             "--set analysis.end_time=1e-3 --out " +
+                             out.string());
+  ASSERT_TRUE(wait_for_frames(out, 2)) << run.messages();
+  run.send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  run.send(SIGTERM);
+  EXPECT_EQ(run.code(), interrupted) << run.messages();
+  EXPECT_FALSE(std::filesystem::exists(out / "results.nc"));
+  EXPECT_FALSE(std::filesystem::exists(out / "run.json"));
 }
 
 TEST(Process, AHangUpIsIgnoredWhereItWasIgnoredBefore) {
