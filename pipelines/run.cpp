@@ -106,10 +106,6 @@ ExitCode exit_code(SimulationStatus status) {
   return not_converged;
 }
 
-}  // namespace
-
-namespace {
-
 // What a restart point belongs to: the program, the case with its overrides, the CAD files.
 std::string digest_of_inputs(const CaseFile& c, const BuiltModel& built) {
   std::string text = std::string(NURBEAM_VERSION) + "\n" + c.json + "\n";
@@ -121,17 +117,22 @@ std::filesystem::path restart_file(const std::filesystem::path& directory) {
   return directory / "restart.nc";
 }
 
-// The restart point of a directory, if it belongs to these inputs. Throws std::invalid_argument.
+// A restart point that cannot be used.
+struct UnusableRestartPoint : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The restart point of a directory, if it belongs to these inputs. Throws UnusableRestartPoint.
 RestartPoint find_restart_point(const std::filesystem::path& directory, const std::string& inputs) {
   const std::filesystem::path file = restart_file(directory);
   RestartPoint point;
   try {
     point = read_restart_point(file);
   } catch (const std::runtime_error& problem) {
-    throw std::invalid_argument(std::string(problem.what()) + "; run without --resume");
+    throw UnusableRestartPoint(std::string(problem.what()) + "; run without --resume");
   }
   if (point.inputs != inputs)
-    throw std::invalid_argument(
+    throw UnusableRestartPoint(
         file.string() +
         ": belongs to another case: the case file, its overrides (--set), a CAD file or "
         "nurbeam have changed since; run without --resume");
@@ -274,7 +275,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
   try {
     return Run(c, report, options, std::move(summary)).play();
-  } catch (const std::invalid_argument& problem) {
+  } catch (const UnusableRestartPoint& problem) {
     std::cerr << "error: " << problem.what() << "\n";
     return bad_input;
   } catch (const std::runtime_error& problem) {
