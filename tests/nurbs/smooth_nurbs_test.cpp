@@ -191,7 +191,7 @@ TEST(SmoothNurbs, TheSpeedIsContinuousEvenAcrossTripleKnots) {
     const SmoothNurbs smooth =
         smooth_nurbs(smooth_chain(generator, 10, 0.3, 1.5), CurveParameter::free, 1e-12);
     const BezierPath pieces = BezierPath::from_nurbs(smooth.curve, 0);
-    const auto speed = [&](std::size_t j, double u) {
+    const auto speed = [&](std::size_t j, double u) -> Eigen::Vector3d {
       return pieces.segments[j].derivatives(u).col(1) / (pieces.breaks[j + 1] - pieces.breaks[j]);
     };
     for (std::size_t j = 0; j + 1 < pieces.segments.size(); ++j)
