@@ -4,17 +4,19 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "pipelines/atomic_file.h"
+
 namespace nurbeam::papers {
 
 namespace {
 
 void write_file(const std::filesystem::path& file, const std::string& content) {
-  const std::filesystem::path part = file.string() + ".part";
+  const std::filesystem::path part = temporary_name(file);
   std::ofstream stream(part, std::ios::binary);
   stream << content;
   stream.close();
   if (!stream) throw std::runtime_error(part.string() + " cannot be written");
-  std::filesystem::rename(part, file);
+  publish(file);
 }
 
 }  // namespace

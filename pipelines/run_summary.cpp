@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/atomic_file.h"
 #include "pipelines/print_diagnostics.h"
 
 namespace nurbeam {
@@ -73,22 +74,18 @@ Json to_json(const RunSummary& summary) {
 }  // namespace
 
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
-  const std::filesystem::path temporary = file.string() + ".part";
+  const std::filesystem::path temporary = temporary_name(file);
   std::ofstream stream(temporary);
   // Names from files need not be valid UTF-8: what is not is replaced.
   stream << to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   stream.close();
-  std::error_code error;
   if (!stream) {
     const std::string reason = std::strerror(errno);
-    std::filesystem::remove(temporary, error);
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
     throw std::runtime_error(file.string() + ": cannot be written: " + reason);
   }
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    throw std::runtime_error(file.string() +
-                             ": cannot be renamed from its temporary name: " + error.message());
-  }
+  publish(file);
 }
 
 }  // namespace nurbeam
