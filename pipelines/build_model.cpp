@@ -623,7 +623,7 @@ class Builder {
     }
     for (int corner : hinges_[b])
       for (HomeNode& node : added.home)
-        if (node.s == added.curve.breaks()[corner]) node.hinge = true;
+        if (node.s == added.curve.breaks()[corner]) node.kind = NodeKind::hinge;
   }
 
   // What is there for comparison with the papers, whose beams have ends.
