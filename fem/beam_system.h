@@ -17,11 +17,11 @@ struct SystemEnergy {
 
 /// A beam model behind SecondOrderSystem: the only loop over elements.
 ///
-/// Coordinates: per beam and node r (D), r_s (D; twice where a joint's slope is discontinuous), s (moving
-/// nodes), then position (D) and sigma of bodies carried as points or flying free. Multipliers: supports in
-/// order (D for the position, D - 1 for a clamped direction), then per joint D for a body on a point, 1 where
-/// s is prescribed or held, then per joint of two beams D for the position and 1 for the angle of a rigid
-/// one, then 1 per rigid corner.
+/// Coordinates: per beam and node r (D), r_s (D; twice at a hinge, at a corner and where a joint's slope is
+/// discontinuous), s (moving nodes), then position (D) and sigma of bodies carried as points or flying free.
+/// Multipliers: supports in order (D for the position, D - 1 for a clamped direction), then per joint D for a
+/// body on a point, 1 where s is prescribed or held, then per joint of two beams D for the position and 1 for
+/// the angle of a rigid one, then 1 per rigid corner.
 template <int D>
 class BeamSystem final : public SecondOrderSystem {
  public:

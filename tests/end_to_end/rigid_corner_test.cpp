@@ -107,28 +107,80 @@ TEST(RigidCornerRun, TheIntegratorsAgree) {
   EXPECT_LT(largest_difference(ida, alpha), 2e-6);
 }
 
+// Runs the frame with overrides into `results`, and keeps what it says to itself.
+int run_into(const std::filesystem::path& results, const std::vector<std::string>& overrides) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> words = {"run", directory.write("frame.json", frame), "--quiet", "--out", results};
+  for (const std::string& override : overrides) words.insert(words.end(), {"--set", override});
+  std::ostringstream out, err;
+  const test::CapturedErrors errors;
+  return run_command_line(words, out, err);
+}
+
+NurbsCurve only_curve(const std::filesystem::path& file) { return import_curves(file).curves.at(0).curve; }
+
+// Of the unit tangents on both sides of a parameter.
+double cosine_across(const NurbsCurve& curve, double s) {
+  const double beside = 1e-9 * curve.knots().end();
+  const auto tangent = [&](double at) -> Eigen::Vector3d {
+    return curve.derivatives(at, 1).col(1).normalized();
+  };
+  return tangent(s - beside).dot(tangent(s + beside));
+}
+
 TEST(RigidCornerRun, TheCornerIsStillInTheCurveThatIsWritten) {
+  const TemporaryDirectory results;
+  std::vector<std::string> overrides = falling(generalized_alpha);
+  overrides.push_back(R"(output.cad={"times": [0.2], "parameter": "material"})");
+  ASSERT_EQ(run_into(results.path() / "results", overrides), 0);
+  CaseRun run{};
+  test::read_histories(results.path() / "results" / "histories.csv", run);
+  const NurbsCurve curve = only_curve(results.path() / "results" / "deformed_t0.2.step");
+  // The parameter is the material point: the corner is where it was drawn, and as sharp.
+  const Eigen::Vector3d corner(run.last("corner.x [m]"), run.last("corner.y [m]"), run.last("corner.z [m]"));
+  EXPECT_LT((curve.point(1) - corner).norm(), 1e-9);
+  EXPECT_GT((corner - Eigen::Vector3d(0, 1, 0)).norm(), 0.1);
+  EXPECT_NEAR(cosine_across(curve, 1), 0, 1e-7);
+}
+
+// A line, a quarter of a circle and a spline that meet at 90 and 61 degrees.
+TEST(RigidCornerRun, ACompositeCurveOfACadFileComesBackWithItsCorners) {
   const TemporaryDirectory directory;
   const auto results = directory.path() / "results";
-  std::vector<std::string> words = {"run", directory.write("frame.json", frame), "--quiet", "--out", results};
-  for (const std::string& override : falling(generalized_alpha))
-    words.insert(words.end(), {"--set", override});
-  words.insert(words.end(), {"--set", R"(output.cad={"times": [0.2], "parameter": "material"})"});
+  const std::string file = std::string(NURBEAM_SOURCE_DIR) + "/tests/corpus/iges-102-composite.igs";
+  const std::vector<std::string> wire = {R"(beams[0].axis={"file": ")" + file + "\"}",
+                                         "beams[0].section.radius=3e-4",
+                                         "beams[0].material.youngs_modulus=2e9",
+                                         "beams[0].stress_free=as-drawn-without-torsion",
+                                         "gravity=[0, -9.81, 4]",
+                                         R"(analysis={"end_time": 0.02, "tolerance": 1e-4})",
+                                         R"(output.cad={"times": [0, 0.02], "parameter": "material"})"};
+  ASSERT_EQ(run_into(results, wire), 0);
   std::ostringstream out, err;
-  ASSERT_EQ(run_command_line(words, out, err), 0) << err.str();
-  CaseRun run{};
-  test::read_histories(results / "histories.csv", run);
-  const ImportReport report = import_curves(results / "deformed_t0.2.step");
-  ASSERT_EQ(report.curves.size(), 1u);
-  const NurbsCurve& curve = report.curves[0].curve;
-  // The parameter is the material point: the corner is where it was drawn, and as sharp.
-  const double s = 1, beside = 1e-9;
-  const Eigen::Vector3d corner(run.last("corner.x [m]"), run.last("corner.y [m]"), run.last("corner.z [m]"));
-  EXPECT_LT((curve.point(s) - corner).norm(), 1e-9);
-  EXPECT_GT((corner - Eigen::Vector3d(0, 1, 0)).norm(), 0.1);
-  const Eigen::Vector3d before = curve.derivatives(s - beside, 1).col(1).normalized(),
-                        after = curve.derivatives(s + beside, 1).col(1).normalized();
-  EXPECT_NEAR(before.dot(after), 0, 1e-7);
+  const std::string first = results / "deformed_t0.step";
+  EXPECT_EQ(run_command_line({"compare", first, file, "--tolerance", "1e-12"}, out, err), 0) << out.str();
+  const NurbsCurve drawn = only_curve(first), deformed = only_curve(results / "deformed_t0.02.step");
+  const double inch = 0.0254, line = inch / 2, arc = line + inch / 2 * std::numbers::pi / 2;
+  for (const NurbsCurve& curve : {drawn, deformed}) {
+    EXPECT_NEAR(cosine_across(curve, line), 0, 1e-6);
+    EXPECT_NEAR(cosine_across(curve, arc), std::cos(60.94531807 * std::numbers::pi / 180), 1e-6);
+  }
+  EXPECT_GT((deformed.point(line) - drawn.point(line)).norm(), 1e-4);
+}
+
+TEST(RigidCornerRun, CheckListsTheCorners) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.write("frame.json", frame);
+  const auto listed = [&](const std::vector<std::string>& words) {
+    std::ostringstream out, err;
+    ::testing::internal::CaptureStdout();
+    EXPECT_EQ(run_command_line(words, out, err), 0) << err.str();
+    return ::testing::internal::GetCapturedStdout();
+  };
+  const std::string corner = "corner    of frame at s = 1 m, ";
+  EXPECT_NE(listed({"check", file}).find(corner + "rigid\n"), std::string::npos);
+  EXPECT_NE(listed({"check", file, "--set", "beams[0].corners=hinge"}).find(corner + "a hinge\n"),
+            std::string::npos);
 }
 
 void expect_refused(const std::vector<std::string>& overrides, const std::vector<std::string>& said) {

@@ -150,6 +150,14 @@ TEST(RingRun, WhatIsNoRingIsRefused) {
   }
 }
 
+TEST(RingRun, ACornerIsNotOfferedWhatARingHasNot) {
+  const CaseRun run =
+      run_ring(R"({"polyline": [[0.5, 0, 0], [1, 0, 0], [0.5, 1, 0], [0, 0, 0], [0.5, 0, 0]]})", slider_rest);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("round the corner")) << run.messages;
+  EXPECT_FALSE(run.says("\"rigid\"")) << run.messages;
+}
+
 TEST(RingRun, AClosedAxisWithoutTheKeyIsOpenAndSaysSo) {
   const TemporaryDirectory directory;
   const CaseFileReport report =
