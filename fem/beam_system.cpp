@@ -141,13 +141,13 @@ void BeamSystem<D>::build_constraints() {
   }
   for (int b = 0; b < static_cast<int>(mesh_.nodes.size()); ++b)
     for (const MeshNode& node : mesh_.nodes[b])
-      if (node.home >= 0 && model_->beams[b].home[node.home].kind == NodeKind::rigid) add_corner(b, node);
+      if (node.home >= 0 && model_->beams[b].home[node.home].kind == NodeKind::rigid)
+        add_corner(model_->beams[b].curve, node);
 }
 
 template <int D>
-void BeamSystem<D>::add_corner(int beam, const MeshNode& node) {
-  const ReferenceCurve& curve = model_->beams[beam].curve;
-  Constraint c{ConstraintKind::corner_angle, constraint_count_, 1, beam, {-1, node.s, {}}, {}, {}, {}, {}};
+void BeamSystem<D>::add_corner(const ReferenceCurve& curve, const MeshNode& node) {
+  Constraint c{ConstraintKind::corner_angle, constraint_count_, 1, -1, {-1, 0, {}}, {}, {}, {}, {}};
   c.angle = drawn_angle<D>(curve.tangent(node.s, true), curve.tangent(node.s));
   for (const int slope : {node.slope_left, node.slope_right})
     for (int d = 0; d < D; ++d) c.block.dofs.push_back(slope + d);

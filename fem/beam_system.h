@@ -89,7 +89,7 @@ class BeamSystem final : public SecondOrderSystem {
   struct Constraint {
     ConstraintKind kind;
     int row, rows;
-    int index;  // support, sliding joint, joint of two beams or beam of a corner
+    int index;  // support, sliding joint or joint of two beams; -1 for corner_angle
     Point point;
     std::optional<Point> other;  // on the second of two beams
     Block block;
@@ -101,7 +101,7 @@ class BeamSystem final : public SecondOrderSystem {
   Vector line_load(int beam, double t) const;
   Vector gravity() const { return load_factor_ * model_->gravity.head<D>(); }
   void build_constraints();
-  void add_corner(int beam, const MeshNode& node);
+  void add_corner(const ReferenceCurve& curve, const MeshNode& node);
   Point point_at(int element, double s, const State& drawn) const;
   void build_pattern();
   ConstraintTerms constraint_terms(const Constraint& c, const State& state,
