@@ -36,7 +36,7 @@ struct MeshNode {
   int joint;        ///< index of the sliding joint, -1 for a home node
   int r;            ///< first of D position coordinates
   int slope_left;   ///< first of D gradient coordinates r_s, towards the beam's start
-  int slope_right;  ///< the same as slope_left unless the node is a hinge
+  int slope_right;  ///< the same as slope_left unless the node is a hinge or a corner
   int place;        ///< coordinate s of a moving node, else -1
 };
 
@@ -135,7 +135,7 @@ inline constexpr double meeting_distance = 0.05;
 /// Nearness to a late home node at which a joint becomes a point (where the slope may be discontinuous: at
 /// which that node is removed) and, larger, a node again, in home element lengths.
 inline constexpr double late_zone = 0.04, late_zone_left = 0.05;
-/// Whether a late home node of the beam is within `reach` home element lengths of s.
+/// Whether a late home node of the beam, but no hinge or corner, is within `reach` home element lengths of s.
 bool late_node_near(const Beam& beam, double s, double reach);
 
 }  // namespace nurbeam
