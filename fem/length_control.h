@@ -31,8 +31,8 @@ struct NextPlan {
 /// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
 /// (unless it is a beam end, a hinge or a corner, or late). Late nodes (breaks, supports) stay: the joint
-/// passes them, and comes to a beam end, as a point of the mesh. Where its slope may be discontinuous, which a
-/// point cannot carry, a late node goes when the joint is very near.
+/// passes them, and comes to a beam end, as a point of the mesh. Where its slope may be discontinuous, which
+/// a point cannot carry, a late node goes when the joint is very near.
 template <int D>
 NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control);
 
