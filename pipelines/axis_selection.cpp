@@ -10,7 +10,7 @@
 #include "nurbs/closest_point.h"
 #include "nurbs/curve_vertices.h"
 #include "pipelines/closest_name.h"
-#include "pipelines/quantity.h"
+#include "pipelines/number_text.h"
 
 namespace nurbeam {
 
@@ -173,17 +173,13 @@ std::optional<Gap> narrowest_gap_between(const std::vector<Chain>& chains, const
   return narrowest;
 }
 
-std::string coordinates(const Eigen::Vector3d& p) {
-  return "(" + text_of(p.x()) + ", " + text_of(p.y()) + ", " + text_of(p.z()) + ") m";
-}
-
 std::string several_chains(const std::vector<Chain>& chains, const ImportReport& report, double tolerance) {
   std::string message =
       report.file + " has " + std::to_string(chains.size()) + " separate chains of curves: ";
   constexpr std::size_t most_listed = 10;
   for (std::size_t i = 0; i < std::min(chains.size(), most_listed); ++i)
     message += (i > 0 ? "; " : "") + list_of_curves(report, chains[i].curves) + " (" +
-               text_of(length_of(chains[i], report)) + " m)";
+               text_of(length_of(chains[i], report), all_digits) + " m)";
   if (chains.size() > most_listed) message += "; ...";
   message +=
       "; choose one with \"curve\", \"layer\", \"colour\", \"near\" or \"longest\", or take \"chains\": "
@@ -191,8 +187,8 @@ std::string several_chains(const std::vector<Chain>& chains, const ImportReport&
   const std::optional<Gap> gap = narrowest_gap_between(chains, report);
   if (gap && gap->width > tolerance)
     message += "; curves " + std::to_string(gap->curve_a + 1) + " and " + std::to_string(gap->curve_b + 1) +
-               " end " + text_of(gap->width) + " m apart at " + coordinates(gap->point) +
-               ", and gaps up to " + text_of(tolerance) + " m are closed (\"gap\")";
+               " end " + text_of(gap->width, all_digits) + " m apart at " + text_of(gap->point, all_digits) +
+               ", and gaps up to " + text_of(tolerance, all_digits) + " m are closed (\"gap\")";
   return message;
 }
 

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "pipelines/case_json.h"
 #include "pipelines/closest_name.h"
+#include "pipelines/number_text.h"
 #include "pipelines/quantity.h"
 
 namespace nurbeam {
@@ -211,7 +213,7 @@ class Checker {
       return true;
     }
     const std::string unit = shape.dimension == Dimension::number ? "" : " " + si_unit(shape.dimension);
-    return failed(path, "is " + text_of(value) + unit + "; must be " + shape.range.rule() +
+    return failed(path, "is " + text_of(value, all_digits) + unit + "; must be " + shape.range.rule() +
                             (shape.range.reason.empty() ? "" : " (" + shape.range.reason + ")"));
   }
 
@@ -221,14 +223,15 @@ class Checker {
     }
     const double number = value.get<double>();
     if (number != std::floor(number)) {
-      return failed(path, "is " + text_of(number) + "; expected an integer");
+      return failed(path, "is " + text_of(number, all_digits) + "; expected an integer");
     }
     if (!in_range(shape, number, path)) {
       return false;
     }
     constexpr int largest = std::numeric_limits<int>::max();
     if (std::abs(number) > largest) {
-      return failed(path, "is " + text_of(number) + "; must be at most " + std::to_string(largest));
+      return failed(path,
+                    "is " + text_of(number, all_digits) + "; must be at most " + std::to_string(largest));
     }
     value = static_cast<int>(number);
     return true;
@@ -282,8 +285,9 @@ class Checker {
         return false;
       }
       if (row[0].get<double>() <= last) {
-        return failed(row_path, "time " + text_of(row[0].get<double>()) + " s does not come after " +
-                                    text_of(last) + " s; times must increase");
+        return failed(row_path, "time " + text_of(row[0].get<double>(), all_digits) +
+                                    " s does not come after " + text_of(last, all_digits) +
+                                    " s; times must increase");
       }
       last = row[0].get<double>();
     }

@@ -12,7 +12,7 @@
 #include "cad_import/cad_format.h"
 #include "pipelines/case_json.h"
 #include "pipelines/closest_name.h"
-#include "pipelines/quantity.h"
+#include "pipelines/number_text.h"
 
 namespace nurbeam {
 
@@ -230,8 +230,8 @@ CaseAxis::Arc read_arc(const Json& axis, const std::string& axis_path, Findings&
   } else if (a.norm() == 0) {
     findings.error(child(path, "start"), "is the center; must be apart from it");
   } else if (std::abs(a.norm() - b.norm()) > relative * a.norm()) {
-    findings.error(path, "start is " + text_of(a.norm()) + " m and end " + text_of(b.norm()) +
-                             " m from the center; must be the same distance");
+    findings.error(path, "start is " + text_of(a.norm(), all_digits) + " m and end " +
+                             text_of(b.norm(), all_digits) + " m from the center; must be the same distance");
   } else if (std::max(std::abs(a.dot(arc.normal)), std::abs(b.dot(arc.normal))) >
              relative * a.norm() * arc.normal.norm()) {
     findings.error(child(path, "normal"), "is not perpendicular to the plane of center, start and end");
@@ -594,10 +594,11 @@ void check_bodies(const Json& json, const CaseFile& c, Findings& findings) {
 void check_division(const char* path, const char* parts, const std::optional<double>& part,
                     const CaseAnalysis& analysis, double most, Findings& findings) {
   if (part && analysis.end_time / *part > most * (1 + 1e-9)) {
-    findings.error(path, "is " + text_of(*part) + " s: " + text_of(std::ceil(analysis.end_time / *part)) +
-                             " " + parts + " until analysis.end_time, " + text_of(analysis.end_time) +
-                             " s, and the limit is " + text_of(most) + "; give at least " +
-                             text_of(analysis.end_time / most) + " s");
+    findings.error(path, "is " + text_of(*part, all_digits) +
+                             " s: " + text_of(std::ceil(analysis.end_time / *part), all_digits) + " " +
+                             parts + " until analysis.end_time, " + text_of(analysis.end_time, all_digits) +
+                             " s, and the limit is " + text_of(most, all_digits) + "; give at least " +
+                             text_of(analysis.end_time / most, all_digits) + " s");
   }
 }
 
@@ -612,9 +613,9 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   check_division("analysis.step", "steps", c.analysis.step, c.analysis, most_steps, findings);
   for (std::size_t i = 0; dynamic && i < c.output.cad_times.size(); ++i) {
     if (c.output.cad_times[i] > c.analysis.end_time) {
-      findings.error(child("output.cad.times", i), "is " + text_of(c.output.cad_times[i]) +
+      findings.error(child("output.cad.times", i), "is " + text_of(c.output.cad_times[i], all_digits) +
                                                        " s; must not be after analysis.end_time, " +
-                                                       text_of(c.analysis.end_time) + " s");
+                                                       text_of(c.analysis.end_time, all_digits) + " s");
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "pipelines/case_json.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -9,7 +10,7 @@
 #include <sstream>
 
 #include "pipelines/closest_name.h"
-#include "pipelines/quantity.h"
+#include "pipelines/number_text.h"
 
 namespace nurbeam {
 
@@ -336,7 +337,8 @@ std::string apply_override(Json& root, const std::string& text) {
   Json value = Json::parse(value_text, nullptr, false);
   if (value.is_discarded()) {
     if (const auto number = loose_number(value_text)) {
-      return in_quotes(value_text) + " is not a number as JSON writes it; write " + text_of(*number);
+      return in_quotes(value_text) + " is not a number as JSON writes it; write " +
+             text_of(*number, all_digits);
     }
     value = value_text;  // what does not read as JSON is a text
   }

@@ -1,15 +1,14 @@
 #pragma once
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "cad_import/import_report.h"
 #include "pipelines/case_shape.h"
+#include "pipelines/findings.h"
 
-/// Private to the reader of case files: its JSON, and what is wrong with it.
+/// Private to the reader of case files: its JSON.
 namespace nurbeam {
 
 using Json = nlohmann::ordered_json;
@@ -20,26 +19,6 @@ inline std::string child(const std::string& path, const std::string& key) {
 inline std::string child(const std::string& path, std::size_t index) {
   return path + "[" + std::to_string(index) + "]";
 }
-
-/// The diagnostics of one file, each with the JSON path it is about.
-class Findings {
- public:
-  explicit Findings(std::string file) : file_(std::move(file)) {}
-
-  void add(Severity severity, const std::string& path, std::string message) {
-    diagnostics_.push_back({severity, path.empty() ? file_ : file_ + ": " + path, std::move(message)});
-  }
-  void error(const std::string& path, std::string message) { add(Severity::error, path, std::move(message)); }
-  bool has_errors() const {
-    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
-                       [](const Diagnostic& d) { return d.severity == Severity::error; });
-  }
-  std::vector<Diagnostic> take() { return std::move(diagnostics_); }
-
- private:
-  std::string file_;
-  std::vector<Diagnostic> diagnostics_;
-};
 
 /// The key of an object shape, nullptr if it has none of that name.
 const Key* find_key(const Shape& shape, const std::string& name);

@@ -8,6 +8,7 @@
 
 #include "cad_import/import_curves.h"
 #include "pipelines/axis_selection.h"
+#include "pipelines/number_text.h"
 #include "pipelines/print_diagnostics.h"
 #include "pipelines/section_profile.h"
 
@@ -26,11 +27,7 @@ struct CurveRow {
   Eigen::Vector3d start, end;  // [m]
 };
 
-std::string millimetres(double metres) {
-  std::ostringstream text;
-  text << std::setprecision(9) << 1000 * metres << " mm";
-  return text.str();
-}
+std::string millimetres(double metres) { return text_of(1000 * metres, 9) + " mm"; }
 
 // What the table adds to the kind of a centre line.
 std::string pipe_of(const ImportedCurve& curve) {
@@ -58,15 +55,9 @@ CurveRow row_of(const ImportedCurve& imported) {
           .end = curve.point(curve.knots().end())};
 }
 
-std::string text_of(const Eigen::Vector3d& point) {
+std::string coordinates(const Eigen::Vector3d& point) {
   std::ostringstream text;
   text << '(' << point.x() << ", " << point.y() << ", " << point.z() << ')';
-  return text.str();
-}
-
-std::string nine_digits(double value) {
-  std::ostringstream text;
-  text << std::setprecision(9) << value;
   return text.str();
 }
 
@@ -116,8 +107,8 @@ void print_curves(std::ostream& out, const ImportReport& report, const std::vect
     const CurveRow& row = curves[i];
     cells.push_back(
         shown({std::to_string(i + 1), dash_if_empty(row.name), row.entity, std::to_string(row.degree),
-               yes_or_no(row.rational), std::to_string(row.control_points), nine_digits(row.length),
-               yes_or_no(row.closed), text_of(row.start), text_of(row.end)},
+               yes_or_no(row.rational), std::to_string(row.control_points), text_of(row.length, 9),
+               yes_or_no(row.closed), coordinates(row.start), coordinates(row.end)},
               dash_if_empty(row.layer), dash_if_empty(row.colour)));
   }
   print_table(out, cells);
@@ -153,21 +144,21 @@ void print_chains(std::ostream& out, const ImportReport& report, const std::vect
   const std::vector<ChainRow> chains = chain_rows(report, curves);
   out << "chains of curves: " << chains.size() << '\n';
   for (std::size_t i = 0; i < std::min(chains.size(), most_listed); ++i)
-    out << "  " << nine_digits(chains[i].length) << " m" << (chains[i].closed ? ", closed" : "")
-        << ": curves " << list_of_curves(report, chains[i].curves) << '\n';
+    out << "  " << text_of(chains[i].length, 9) << " m" << (chains[i].closed ? ", closed" : "") << ": curves "
+        << list_of_curves(report, chains[i].curves) << '\n';
   print_rest(out, chains.size());
   const std::vector<Junction> found = junctions(report, gap_tolerance(report, {}));
   if (found.empty()) return;
   out << "points where three or more ends meet: " << found.size() << '\n';
   for (std::size_t i = 0; i < std::min(found.size(), most_listed); ++i)
-    out << "  " << text_of(found[i].point) << " m: curves " << list_of_curves(report, found[i].curves)
+    out << "  " << coordinates(found[i].point) << " m: curves " << list_of_curves(report, found[i].curves)
         << '\n';
   print_rest(out, found.size());
 }
 
 void print_report(std::ostream& out, const ImportReport& report) {
   out << report.file << ": " << report.curves.size() << " curve(s), unit " << report.unit;
-  if (report.resolution > 0) out << ", resolution " << nine_digits(report.resolution) << " m";
+  if (report.resolution > 0) out << ", resolution " << text_of(report.resolution, 9) << " m";
   out << '\n';
   const std::vector<CurveRow> curves = rows_of(report);
   print_curves(out, report, curves);

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 #include <vector>
 
 #include "pipelines/closest_name.h"
@@ -237,13 +236,6 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
                   si_unit(dimension));
   }
   return {value, {}};
-}
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(15);
-  text << value;
-  return text.str();
 }
 
 }  // namespace nurbeam

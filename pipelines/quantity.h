@@ -39,7 +39,4 @@ struct ParsedQuantity {
 /// (m2, m^2 and m² are the same), whose dimension must be the expected one.
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
 
-/// With 15 digits, for messages.
-std::string text_of(double value);
-
 }  // namespace nurbeam

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 
 #include "nurbs/area_moments.h"
 #include "pipelines/cgal_geometry.h"
+#include "pipelines/number_text.h"
 #include "pipelines/profile_polygon.h"
 #include "pipelines/torsion_constant.h"
 
@@ -19,16 +19,6 @@ namespace {
 
 // Ends nearer than this part of the profile's size meet, and points nearer to the plane lie in it.
 constexpr double relative_gap = 1e-6;
-
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << std::setprecision(10) << value;
-  return stream.str();
-}
-
-std::string text(const Eigen::Vector3d& p) {
-  return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") m";
-}
 
 /// A profile cannot be made of the curves: why.
 struct Refusal {
@@ -58,13 +48,13 @@ std::string named(const std::vector<ImportedCurve>& curves, int i) {
       nearest = (point - end).norm();
       nearest_point = point;
     }
-  const std::string place = named(curves, last) + " ends at " + text(end);
+  const std::string place = named(curves, last) + " ends at " + text_of(end);
   if (nearest <= gap)
     throw Refusal{place +
                   ", where more than two ends meet; a profile is made of closed outlines that do not "
                   "touch: remove the curves that do not belong to it"};
-  throw Refusal{place + ", " + text(nearest) + " m from the nearest other end, " + text(nearest_point) +
-                "; a profile is closed (gaps up to " + text(gap) + " m are)"};
+  throw Refusal{place + ", " + text_of(nearest) + " m from the nearest other end, " + text_of(nearest_point) +
+                "; a profile is closed (gaps up to " + text_of(gap) + " m are)"};
 }
 
 std::vector<BezierPath> closed_paths(const std::vector<ImportedCurve>& imported) {
@@ -113,7 +103,7 @@ Plane plane_of(const std::vector<BezierPath>& paths) {
   normal.normalize();
   for (const Eigen::Vector3d& p : points)
     if (const double off = std::abs((p - plane.origin).dot(normal)); off > relative_gap * (high - low).norm())
-      throw Refusal{"is not planar: " + text(p) + " is " + text(off) +
+      throw Refusal{"is not planar: " + text_of(p) + " is " + text_of(off) +
                     " m from the plane of the other points; draw the profile in one plane, or export the "
                     "one face of it"};
   const Eigen::Vector3d up =
@@ -153,7 +143,7 @@ std::vector<BezierPath> ordered(std::vector<BezierPath> paths, const Plane& plan
   if (polygons.empty()) {
     const auto where = crossing(profile_polygons(paths, 0.01));
     throw Refusal{"crosses or touches itself" +
-                  (where ? " near " + text(plane.to_file(*where)) : std::string()) +
+                  (where ? " near " + text_of(plane.to_file(*where)) : std::string()) +
                   "; outlines must lie apart and run through no place twice"};
   }
   std::vector<BezierPath> outlines, holes;
@@ -221,16 +211,17 @@ ProfileReport section_profile(const std::vector<ImportedCurve>& curves, const st
 
 void print_profile(std::ostream& out, const SectionProfile& profile) {
   const auto direction = [](const Eigen::Vector3d& v) {
-    return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")";
+    return "(" + text_of(v.x()) + ", " + text_of(v.y()) + ", " + text_of(v.z()) + ")";
   };
-  out << "  area              " << text(profile.area) << " m^2, outline and " << profile.loops.size() - 1
+  out << "  area              " << text_of(profile.area) << " m^2, outline and " << profile.loops.size() - 1
       << " hole(s)\n"
-      << "  centroid          " << text(profile.centroid) << "; x axis " << direction(profile.x_axis)
+      << "  centroid          " << text_of(profile.centroid) << "; x axis " << direction(profile.x_axis)
       << ", y axis " << direction(profile.y_axis) << '\n'
-      << "  second moments    I_x " << text(profile.second_x) << ", I_y " << text(profile.second_y)
-      << ", I_xy " << text(profile.product) << " m^4\n"
-      << "  principal         I_1 " << text(profile.principal_1()) << ", I_2 " << text(profile.principal_2())
-      << " m^4, axis 1 at " << text(profile.principal_angle() * 180 / M_PI) << " degrees from x\n"
+      << "  second moments    I_x " << text_of(profile.second_x) << ", I_y " << text_of(profile.second_y)
+      << ", I_xy " << text_of(profile.product) << " m^4\n"
+      << "  principal         I_1 " << text_of(profile.principal_1()) << ", I_2 "
+      << text_of(profile.principal_2()) << " m^4, axis 1 at "
+      << text_of(profile.principal_angle() * 180 / M_PI) << " degrees from x\n"
       << "  torsion constant  ";
   const TorsionReport torsion = torsion_constant(profile.loops);
   if (torsion.status == TorsionStatus::no_mesh)
@@ -238,7 +229,7 @@ void print_profile(std::ostream& out, const SectionProfile& profile) {
                          "triangles\n"
                        : "not computed: this build is without CGAL (-DNURBEAM_WITH_CGAL=ON)\n");
   else
-    out << text(torsion.value) << " m^4, within " << std::setprecision(2) << torsion.error << " m^4\n";
+    out << text_of(torsion.value) << " m^4, within " << std::setprecision(2) << torsion.error << " m^4\n";
 }
 
 }  // namespace nurbeam

@@ -1,0 +1,40 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cad_import/import_report.h"
+
+namespace nurbeam {
+
+/// The diagnostics of one case file, each with the JSON path it is about.
+class Findings {
+ public:
+  explicit Findings(std::string file) : file_(std::move(file)) {}
+
+  void add(Severity severity, const std::string& path, std::string message) {
+    diagnostics_.push_back({severity, where(path), std::move(message)});
+  }
+  void error(const std::string& path, std::string message) { add(Severity::error, path, std::move(message)); }
+  void warn(const std::string& path, std::string message) {
+    add(Severity::warning, path, std::move(message));
+  }
+  /// Those of a file that the case names.
+  void append(const std::vector<Diagnostic>& others) {
+    diagnostics_.insert(diagnostics_.end(), others.begin(), others.end());
+  }
+  /// The file, and the path in it; "" stands for the whole file.
+  std::string where(const std::string& path) const { return path.empty() ? file_ : file_ + ": " + path; }
+  bool has_errors() const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [](const Diagnostic& d) { return d.severity == Severity::error; });
+  }
+  std::vector<Diagnostic> take() { return std::move(diagnostics_); }
+
+ private:
+  std::string file_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace nurbeam
