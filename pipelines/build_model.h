@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,25 +6,10 @@
 
 #include "fem/beam_model.h"
 #include "pipelines/case_file.h"
+#include "pipelines/model_frame.h"
 #include "pipelines/section_profile.h"
 
 namespace nurbeam {
-
-/// The model's own frame: local = rotation * (world - origin), with the origin on the model, so that a model
-/// far from the world's origin loses no digits. For a planar model the plane is local z = 0.
-struct ModelFrame {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double gravity_energy = 0;  ///< of the whole mass at the origin, which the local potential leaves out [J]
-
-  Eigen::Vector3d to_local(const Eigen::Vector3d& world) const { return rotation * (world - origin); }
-  Eigen::Vector3d to_world(const Eigen::Vector3d& local) const {
-    return rotation.transpose() * local + origin;
-  }
-  Eigen::Vector3d direction_to_world(const Eigen::Vector3d& local) const {
-    return rotation.transpose() * local;
-  }
-};
 
 /// A place where results are recorded.
 struct Probe {
