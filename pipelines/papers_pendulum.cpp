@@ -16,7 +16,6 @@ namespace nurbeam {
 namespace {
 
 using Eigen::Vector3d;
-using Method = std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta>;
 
 constexpr double radius = 0.5, half_angle = M_PI / 6;  // [m], [rad]
 const Vector3d end_B(radius* std::sin(2 * half_angle), radius*(1 - std::cos(2 * half_angle)), 0);
@@ -74,7 +73,7 @@ BeamModel pendulum_model(const PendulumMesh& mesh) {
   return model;
 }
 
-PendulumMotion pendulum_motion(const PendulumMesh& mesh, const Method& integrator, double step,
+PendulumMotion pendulum_motion(const PendulumMesh& mesh, const IntegratorSettings& integrator, double step,
                                int intervals) {
   const BeamModel model = pendulum_model(mesh);
   SimulationOptions options;
@@ -452,7 +451,8 @@ class Study {
              "energy |\n|---|---|---|---|---|\n";
     constexpr int n = 8;
     const PendulumMotion exact = pendulum_motion({.elements = n}, ExplicitRungeKutta{}, 1.25e-4);
-    const auto row_of = [&](const std::string& method, int elements, double h, const Method& integrator) {
+    const auto row_of = [&](const std::string& method, int elements, double h,
+                            const IntegratorSettings& integrator) {
       const PendulumMotion run = pendulum_motion({.elements = elements}, integrator, h);
       page_ << "| " << method << " | " << elements << " | " << plain(h * 1e3) << " | ";
       const bool ended = run.t.size() < 101 || !(run.drift() < 1);

@@ -1,6 +1,5 @@
 #pragma once
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "fem/beam_model.h"
@@ -40,9 +39,8 @@ struct PendulumMotion {
   double drift() const { return report.energy_drift / report.peak_kinetic_energy; }
 };
 /// Runs the pendulum for 1 s with fixed steps [s] and keeps intervals + 1 times.
-PendulumMotion pendulum_motion(const PendulumMesh& mesh,
-                               const std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta>& integrator,
-                               double step, int intervals = 100);
+PendulumMotion pendulum_motion(const PendulumMesh& mesh, const IntegratorSettings& integrator, double step,
+                               int intervals = 100);
 /// Generalized-alpha (rho_infinity 0.9) extrapolated from `step` and half of it to step 0: at 2e-4 s what is
 /// left of the step's error is below 1e-6 m, so that of the mesh remains.
 PendulumMotion extrapolated_pendulum_motion(const PendulumMesh& mesh, double step, int intervals = 100);

@@ -1,19 +1,14 @@
 #pragma once
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "fem/length_control.h"
+#include "pipelines/integrators.h"
 #include "pipelines/record_frame.h"
 #include "pipelines/restart.h"
 #include "pipelines/simulation_report.h"
-#include "solver/explicit_integrator.h"
-#include "solver/generalized_alpha.h"
-#include "solver/ida_integrator.h"
-#include "solver/static_equilibrium.h"
 
 namespace nurbeam {
 
@@ -24,7 +19,7 @@ struct SimulationOptions {
   double end_time = 0;
   std::optional<double> step;        ///< fixed steps (of length control with IDA); else error control
   std::vector<double> output_times;  ///< increasing, within [0, end_time]
-  std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta> integrator;
+  IntegratorSettings integrator;
   LengthControl length_control;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/run_summary.h"
@@ -19,6 +20,11 @@ struct SimulationReport {
   double integration_error = 0;    ///< the same without what events changed [J]
   double peak_kinetic_energy = 0;  ///< [J]
   std::vector<RunEvent> events;
+
+  void fail(SimulationStatus why, std::string what) {
+    status = why;
+    message = std::move(what);
+  }
 };
 
 }  // namespace nurbeam
