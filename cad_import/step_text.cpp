@@ -1,10 +1,12 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakePipe.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Eigen/Geometry>
 #include <GProp_GProps.hxx>
 #include <Geom_BSplineCurve.hxx>
@@ -26,9 +28,13 @@
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <TopoDS_Wire.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
@@ -190,9 +196,9 @@ void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   constexpr double allowed = 1e-3;
   GProp_GProps properties;
   BRepGProp::VolumeProperties(solid, properties, 0.01 * allowed);
-  const double radius = pipe.radius * kMillimetresPerMetre;
+  const double area = std::numbers::pi * (pipe.radius * pipe.radius - pipe.bore * pipe.bore);
   // Pappus: a section whose centroid is on the curve sweeps its area times the length.
-  const double expected = std::numbers::pi * radius * radius * length(pipe.axis.curve) * kMillimetresPerMetre;
+  const double expected = area * length(pipe.axis.curve) * std::pow(kMillimetresPerMetre, 3);
   if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
       std::abs(properties.Mass() - expected) > allowed * expected)
     throw std::runtime_error("OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
@@ -223,10 +229,23 @@ TopoDS_Shape swept(const NamedPipe& pipe) {
                              std::to_string(pipe.radius) + " m");
   const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
   const gp_Pnt centre(vector(kMillimetresPerMetre * start.col(0)).XYZ());
-  const gp_Circ circle(gp_Ax2(centre, gp_Dir(vector(start.col(1)))), pipe.radius * kMillimetresPerMetre);
-  const TopoDS_Wire rim = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
+  const gp_Ax2 square(centre, gp_Dir(vector(start.col(1))));
+  const auto rim = [&](double radius) {
+    const gp_Circ circle(square, radius * kMillimetresPerMetre);
+    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
+  };
   const TopoDS_Wire spine = BRepBuilderAPI_MakeWire(edge(pipe.axis)).Wire();
-  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, BRepBuilderAPI_MakeFace(rim).Face()).Shape();
+  BRepBuilderAPI_MakeFace section(rim(pipe.radius));
+  const bool hollow = pipe.bore > 0, ring = BRep_Tool::IsClosed(spine);
+  if (hollow && !ring) section.Add(TopoDS::Wire(rim(pipe.bore).Reversed()));
+  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, section.Face()).Shape();
+  if (hollow && ring) {  // without ends inner and outer faces are no one shell
+    const TopoDS_Face bore = BRepBuilderAPI_MakeFace(rim(pipe.bore)).Face();
+    const TopExp_Explorer core(BRepOffsetAPI_MakePipe(spine, bore).Shape(), TopAbs_SHELL);
+    BRepBuilderAPI_MakeSolid with_core(TopoDS::Solid(solid));
+    with_core.Add(TopoDS::Shell(core.Current().Reversed()));
+    solid = with_core.Solid();
+  }
   check_pipe(solid, pipe);
   return solid;
 }

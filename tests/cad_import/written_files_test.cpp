@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
@@ -23,11 +24,13 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Shell.hxx>
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
 #include "cad_import/export_curves.h"
 #include "cad_import/iges_global.h"
+#include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
 #include "nurbs/smooth_nurbs.h"
 #include "tests/cad_import/scratch_directory.h"
@@ -200,6 +203,84 @@ TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
   }
 }
 
+/// An arc about the z axis, in halves where it is long, as a rational quadratic.
+NurbsCurve arc(double radius, double angle) {
+  const int pieces = angle > pi / 2 ? 4 : 1;
+  Eigen::Matrix4Xd points(4, 2 * pieces + 1);
+  const double half = 0.5 * angle / pieces;
+  for (int i = 0; i <= 2 * pieces; ++i) {
+    const double weight = i % 2 == 0 ? 1 : std::cos(half), reach = i % 2 == 0 ? radius : radius / weight;
+    points.col(i) << weight * reach * std::cos(i * half), weight * reach * std::sin(i * half), 0, weight;
+  }
+  std::vector<double> knots(3, 0);
+  for (int j = 1; j <= pieces; ++j) knots.insert(knots.end(), j < pieces ? 2 : 3, j);
+  return {KnotVector(2, std::move(knots)), std::move(points)};
+}
+
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, 1e-9);
+  return 1e-9 * properties.Mass();
+}
+
+/// The number of wires of each plane face.
+std::vector<int> rims_of_plane_faces(const TopoDS_Shape& shape) {
+  std::vector<int> rims;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
+    if (BRepAdaptor_Surface(TopoDS::Face(face.Current())).GetType() != GeomAbs_Plane) continue;
+    TopTools_IndexedMapOfShape wires;
+    TopExp::MapShapes(face.Current(), TopAbs_WIRE, wires);
+    rims.push_back(wires.Extent());
+  }
+  return rims;
+}
+
+TEST(ExportSolids, AHollowCableIsATubeWithAnnularEnds) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "tube.step";
+  const double radius = 0.02, bore = 0.015, area = pi * (radius * radius - bore * bore);
+  for (const NurbsCurve& curve : {cable(1), cable(10), cable(20, 0.01), straight_line(3)}) {
+    ASSERT_FALSE(export_solids(file, {{{"tube", curve}, radius, bore}}, LengthUnit::inch));
+    const TopoDS_Shape shape = second_reading(file);
+    ASSERT_EQ(shape.ShapeType(), TopAbs_SOLID);
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+    EXPECT_NEAR(volume_of(shape) / (area * length(curve)), 1, 1e-4);
+    EXPECT_EQ(rims_of_plane_faces(shape), (std::vector<int>{2, 2}));
+    ShapeAnalysis_Shell check;
+    check.LoadShells(shape);
+    EXPECT_FALSE(check.HasFreeEdges());
+  }
+}
+
+TEST(ExportSolids, ABentTubeHasTheVolumeOfPappusAndGivesItsCentreLineAgain) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "bend.step";
+  for (const double bore : {0.0, 0.03, 0.08, 0.099}) {
+    ASSERT_FALSE(export_solids(file, {{{"bend", arc(1, 1.5)}, 0.1, bore}}, LengthUnit::metre));
+    EXPECT_NEAR(volume_of(second_reading(file)) / (1.5 * pi * (0.01 - bore * bore)), 1, 1e-9);
+    const ImportReport report = import_curves(file);
+    const auto line = std::find_if(report.curves.begin(), report.curves.end(),
+                                   [](const ImportedCurve& curve) { return curve.is_centre_line(); });
+    ASSERT_NE(line, report.curves.end());
+    EXPECT_NEAR(line->pipe_radius, 0.1, 1e-9);
+    EXPECT_NEAR(line->bore_radius, bore, 1e-9);
+    EXPECT_NEAR(length(line->curve), 1.5, 1e-8);
+  }
+}
+
+TEST(ExportSolids, ARingIsATorusAndAHollowOneATorusWithATorusInIt) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "ring.step";
+  for (const double bore : {0.0, 0.06}) {
+    const auto problem = export_solids(file, {{{"ring", arc(1, 2 * pi)}, 0.1, bore}}, LengthUnit::metre);
+    ASSERT_FALSE(problem) << problem->message;
+    const TopoDS_Shape shape = second_reading(file);
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+    EXPECT_NEAR(volume_of(shape) / (2 * pi * pi * (0.01 - bore * bore)), 1, 1e-9);
+    EXPECT_EQ(rims_of_plane_faces(shape), std::vector<int>{});
+  }
+}
+
 TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "solids.step";
@@ -218,6 +299,8 @@ TEST(ExportSolids, RefusesWhatCannotBeSweptAndLeavesNoFile) {
     EXPECT_THROW(static_cast<void>(export_solids(target, pipes, LengthUnit::metre)), std::invalid_argument);
   };
   refused(file, {{{"cable", cable(3)}, 0}});
+  refused(file, {{{"cable", cable(3)}, 0.01, 0.01}});
+  refused(file, {{{"cable", cable(3)}, 0.01, -0.001}});
   refused(scratch.path() / "a.igs", {{{"cable", cable(3)}, 0.01}});
   refused(file, {});
   Eigen::Matrix3Xd points(3, 3);
