@@ -24,6 +24,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Shell.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -171,6 +172,68 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(test.param.file + 2) + "_" + std::to_string(int(test.param.in_millimetres));
     });
 
+/// An arc about the z axis, in quarters of it where it is long, as a rational quadratic.
+NurbsCurve arc(double radius, double angle) {
+  const int pieces = angle > pi / 2 ? 4 : 1;
+  Eigen::Matrix4Xd points(4, 2 * pieces + 1);
+  const double half = 0.5 * angle / pieces;
+  for (int i = 0; i <= 2 * pieces; ++i) {
+    const double weight = i % 2 == 0 ? 1 : std::cos(half), reach = i % 2 == 0 ? radius : radius / weight;
+    points.col(i) << weight * reach * std::cos(i * half), weight * reach * std::sin(i * half), 0, weight;
+  }
+  std::vector<double> knots(3, 0);
+  for (int j = 1; j <= pieces; ++j) knots.insert(knots.end(), j < pieces ? 2 : 3, j);
+  return {KnotVector(2, std::move(knots)), std::move(points)};
+}
+
+/// A closed cable in space, else as wavy_cable.
+BezierPath wavy_ring(int count, double weight_spread) {
+  const auto at = [](double t) {
+    return Eigen::Vector3d((1 + 0.1 * std::cos(3 * t)) * std::cos(t), 0.7 * std::sin(t),
+                           0.2 * std::sin(2 * t));
+  };
+  const auto slope = [](double t) {
+    return Eigen::Vector3d(-0.3 * std::sin(3 * t) * std::cos(t) - (1 + 0.1 * std::cos(3 * t)) * std::sin(t),
+                           0.7 * std::cos(t), 0.4 * std::cos(2 * t));
+  };
+  BezierPath path{{}, {0}, 0};
+  for (int j = 0; j < count; ++j) {
+    const double a = 2 * pi * j / count, b = 2 * pi * ((j + 1) % count) / count, third = 2 * pi / count / 3;
+    const double uneven = 1 + 0.2 * std::sin(double(7 * j));
+    Eigen::Matrix3Xd controls(3, 4);
+    controls << at(a), at(a) + uneven * third * slope(a), at(b) - third / uneven * slope(b), at(b);
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = 1 + weight_spread * std::sin(double(3 * j + 5 * i));
+      points.col(i) << weight * controls.col(i), weight;
+    }
+    path.segments.emplace_back(points);
+    path.breaks.push_back(path.breaks.back() + length(path.segments.back()));
+  }
+  return path;
+}
+
+TEST_P(WrittenFile, OfARingIsOneClosedEdgeWithOneVertexToASecondReader) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  const auto smooth = [](const BezierPath& path) {
+    return smooth_nurbs(path, CurveParameter::free, 1e-12).curve;
+  };
+  Eigen::Matrix4Xd ellipse = arc(1, 2 * pi).control_points();
+  ellipse.row(1) *= 0.6;
+  for (const NurbsCurve& ring : {smooth(wavy_ring(24, 0)), smooth(wavy_ring(24, 0.01)),
+                                 smooth(BezierPath::from_nurbs({arc(1, 2 * pi).knots(), ellipse}, 1))}) {
+    export_curves(file, {{"ring", ring}}, GetParam().unit);
+    const TopoDS_Shape shape = second_reading(file);
+    expect_sound_edges(shape);
+    const std::vector<TopoDS_Edge> edges = edges_of(shape);
+    ASSERT_EQ(edges.size(), 1u);
+    EXPECT_TRUE(BRep_Tool::IsClosed(edges[0]));
+    EXPECT_TRUE(TopExp::FirstVertex(edges[0]).IsSame(TopExp::LastVertex(edges[0])));
+    EXPECT_TRUE(ShapeAnalysis_Edge().IsClosed3d(edges[0]));
+  }
+}
+
 NurbsCurve straight_line(double size) {
   Eigen::Matrix3Xd points(3, 2);
   points << 0, size, 0, 0.5 * size, 0, 0;
@@ -201,20 +264,6 @@ TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
         EXPECT_FALSE(ShapeAnalysis_Edge().CheckVerticesWithCurve3d(edge));
       }
   }
-}
-
-/// An arc about the z axis, in halves where it is long, as a rational quadratic.
-NurbsCurve arc(double radius, double angle) {
-  const int pieces = angle > pi / 2 ? 4 : 1;
-  Eigen::Matrix4Xd points(4, 2 * pieces + 1);
-  const double half = 0.5 * angle / pieces;
-  for (int i = 0; i <= 2 * pieces; ++i) {
-    const double weight = i % 2 == 0 ? 1 : std::cos(half), reach = i % 2 == 0 ? radius : radius / weight;
-    points.col(i) << weight * reach * std::cos(i * half), weight * reach * std::sin(i * half), 0, weight;
-  }
-  std::vector<double> knots(3, 0);
-  for (int j = 1; j <= pieces; ++j) knots.insert(knots.end(), j < pieces ? 2 : 3, j);
-  return {KnotVector(2, std::move(knots)), std::move(points)};
 }
 
 double volume_of(const TopoDS_Shape& shape) {
