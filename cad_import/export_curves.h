@@ -35,9 +35,9 @@ void export_curves(const std::filesystem::path& file, const std::vector<NamedCur
 /// Writes each pipe as a solid (its axis swept by a disk or an annulus, ends cut square) under its name, to a
 /// STEP file, else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with
 /// the area of the section times the length within 1e-3. When a curve cannot be swept (a corner, a bend
-/// sharper than the radius) nothing is written and the Diagnostic says why; it is empty when the file was
-/// written. Throws std::invalid_argument also for another extension than .step or .stp, for a radius that is
-/// not positive and for a bore that is negative or not below the radius.
+/// sharper than the radius, most rings that lie in no plane) nothing is written and the Diagnostic says why;
+/// it is empty when the file was written. Throws std::invalid_argument also for another extension than .step
+/// or .stp, for a radius that is not positive and for a bore that is negative or not below the radius.
 [[nodiscard]] std::optional<Diagnostic> export_solids(const std::filesystem::path& file,
                                                       const std::vector<NamedPipe>& pipes, LengthUnit unit);
 

@@ -224,8 +224,9 @@ void exchange(int instance, const NurbsCurve& curve, StepInstances& step) {
     const auto vertex = [&](double u) {
       return number(step.add("VERTEX_POINT(''," + number(add_point(curve.point(u), step)) + ")")) + ",";
     };
-    const std::string vertices = vertex(start) + vertex(end);
-    step.replace(instance, "EDGE_CURVE(" + name + vertices + number(geometry) + ",.T.)");
+    const std::string first = vertex(start);
+    const std::string last = is_closed(curve, 1e-12 * length(curve)) ? first : vertex(end);
+    step.replace(instance, "EDGE_CURVE(" + name + first + last + number(geometry) + ",.T.)");
   } else if (kind == "TRIMMED_CURVE") {
     const int basis = put_in_place(step.references(instance).at(0), curve, step);
     const auto trim = [](double u) { return "(PARAMETER_VALUE(" + real(u) + ")),"; };

@@ -201,9 +201,10 @@ void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   const double expected = area * length(pipe.axis.curve) * std::pow(kMillimetresPerMetre, 3);
   if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
       std::abs(properties.Mass() - expected) > allowed * expected)
-    throw std::runtime_error("OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
-                             " m along the curve '" + pipe.axis.name +
-                             "'; it may have a corner or bend more sharply than that radius");
+    throw std::runtime_error(
+        "OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
+        " m along the curve '" + pipe.axis.name +
+        "'; it may have a corner, bend more sharply than that radius, or be a ring in space");
 }
 
 // Largest curvature |r' x r''| / |r'|^3 at 33 places of each span [1/m].

@@ -320,13 +320,28 @@ TEST(ExportSolids, ABentTubeHasTheVolumeOfPappusAndGivesItsCentreLineAgain) {
 TEST(ExportSolids, ARingIsATorusAndAHollowOneATorusWithATorusInIt) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "ring.step";
+  const NurbsCurve circle = arc(1, 2 * pi);
+  const NurbsCurve cubic_circle =
+      smooth_nurbs(BezierPath::from_nurbs(circle, 1), CurveParameter::free, 1e-12).curve;
+  const NurbsCurve in_space = smooth_nurbs(wavy_ring(24, 0), CurveParameter::free, 1e-12).curve;
+  Eigen::Matrix4Xd points = in_space.control_points();
+  points.row(2).setZero();
+  const NurbsCurve wavy(in_space.knots(), points);
+  const auto refused = export_solids(file, {{{"ring", in_space}, 0.1}}, LengthUnit::metre);
+  ASSERT_TRUE(refused);
+  EXPECT_NE(refused->message.find("a ring in space"), std::string::npos) << refused->message;
   for (const double bore : {0.0, 0.06}) {
-    const auto problem = export_solids(file, {{{"ring", arc(1, 2 * pi)}, 0.1, bore}}, LengthUnit::metre);
-    ASSERT_FALSE(problem) << problem->message;
-    const TopoDS_Shape shape = second_reading(file);
-    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
-    EXPECT_NEAR(volume_of(shape) / (2 * pi * pi * (0.01 - bore * bore)), 1, 1e-9);
-    EXPECT_EQ(rims_of_plane_faces(shape), std::vector<int>{});
+    const double area = pi * (0.01 - bore * bore);
+    for (const NurbsCurve& axis : {circle, cubic_circle, wavy}) {
+      const auto problem = export_solids(file, {{{"ring", axis}, 0.1, bore}}, LengthUnit::metre);
+      ASSERT_FALSE(problem) << problem->message;
+      const TopoDS_Shape shape = second_reading(file);
+      EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+      EXPECT_NEAR(volume_of(shape) / (area * length(axis)), 1, 1e-4);
+      EXPECT_EQ(rims_of_plane_faces(shape), std::vector<int>{});
+    }
+    ASSERT_FALSE(export_solids(file, {{{"ring", circle}, 0.1, bore}}, LengthUnit::metre));
+    EXPECT_NEAR(volume_of(second_reading(file)) / (2 * pi * area), 1, 1e-9);
   }
 }
 
