@@ -40,8 +40,8 @@
 namespace nurbeam {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1000;
-constexpr char kEndOfWarning = '\0';
+constexpr double millimetres_per_metre = 1000;
+constexpr char end_of_warning = '\0';
 
 /// An edge as OpenCASCADE made it, and the instance it is made of.
 struct FoundEdge {
@@ -192,7 +192,7 @@ NurbsCurve in_part(const NurbsCurve& world, const TopoDS_Edge& edge, double unit
   const gp_Trsf to_part = edge.Location().Transformation().Inverted();
   Eigen::Matrix4Xd points = world.control_points();
   for (auto column : points.colwise()) {
-    const Eigen::Vector3d p = kMillimetresPerMetre / column(3) * column.head<3>();
+    const Eigen::Vector3d p = millimetres_per_metre / column(3) * column.head<3>();
     const gp_Pnt moved = gp_Pnt(p.x(), p.y(), p.z()).Transformed(to_part);
     column.head<3>() = column(3) / unit * Eigen::Vector3d(moved.X(), moved.Y(), moved.Z());
   }
@@ -282,14 +282,14 @@ std::string place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
   std::string warnings;
   if (const std::string reason = obstacle(wanted, found, step); !reason.empty()) {
     add_beside(representation, curve, encoded(wanted.name), step);
-    warnings += label + reason + "; the deformed curve was added beside it" + kEndOfWarning;
+    warnings += label + reason + "; the deformed curve was added beside it" + end_of_warning;
   } else {
     const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;
     exchange(found.instance, backwards ? curve.reversed() : curve, step);
   }
   if (found.places > 1)
     warnings += label + "its part stands at " + std::to_string(found.places) +
-                " places; the deformed curve shows at each of them" + kEndOfWarning;
+                " places; the deformed curve shows at each of them" + end_of_warning;
   return warnings;
 }
 
@@ -313,7 +313,7 @@ std::string exchanged(const std::filesystem::path& source, const std::vector<Def
     StepInstances step(content.str());
     std::string warnings;
     for (const DeformedCurve& curve : curves) warnings += place(curve, reader, reader.OneShape(), step);
-    return warnings + kEndOfWarning + step.text();
+    return warnings + end_of_warning + step.text();
   } catch (const Standard_Failure& e) {
     throw std::runtime_error(std::string("OpenCASCADE failed: ") + e.GetMessageString());
   }
@@ -342,8 +342,8 @@ std::vector<Diagnostic> export_into_step(const std::filesystem::path& source,
     return {{Severity::error, source.string(), failure(result) + "; " + file.string() + " was not written"}};
   std::vector<Diagnostic> warnings;
   std::size_t at = 0;
-  while (result.output[at] != kEndOfWarning) {
-    const std::size_t end = result.output.find(kEndOfWarning, at);
+  while (result.output[at] != end_of_warning) {
+    const std::size_t end = result.output.find(end_of_warning, at);
     warnings.push_back({Severity::warning, source.string(), result.output.substr(at, end - at)});
     at = end + 1;
   }

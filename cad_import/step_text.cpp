@@ -52,7 +52,7 @@
 namespace nurbeam {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1000;
+constexpr double millimetres_per_metre = 1000;
 
 /// No printer of OpenCASCADE writes to stdout while this lives.
 class SilentMessenger {
@@ -112,7 +112,7 @@ Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
   TColgp_Array1OfPnt poles(1, count);
   TColStd_Array1OfReal weights(1, count);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * kMillimetresPerMetre;
+    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * millimetres_per_metre;
     poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
     weights(i + 1) = points(3, i);
   }
@@ -198,7 +198,7 @@ void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   BRepGProp::VolumeProperties(solid, properties, 0.01 * allowed);
   const double area = std::numbers::pi * (pipe.radius * pipe.radius - pipe.bore * pipe.bore);
   // Pappus: a section whose centroid is on the curve sweeps its area times the length.
-  const double expected = area * length(pipe.axis.curve) * std::pow(kMillimetresPerMetre, 3);
+  const double expected = area * length(pipe.axis.curve) * std::pow(millimetres_per_metre, 3);
   if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
       std::abs(properties.Mass() - expected) > allowed * expected)
     throw std::runtime_error(
@@ -229,10 +229,10 @@ TopoDS_Shape swept(const NamedPipe& pipe) {
                              std::to_string(1 / curvature) + " m, too sharply for a section of radius " +
                              std::to_string(pipe.radius) + " m");
   const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
-  const gp_Pnt centre(vector(kMillimetresPerMetre * start.col(0)).XYZ());
+  const gp_Pnt centre(vector(millimetres_per_metre * start.col(0)).XYZ());
   const gp_Ax2 square(centre, gp_Dir(vector(start.col(1))));
   const auto rim = [&](double radius) {
-    const gp_Circ circle(square, radius * kMillimetresPerMetre);
+    const gp_Circ circle(square, radius * millimetres_per_metre);
     return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
   };
   const TopoDS_Wire spine = BRepBuilderAPI_MakeWire(edge(pipe.axis)).Wire();
