@@ -124,6 +124,30 @@ TEST_P(WrittenFile, OfASmoothCableIsOneSoundEdgeToASecondReader) {
     }
 }
 
+TEST_P(WrittenFile, OfACurveOfTheCorpusWithoutCornersIsOneEdgeToASecondReader) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  int whole_conics = 0;
+  for (const auto& entry : fs::directory_iterator(corpus_file(""))) {
+    if (entry.path().extension() == ".md") continue;
+    SCOPED_TRACE(entry.path());
+    std::vector<NamedCurve> curves;
+    for (const ImportedCurve& imported : import_curves(entry.path()).curves) {
+      const double size = length(imported.curve);
+      const BezierPath path = BezierPath::from_nurbs(imported.curve, 1e-6 * size);
+      if (!path.corners(1e-12).empty()) continue;
+      curves.push_back({imported.name, smooth_nurbs(path, CurveParameter::free, 2e-13 * size).curve});
+      whole_conics += imported.curve.degree() == 2 && is_closed(imported.curve, 1e-9 * size);
+    }
+    if (curves.empty()) continue;
+    export_curves(file, curves, GetParam().unit);
+    const TopoDS_Shape shape = second_reading(file);
+    expect_sound_edges(shape);
+    EXPECT_EQ(edges_of(shape).size(), curves.size());
+  }
+  EXPECT_EQ(whole_conics, 29);
+}
+
 TEST_P(WrittenFile, HasItsPlaceInMillimetresToASecondReader) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / GetParam().file;
