@@ -199,6 +199,20 @@ void fit_joints(const Piece& one, Pieces& all) {
   all.back().length -= moved_before;
 }
 
+/// Gives the pieces the weights that the curve has at their ends: products of charts add up their round-off.
+void fit_weights(const Piece& one, Pieces& all) {
+  const Eigen::Index p = one.degree();
+  double begin = 0;
+  for (Piece& piece : all) {
+    const double end = begin + piece.length;
+    const Points there = part(one.points, begin / one.length, end / one.length);
+    double factor = there(3, 0) / piece.weight(0);
+    const double c = std::pow(there(3, p) / piece.weight(p) / factor, 1.0 / double(p));
+    for (Eigen::Index i = 0; i <= p; ++i, factor *= c) piece.points.col(i) *= factor;
+    begin = end;
+  }
+}
+
 /// The change w_i -> c^i w_i that makes the weights at both ends equal.
 double balance(const Points& points) {
   const Eigen::Index p = points.cols() - 1;
@@ -230,9 +244,13 @@ std::optional<Piece> rejoined(const Pieces& pieces, int first, int last, CurvePa
                           : run_charts(pieces, first, last, {1, pieces[first].length}, parameter);
   if (!charts) return std::nullopt;
   Pieces all = charted(pieces, first, *charts);
-  if (parameter == CurveParameter::free) fit_joints(spanning(all), all);
   Piece one = spanning(all);
   fit_inner_points(all, one);
+  if (parameter == CurveParameter::free) {
+    fit_joints(one, all);
+    fit_weights(one, all);
+    fit_inner_points(all, one);
+  }
   double begin = 0;
   for (const Piece& piece : all) {
     if (!(piece.length > 0)) return std::nullopt;

@@ -69,6 +69,9 @@ TEST_F(CadOutputTest, ListedTimesKeepTheirNames) {
   ASSERT_EQ(run_case(R"({"times": [0, 0.05], "formats": ["step", "step-solid"]})"), 0) << messages;
   EXPECT_EQ(cad_files(), (std::vector<std::string>{"deformed_t0.05.step", "deformed_t0.05_solid.step",
                                                    "deformed_t0.step", "deformed_t0_solid.step"}));
+  const std::vector<ImportedCurve> rod = import_curves(results / "deformed_t0_solid.step").curves;
+  EXPECT_NEAR(rod.back().pipe_radius, 0.01, 1e-9);
+  EXPECT_EQ(rod.back().bore_radius, 0);
   // A second run with fewer files leaves none of the first.
   ASSERT_EQ(run_case(R"({"times": [0.05], "formats": ["step"]})"), 0) << messages;
   EXPECT_EQ(cad_files(), std::vector<std::string>{"deformed_t0.05.step"});
