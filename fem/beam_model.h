@@ -22,11 +22,18 @@ enum class MergeRule {
   ones       ///< all ones, for comparison
 };
 
+/// What the slopes on both sides of a home node have to do with each other.
+enum class NodeKind {
+  smooth,  ///< they are one
+  hinge,   ///< they are free of each other
+  rigid    ///< a corner: the angle between them stays that of the drawing (HeldAngle)
+};
+
 /// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.
 struct HomeNode {
   double s;   ///< reference arc length [m]
   bool late;  ///< a break of the drawing or a support: removed only while a sliding node is very near
-  bool hinge = false;  ///< the slopes on both sides are free of each other; never removed
+  NodeKind kind = NodeKind::smooth;  ///< a hinge or a corner is never removed: no body slides over it
 };
 
 struct Beam {

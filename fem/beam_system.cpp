@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/held_angle.h"
 #include "fem/inertia.h"
 #include "fem/point_load.h"
 
@@ -32,6 +31,12 @@ Eigen::Matrix<double, D - 1, D> directions_across(const Eigen::Vector3d& t) {
     n.row(1) = t.cross(first);
   }
   return n;
+}
+
+// Between the tangent of one drawing at a place and that of another.
+template <int D>
+HeldAngle<D> drawn_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return {a.head<D>().normalized(), b.head<D>().normalized()};
 }
 
 std::vector<int> without_absent(const std::vector<int>& dofs) {
@@ -124,6 +129,9 @@ void BeamSystem<D>::build_constraints() {
       const auto& dofs = mesh_.elements[element].dofs;
       c.block.dofs.insert(c.block.dofs.end(), dofs.begin(), dofs.end());
     }
+    if (kind == ConstraintKind::joint_angle)
+      c.angle = drawn_angle<D>(model_->beams[joint.beam_a].curve.tangent(joint.s_a),
+                               model_->beams[joint.beam_b].curve.tangent(joint.s_b));
     constraint_count_ += rows;
     constraints_.push_back(std::move(c));
   };
@@ -131,6 +139,20 @@ void BeamSystem<D>::build_constraints() {
     add_joint(ConstraintKind::joint_position, D, i);
     if (model_->beam_joints[i].rigid) add_joint(ConstraintKind::joint_angle, 1, i);
   }
+  for (int b = 0; b < static_cast<int>(mesh_.nodes.size()); ++b)
+    for (const MeshNode& node : mesh_.nodes[b])
+      if (node.home >= 0 && model_->beams[b].home[node.home].kind == NodeKind::rigid)
+        add_corner(model_->beams[b].curve, node);
+}
+
+template <int D>
+void BeamSystem<D>::add_corner(const ReferenceCurve& curve, const MeshNode& node) {
+  Constraint c{ConstraintKind::corner_angle, constraint_count_, 1, -1, {-1, 0, {}}, {}, {}, {}, {}};
+  c.angle = drawn_angle<D>(curve.tangent(node.s, true), curve.tangent(node.s));
+  for (const int slope : {node.slope_left, node.slope_right})
+    for (int d = 0; d < D; ++d) c.block.dofs.push_back(slope + d);
+  constraint_count_ += c.rows;
+  constraints_.push_back(std::move(c));
 }
 
 template <int D>
@@ -242,6 +264,15 @@ typename BeamSystem<D>::ConstraintTerms BeamSystem<D>::constraint_terms(
     return terms;
   }
 
+  if (c.kind == ConstraintKind::corner_angle) {
+    const auto slope = [&](int first) -> Vector { return state.q.segment<D>(c.block.dofs[first]); };
+    const typename HeldAngle<D>::Terms held = c.angle->terms(slope(0), slope(D));
+    terms.value[0] = held.value;
+    terms.gradient.template leftCols<2 * D>() = held.gradient.transpose();
+    if (multiplier) terms.hessian.template topLeftCorner<2 * D, 2 * D>() = y[0] * held.hessian;
+    return terms;
+  }
+
   if (c.other) {
     add_joint_terms(c, state, y, multiplier != nullptr, terms);
     return terms;
@@ -304,12 +335,11 @@ void BeamSystem<D>::add_joint_terms(const Constraint& c, const State& state, con
   };
   const auto [a, nodes_a] = field_at(c.point);
   const auto [b, nodes_b] = field_at(*c.other);
-  const BeamJoint& joint = model_->beam_joints[c.index];
-  const ReferenceCurve &curve_a = model_->beams[joint.beam_a].curve,
-                       &curve_b = model_->beams[joint.beam_b].curve;
   auto hessian_b = terms.hessian.template bottomRightCorner<n, n>();
   if (is_position) {
-    const Eigen::Vector3d drawn = curve_a.position(joint.s_a) - curve_b.position(joint.s_b);
+    const BeamJoint& joint = model_->beam_joints[c.index];
+    const Eigen::Vector3d drawn = model_->beams[joint.beam_a].curve.position(joint.s_a) -
+                                  model_->beams[joint.beam_b].curve.position(joint.s_b);
     terms.value = a.value - b.value - drawn.head<D>();
     terms.gradient.template leftCols<n>() = a.gradient;
     terms.gradient.template rightCols<n>() = -b.gradient;
@@ -318,9 +348,7 @@ void BeamSystem<D>::add_joint_terms(const Constraint& c, const State& state, con
     b.add_hessian(y, -1, nodes_b, hessian_b);
     return;
   }
-  const HeldAngle<D> angle(curve_a.tangent(joint.s_a).template head<D>(),
-                           curve_b.tangent(joint.s_b).template head<D>());
-  const typename HeldAngle<D>::Terms held = angle.terms(a.value, b.value);
+  const typename HeldAngle<D>::Terms held = c.angle->terms(a.value, b.value);
   Eigen::Matrix<double, 2 * D, 2 * n> slopes = Eigen::Matrix<double, 2 * D, 2 * n>::Zero();
   slopes.template topLeftCorner<D, n>() = a.gradient;
   slopes.template bottomRightCorner<D, n>() = b.gradient;

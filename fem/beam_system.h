@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/held_angle.h"
 #include "fem/mesh.h"
 #include "solver/second_order_system.h"
 
@@ -16,11 +17,11 @@ struct SystemEnergy {
 
 /// A beam model behind SecondOrderSystem: the only loop over elements.
 ///
-/// Coordinates: per beam and node r (D), r_s (D; twice where a joint's slope is discontinuous), s (moving
-/// nodes), then position (D) and sigma of bodies carried as points or flying free. Multipliers: supports in
-/// order (D for the position, D - 1 for a clamped direction), then per joint D for a body on a point, 1 where
-/// s is prescribed or held, then per joint of two beams D for the position and 1 for the angle of a rigid
-/// one.
+/// Coordinates: per beam and node r (D), r_s (D; twice at a hinge, at a corner and where a joint's slope is
+/// discontinuous), s (moving nodes), then position (D) and sigma of bodies carried as points or flying free.
+/// Multipliers: supports in order (D for the position, D - 1 for a clamped direction), then per joint D for a
+/// body on a point, 1 where s is prescribed or held, then per joint of two beams D for the position and 1 for
+/// the angle of a rigid one, then 1 per rigid corner.
 template <int D>
 class BeamSystem final : public SecondOrderSystem {
  public:
@@ -70,27 +71,37 @@ class BeamSystem final : public SecondOrderSystem {
     std::vector<int> dofs;
     std::vector<int> values;  // dofs.size()^2, column by column; -1 where a dof is -1
   };
-  enum class ConstraintKind { position, direction, place, body_on_point, joint_position, joint_angle };
+  enum class ConstraintKind {
+    position,
+    direction,
+    place,
+    body_on_point,
+    joint_position,
+    joint_angle,
+    corner_angle
+  };
   // A material point of one element.
   struct Point {
-    int element;  // -1 for place
+    int element;  // -1 for place and corner_angle
     double s;     // of supports and joints of two beams [m]
     std::optional<ShapeFunctions<Jet>> fixed_shape;
   };
   struct Constraint {
     ConstraintKind kind;
     int row, rows;
-    int index;  // support, sliding joint or joint of two beams
+    int index;  // support, sliding joint or joint of two beams; -1 for corner_angle
     Point point;
     std::optional<Point> other;  // on the second of two beams
     Block block;
     std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
+    std::optional<HeldAngle<D>> angle = {};               // of joint_angle and corner_angle
   };
   struct ConstraintTerms;
 
   Vector line_load(int beam, double t) const;
   Vector gravity() const { return load_factor_ * model_->gravity.head<D>(); }
   void build_constraints();
+  void add_corner(const ReferenceCurve& curve, const MeshNode& node);
   Point point_at(int element, double s, const State& drawn) const;
   void build_pattern();
   ConstraintTerms constraint_terms(const Constraint& c, const State& state,

@@ -119,7 +119,7 @@ class JointRules {
 
   bool move_late_nodes() {
     for (int h = lowest(); h <= highest(); ++h) {
-      if (!home(h).late) continue;
+      if (!home(h).late || home(h).kind != NodeKind::smooth) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
       if (hidden(h) && distance > late_return * gap && !another_joint_near(h, late_return)) {

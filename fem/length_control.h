@@ -30,8 +30,9 @@ struct NextPlan {
 
 /// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
-/// (unless it is a beam end, or late and not very near). Late nodes (breaks, supports) go at `late_removal`
-/// and return at `late_return`; within `end_zone` of a beam end the joint becomes a point of the fixed mesh.
+/// (unless it is a beam end, a hinge or a corner, or late and not very near). Late nodes (breaks, supports)
+/// go at `late_removal` and return at `late_return`; within `end_zone` of a beam end the joint becomes a
+/// point of the fixed mesh.
 template <int D>
 NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control);
 

@@ -19,7 +19,10 @@ double spacing_near(const Beam& beam, double s) {
 int node_to_replace(const Beam& beam, double s) {
   const int h = beam.home_interval(s);
   const auto at = [&](int i) { return beam.home_place(i); };
-  const auto can_go = [&](int i) { return beam.is_ring() || (i > 0 && i < beam.home_intervals()); };
+  const auto can_go = [&](int i) {
+    if (!beam.is_ring() && (i <= 0 || i >= beam.home_intervals())) return false;
+    return beam.home[beam.home_index(i)].kind == NodeKind::smooth;
+  };
   const bool first = can_go(h) && (!can_go(h + 1) || s - at(h) <= at(h + 1) - s);
   const int nearest = first ? h : h + 1;
   if (!can_go(nearest)) return -1;
@@ -102,9 +105,9 @@ Mesh<D> make_mesh(const BeamModel& model, MeshPlan plan) {
       MeshNode& node = nodes[i];
       node.r = take(D);
       node.slope_left = node.slope_right = take(D);
-      const bool hinge =
-          node.joint < 0 ? beam.home[node.home].hinge : !model.joints[node.joint].continuous_slope;
-      if (hinge) node.slope_right = take(D);
+      const bool two_slopes = node.joint < 0 ? beam.home[node.home].kind != NodeKind::smooth
+                                             : !model.joints[node.joint].continuous_slope;
+      if (two_slopes) node.slope_right = take(D);
       if (node.joint < 0) continue;
       node.place = take(1);
       mesh.joints[node.joint] = {node.r, node.place, i};

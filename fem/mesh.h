@@ -36,7 +36,7 @@ struct MeshNode {
   int joint;        ///< index of the sliding joint, -1 for a home node
   int r;            ///< first of D position coordinates
   int slope_left;   ///< first of D gradient coordinates r_s, towards the beam's start
-  int slope_right;  ///< the same as slope_left unless the node is a hinge
+  int slope_right;  ///< the same as slope_left unless the node is a hinge or a corner
   int place;        ///< coordinate s of a moving node, else -1
 };
 

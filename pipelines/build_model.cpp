@@ -30,6 +30,8 @@ constexpr double shortest_beam = 1e-6, longest_beam = 1e7, shortest_segment = 1e
 constexpr double same_place = 1e-9;
 // Radii nearer to each other than this part of them are the same radius.
 constexpr double same_radius = 1e-6;
+// In space an angle has no derivative where it is 0 or pi: no smaller sine can be held.
+constexpr double least_sine = 0.02;
 // Beams whose axes come within this part of their length of each other meet.
 constexpr double same_joint = 1e-6;
 
@@ -300,8 +302,8 @@ class Builder {
     } catch (const std::invalid_argument& problem) {
       error(beam.path + ".axis", problem.what());
     }
-    hinges_.emplace_back();
-    if (!failed() && beam.corners == Corners::smooth) segments = smoothed(beam, segments);
+    corners_.emplace_back();
+    if (!failed() && beam.smooth_angle > 0) segments = smoothed(beam, segments);
     if (!failed() && beam.ring) {
       check_ring(beam);
       close_ring(beam, segments);
@@ -378,23 +380,36 @@ class Builder {
 
   void check_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments) {
     for (const Corner& corner : BezierPath{segments, {}, 0}.corners(default_corner_angle)) {
-      hinges_.back().push_back(corner.after_segment + 1);
+      corners_.back().push_back(corner.after_segment + 1);
       const bool slides = std::any_of(case_.sliding_joints.begin(), case_.sliding_joints.end(),
                                       [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
       const std::string place = "the axis has a corner of " + text(corner.angle * 180 / M_PI) +
                                 " degrees at " + text(corner.point) + "; ";
-      if (beam.corners == Corners::smooth)
-        error(beam.path + ".corners", place + "those of up to " + text(beam.smooth_angle * 180 / M_PI) +
-                                          " degrees are smoothed (\"smooth_up_to\"): round it, or make it a "
-                                          "hinge with \"corners\": \"hinge\"");
-      else if (beam.corners == Corners::error)
-        error(beam.path + ".axis",
-              place +
-                  "a beam needs a smooth axis: round the corner, or make it a hinge with "
-                  "\"corners\": \"hinge\"");
-      else if (slides)
-        error(beam.path + ".corners", place + "a body cannot slide over a hinge: round the corner");
+      const bool is_rigid = beam.corners == Corners::rigid;
+      if (is_rigid || beam.corners == Corners::hinge) {
+        if (slides)
+          error(beam.path + ".corners", place + "a body cannot slide over a " +
+                                            (is_rigid ? "rigid corner" : "hinge") + ": " + rounding(corner) +
+                                            ", or divide the beam there and join the parts with \"joints\"");
+        continue;
+      }
+      error(beam.path + (beam.corners == Corners::smooth ? ".corners" : ".axis"),
+            place +
+                (beam.smooth_angle > 0 ? "those of up to " + text(beam.smooth_angle * 180 / M_PI) +
+                                             " degrees are smoothed (\"smooth_up_to\"): "
+                                       : "a beam needs a smooth axis: ") +
+                rounding(corner) +
+                (beam.ring ? "" : ", or keep it with \"corners\": \"rigid\" (its angle stays) or \"hinge\""));
     }
+  }
+
+  // How to be without a corner.
+  static std::string rounding(const Corner& corner) {
+    constexpr int most_degrees = 45;  // that "smooth_up_to" may be
+    const int degrees = static_cast<int>(std::ceil(corner.angle * 180 / M_PI));
+    if (degrees >= most_degrees) return "round the corner";
+    return "round the corner, in the drawing or with \"corners\": \"smooth\", \"smooth_up_to\": " +
+           std::to_string(degrees);
   }
 
   // The model is planar when axes, gravity and loads lie in one plane and moments are normal to it.
@@ -621,9 +636,28 @@ class Builder {
       added.home.front().late = added.home.back().late = true;  // the seam is a break of the drawing
       check_ring_elements(from, added);
     }
-    for (int corner : hinges_[b])
+    const bool is_rigid = from.corners == Corners::rigid;
+    for (int corner : corners_[b]) {
+      const double s = added.curve.breaks()[corner];
+      if (is_rigid) check_rigid_corner(from, added.curve, s);
       for (HomeNode& node : added.home)
-        if (node.s == added.curve.breaks()[corner]) node.hinge = true;
+        if (node.s == s) node.kind = is_rigid ? NodeKind::rigid : NodeKind::hinge;
+    }
+  }
+
+  // In space the angle of a corner that hardly turns, or turns right back, has no derivative.
+  void check_rigid_corner(const CaseBeam& from, const ReferenceCurve& curve, double s) {
+    if (built_.model.dimension == 2) return;
+    const Eigen::Vector3d before = curve.tangent(s, true).normalized(), after = curve.tangent(s).normalized();
+    const double sine = before.cross(after).norm(), cosine = before.dot(after);
+    if (sine >= least_sine) return;
+    const double least = std::asin(least_sine) * 180 / M_PI;
+    error(from.path + ".corners",
+          "is \"rigid\", but the corner at " + text(built_.frame.to_world(curve.position(s))) + " turns by " +
+              text(std::atan2(sine, cosine) * 180 / M_PI) +
+              " degrees, and this is a spatial model, which keeps corners of " + text(least) + " to " +
+              text(180 - least) + " degrees: " +
+              (cosine > 0 ? "smooth it with \"smooth_up_to\": 2" : "round it") + ", or use \"hinge\"");
   }
 
   // What is there for comparison with the papers, whose beams have ends.
@@ -634,8 +668,9 @@ class Builder {
     if (from.metric == Metric::label)
       error(from.path + ".metric",
             "\"none\" is a comparison for beams with ends; a ring needs \"reference\"");
-    if (from.corners == Corners::hinge)
-      error(from.path + ".corners", "\"hinge\" is not available on a ring; leave it out");
+    for (const auto& [kind, name] : {std::pair(Corners::hinge, "hinge"), std::pair(Corners::rigid, "rigid")})
+      if (from.corners == kind)
+        error(from.path + ".corners", in_quotes(name) + " is not available on a ring; leave it out");
   }
 
   void check_ring_elements(const CaseBeam& from, const Beam& beam) {
@@ -741,7 +776,6 @@ class Builder {
     const auto tangent = [&](const BeamPlace& place) -> Eigen::Vector3d {
       return measured_[place.beam].tangent(place.s);
     };
-    constexpr double least_sine = 0.02;
     if (tangent(places.first).cross(tangent(places.second)).norm() < least_sine)
       error(joint.path + ".type",
             "is \"rigid\", but " + beams +
@@ -1010,7 +1044,7 @@ class Builder {
   BuiltModel built_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::vector<RationalCubic>> paths_;
-  std::vector<std::vector<int>> hinges_;           // per beam: breaks that are corners
+  std::vector<std::vector<int>> corners_;          // per beam: breaks that are corners
   std::vector<std::vector<double>> joint_places_;  // per beam: where others are joined to it [m]
   std::map<std::pair<int, double>, int> joined_;   // places by beam and s: which are held together
   std::vector<ReferenceCurve> measured_;           // per beam: the drawing in reference arc length

@@ -298,9 +298,12 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .grading = number(elements, "grading", 0)};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
   beam.ring = flag(json, "closed");
-  beam.corners = chosen<Corners>(
-      json, "corners", {{"error", Corners::error}, {"smooth", Corners::smooth}, {"hinge", Corners::hinge}});
-  constexpr double default_degrees = 5;
+  beam.corners = chosen<Corners>(json, "corners",
+                                 {{"error", Corners::error},
+                                  {"smooth", Corners::smooth},
+                                  {"rigid", Corners::rigid},
+                                  {"hinge", Corners::hinge}});
+  const double default_degrees = beam.corners == Corners::smooth ? 5 : 0;
   beam.smooth_angle = number(json, "smooth_up_to", default_degrees) * std::numbers::pi / 180;
   beam.element = chosen<ElementKind>(
       json, "element", {{"ale-rancf", ElementKind::ale_rancf}, {"ale-ancf", ElementKind::ale_ancf}});

@@ -76,8 +76,8 @@ constexpr int most_frames = 1'000'000;
 constexpr double most_steps = 1e9;
 
 enum class ElementKind { ale_rancf, ale_ancf };
-/// What a corner of the axis is; `smooth`: up to `smooth_angle`, else an error.
-enum class Corners { error, smooth, hinge };
+/// What a corner of the axis above `smooth_angle` is; error and smooth: an error; rigid: it keeps its angle.
+enum class Corners { error, smooth, rigid, hinge };
 enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
 
 struct CaseBeam {
@@ -87,7 +87,7 @@ struct CaseBeam {
   double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
   bool ring = false;                      ///< the axis is closed, and so is the beam
   Corners corners = Corners::error;
-  double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]
+  double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]; 0: none
   CaseSection section;
   CaseMaterial material;
   CaseElements elements;

@@ -152,9 +152,13 @@ Shape beam() {
         "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
         "variational when omitted"},
        {"closed", boolean(), "true: a ring, whose end is its start; else a closed axis is open at its seam"},
-       {"corners", choice({"error", "smooth", "hinge"}), "what a corner of the axis is; error when omitted"},
+       {"corners", choice({"error", "smooth", "rigid", "hinge"}),
+        "what a corner of the axis is; smooth: rounded, if small; rigid: kept, with its angle; error when "
+        "omitted"},
        {"smooth_up_to", quantity(Dimension::number, {.lower = 0, .upper = 45, .open = true}),
-        "greatest corner that \"smooth\" rounds, in degrees; 5 when omitted", false, "corners"},
+        "greatest corner that is rounded, in degrees, whatever greater ones are; when omitted 5 with smooth, "
+        "else none",
+        false, "corners"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
         "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m when omitted"}});
 }

@@ -309,6 +309,11 @@ int check_case(const CaseFile& c) {
         beam.curve.segment_count(), beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
         beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
   }
+  for (const Beam& beam : model.beams)
+    for (const HomeNode& node : beam.home)
+      if (node.kind != NodeKind::smooth)
+        std::printf("corner    of %s at s = %.9g m, %s\n", beam.name.c_str(), node.s,
+                    node.kind == NodeKind::rigid ? "rigid" : "a hinge");
   for (const BeamProfile& drawn : report.value->profiles) {
     std::cout << "section   of " << model.beams[drawn.beam].name << ": " << drawn.file.string() << '\n';
     print_profile(std::cout, drawn.profile);

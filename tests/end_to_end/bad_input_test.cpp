@@ -119,7 +119,7 @@ TEST(BadInput, FewerElementsThanSegments) {
 
 TEST(BadInput, ACornerInTheAxis) {
   expect_refused(run_beam({"beams[0].axis.polyline=[[0,0,0],[1,0,0],[1,1,0]]"}),
-                 {"beams[0].axis", "corner of 90 degrees at (1, 0, 0) m"});
+                 {"beams[0].axis", "corner of 90 degrees at (1, 0, 0) m", "\"rigid\"", "\"hinge\""});
 }
 
 TEST(BadInput, APlaceTooFarFromTheBeam) {

@@ -43,7 +43,7 @@ NurbsCurve undeformed_beam(const BezierPath& path) {
   Beam& beam = model.beams[0];
   for (const Corner& corner : path.corners(1e-4))
     for (HomeNode& node : beam.home)
-      if (node.s == beam.curve.breaks()[corner.after_segment + 1]) node.hinge = true;
+      if (node.s == beam.curve.breaks()[corner.after_segment + 1]) node.kind = NodeKind::hinge;
   return deformed_curve(testing::run_model(model, {0}, 1e-6).frames.at(0).beams.at(0).elements);
 }
 

@@ -250,7 +250,8 @@ TEST(RingRun, WhatIsNoRingIsRefused) {
        {"corner of 90 degrees at its seam"}},
       {{"beams[0].weights=constant"}, "beams[0].weights", {"a ring needs \"material\""}},
       {{"beams[0].metric=none", "beams[0].curvature=spatial"}, "beams[0].metric", {"a ring needs"}},
-      {{"beams[0].corners=hinge"}, "beams[0].corners", {"not available on a ring"}},
+      {{"beams[0].corners=hinge"}, "beams[0].corners", {"\"hinge\" is not available on a ring"}},
+      {{"beams[0].corners=rigid"}, "beams[0].corners", {"\"rigid\" is not available on a ring"}},
       {{"beams[0].elements.count=4"}, "beams[0].elements", {"gives 4 elements", "at least 6"}}};
   for (const Refused& refused : cases) {
     const CaseRun run = run_ring(circle(0), slider_rest, refused.overrides);
@@ -258,6 +259,14 @@ TEST(RingRun, WhatIsNoRingIsRefused) {
     EXPECT_TRUE(run.says(refused.place)) << run.messages;
     for (const char* part : refused.parts) EXPECT_TRUE(run.says(part)) << run.messages;
   }
+}
+
+TEST(RingRun, ACornerIsNotOfferedWhatARingHasNot) {
+  const CaseRun run =
+      run_ring(R"({"polyline": [[0.5, 0, 0], [1, 0, 0], [0.5, 1, 0], [0, 0, 0], [0.5, 0, 0]]})", slider_rest);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("round the corner")) << run.messages;
+  EXPECT_FALSE(run.says("\"rigid\"")) << run.messages;
 }
 
 TEST(RingRun, AClosedAxisWithoutTheKeyIsOpenAndSaysSo) {

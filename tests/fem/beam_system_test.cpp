@@ -11,6 +11,7 @@
 namespace nurbeam {
 namespace {
 
+using testing::cornered_model;
 using testing::disturbed_state;
 using testing::joined_model;
 using testing::line_cubic;
@@ -93,10 +94,12 @@ void check_tangent(int seed, const auto& make_model) {
 TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInThePlane) {
   check_tangent<2>(1, model_with_everything);
   check_tangent<2>(5, joined_model);
+  check_tangent<2>(9, cornered_model);
 }
 TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInSpace) {
   check_tangent<3>(2, model_with_everything);
   check_tangent<3>(6, joined_model);
+  check_tangent<3>(10, cornered_model);
 }
 
 template <int D>
@@ -125,10 +128,12 @@ void check_constraints(int seed, const auto& make_model) {
 TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInThePlane) {
   check_constraints<2>(3, model_with_everything);
   check_constraints<2>(7, joined_model);
+  check_constraints<2>(11, cornered_model);
 }
 TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInSpace) {
   check_constraints<3>(4, model_with_everything);
   check_constraints<3>(8, joined_model);
+  check_constraints<3>(12, cornered_model);
 }
 
 // The coordinates after r -> A r + b of the whole model.

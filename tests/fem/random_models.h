@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <random>
 
 #include "fem/beam_system.h"
@@ -91,6 +92,30 @@ inline BeamModel joined_model(std::mt19937& random, int dimension) {
   const double L = model.beams[0].curve.length(), M = model.beams[1].curve.length();
   model.beam_joints = {{0, L, 1, 0.4 * M, true}, {1, 0, 0, 0, false}};
   add_slider(model, 0.8, 0.33 * L);
+  return model;
+}
+
+/// The axis followed by another one, which is turned by an angle [rad] about an axis askew (in the plane
+/// about its normal) and starts at its end: one chain with a corner.
+inline std::vector<RationalCubic> with_corner(std::vector<RationalCubic> axis, double angle,
+                                              const std::vector<RationalCubic>& other, int dimension) {
+  const Eigen::Vector3d about = dimension == 3 ? Eigen::Vector3d(1, 2, 2) : Eigen::Vector3d(0, 0, 1);
+  const Eigen::Affine3d moved = Eigen::Translation3d(axis.back().control_point(3)) *
+                                Eigen::AngleAxisd(angle, about.normalized()) *
+                                Eigen::Translation3d(-other.front().control_point(0));
+  for (const RationalCubic& cubic : other) axis.push_back(RationalCubic(moved.matrix() * cubic.points()));
+  return axis;
+}
+
+/// One beam of four uneven segments, clamped at its start, with a rigid corner between the second and the
+/// third.
+inline BeamModel cornered_model(std::mt19937& random, int dimension) {
+  const std::vector<RationalCubic> column = uneven_axis(random, dimension);
+  BeamModel model = one_beam(with_corner(column, 1.2, uneven_axis(random, dimension), dimension), dimension,
+                             {300, 2, 0.7, 0.02, {}}, 10, {{0, true}});
+  Beam& beam = model.beams[0];
+  for (HomeNode& node : beam.home)
+    if (node.s == beam.curve.breaks()[2]) node.kind = NodeKind::rigid;
   return model;
 }
 

@@ -270,10 +270,38 @@ TEST(Corners, AreSmoothedUpToTheAngleAskedForAndReported) {
   EXPECT_TRUE(says(smooth, Severity::warning, "beams[0].corners: corners of up to 5 degrees were smoothed"));
   EXPECT_FALSE(build_bent("error", 0.02).value);
   EXPECT_TRUE(build_bent("hinge", 0.02).value);
+  EXPECT_TRUE(build_bent("rigid", 0.05).value);
   const BuildReport sharp = build_bent("smooth", 0.2);
   EXPECT_FALSE(sharp.value);
+  EXPECT_TRUE(says(sharp, Severity::error, "\"corners\": \"rigid\""));
+  EXPECT_TRUE(says(sharp, Severity::error, "\"smooth_up_to\": 12"));
   EXPECT_TRUE(says(sharp, Severity::error, "a corner of 11.3"));
   EXPECT_TRUE(says(sharp, Severity::error, "at (1, 0, 0) m"));
+}
+
+TEST(Corners, AboveThoseThatAreSmoothedAreWhatTheCaseSays) {
+  const test::TemporaryDirectory directory;
+  // Corners of 1 and 90 degrees.
+  const std::string axis =
+      R"(beams[0].axis={"polyline": [[0, 0, 0], [1, 0, 0], [2, 0.017455, 0], [2, 0.5, 0]]})";
+  const auto kinds = [&](const std::vector<std::string>& overrides) {
+    std::vector<std::string> all{axis, "gravity=[0, -1, 0]"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const BuildReport report =
+        build_model(read_case_file(directory.write("case.json", test::smallest_case), all).value.value());
+    std::vector<NodeKind> found;
+    if (!report.value) return found;
+    const Beam& beam = report.value->model.beams[0];
+    for (const HomeNode& node : beam.home)
+      if (node.late) found.push_back(node.kind);
+    return found;
+  };
+  using enum NodeKind;
+  EXPECT_EQ(kinds({"beams[0].corners=rigid"}), (std::vector{rigid, rigid}));
+  EXPECT_EQ(kinds({"beams[0].corners=hinge"}), (std::vector{hinge, hinge}));
+  EXPECT_EQ(kinds({"beams[0].corners=rigid", "beams[0].smooth_up_to=2"}), (std::vector{smooth, rigid}));
+  EXPECT_EQ(kinds({"beams[0].corners=hinge", "beams[0].smooth_up_to=2"}), (std::vector{smooth, hinge}));
+  EXPECT_TRUE(kinds({"beams[0].corners=error", "beams[0].smooth_up_to=2"}).empty());
 }
 
 }  // namespace

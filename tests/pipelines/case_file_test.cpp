@@ -259,7 +259,7 @@ TEST_F(CaseFileTest, WrongTypesNameWhatIsExpected) {
   expect_error({"beams={}"}, "beams", {"an object", "an array"});
   expect_error({"beams[0].section.radius=true"}, "beams[0].section.radius", {"true", "a number in m"});
   expect_error({"supports[0].at=3"}, "supports[0].at", {"the number 3", "\"start\"", "\"fraction\""});
-  expect_error({"beams[0].corners=1"}, "beams[0].corners", {"\"hinge\""});
+  expect_error({"beams[0].corners=1"}, "beams[0].corners", {"\"rigid\"", "\"hinge\""});
   expect_error({"beams[0].name=1"}, "beams[0].name", {"a text in quotes"});
   expect_error({"output.report=1"}, "output.report", {"true or false"});
   expect_text_error("[1, 2]", "", {"an array", "an object"});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -120,6 +121,16 @@ TEST(Restart, WithRungeAndKuttaARunGoesOnBitByBit) {
   BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
                                       testing::round_bar(0.02, 7200, 2e6), 4, {{0, false}});
   expect_resumes_bit_by_bit(model, options_with(ExplicitRungeKutta{}, 1e-3));
+}
+
+TEST(Restart, WithARigidCornerARunGoesOnBitByBit) {
+  BeamModel model = testing::one_beam(
+      {testing::line_cubic({0, 0, 0}, {0, 1, 0}), testing::line_cubic({0, 1, 0}, {0.7, 1, 0})}, 2,
+      testing::round_bar(0.02, 7200, 2e6), 6, {{0, true}});
+  std::vector<HomeNode>& home = model.beams[0].home;
+  std::find_if(home.begin() + 1, home.end(), [](const HomeNode& node) { return node.late; })->kind =
+      NodeKind::rigid;
+  expect_resumes_bit_by_bit(model, options_with(GeneralizedAlpha{}, 1e-3));
 }
 
 TEST(Restart, WithIdaARunGoesOnWithinItsTolerance) {
