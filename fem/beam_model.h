@@ -31,8 +31,9 @@ enum class NodeKind {
 
 /// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.
 struct HomeNode {
-  double s;   ///< reference arc length [m]
-  bool late;  ///< a break of the drawing or a support: removed only while a sliding node is very near
+  double s;  ///< reference arc length [m]
+  bool
+      late;  ///< a break of the drawing or a support: removed for no joint but one with a discontinuous slope
   NodeKind kind = NodeKind::smooth;  ///< a hinge or a corner is never removed: no body slides over it
 };
 

@@ -27,6 +27,7 @@ class JointRules {
       : mesh_(system.mesh()),
         control_(control),
         joint_(joint),
+        kinked_(!system.model().joints[joint].continuous_slope),
         index_(system.model().joints[joint].beam),
         beam_(system.model().beams[index_]),
         next_(next),
@@ -37,9 +38,10 @@ class JointRules {
   }
 
   bool apply() {
-    if (mesh_.plan.modes[joint_] == JointMode::point) return leave_end();
+    if (mesh_.plan.modes[joint_] == JointMode::point) return leave_point();
     if (mesh_.plan.modes[joint_] != JointMode::node) return false;
-    return enter_end() || move_late_nodes() || exchange_nodes();
+    if (near_end() || (!kinked_ && late_node_near(beam_, s_, late_zone))) return become_point();
+    return (kinked_ && move_late_nodes()) || exchange_nodes();
   }
 
  private:
@@ -85,24 +87,29 @@ class JointRules {
   void insert(int h) { next_.plan.present[index_][beam_.home_index(h)] = true; }
   void remove(int h) { next_.plan.present[index_][beam_.home_index(h)] = false; }
 
-  bool leave_end() {
+  bool leave_point() {
     const double from_end = std::min(s_, at(last()) - s_);
-    if (from_end < 2 * end_zone * spacing(s_)) return false;
+    if (!beam_.is_ring() && from_end < 2 * end_zone * spacing(s_)) return false;
+    if (late_node_near(beam_, s_, late_zone_left)) return false;
     next_.plan.modes[joint_] = JointMode::node;
     return change(MeshChange::becomes_node);
   }
 
-  bool enter_end() {
-    for (const MeshNode* node : {left_, right_}) {
-      if (node->joint >= 0 || !is_end(node->home)) continue;
-      const bool approaching = (node == right_) == (rate_ > 0);
-      if (!approaching || std::abs(node->s - s_) > end_zone * spacing(s_)) continue;
-      next_.plan.modes[joint_] = JointMode::point;
-      for (int h = 0; h <= last(); ++h)
-        if (at(h) > left_->s && at(h) < right_->s) insert(h);
-      return change(MeshChange::becomes_point);
-    }
-    return false;
+  bool near_end() const {
+    const auto near = [&](const MeshNode& node) {
+      const bool approaching = (&node == right_) == (rate_ > 0);
+      return node.joint < 0 && is_end(node.home) && approaching &&
+             std::abs(node.s - s_) <= end_zone * spacing(s_);
+    };
+    return near(*left_) || near(*right_);
+  }
+
+  // All hidden nodes around it return, but for those that another joint hides.
+  bool become_point() {
+    next_.plan.modes[joint_] = JointMode::point;
+    for (int h = lowest(); h <= highest(); ++h)
+      if (hidden(h) && !another_joint_near(h, late_zone_left)) insert(h);
+    return change(MeshChange::becomes_point);
   }
 
   bool hidden(int h) const { return !present(h) && at(h) > left_->s && at(h) < right_->s; }
@@ -122,13 +129,13 @@ class JointRules {
       if (!home(h).late || home(h).kind != NodeKind::smooth) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
-      if (hidden(h) && distance > late_return * gap && !another_joint_near(h, late_return)) {
+      if (hidden(h) && distance > late_zone_left * gap && !another_joint_near(h, late_zone_left)) {
         insert(h);
         return change(MeshChange::merge);  // charts change too: velocities are projected
       }
       const auto is_here = [&](const MeshNode* node) { return node->joint < 0 && node->home == h; };
       const bool approaching = (at(h) > s_) == (rate_ > 0);
-      if ((is_here(left_) || is_here(right_)) && approaching && distance < late_removal * gap) {
+      if ((is_here(left_) || is_here(right_)) && approaching && distance < late_zone * gap) {
         remove(h);
         return change(MeshChange::merge);
       }
@@ -188,7 +195,9 @@ class JointRules {
 
   const Mesh<D>& mesh_;
   const LengthControl& control_;
-  int joint_, index_;
+  int joint_;
+  bool kinked_;  // the slope may be discontinuous at the joint
+  int index_;
   const Beam& beam_;
   NextPlan& next_;
   double s_ = 0, rate_;

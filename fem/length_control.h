@@ -17,8 +17,8 @@ enum class MeshChange {
   none,
   split,          ///< nodes inserted only: exact in position and velocity
   merge,          ///< at least one node removed: velocities by L2 projection
-  becomes_point,  ///< a joint near a beam end is carried on a fixed mesh
-  becomes_node    ///< a joint has come away from the end
+  becomes_point,  ///< a joint near a beam end or a late node: its node goes, it is carried as a point
+  becomes_node    ///< a joint has come away from there
 };
 
 /// What the mesh should be now; `change` is none when it may stay.
@@ -30,9 +30,9 @@ struct NextPlan {
 
 /// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
-/// (unless it is a beam end, a hinge or a corner, or late and not very near). Late nodes (breaks, supports)
-/// go at `late_removal` and return at `late_return`; within `end_zone` of a beam end the joint becomes a
-/// point of the fixed mesh.
+/// (unless it is a beam end, a hinge or a corner, or late). Late nodes (breaks, supports) stay: the joint
+/// passes them, and comes to a beam end, as a point of the mesh. Where its slope may be discontinuous, which
+/// a point cannot carry, a late node goes when the joint is very near.
 template <int D>
 NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control);
 

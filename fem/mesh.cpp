@@ -28,7 +28,7 @@ int node_to_replace(const Beam& beam, double s) {
   if (!can_go(nearest)) return -1;
   const double gap = at(nearest) < s ? at(nearest + 1) - at(nearest) : at(nearest) - at(nearest - 1);
   const HomeNode& node = beam.home[beam.home_index(nearest)];
-  const double reach = node.late ? late_removal : 0.5;
+  const double reach = node.late ? late_zone : 0.5;
   return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
@@ -68,16 +68,27 @@ Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& n
 
 }  // namespace
 
+bool late_node_near(const Beam& beam, double s, double reach) {
+  const int h = beam.home_interval(s);
+  const double distance = reach * (beam.home_place(h + 1) - beam.home_place(h));
+  const auto near = [&](int i) {
+    const HomeNode& node = beam.home[beam.home_index(i)];
+    return node.late && node.kind == NodeKind::smooth && std::abs(beam.home_place(i) - s) <= distance;
+  };
+  return near(h) || near(h + 1);
+}
+
 MeshPlan initial_plan(const BeamModel& model) {
   MeshPlan plan;
   for (const Beam& beam : model.beams) plan.present.emplace_back(beam.home.size(), true);
   for (const SlidingJoint& joint : model.joints) {
     const Beam& beam = model.beams[joint.beam];
     const double from_end = std::min(joint.s, beam.curve.length() - joint.s);
-    const bool at_end = !beam.is_ring() && from_end < end_zone * spacing_near(beam, joint.s);
-    plan.modes.push_back(at_end ? JointMode::point : JointMode::node);
+    const bool on_point = (!beam.is_ring() && from_end < end_zone * spacing_near(beam, joint.s)) ||
+                          (joint.continuous_slope && late_node_near(beam, joint.s, late_zone));
+    plan.modes.push_back(on_point ? JointMode::point : JointMode::node);
     plan.places.push_back(joint.s);
-    if (at_end) continue;
+    if (on_point) continue;
     const int replaced = node_to_replace(beam, joint.s);
     if (replaced >= 0) plan.present[joint.beam][replaced] = false;
   }

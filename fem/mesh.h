@@ -10,7 +10,7 @@ namespace nurbeam {
 /// How a sliding joint is carried at present.
 enum class JointMode {
   node,     ///< a moving node of the beam: the elements on both sides change length
-  point,    ///< a point sigma of a fixed mesh, r_body = r(sigma): near an end of the beam
+  point,    ///< a point sigma of the mesh, r_body = r(sigma): near an end of the beam or a late home node
   stopped,  ///< as point, held at the end
   free      ///< the body has left the beam
 };
@@ -77,7 +77,7 @@ struct Mesh {
 };
 
 /// The drawn mesh with every sliding joint at its start: the home node nearest to it gives way to the moving
-/// node.
+/// node; near an end or a late node the joint is a point.
 MeshPlan initial_plan(const BeamModel& model);
 
 template <int D>
@@ -132,7 +132,10 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
 inline constexpr double end_zone = 0.2;
 /// Distance of two joints on a beam, in home element lengths, at which they count as having met.
 inline constexpr double meeting_distance = 0.05;
-/// Nearness to a late home node at which it is removed and (larger) put back, in home element lengths.
-inline constexpr double late_removal = 0.04, late_return = 0.05;
+/// Nearness to a late home node at which a joint becomes a point (where the slope may be discontinuous: at
+/// which that node is removed) and, larger, a node again, in home element lengths.
+inline constexpr double late_zone = 0.04, late_zone_left = 0.05;
+/// Whether a late home node of the beam, but no hinge or corner, is within `reach` home element lengths of s.
+bool late_node_near(const Beam& beam, double s, double reach);
 
 }  // namespace nurbeam

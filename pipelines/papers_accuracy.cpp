@@ -88,9 +88,8 @@ void write_accuracy(Page& page, std::ostream& progress) {
   page.paragraph(
       "The errors of three ways and, to part the element from its events, of ALE-ANCF with our thresholds, "
       "projected velocities and kept energy. The chains have tangent-continuous joints at which the drawn "
-      "curvature jumps; "
-      "errors fall only slowly with the time step there, so that it is halved. The target: ours never more "
-      "than 1.2 times the error of ALE-ANCF.");
+      "curvature jumps; all ways pass them in the same manner (see [theory](theory.md)). The target: ours "
+      "never more than 1.2 times the error of ALE-ANCF.");
   Target target;
   struct Item {
     Example example;

@@ -14,9 +14,6 @@ using verification::add_slider;
 using verification::arc_cubics;
 using verification::line_cubic;
 
-// Where the drawn curvature jumps the force along the beam does: time steps show more than elsewhere.
-constexpr double step = 2e-4;
-
 BeamModel hung(std::vector<RationalCubic> axis, int elements, double start) {
   BeamModel model = verification::one_beam(
       std::move(axis), 2, verification::round_bar(0.02, 7200, 200e6, CurvatureMeasure::spatial), elements,
@@ -58,15 +55,14 @@ BeamModel line_arc_spline(int elements) {
 }  // namespace
 
 Example line_arc_line_example() {
-  return {"Line, arc, line", [](int elements) { return line_arc_line(elements, 0.3); }, 1.5, "as drawn",
-          step};
+  return {"Line, arc, line", [](int elements) { return line_arc_line(elements, 0.3); }, 1.5, "as drawn"};
 }
 
-Example line_arc_spline_example() { return {"Line, arc, spline", line_arc_spline, 1.5, "as drawn", step}; }
+Example line_arc_spline_example() { return {"Line, arc, spline", line_arc_spline, 1.5, "as drawn"}; }
 
 Example reversing_example() {
   return {"Line, arc, line, and back", [](int elements) { return line_arc_line(elements, 0.8); }, 2.0,
-          "as drawn", step};
+          "as drawn"};
 }
 
 }  // namespace nurbeam::papers

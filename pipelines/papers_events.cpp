@@ -10,7 +10,7 @@ namespace nurbeam::papers {
 
 namespace {
 
-bool is_exact(const RunEvent& event) { return event.kind == "split" || event.kind == "left the end zone"; }
+bool is_exact(const RunEvent& event) { return event.kind == "split" || event.kind == "carried as a node"; }
 
 constexpr double step = 4e-4;
 const std::vector<int> meshes{3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40};

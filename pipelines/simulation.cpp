@@ -34,9 +34,9 @@ const char* kind_of(MeshChange change) {
     case MeshChange::merge:
       return "merge";
     case MeshChange::becomes_point:
-      return "reached the end zone";
+      return "carried as a point";
     case MeshChange::becomes_node:
-      return "left the end zone";
+      return "carried as a node";
     case MeshChange::none:
       break;
   }
@@ -413,7 +413,7 @@ class Simulation {
     last_record_ = {state_.t + taken.step, taken.step, taken.newton_iterations, taken.rejected};
     steps_.push_back(last_record_);
     state_ = integrator_->state();
-    const std::optional<BreakCrossing> crossing = first_crossing(before);
+    const std::optional<Crossing> crossing = first_crossing(before);
     if (crossing) {
       const auto distance = [&](const State& state) {
         const double s = *system_->place(state, crossing->joint);
@@ -433,7 +433,10 @@ class Simulation {
            [&](const State& state) { return beyond_end(state, ending); });
     if (damped()) dissipated_ += dissipated_between(before, state_);
     if (ending >= 0 && !end_sliding(ending)) return false;
-    if (crossing && ending < 0 && !restart()) return false;
+    if (crossing && ending < 0) {
+      step_over(*crossing);
+      if (!restart()) return false;
+    }
     if (!separate_bodies()) return false;
     settle_mesh(true);
     return report_.status == SimulationStatus::done;
@@ -474,7 +477,9 @@ class Simulation {
 
   int joint_beyond_end() const {
     for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j)
-      if (system_->mesh().plan.modes[j] == JointMode::point && beyond_end(state_, j) > 0) return j;
+      if (!curve_of(j).closed() && system_->mesh().plan.modes[j] == JointMode::point &&
+          beyond_end(state_, j) > 0)
+        return j;
     return -1;
   }
 
@@ -506,30 +511,56 @@ class Simulation {
     }
   }
 
-  struct BreakCrossing {
+  struct Crossing {
     int joint;
-    double s;  // of the break
+    double s;  // of the break or node
     bool forward;
   };
 
-  // The first crossing of a break of the drawing by a moving node since `before`. The drawn curvature may
-  // jump there and with it the force along the beam: a step must end on the near side and the next begin on
-  // the far side, or energy drifts at first order.
-  std::optional<BreakCrossing> first_crossing(const State& before) const {
-    std::optional<BreakCrossing> first;
+  // The first crossing since `before` of a break of the drawing by a moving node, or of a node by a point.
+  // The drawn curvature may jump there and with it the force along the beam: a step must end on the near side
+  // and the next begin on the far side, or energy drifts at first order.
+  std::optional<Crossing> first_crossing(const State& before) const {
+    std::optional<Crossing> first;
     double earliest = 1;
     for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j) {
-      if (system_->mesh().plan.modes[j] != JointMode::node) continue;
-      const double from = *system_->place(before, j), to = *system_->place(state_, j);
-      const double last = std::max(from, to);
-      for (double s = curve_of(j).next_break(std::min(from, to)); s < last; s = curve_of(j).next_break(s)) {
-        if (std::abs(s - from) <= 2 * landing_tolerance(j)) continue;  // landed there, and turned round
-        if ((s - from) * (s - to) >= 0 || (s - from) / (to - from) >= earliest) continue;
-        earliest = (s - from) / (to - from);
-        first = BreakCrossing{j, s, to > from};
-      }
+      const auto s = system_->place(state_, j);
+      if (!s) continue;
+      const double from = *system_->place(before, j);
+      const std::optional<double> crossed = crossed_place(j, from, *s);
+      if (!crossed || (*crossed - from) / (*s - from) >= earliest) continue;
+      earliest = (*crossed - from) / (*s - from);
+      first = Crossing{j, *crossed, *s > from};
     }
     return first;
+  }
+
+  // A landing just before a place is not yet a crossing: the joint may turn round there.
+  std::optional<double> crossed_place(int joint, double from, double to) const {
+    const double near = 2 * landing_tolerance(joint);
+    if (system_->mesh().plan.modes[joint] == JointMode::point) {
+      const Beam& beam = model_.beams[model_.joints[joint].beam];
+      const int h = beam.home_interval(system_->mesh().plan.places[joint]);
+      if (to > beam.home_place(h + 1) + near && (beam.is_ring() || h + 1 < beam.home_intervals()))
+        return beam.home_place(h + 1);
+      if (to < beam.home_place(h) - near && (beam.is_ring() || h > 0)) return beam.home_place(h);
+      return std::nullopt;
+    }
+    std::optional<double> crossed;
+    const double last = std::max(from, to);
+    for (double s = curve_of(joint).next_break(std::min(from, to)); s < last;
+         s = curve_of(joint).next_break(s))
+      if (std::abs(s - from) > near && (!crossed || to < from)) crossed = s;  // the one nearest to `from`
+    return crossed;
+  }
+
+  // A point goes on in the next element.
+  void step_over(const Crossing& crossing) {
+    plan_ = system_->mesh().plan;
+    if (plan_.modes[crossing.joint] != JointMode::point) return;
+    const double beyond = landing_tolerance(crossing.joint);
+    plan_.places[crossing.joint] = crossing.s + (crossing.forward ? beyond : -beyond);
+    system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
   }
 
   // By a support or by another beam.

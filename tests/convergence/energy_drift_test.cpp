@@ -82,7 +82,25 @@ BeamModel line_arc_spline() {
 TEST(EnergyDrift, FallsWithTheSquareOfTheStepAcrossTheBreaksOfALineArcSplineChain) {
   const BeamModel model = line_arc_spline();
   expect_second_order(model, 0.7, 5e-4, 1);
-  EXPECT_GT(run_model(model, {0.7}, 1e-3).place(0), model.beams[0].curve.breaks()[2]);
+  const RunRecord run = run_model(model, {0.7}, 1e-3);
+  EXPECT_GT(run.place(0), model.beams[0].curve.breaks()[2]);
+  int crossings = 0;
+  for (const RunEvent& event : run.report.events) {
+    if (event.kind != "carried as a point" && event.kind != "carried as a node") continue;
+    ++crossings;
+    EXPECT_NEAR(event.energy_after, event.energy_before, 1e-5 * run.report.peak_kinetic_energy) << event.time;
+  }
+  EXPECT_EQ(crossings, 4);
+}
+
+TEST(EnergyDrift, IsSmallAcrossBreaksOnEveryMesh) {
+  BeamModel model = line_arc_spline();
+  const std::vector<double> places = fixed_places(model.beams[0].curve, {0, model.beams[0].curve.length()});
+  for (const int elements : {12, 24, 48}) {
+    model.beams[0].home = home_nodes(places, spread_elements(places, elements));
+    const RunRecord run = run_model(model, even_times(0.7, 70), 1e-4);
+    EXPECT_LT(run.report.energy_drift, 1e-5 * run.report.peak_kinetic_energy) << elements;
+  }
 }
 
 TEST(EnergyDrift, OfADampedBeamIsSmallWhenTheBodyLeavesIt) {

@@ -11,6 +11,7 @@ namespace nurbeam {
 namespace {
 
 using testing::disturbed_state;
+using testing::line_cubic;
 using testing::one_beam;
 using testing::uneven_axis;
 
@@ -149,6 +150,66 @@ TEST(Merge, OfAFreeBeamKeepsItsMomentumInThePlane) {
 TEST(Merge, OfAFreeBeamKeepsItsMomentumInSpace) {
   check_merge<3>(false, 7);
   check_merge<3>(true, 8);
+}
+
+// Ten elements of 0.1 m, a break in the middle: home node 5.
+BeamModel two_lines() {
+  return one_beam({line_cubic({0, 0, 0}, {0.5, 0, 0}), line_cubic({0.5, 0, 0}, {1, 0, 0})}, 2,
+                  {300, 2, 0.7, 0, {}}, 10, {});
+}
+
+// The plan after all changes due with the joint of a chain of two lines at s, moving with speed.
+NextPlan settled(const BeamModel& model, MeshPlan plan, double s, double speed) {
+  plan.places[0] = s;
+  NextPlan last;
+  last.plan = std::move(plan);
+  while (true) {
+    const BeamSystem<2> system(model, last.plan);
+    State state = system.drawn_state();
+    state.v[system.mesh().joints[0].place] = speed;
+    const NextPlan next = next_plan<2>(system, state, LengthControl{});
+    if (next.change == MeshChange::none) return last;
+    last = next;
+  }
+}
+
+TEST(LateNode, IsPassedAsAPointAndNeverRemoved) {
+  BeamModel model = two_lines();
+  for (const double speed : {1.0, -1.0}) {
+    model.joints.clear();
+    testing::add_slider(model, 0.8, 0.5 - speed * 0.15);
+    MeshPlan plan = initial_plan(model);
+    const auto mode_at = [&](double ahead) {
+      plan = settled(model, plan, 0.5 + speed * ahead, speed).plan;
+      EXPECT_TRUE(plan.present[0][5]) << ahead;
+      return plan.modes[0];
+    };
+    EXPECT_EQ(mode_at(-0.0055), JointMode::node);
+    EXPECT_EQ(mode_at(-0.0041), JointMode::node);
+    EXPECT_EQ(mode_at(-0.0039), JointMode::point);
+    EXPECT_EQ(mode_at(0.001), JointMode::point);
+    EXPECT_EQ(mode_at(0.0049), JointMode::point);
+    EXPECT_EQ(mode_at(0.0051), JointMode::node);
+  }
+}
+
+TEST(LateNode, MakesAPointOfAJointThatStartsOnIt) {
+  BeamModel model = two_lines();
+  testing::add_slider(model, 0.8, 0.5);
+  EXPECT_EQ(initial_plan(model).modes[0], JointMode::point);
+  EXPECT_TRUE(initial_plan(model).present[0][5]);
+}
+
+TEST(LateNode, GivesWayToAJointWhoseSlopeMayBeDiscontinuous) {
+  BeamModel model = two_lines();
+  testing::add_slider(model, 0.8, 0.35);
+  model.joints[0].continuous_slope = false;
+  MeshPlan plan = initial_plan(model);
+  for (const auto& [s, present] : {std::pair{0.4955, true}, {0.4961, false}, {0.504, false}, {0.506, true}}) {
+    plan = settled(model, plan, s, 1).plan;
+    EXPECT_EQ(plan.modes[0], JointMode::node) << s;
+    EXPECT_EQ(plan.present[0][5], present) << s;
+  }
 }
 
 TEST(MergedWeights, LeadTheCurveThroughTheRemovedNode) {

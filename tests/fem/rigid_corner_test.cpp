@@ -204,7 +204,7 @@ TEST(RigidCorner, IsFreeOfStressAsDrawnAlsoWithoutMetric) {
 }
 
 // Whether the node of the corner is still there when a body has come within a part of an element of it.
-bool stays(NodeKind kind, double distance) {
+bool stays(NodeKind kind, double distance, bool continuous_slope = false) {
   BeamModel model = testing::one_beam({line_cubic({0, 0, 0}, {1, 0, 0}), line_cubic({1, 0, 0}, {1, 1, 0})}, 2,
                                       soft, 10, {{0, true}});
   const std::size_t corner = 5;
@@ -212,6 +212,7 @@ bool stays(NodeKind kind, double distance) {
   model.beams[0].home[corner].kind = kind;
   testing::add_slider(model, 0.8, 1 - 0.2 * distance);
   model.joints[0].speed = 1;
+  model.joints[0].continuous_slope = continuous_slope;
   const BeamSystem<2> system(model, initial_plan(model));
   State state = system.drawn_state();
   system.start_joints(state);
@@ -223,6 +224,7 @@ TEST(RigidCorner, IsNeverRemovedWhereASmoothBreakWouldBe) {
   for (const double distance : {0.5, 0.1, 0.045, 0.039, 0.01}) {
     EXPECT_TRUE(stays(NodeKind::rigid, distance)) << distance;
     EXPECT_TRUE(stays(NodeKind::hinge, distance)) << distance;
+    EXPECT_TRUE(stays(NodeKind::rigid, distance, true)) << distance;
   }
   EXPECT_FALSE(stays(NodeKind::smooth, 0.039));
 }
