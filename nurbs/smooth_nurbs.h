@@ -20,8 +20,8 @@ struct SmoothNurbs {
 ///
 /// In this order: every piece is written with the lowest degree p that all have (a whole conic, which is not
 /// C1 in degree 2, with p = 3, if that takes no more control points); pieces of one Bezier curve are
-/// rejoined; neighbours that share their tangent get C1 in homogeneous coordinates, a knot of multiplicity p
-/// - 1, by a Moebius change of parameter of each (w_i -> c^i w_i) where a recursion has a positive solution
+/// rejoined; neighbours that share their tangent get C1 in homogeneous coordinates, a knot of multiplicity
+/// p - 1, by a Moebius change of parameter of each (w_i -> c^i w_i) where a recursion has a positive solution
 /// of mild weights, and a knot of multiplicity p, as in BezierPath::to_nurbs(), where it has none; at last
 /// the knots where a cubic is C2 become simple. With CurveParameter::material the parameter is left alone,
 /// and knots only lose what multiplicity they do not need in it.

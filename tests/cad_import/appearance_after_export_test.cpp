@@ -215,6 +215,7 @@ void write_rig(const fs::path& file) {
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   ASSERT_TRUE(writer.Transfer(document, STEPControl_AsIs));
   ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
+  Interface_Static::SetCVal("write.step.unit", "MM");  // as other tests of this process expect it
 }
 
 NurbsCurve stretched(const NurbsCurve& curve) {
