@@ -433,10 +433,7 @@ class Simulation {
            [&](const State& state) { return beyond_end(state, ending); });
     if (damped()) dissipated_ += dissipated_between(before, state_);
     if (ending >= 0 && !end_sliding(ending)) return false;
-    if (crossing && ending < 0) {
-      step_over(*crossing);
-      if (!restart()) return false;
-    }
+    if (crossing && ending < 0 && !step_over(*crossing)) return false;
     if (!separate_bodies()) return false;
     settle_mesh(true);
     return report_.status == SimulationStatus::done;
@@ -513,54 +510,73 @@ class Simulation {
 
   struct Crossing {
     int joint;
-    double s;  // of the break or node
+    double s;  // of the home node
     bool forward;
   };
 
-  // The first crossing since `before` of a break of the drawing by a moving node, or of a node by a point.
-  // The drawn curvature may jump there and with it the force along the beam: a step must end on the near side
-  // and the next begin on the far side, or energy drifts at first order.
+  // The first crossing since `before` of a hidden late node by a moving node, or of any node by a point. The
+  // drawn curvature may jump there and with it the force along the beam: a step must end on the near side and
+  // the next begin on the far side, or energy drifts at first order.
   std::optional<Crossing> first_crossing(const State& before) const {
     std::optional<Crossing> first;
     double earliest = 1;
     for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j) {
       const auto s = system_->place(state_, j);
       if (!s) continue;
-      const double from = *system_->place(before, j);
-      const std::optional<double> crossed = crossed_place(j, from, *s);
-      if (!crossed || (*crossed - from) / (*s - from) >= earliest) continue;
-      earliest = (*crossed - from) / (*s - from);
-      first = Crossing{j, *crossed, *s > from};
+      const std::optional<double> crossed = crossed_place(j, *s);
+      if (!crossed) continue;
+      const double from = *system_->place(before, j), part = (*crossed - from) / (*s - from);
+      if (part >= earliest) continue;
+      earliest = part;
+      first = Crossing{j, *crossed, *s > *crossed};
     }
     return first;
   }
 
-  // A landing just before a place is not yet a crossing: the joint may turn round there.
-  std::optional<double> crossed_place(int joint, double from, double to) const {
-    const double near = 2 * landing_tolerance(joint);
-    if (system_->mesh().plan.modes[joint] == JointMode::point) {
-      const Beam& beam = model_.beams[model_.joints[joint].beam];
-      const int h = beam.home_interval(system_->mesh().plan.places[joint]);
-      if (to > beam.home_place(h + 1) + near && (beam.is_ring() || h + 1 < beam.home_intervals()))
-        return beam.home_place(h + 1);
-      if (to < beam.home_place(h) - near && (beam.is_ring() || h > 0)) return beam.home_place(h);
-      return std::nullopt;
-    }
-    std::optional<double> crossed;
-    const double last = std::max(from, to);
-    for (double s = curve_of(joint).next_break(std::min(from, to)); s < last;
-         s = curve_of(joint).next_break(s))
-      if (std::abs(s - from) > near && (!crossed || to < from)) crossed = s;  // the one nearest to `from`
-    return crossed;
+  // The first place, seen from where the joint was when the mesh was made, that it has passed by now.
+  std::optional<double> crossed_place(int joint, double s) const {
+    const MeshPlan& plan = system_->mesh().plan;
+    const Beam& beam = model_.beams[model_.joints[joint].beam];
+    const bool is_point = plan.modes[joint] == JointMode::point, forward = s > plan.places[joint];
+    const double beyond = s + (forward ? -2 : 2) * landing_tolerance(joint);
+    const auto inside = [&](int h) { return beam.is_ring() || (h > 0 && h < beam.home_intervals()); };
+    for (int h = beam.home_interval(plan.places[joint]) + (forward ? 1 : 0);
+         inside(h) && (forward ? beam.home_place(h) < beyond : beam.home_place(h) > beyond);
+         h += forward ? 1 : -1)
+      if (is_point || beam.home[beam.home_index(h)].late) return beam.home_place(h);
+    return std::nullopt;
   }
 
-  // A point goes on in the next element.
-  void step_over(const Crossing& crossing) {
-    plan_ = system_->mesh().plan;
-    if (plan_.modes[crossing.joint] != JointMode::point) return;
+  // Goes on beyond a place that a joint has landed at: its equations, or those of a support there, are those
+  // of the next element. With a discontinuous slope it meets a support with an impact.
+  bool step_over(const Crossing& crossing) {
     const double beyond = landing_tolerance(crossing.joint);
-    plan_.places[crossing.joint] = crossing.s + (crossing.forward ? beyond : -beyond);
-    system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
+    state_.q[system_->mesh().joints[crossing.joint].place] =
+        crossing.s + (crossing.forward ? beyond : -beyond);
+    plan_ = present_plan<D>(*system_, state_);
+    auto next = std::make_unique<BeamSystem<D>>(model_, plan_);
+    const SlidingJoint& joint = model_.joints[crossing.joint];
+    const bool impact = !joint.continuous_slope && is_supported(joint.beam, crossing.s);
+    RunEvent event = event_before("passed a support", crossing.joint);
+    Eigen::VectorXd impulse;
+    if (impact && !project_velocities(*next, state_, impulse)) {
+      fail(SimulationStatus::not_converged,
+           "the impact of \"" + body_name(crossing.joint) + "\" at a support is singular");
+      return false;
+    }
+    system_ = std::move(next);
+    if (!restart()) return false;
+    if (impact) {
+      event.support_impulse = support_impulse(impulse);
+      finish_event(event);
+    }
+    return true;
+  }
+
+  bool is_supported(int beam, double s) const {
+    const double wrapped = model_.beams[beam].curve.wrapped(s);
+    return std::any_of(model_.supports.begin(), model_.supports.end(),
+                       [&](const Support& support) { return support.beam == beam && support.s == wrapped; });
   }
 
   // By a support or by another beam.
@@ -578,9 +594,7 @@ class Simulation {
   bool end_sliding(int joint) {
     const bool leaves = model_.joints[joint].leave_at_end && !end_is_held(joint);
     RunEvent event = event_before(leaves ? "left the beam" : "stopped at the end", joint);
-    plan_ = system_->mesh().plan;
-    for (std::size_t j = 0; j < plan_.places.size(); ++j)
-      if (const auto s = system_->place(state_, static_cast<int>(j))) plan_.places[j] = *s;
+    plan_ = present_plan<D>(*system_, state_);
     plan_.places[joint] = plan_.places[joint] > beam_length_of(joint) / 2 ? beam_length_of(joint) : 0;
     plan_.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
     auto next = std::make_unique<BeamSystem<D>>(model_, plan_);
