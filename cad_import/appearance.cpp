@@ -25,12 +25,12 @@ namespace {
 
 // The parts in [0, 1].
 std::string hexadecimal(double red, double green, double blue) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::string_view digits = "0123456789abcdef";
   std::string text = "#";
   for (double part : {red, green, blue}) {
     if (!std::isfinite(part)) return "";
     const auto byte = static_cast<unsigned>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
-    text += {kDigits[byte / 16], kDigits[byte % 16]};
+    text += {digits[byte / 16], digits[byte % 16]};
   }
   return text;
 }
@@ -39,7 +39,7 @@ std::string hexadecimal(double red, double green, double blue) {
 // STEP
 
 // ISO 10303-46: the draughting pre-defined colours.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kStepColours{{{"red", "#ff0000"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> step_colours{{{"red", "#ff0000"},
                                                                                      {"green", "#00ff00"},
                                                                                      {"blue", "#0000ff"},
                                                                                      {"yellow", "#ffff00"},
@@ -55,7 +55,7 @@ std::string step_colour(const Handle(StepVisual_Colour) & colour) {
   if (named.IsNull() || named->GetPreDefinedItem().IsNull() || named->GetPreDefinedItem()->Name().IsNull())
     return "";
   const std::string_view name = named->GetPreDefinedItem()->Name()->ToCString();
-  for (const auto& [known, value] : kStepColours)
+  for (const auto& [known, value] : step_colours)
     if (name == known) return std::string(value);
   return "";
 }
@@ -86,7 +86,7 @@ void add_layer(const StepVisual_PresentationLayerAssignment& layer, Appearances&
 // IGES
 
 // IGES 5.3, 2.2.4.4.13: the colour numbers of the directory entry.
-constexpr std::array<std::string_view, 9> kIgesColours{"",        "#000000", "#ff0000", "#00ff00", "#0000ff",
+constexpr std::array<std::string_view, 9> iges_colours{"",        "#000000", "#ff0000", "#00ff00", "#0000ff",
                                                        "#ffff00", "#ff00ff", "#00ffff", "#ffffff"};
 
 std::string iges_colour(const IGESData_IGESEntity& entity) {
@@ -96,8 +96,8 @@ std::string iges_colour(const IGESData_IGESEntity& entity) {
     return hexadecimal(red / 100, green / 100, blue / 100);
   }
   const int number = entity.RankColor();
-  const bool known = number >= 0 && number < static_cast<int>(kIgesColours.size());
-  return known ? std::string(kIgesColours[static_cast<std::size_t>(number)]) : "";
+  const bool known = number >= 0 && number < static_cast<int>(iges_colours.size());
+  return known ? std::string(iges_colours[static_cast<std::size_t>(number)]) : "";
 }
 
 // The first level of an entity on several.

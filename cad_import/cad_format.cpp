@@ -8,8 +8,8 @@
 namespace nurbeam {
 namespace {
 
-constexpr std::size_t kSectionColumn = 72;  // column 73, counted from 0
-constexpr std::size_t kCountWidth = 7;
+constexpr std::size_t section_column = 72;  // column 73, counted from 0
+constexpr std::size_t count_width = 7;
 
 std::string_view without_leading_space(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -18,7 +18,7 @@ std::string_view without_leading_space(std::string_view text) {
 }
 
 bool has_iges_section(std::string_view line, char section) {
-  return line.size() > kSectionColumn && line[kSectionColumn] == section;
+  return line.size() > section_column && line[section_column] == section;
 }
 
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of("\r\n")); }
@@ -39,9 +39,9 @@ std::string_view terminate_line(const std::vector<std::string_view>& lines) {
 
 // The number after the letter in "S0000001G0000004D0000016P0000020"; nothing if there is none.
 std::optional<long> declared_count(std::string_view terminate, char section) {
-  const std::size_t at = terminate.substr(0, kSectionColumn).find(section);
+  const std::size_t at = terminate.substr(0, section_column).find(section);
   if (at == std::string_view::npos) return std::nullopt;
-  const std::string digits(terminate.substr(at + 1, kCountWidth));
+  const std::string digits(terminate.substr(at + 1, count_width));
   char* end = nullptr;
   const long count = std::strtol(digits.c_str(), &end, 10);
   return end == digits.c_str() ? std::nullopt : std::optional(count);

@@ -13,8 +13,8 @@ namespace nurbeam {
 std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit);
 
 /// The text of a STEP file (AP214) with a manifold solid for each pipe, else as step_text. Throws
-/// std::runtime_error also when a sweep gives no valid solid of the volume pi r^2 L. To be called in a child
-/// process: OpenCASCADE's sweep may crash.
+/// std::runtime_error also when a sweep gives no valid solid of the volume that the section times the length
+/// has. To be called in a child process: OpenCASCADE's sweep may crash.
 std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit);
 
 /// The text of an IGES 5.3 file with the curves as entities 126, the name in a Name property (406 form 15)

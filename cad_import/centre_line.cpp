@@ -47,12 +47,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMillimetresPerMetre = 1000;
-constexpr int kSections = 24, kPointsOfSection = 16;
+constexpr double millimetres_per_metre = 1000;
+constexpr int sections = 24, points_of_section = 16;
 // A section is no circle, or none at right angles, when it differs by more than this part of the radius.
-constexpr double kWorstDeviation = 1e-3;
+constexpr double worst_deviation = 1e-3;
 // Two radii, and two centre lines, are the same within this part of the radius (or the deviation of either).
-constexpr double kSame = 1e-6;
+constexpr double same_within = 1e-6;
 
 /// A piece of a pipe's wall: one face, [mm].
 struct Wall {
@@ -82,23 +82,23 @@ Bounds bounds_of(const TopoDS_Face& face) {
 
 // Whether the outline runs along lines of constant parameters only.
 bool is_rectangular(const TopoDS_Face& face, const Bounds& bounds) {
-  constexpr double kStraight = 1e-4;  // of the face's own extent
-  constexpr int kSamples = 5;
+  constexpr double straight_within = 1e-4;  // of the face's own extent
+  constexpr int samples = 5;
   for (TopExp_Explorer edges(BRepTools::OuterWire(face), TopAbs_EDGE); edges.More(); edges.Next()) {
     double first = 0, last = 0;
     const Handle(Geom2d_Curve) curve =
         BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
     if (curve.IsNull()) return false;
     double u_low = 1e300, u_high = -1e300, v_low = 1e300, v_high = -1e300;
-    for (int i = 0; i < kSamples; ++i) {
-      const gp_Pnt2d p = curve->Value(first + (last - first) * i / (kSamples - 1));
+    for (int i = 0; i < samples; ++i) {
+      const gp_Pnt2d p = curve->Value(first + (last - first) * i / (samples - 1));
       u_low = std::min(u_low, p.X());
       u_high = std::max(u_high, p.X());
       v_low = std::min(v_low, p.Y());
       v_high = std::max(v_high, p.Y());
     }
-    const bool along_v = u_high - u_low <= kStraight * (bounds.u1 - bounds.u0);
-    const bool along_u = v_high - v_low <= kStraight * (bounds.v1 - bounds.v0);
+    const bool along_v = u_high - u_low <= straight_within * (bounds.u1 - bounds.u0);
+    const bool along_u = v_high - v_low <= straight_within * (bounds.v1 - bounds.v0);
     if (!along_u && !along_v) return false;
   }
   return true;
@@ -185,10 +185,10 @@ Handle(Geom_BSplineCurve)
 Handle(Geom_BSplineCurve) fitted(const Geom_BSplineSurface& surface, double tolerance) {
   double u0, u1, v0, v1;
   surface.Bounds(u0, u1, v0, v1);
-  constexpr int kPoints = 200;
-  TColgp_Array1OfPnt centres(0, kPoints);
-  for (int i = 0; i <= kPoints; ++i) {
-    const std::optional<Circle> section = section_at(surface, between(v0, v1, i, kPoints));
+  constexpr int count = 200;
+  TColgp_Array1OfPnt centres(0, count);
+  for (int i = 0; i <= count; ++i) {
+    const std::optional<Circle> section = section_at(surface, between(v0, v1, i, count));
     if (!section) return {};
     centres(i) = section->centre;
   }
@@ -203,10 +203,10 @@ double deviation_from_pipe(const Geom_BSplineSurface& surface, const Handle(Geom
   double u0, u1, v0, v1;
   surface.Bounds(u0, u1, v0, v1);
   double deviation = 0;
-  for (int j = 0; j <= kSections; ++j)
-    for (int i = 0; i < kPointsOfSection; ++i) {
-      const double v = between(v0, v1, j, kSections);
-      const gp_Pnt p = surface.Value(between(u0, u1, i, kPointsOfSection), v);
+  for (int j = 0; j <= sections; ++j)
+    for (int i = 0; i < points_of_section; ++i) {
+      const double v = between(v0, v1, j, sections);
+      const gp_Pnt p = surface.Value(between(u0, u1, i, points_of_section), v);
       double distance = 0, off_plane = 0;
       if (same_parameter) {
         gp_Pnt c;
@@ -228,11 +228,11 @@ double deviation_from_pipe(const Geom_BSplineSurface& surface, const Handle(Geom
 double turn_about(const Geom_BSplineSurface& surface, const gp_Pnt& centre, double v) {
   double u0, u1, v0, v1;
   surface.Bounds(u0, u1, v0, v1);
-  constexpr int kSteps = 64;
+  constexpr int steps = 64;
   double turn = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const gp_Vec a(centre, surface.Value(between(u0, u1, i, kSteps), v));
-    const gp_Vec b(centre, surface.Value(between(u0, u1, i + 1, kSteps), v));
+  for (int i = 0; i < steps; ++i) {
+    const gp_Vec a(centre, surface.Value(between(u0, u1, i, steps), v));
+    const gp_Vec b(centre, surface.Value(between(u0, u1, i + 1, steps), v));
     turn += a.Angle(b);
   }
   return turn;
@@ -248,12 +248,12 @@ std::optional<Wall> spline_wall(const Geom_BSplineSurface& surface, double toler
   Handle(Geom_BSplineCurve) centre = combination(surface, section->parts);
   double deviation =
       centre.IsNull() ? radius : deviation_from_pipe(surface, centre, radius, /*same_parameter=*/true);
-  if (deviation > kWorstDeviation * radius) {
+  if (deviation > worst_deviation * radius) {
     centre = fitted(surface, tolerance);
     if (centre.IsNull()) return {};
     deviation = deviation_from_pipe(surface, centre, radius, /*same_parameter=*/false);
   }
-  if (deviation > kWorstDeviation * radius) return {};
+  if (deviation > worst_deviation * radius) return {};
   return Wall{.centre = centre,
               .first = centre->FirstParameter(),
               .last = centre->LastParameter(),
@@ -317,7 +317,7 @@ std::optional<Wall> wall_of(const TopoDS_Face& face, bool in_a_solid, double tol
 bool near(const gp_Pnt& a, const gp_Pnt& b, double tolerance) { return a.Distance(b) <= tolerance; }
 
 double tolerance_of(const Wall& a, const Wall& b) {
-  return kSame * std::max(a.radius, b.radius) + 2 * std::max(a.deviation, b.deviation);
+  return same_within * std::max(a.radius, b.radius) + 2 * std::max(a.deviation, b.deviation);
 }
 
 bool have_one_centre_line(const Wall& a, const Wall& b) {
@@ -345,8 +345,8 @@ std::vector<Wall> whole_walls(const std::vector<Wall>& walls) {
       same->deviation = std::max(same->deviation, wall.deviation);
     }
   }
-  constexpr double kMissing = 1e-3;  // [rad]
-  std::erase_if(joined, [](const Wall& wall) { return wall.turn < 2 * pi - kMissing; });
+  constexpr double missing = 1e-3;  // [rad]
+  std::erase_if(joined, [](const Wall& wall) { return wall.turn < 2 * pi - missing; });
   return joined;
 }
 
@@ -354,15 +354,15 @@ CentreLine centre_line(const Wall& wall, const std::vector<Wall>& walls, double 
   BRepBuilderAPI_MakeEdge edge(wall.centre, wall.first, wall.last);
   if (!edge.IsDone()) throw std::runtime_error("its centre line is no valid curve");
   ImportedCurve curve = imported_curve(edge.Edge(), tolerance);
-  constexpr double kRoundOff = 1e-9;  // of the radius
+  constexpr double round_off = 1e-9;  // of the radius
   curve.entity = "centre line";
   curve.free = false;
-  curve.exact = wall.deviation <= kRoundOff * wall.radius;
-  curve.deviation = curve.exact ? 0 : wall.deviation / kMillimetresPerMetre;
-  curve.pipe_radius = wall.radius / kMillimetresPerMetre;
+  curve.exact = wall.deviation <= round_off * wall.radius;
+  curve.deviation = curve.exact ? 0 : wall.deviation / millimetres_per_metre;
+  curve.pipe_radius = wall.radius / millimetres_per_metre;
   for (const Wall& bore : walls)
     if (bore.is_bore && bore.radius < wall.radius && have_one_centre_line(wall, bore))
-      curve.bore_radius = bore.radius / kMillimetresPerMetre;
+      curve.bore_radius = bore.radius / millimetres_per_metre;
   return {std::move(curve), wall.face};
 }
 
@@ -375,7 +375,7 @@ std::vector<CentreLine> in_running_order(const std::vector<CentreLine>& lines) {
     largest = std::max(largest, line.curve.pipe_radius);
   }
   std::vector<CentreLine> ordered;
-  for (const Chain& chain : find_chains(curves, kWorstDeviation * largest))
+  for (const Chain& chain : find_chains(curves, worst_deviation * largest))
     for (std::size_t i = 0; i < chain.curves.size(); ++i) {
       ordered.push_back(lines[chain.curves[i]]);
       if (chain.reversed[i]) ordered.back().curve.curve = ordered.back().curve.curve.reversed();
@@ -401,7 +401,7 @@ CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
       OCC_CATCH_SIGNALS
       const TopoDS_Face& face = TopoDS::Face(solids_of_faces.FindKey(i));
       std::optional<Wall> wall =
-          wall_of(face, !solids_of_faces(i).IsEmpty(), tolerance * kMillimetresPerMetre);
+          wall_of(face, !solids_of_faces(i).IsEmpty(), tolerance * millimetres_per_metre);
       if (!wall) continue;
       wall->face = i;
       if (is_rectangular(face, bounds_of(face)))

@@ -23,10 +23,10 @@ using Clock = std::chrono::steady_clock;
 using Status = ChildResult::Status;
 
 // What the child sends: a status byte, the size of the text, the text.
-constexpr char kDone = 'D';
-constexpr char kFailed = 'F';
-constexpr char kOutOfMemory = 'M';
-constexpr std::size_t kHeaderSize = 1 + sizeof(std::uint64_t);
+constexpr char message_done = 'D';
+constexpr char message_failed = 'F';
+constexpr char message_out_of_memory = 'M';
+constexpr std::size_t header_size = 1 + sizeof(std::uint64_t);
 
 void limit(decltype(RLIMIT_CPU) resource, rlim_t soft, rlim_t hard) {
   const rlimit value{soft, hard};
@@ -68,7 +68,7 @@ void send(int descriptor, const char* data, std::size_t size) {
 }
 
 void send_message(int descriptor, char status, const char* text, std::uint64_t size) {
-  char header[kHeaderSize] = {status};
+  char header[header_size] = {status};
   std::memcpy(header + 1, &size, sizeof size);
   send(descriptor, header, sizeof header);
   send(descriptor, text, size);
@@ -84,13 +84,13 @@ void send_message(int descriptor, char status, const char* text, std::uint64_t s
   apply(limits);
   try {
     const std::string output = work();
-    send_message(descriptor, kDone, output.data(), output.size());
+    send_message(descriptor, message_done, output.data(), output.size());
   } catch (const std::bad_alloc&) {
-    send_message(descriptor, kOutOfMemory, "", 0);
+    send_message(descriptor, message_out_of_memory, "", 0);
   } catch (const std::exception& e) {
-    send_message(descriptor, kFailed, e.what(), std::strlen(e.what()));
+    send_message(descriptor, message_failed, e.what(), std::strlen(e.what()));
   } catch (...) {
-    send_message(descriptor, kFailed, "unknown exception", 17);
+    send_message(descriptor, message_failed, "unknown exception", 17);
   }
   _exit(0);
 }
@@ -115,10 +115,10 @@ bool receive_until(Clock::time_point deadline, int descriptor, std::string& byte
 }
 
 bool is_complete(const std::string& bytes) {
-  if (bytes.size() < kHeaderSize) return false;
+  if (bytes.size() < header_size) return false;
   std::uint64_t size = 0;
   std::memcpy(&size, bytes.data() + 1, sizeof size);
-  return bytes.size() - kHeaderSize == size;
+  return bytes.size() - header_size == size;
 }
 
 // The status word of the ended child. A child that has closed its end without leaving is killed.
@@ -143,9 +143,9 @@ int wait_for_end(pid_t child, Clock::time_point deadline) {
 }
 
 ChildResult result_of(const std::string& bytes) {
-  const std::string text = bytes.substr(kHeaderSize);
-  if (bytes[0] == kDone) return {Status::finished, text, ""};
-  if (bytes[0] == kOutOfMemory) return {Status::out_of_memory, "", ""};
+  const std::string text = bytes.substr(header_size);
+  if (bytes[0] == message_done) return {Status::finished, text, ""};
+  if (bytes[0] == message_out_of_memory) return {Status::out_of_memory, "", ""};
   return {Status::failed, "", text};
 }
 

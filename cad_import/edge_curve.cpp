@@ -23,7 +23,7 @@
 namespace nurbeam {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1000;
+constexpr double millimetres_per_metre = 1000;
 
 struct TrimmedCurve {
   Handle(Geom_Curve) curve;
@@ -84,10 +84,10 @@ Approximation approximated(const TrimmedCurve& source, double tolerance) {
   if (!approximation.HasResult())
     throw std::runtime_error("the curve cannot be approximated by a cubic B-spline");
   const Handle(Geom_BSplineCurve) curve = approximation.Curve();
-  constexpr int kSamples = 4000;
+  constexpr int samples = 4000;
   double deviation = 0;
-  for (int i = 0; i <= kSamples; ++i) {
-    const double u = source.first + (source.last - source.first) * i / kSamples;
+  for (int i = 0; i <= samples; ++i) {
+    const double u = source.first + (source.last - source.first) * i / samples;
     deviation = std::max(deviation, trimmed->Value(u).Distance(curve->Value(u)));
   }
   return {curve, std::max(deviation, approximation.MaxError())};
@@ -114,7 +114,7 @@ NurbsCurve nurbs_curve(const Geom_BSplineCurve& source) {
   for (int i = 1; i <= source.NbPoles(); ++i) {
     const gp_Pnt pole = source.Pole(i);
     const double weight = source.Weight(i);
-    const Eigen::Vector3d metres = Eigen::Vector3d(pole.X(), pole.Y(), pole.Z()) / kMillimetresPerMetre;
+    const Eigen::Vector3d metres = Eigen::Vector3d(pole.X(), pole.Y(), pole.Z()) / millimetres_per_metre;
     points.col(i - 1) << weight * metres, weight;
   }
   return NurbsCurve(KnotVector(source.Degree(), std::move(knots)), std::move(points));
@@ -134,13 +134,13 @@ ImportedCurve imported_curve(const TopoDS_Edge& edge, double tolerance) {
   const std::string entity = entity_name(source.curve);
   const bool exact = entity != "offset" && entity != "other";
   const Approximation result =
-      exact ? Approximation{exact_bspline(source)} : approximated(source, tolerance * kMillimetresPerMetre);
+      exact ? Approximation{exact_bspline(source)} : approximated(source, tolerance * millimetres_per_metre);
   NurbsCurve curve = nurbs_curve(*result.curve);
   check_length(curve);
   if (edge.Orientation() == TopAbs_REVERSED) curve = curve.reversed();
   return {.entity = entity,
           .exact = exact,
-          .deviation = result.deviation / kMillimetresPerMetre,
+          .deviation = result.deviation / millimetres_per_metre,
           .curve = std::move(curve)};
 }
 

@@ -49,6 +49,10 @@ void check_pipe(const NamedPipe& pipe) {
   if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
     throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + std::to_string(pipe.radius) +
                                 " m; it must be positive");
+  if (!(pipe.bore >= 0 && pipe.bore < pipe.radius))
+    throw std::invalid_argument(
+        "the bore of '" + pipe.axis.name + "' has the radius " + std::to_string(pipe.bore) +
+        " m; it must be from 0 to below that of the pipe, " + std::to_string(pipe.radius) + " m");
 }
 
 }  // namespace

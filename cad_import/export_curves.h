@@ -14,10 +14,11 @@ struct NamedCurve {
   NurbsCurve curve;
 };
 
-/// A curve with a circular section.
+/// A curve with a circular section, solid or hollow.
 struct NamedPipe {
   NamedCurve axis;
-  double radius;  ///< [m]
+  double radius;    ///< [m]
+  double bore = 0;  ///< radius of its bore [m]; 0 where it is solid
 };
 
 enum class LengthUnit { metre, millimetre, inch };
@@ -31,11 +32,12 @@ LengthUnit parse_length_unit(const std::string& text);
 /// before).
 void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
 
-/// Writes each pipe as a solid (its axis swept by a disk, ends cut square) under its name, to a STEP file,
-/// else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with pi r^2 L
-/// within 1e-3. When a curve cannot be swept (a corner, a bend sharper than the radius) nothing is written
-/// and the Diagnostic says why; it is empty when the file was written. Throws std::invalid_argument also for
-/// another extension than .step or .stp and for a radius that is not positive.
+/// Writes each pipe as a solid (its axis swept by a disk or an annulus, ends cut square) under its name, to a
+/// STEP file, else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with
+/// the area of the section times the length within 1e-3. When a curve cannot be swept (a corner, a bend
+/// sharper than the radius, most rings that lie in no plane) nothing is written and the Diagnostic says why;
+/// it is empty when the file was written. Throws std::invalid_argument also for another extension than .step
+/// or .stp, for a radius that is not positive and for a bore that is negative or not below the radius.
 [[nodiscard]] std::optional<Diagnostic> export_solids(const std::filesystem::path& file,
                                                       const std::vector<NamedPipe>& pipes, LengthUnit unit);
 

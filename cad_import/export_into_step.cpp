@@ -40,8 +40,8 @@
 namespace nurbeam {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1000;
-constexpr char kEndOfWarning = '\0';
+constexpr double millimetres_per_metre = 1000;
+constexpr char end_of_warning = '\0';
 
 /// An edge as OpenCASCADE made it, and the instance it is made of.
 struct FoundEdge {
@@ -192,7 +192,7 @@ NurbsCurve in_part(const NurbsCurve& world, const TopoDS_Edge& edge, double unit
   const gp_Trsf to_part = edge.Location().Transformation().Inverted();
   Eigen::Matrix4Xd points = world.control_points();
   for (auto column : points.colwise()) {
-    const Eigen::Vector3d p = kMillimetresPerMetre / column(3) * column.head<3>();
+    const Eigen::Vector3d p = millimetres_per_metre / column(3) * column.head<3>();
     const gp_Pnt moved = gp_Pnt(p.x(), p.y(), p.z()).Transformed(to_part);
     column.head<3>() = column(3) / unit * Eigen::Vector3d(moved.X(), moved.Y(), moved.Z());
   }
@@ -201,21 +201,40 @@ NurbsCurve in_part(const NurbsCurve& world, const TopoDS_Edge& edge, double unit
 
 // ---------------------------------------------------------------------------------------------- exchange
 
-void exchange(int instance, const NurbsCurve& curve, StepInstances& step) {
-  if (step.keyword(instance) != "EDGE_CURVE") {
-    step.replace(instance, bspline_value(curve, step.encoded_name(instance), step));
-    return;
-  }
-  const std::string name = step.encoded_name(instance);
-  const std::vector<int> was = step.references(instance);  // vertex, vertex, geometry
-  const auto vertex = [&](double u) {
-    return "#" + std::to_string(
-                     step.add("VERTEX_POINT('',#" + std::to_string(add_point(curve.point(u), step)) + ")"));
+/// The instance that holds the curve from now on: `was`, so that styles and layers attached to it are those
+/// of the curve, or a new one where other geometry is made of `was`, too.
+int put_in_place(int was, const NurbsCurve& curve, StepInstances& step) {
+  const std::string value = bspline_value(curve, step.encoded_name(was), step);
+  const std::vector<int>& users = step.users(was);
+  const auto is_geometry = [&](int user) {
+    const std::string keyword = step.keyword(user);
+    return !keyword.ends_with("STYLED_ITEM") && keyword != "PRESENTATION_LAYER_ASSIGNMENT";
   };
-  const std::string start = vertex(curve.knots().start()), end = vertex(curve.knots().end());
-  const int geometry = step.add(bspline_value(curve, step.encoded_name(was.at(2)), step));
-  step.replace(instance,
-               "EDGE_CURVE('" + name + "'," + start + "," + end + ",#" + std::to_string(geometry) + ",.T.)");
+  if (std::count_if(users.begin(), users.end(), is_geometry) > 1) return step.add(value);
+  step.replace(was, value);
+  return was;
+}
+
+void exchange(int instance, const NurbsCurve& curve, StepInstances& step) {
+  const std::string kind = step.keyword(instance), name = "'" + step.encoded_name(instance) + "',";
+  const auto number = [](int n) { return "#" + std::to_string(n); };
+  const double start = curve.knots().start(), end = curve.knots().end();
+  if (kind == "EDGE_CURVE") {  // vertex, vertex, geometry
+    const int geometry = put_in_place(step.references(instance).at(2), curve, step);
+    const auto vertex = [&](double u) {
+      return number(step.add("VERTEX_POINT(''," + number(add_point(curve.point(u), step)) + ")")) + ",";
+    };
+    const std::string first = vertex(start);
+    const std::string last = is_closed(curve, 1e-12 * length(curve)) ? first : vertex(end);
+    step.replace(instance, "EDGE_CURVE(" + name + first + last + number(geometry) + ",.T.)");
+  } else if (kind == "TRIMMED_CURVE") {
+    const int basis = put_in_place(step.references(instance).at(0), curve, step);
+    const auto trim = [](double u) { return "(PARAMETER_VALUE(" + real(u) + ")),"; };
+    step.replace(instance, "TRIMMED_CURVE(" + name + number(basis) + "," + trim(start) + trim(end) +
+                               ".T.,.PARAMETER.)");
+  } else {
+    step.replace(instance, bspline_value(curve, step.encoded_name(instance), step));
+  }
 }
 
 void add_beside(int representation, const NurbsCurve& curve, const std::string& name, StepInstances& step) {
@@ -241,6 +260,17 @@ std::string encoded(const std::string& name) {
   return text;
 }
 
+/// Why the curve cannot change where it stands; "" if it can.
+std::string obstacle(const DeformedCurve& wanted, const FoundEdge& found, const StepInstances& step) {
+  if (wanted.beside) return "the beam is a chain of several curves";
+  if (!found.free) return "the edge bounds faces, which do not move with it";
+  for (const int user : step.users(found.instance))
+    if (const std::string kind = step.keyword(user);
+        kind == "TRIMMED_CURVE" || kind == "EDGE_CURVE" || kind == "OFFSET_CURVE_3D")
+      return "#" + std::to_string(user) + " is made of the same curve";
+  return "";
+}
+
 std::string place(const DeformedCurve& wanted, const STEPControl_Reader& reader, const TopoDS_Shape& shape,
                   StepInstances& step) {
   const FoundEdge found = find_edge(wanted.drawn, wanted.name, reader, shape);
@@ -250,19 +280,16 @@ std::string place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
   const NurbsCurve curve = in_part(wanted.deformed, found.edge, unit);
   const std::string label = "#" + std::to_string(found.instance) + " '" + wanted.name + "': ";
   std::string warnings;
-  if (wanted.beside || !found.free) {
+  if (const std::string reason = obstacle(wanted, found, step); !reason.empty()) {
     add_beside(representation, curve, encoded(wanted.name), step);
-    warnings += label +
-                (found.free ? "the beam is a chain of several curves"
-                            : "the edge bounds faces, which do not move with it") +
-                "; the deformed curve was added beside it" + kEndOfWarning;
+    warnings += label + reason + "; the deformed curve was added beside it" + end_of_warning;
   } else {
     const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;
     exchange(found.instance, backwards ? curve.reversed() : curve, step);
   }
   if (found.places > 1)
     warnings += label + "its part stands at " + std::to_string(found.places) +
-                " places; the deformed curve shows at each of them" + kEndOfWarning;
+                " places; the deformed curve shows at each of them" + end_of_warning;
   return warnings;
 }
 
@@ -286,7 +313,7 @@ std::string exchanged(const std::filesystem::path& source, const std::vector<Def
     StepInstances step(content.str());
     std::string warnings;
     for (const DeformedCurve& curve : curves) warnings += place(curve, reader, reader.OneShape(), step);
-    return warnings + kEndOfWarning + step.text();
+    return warnings + end_of_warning + step.text();
   } catch (const Standard_Failure& e) {
     throw std::runtime_error(std::string("OpenCASCADE failed: ") + e.GetMessageString());
   }
@@ -315,8 +342,8 @@ std::vector<Diagnostic> export_into_step(const std::filesystem::path& source,
     return {{Severity::error, source.string(), failure(result) + "; " + file.string() + " was not written"}};
   std::vector<Diagnostic> warnings;
   std::size_t at = 0;
-  while (result.output[at] != kEndOfWarning) {
-    const std::size_t end = result.output.find(kEndOfWarning, at);
+  while (result.output[at] != end_of_warning) {
+    const std::size_t end = result.output.find(end_of_warning, at);
     warnings.push_back({Severity::warning, source.string(), result.output.substr(at, end - at)});
     at = end + 1;
   }

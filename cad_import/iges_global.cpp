@@ -11,10 +11,10 @@
 namespace nurbeam {
 namespace {
 
-constexpr std::size_t kTextWidth = 72;
-constexpr std::size_t kScale = 13;
-constexpr std::size_t kUnitFlag = 14;
-constexpr std::size_t kUnitName = 15;
+constexpr std::size_t text_width = 72;
+constexpr std::size_t scale_field = 13;
+constexpr std::size_t unit_flag_field = 14;
+constexpr std::size_t unit_name_field = 15;
 
 struct IgesUnit {
   int flag;
@@ -23,18 +23,18 @@ struct IgesUnit {
 };
 
 // IGES 5.3, 2.2.4.3.14 and 2.2.4.3.15; flag 3 stands for the unit named in parameter 15.
-constexpr std::array<IgesUnit, 12> kUnits{{{1, "INCH", 0.0254},
-                                           {1, "IN", 0.0254},
-                                           {2, "MM", 1e-3},
-                                           {4, "FT", 0.3048},
-                                           {5, "MI", 1609.344},
-                                           {6, "M", 1},
-                                           {7, "KM", 1e3},
-                                           {8, "MIL", 2.54e-5},
-                                           {9, "UM", 1e-6},
-                                           {10, "CM", 1e-2},
-                                           {11, "UIN", 2.54e-8},
-                                           {11, "UINCH", 2.54e-8}}};
+constexpr std::array<IgesUnit, 12> known_units{{{1, "INCH", 0.0254},
+                                                {1, "IN", 0.0254},
+                                                {2, "MM", 1e-3},
+                                                {4, "FT", 0.3048},
+                                                {5, "MI", 1609.344},
+                                                {6, "M", 1},
+                                                {7, "KM", 1e3},
+                                                {8, "MIL", 2.54e-5},
+                                                {9, "UM", 1e-6},
+                                                {10, "CM", 1e-2},
+                                                {11, "UIN", 2.54e-8},
+                                                {11, "UINCH", 2.54e-8}}};
 
 [[noreturn]] void fail(std::size_t parameter, const std::string& what) {
   throw std::runtime_error("IGES Global section, parameter " + std::to_string(parameter) + ": " + what);
@@ -45,8 +45,8 @@ std::string global_text(const std::string& content) {
   std::string text;
   for (std::size_t begin = 0; begin < content.size();) {
     const std::size_t end = std::min(content.find_first_of("\r\n", begin), content.size());
-    if (end - begin > kTextWidth && content[begin + kTextWidth] == 'G')
-      text.append(content, begin, kTextWidth);
+    if (end - begin > text_width && content[begin + text_width] == 'G')
+      text.append(content, begin, text_width);
     begin = end + 1;
   }
   if (text.empty())
@@ -134,7 +134,7 @@ std::vector<std::string> first_parameters(const std::string& text) {
   const std::size_t second = text.find(delimiter, own_delimiter ? 3 : 0) + 1;
   const bool own_record = text.compare(second, 2, "1H") == 0 && second + 2 < text.size();
   parameters.delimiters(delimiter, own_record ? text[second + 2] : ';');
-  while (values.size() <= kUnitName) values.push_back(parameters.next());
+  while (values.size() <= unit_name_field) values.push_back(parameters.next());
   return values;
 }
 
@@ -160,20 +160,20 @@ std::string trimmed_upper(std::string text) {
 
 double unit_in_metres(int flag, const std::string& name) {
   const std::string wanted = trimmed_upper(name);
-  const auto* const unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const IgesUnit& u) {
+  const auto* const unit = std::find_if(known_units.begin(), known_units.end(), [&](const IgesUnit& u) {
     return flag == 3 ? u.name == wanted : u.flag == flag;
   });
-  if (unit == kUnits.end()) {
-    fail(kUnitFlag,
+  if (unit == known_units.end()) {
+    fail(unit_flag_field,
          "unit flag " + std::to_string(flag) + " with name '" + name +
              "' is no length unit; known are flags 1 to 11 and the names INCH MM FT MI M KM MIL UM CM UIN");
   }
-  const auto* const named =
-      std::find_if(kUnits.begin(), kUnits.end(), [&](const IgesUnit& u) { return u.name == wanted; });
-  if (named != kUnits.end() && named->in_metres != unit->in_metres) {
-    fail(kUnitName, "unit flag " + std::to_string(flag) + " is " + std::string(unit->name) +
-                        ", but the name is '" + name +
-                        "'; they must agree, and no one can tell which is right");
+  const auto* const named = std::find_if(known_units.begin(), known_units.end(),
+                                         [&](const IgesUnit& u) { return u.name == wanted; });
+  if (named != known_units.end() && named->in_metres != unit->in_metres) {
+    fail(unit_name_field, "unit flag " + std::to_string(flag) + " is " + std::string(unit->name) +
+                              ", but the name is '" + name +
+                              "'; they must agree, and no one can tell which is right");
   }
   return unit->in_metres;
 }
@@ -183,10 +183,10 @@ double unit_in_metres(int flag, const std::string& name) {
 IgesGlobal parse_iges_global(const std::string& content) {
   const std::vector<std::string> values = first_parameters(global_text(content));
   IgesGlobal global;
-  global.unit_flag = number_or(values, kUnitFlag, 1);
-  global.unit_name = values[kUnitName];
+  global.unit_flag = number_or(values, unit_flag_field, 1);
+  global.unit_name = values[unit_name_field];
   global.unit_in_metres = unit_in_metres(global.unit_flag, global.unit_name);
-  global.scale = number_or(values, kScale, 1.0);
+  global.scale = number_or(values, scale_field, 1.0);
   return global;
 }
 

@@ -20,7 +20,7 @@
 namespace nurbeam {
 namespace {
 
-constexpr std::size_t kLabelLength = 8;
+constexpr std::size_t label_length = 8;
 constexpr int kVersion5_3 = 11;
 
 struct IgesUnit {
@@ -78,7 +78,7 @@ void add(const NamedCurve& named, double units_per_metre, IGESData_IGESModel& mo
   if (named.name.empty()) return;
   const Handle(IGESBasic_Name) name = new IGESBasic_Name;
   name->Init(1, hollerith(named.name));
-  if (is_ascii(named.name)) entity->SetLabel(hollerith(named.name.substr(0, kLabelLength)));
+  if (is_ascii(named.name)) entity->SetLabel(hollerith(named.name.substr(0, label_length)));
   entity->AddProperty(name);
   model.AddEntity(name);
 }

@@ -26,15 +26,15 @@ std::string megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20)
 
 // Why the path cannot hold a CAD file at all; "" if it may.
 std::string unusable(const fs::path& file, std::size_t size_limit) {
-  constexpr const char* kExpected = "; expected a STEP or IGES file";
+  constexpr const char* expected = "; expected a STEP or IGES file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) return std::string("there is no such file") + kExpected;
-  if (error) return error.message() + kExpected;
-  if (fs::is_directory(status)) return std::string("it is a directory") + kExpected;
-  if (!fs::is_regular_file(status)) return std::string("it is not a regular file") + kExpected;
+  if (status.type() == fs::file_type::not_found) return std::string("there is no such file") + expected;
+  if (error) return error.message() + expected;
+  if (fs::is_directory(status)) return std::string("it is a directory") + expected;
+  if (!fs::is_regular_file(status)) return std::string("it is not a regular file") + expected;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (size == 0) return std::string("the file is empty") + kExpected;
+  if (size == 0) return std::string("the file is empty") + expected;
   if (size > size_limit)
     return "the file has " + megabytes(size) + ", more than the limit of " + megabytes(size_limit) +
            "; export only the curves that are needed, or raise size_limit_bytes";

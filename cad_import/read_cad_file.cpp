@@ -62,8 +62,8 @@
 namespace nurbeam {
 namespace {
 
-constexpr double kMetresPerMillimetre = 1e-3;
-constexpr int kMostReportedFailures = 20;
+constexpr double metres_per_millimetre = 1e-3;
+constexpr int most_reported_failures = 20;
 
 /// The entity of the file that an edge came from.
 struct Origin {
@@ -224,7 +224,7 @@ void note_approximation(const ImportedCurve& curve, const std::string& label, do
   add(report, severity, label,
       "a curve of kind '" + curve.entity +
           "' has no exact NURBS form; approximated by a cubic with a deviation of " +
-          std::to_string(curve.deviation / kMetresPerMillimetre) + " mm");
+          std::to_string(curve.deviation / metres_per_millimetre) + " mm");
 }
 
 void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, const Origin& origin,
@@ -289,15 +289,16 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
   Interface_CheckIterator failures = checks.Extract(Interface_CheckFail);
   int count = 0;
   for (failures.Start(); failures.More(); failures.Next()) {
-    if (++count > kMostReportedFailures) continue;
+    if (++count > most_reported_failures) continue;
     const auto entity = model.NbEntities() >= failures.Number() && failures.Number() > 0
                             ? model.Value(failures.Number())
                             : Handle(Standard_Transient)();
     add(report, Severity::warning, entity.IsNull() ? "" : entity_label(model, entity),
         std::string("OpenCASCADE: ") + failures.Value()->CFail(1));
   }
-  if (count > kMostReportedFailures) {
-    add(report, Severity::warning, "", std::to_string(count - kMostReportedFailures) + " more such failures");
+  if (count > most_reported_failures) {
+    add(report, Severity::warning, "",
+        std::to_string(count - most_reported_failures) + " more such failures");
   }
 }
 
@@ -334,13 +335,13 @@ void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& r
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Handle(Interface_Check) check = model.Check(i, /*syntactic=*/Standard_True);
     if (!check->HasFailed() || !matters(*model.Value(i), check->CFail(1))) continue;
-    if (++count > kMostReportedFailures) continue;
+    if (++count > most_reported_failures) continue;
     add(report, Severity::warning, entity_label(model, model.Value(i)),
         std::string("damaged, and curves made of it may be wrong: ") + check->CFail(1));
   }
-  if (count > kMostReportedFailures) {
+  if (count > most_reported_failures) {
     add(report, Severity::warning, "",
-        std::to_string(count - kMostReportedFailures) + " more damaged entities");
+        std::to_string(count - most_reported_failures) + " more damaged entities");
   }
 }
 
@@ -359,7 +360,7 @@ struct NamedUnit {
   std::string_view name;
   double in_metres;
 };
-constexpr std::array<NamedUnit, 9> kNamedUnits{{{"m", 1},
+constexpr std::array<NamedUnit, 9> named_units{{{"m", 1},
                                                 {"mm", 1e-3},
                                                 {"cm", 1e-2},
                                                 {"inch", 0.0254},
@@ -374,7 +375,7 @@ bool nearly_equal(double a, double b) { return std::abs(a - b) <= 1e-6 * std::ab
 void report_unit(double in_metres, ImportReport& report) {
   report.unit_in_metres = in_metres;
   report.unit = std::to_string(in_metres) + " m";
-  for (const NamedUnit& unit : kNamedUnits) {
+  for (const NamedUnit& unit : named_units) {
     if (!nearly_equal(in_metres, unit.in_metres)) continue;
     report.unit = unit.name;
     report.unit_in_metres = unit.in_metres;
@@ -417,13 +418,13 @@ StepContexts contexts_of(const Interface_InterfaceModel& model) {
     STEPConstruct_UnitContext factors;
     factors.ComputeFactors(units);
     if (!factors.LengthDone()) continue;
-    contexts.length_units.insert(factors.LengthFactor() * kMetresPerMillimetre);
+    contexts.length_units.insert(factors.LengthFactor() * metres_per_millimetre);
     const Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty = uncertainty_of(model.Value(i));
     if (uncertainty.IsNull()) continue;
     factors.ComputeTolerance(uncertainty);
     if (!factors.HasUncertainty()) continue;
     // OpenCASCADE leaves the number in the context's own length unit.
-    const double resolution = factors.Uncertainty() * factors.LengthFactor() * kMetresPerMillimetre;
+    const double resolution = factors.Uncertainty() * factors.LengthFactor() * metres_per_millimetre;
     if (std::isfinite(resolution)) contexts.resolution = std::max(contexts.resolution, resolution);
   }
   return contexts;
@@ -440,7 +441,7 @@ void report_step_unit(const Interface_InterfaceModel& model, ImportReport& repor
     add(report, Severity::note, "",
         "the file has parts in different length units; each is scaled by its own");
   }
-  report_unit(units.empty() ? kMetresPerMillimetre : *units.begin(), report);
+  report_unit(units.empty() ? metres_per_millimetre : *units.begin(), report);
 }
 
 void read_step(const std::filesystem::path& file, double tolerance, ImportReport& report) {
@@ -456,7 +457,7 @@ void read_step(const std::filesystem::path& file, double tolerance, ImportReport
 // IGES
 
 void compare_units(const IgesGlobal& ours, const IGESData_GlobalSection& theirs) {
-  const double in_metres = theirs.UnitValue() * kMetresPerMillimetre;
+  const double in_metres = theirs.UnitValue() * metres_per_millimetre;
   if (nearly_equal(in_metres, ours.unit_in_metres)) return;
   throw std::runtime_error("the Global section says that the length unit is " +
                            std::to_string(ours.unit_in_metres) + " m, but OpenCASCADE takes it for " +

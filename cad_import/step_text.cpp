@@ -1,10 +1,12 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakePipe.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Eigen/Geometry>
 #include <GProp_GProps.hxx>
 #include <Geom_BSplineCurve.hxx>
@@ -26,9 +28,13 @@
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <TopoDS_Wire.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
@@ -46,7 +52,7 @@
 namespace nurbeam {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1000;
+constexpr double millimetres_per_metre = 1000;
 
 /// No printer of OpenCASCADE writes to stdout while this lives.
 class SilentMessenger {
@@ -106,7 +112,7 @@ Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
   TColgp_Array1OfPnt poles(1, count);
   TColStd_Array1OfReal weights(1, count);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * kMillimetresPerMetre;
+    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * millimetres_per_metre;
     poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
     weights(i + 1) = points(3, i);
   }
@@ -190,14 +196,15 @@ void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   constexpr double allowed = 1e-3;
   GProp_GProps properties;
   BRepGProp::VolumeProperties(solid, properties, 0.01 * allowed);
-  const double radius = pipe.radius * kMillimetresPerMetre;
+  const double area = std::numbers::pi * (pipe.radius * pipe.radius - pipe.bore * pipe.bore);
   // Pappus: a section whose centroid is on the curve sweeps its area times the length.
-  const double expected = std::numbers::pi * radius * radius * length(pipe.axis.curve) * kMillimetresPerMetre;
+  const double expected = area * length(pipe.axis.curve) * std::pow(millimetres_per_metre, 3);
   if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
       std::abs(properties.Mass() - expected) > allowed * expected)
-    throw std::runtime_error("OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
-                             " m along the curve '" + pipe.axis.name +
-                             "'; it may have a corner or bend more sharply than that radius");
+    throw std::runtime_error(
+        "OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
+        " m along the curve '" + pipe.axis.name +
+        "'; it may have a corner, bend more sharply than that radius, or be a ring in space");
 }
 
 // Largest curvature |r' x r''| / |r'|^3 at 33 places of each span [1/m].
@@ -222,11 +229,24 @@ TopoDS_Shape swept(const NamedPipe& pipe) {
                              std::to_string(1 / curvature) + " m, too sharply for a section of radius " +
                              std::to_string(pipe.radius) + " m");
   const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
-  const gp_Pnt centre(vector(kMillimetresPerMetre * start.col(0)).XYZ());
-  const gp_Circ circle(gp_Ax2(centre, gp_Dir(vector(start.col(1)))), pipe.radius * kMillimetresPerMetre);
-  const TopoDS_Wire rim = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
+  const gp_Pnt centre(vector(millimetres_per_metre * start.col(0)).XYZ());
+  const gp_Ax2 square(centre, gp_Dir(vector(start.col(1))));
+  const auto rim = [&](double radius) {
+    const gp_Circ circle(square, radius * millimetres_per_metre);
+    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
+  };
   const TopoDS_Wire spine = BRepBuilderAPI_MakeWire(edge(pipe.axis)).Wire();
-  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, BRepBuilderAPI_MakeFace(rim).Face()).Shape();
+  BRepBuilderAPI_MakeFace section(rim(pipe.radius));
+  const bool hollow = pipe.bore > 0, ring = BRep_Tool::IsClosed(spine);
+  if (hollow && !ring) section.Add(TopoDS::Wire(rim(pipe.bore).Reversed()));
+  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, section.Face()).Shape();
+  if (hollow && ring) {  // without ends inner and outer faces are no one shell
+    const TopoDS_Face bore = BRepBuilderAPI_MakeFace(rim(pipe.bore)).Face();
+    const TopExp_Explorer core(BRepOffsetAPI_MakePipe(spine, bore).Shape(), TopAbs_SHELL);
+    BRepBuilderAPI_MakeSolid with_core(TopoDS::Solid(solid));
+    with_core.Add(TopoDS::Shell(core.Current().Reversed()));
+    solid = with_core.Solid();
+  }
   check_pipe(solid, pipe);
   return solid;
 }

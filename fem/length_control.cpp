@@ -205,6 +205,15 @@ class JointRules {
   const MeshNode *left_ = nullptr, *right_ = nullptr;
 };
 
+// The present plan but for constant weights, which still belong to the places of the old one.
+template <int D>
+MeshPlan plan_at(const BeamSystem<D>& system, const State& state) {
+  MeshPlan plan = system.mesh().plan;
+  for (std::size_t j = 0; j < plan.places.size(); ++j)
+    if (const auto s = system.place(state, static_cast<int>(j))) plan.places[j] = *s;
+  return plan;
+}
+
 // Weights that stay with their elements: kept, split (Eq. 21) or merged (Eqs. 31-38).
 template <int D>
 void carry_weights(const BeamSystem<D>& system, const State& state, MeshPlan& plan) {
@@ -462,11 +471,16 @@ std::array<double, 4> merged_weights(const Eigen::Matrix<double, D, 1>& r_a,
 }
 
 template <int D>
+MeshPlan present_plan(const BeamSystem<D>& system, const State& state) {
+  MeshPlan plan = plan_at<D>(system, state);
+  carry_weights<D>(system, state, plan);
+  return plan;
+}
+
+template <int D>
 NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control) {
   NextPlan next;
-  next.plan = system.mesh().plan;
-  for (std::size_t j = 0; j < next.plan.places.size(); ++j)
-    if (const auto s = system.place(state, static_cast<int>(j))) next.plan.places[j] = *s;
+  next.plan = plan_at<D>(system, state);
   for (std::size_t j = 0; j < next.plan.places.size(); ++j)
     if (JointRules<D>(system, state, control, static_cast<int>(j), next).apply()) {
       carry_weights<D>(system, state, next.plan);
@@ -526,6 +540,8 @@ std::optional<State> transfer(const BeamSystem<D>& from, const State& state, con
   return next;
 }
 
+template MeshPlan present_plan<2>(const BeamSystem<2>&, const State&);
+template MeshPlan present_plan<3>(const BeamSystem<3>&, const State&);
 template NextPlan next_plan<2>(const BeamSystem<2>&, const State&, const LengthControl&);
 template NextPlan next_plan<3>(const BeamSystem<3>&, const State&, const LengthControl&);
 template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&, bool,

@@ -28,6 +28,10 @@ struct NextPlan {
   MeshPlan plan;
 };
 
+/// The plan of the present mesh with the joints where they are now.
+template <int D>
+MeshPlan present_plan(const BeamSystem<D>& system, const State& state);
+
 /// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
 /// (unless it is a beam end, a hinge or a corner, or late). Late nodes (breaks, supports) stay: the joint
@@ -59,6 +63,8 @@ std::array<double, 4> merged_weights(const Eigen::Matrix<double, D, 1>& r_a,
                                      const Eigen::Matrix<double, D, 1>& slope_b,
                                      const Eigen::Matrix<double, D, 1>& r_h, double u);
 
+extern template MeshPlan present_plan<2>(const BeamSystem<2>&, const State&);
+extern template MeshPlan present_plan<3>(const BeamSystem<3>&, const State&);
 extern template NextPlan next_plan<2>(const BeamSystem<2>&, const State&, const LengthControl&);
 extern template NextPlan next_plan<3>(const BeamSystem<3>&, const State&, const LengthControl&);
 extern template std::optional<State> transfer<2>(const BeamSystem<2>&, const State&, const BeamSystem<2>&,

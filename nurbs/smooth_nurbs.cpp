@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -198,15 +199,58 @@ void fit_joints(const Piece& one, Pieces& all) {
   all.back().length -= moved_before;
 }
 
+/// Gives the pieces the weights that the curve has at their ends: products of charts add up their round-off.
+void fit_weights(const Piece& one, Pieces& all) {
+  const Eigen::Index p = one.degree();
+  double begin = 0;
+  for (Piece& piece : all) {
+    const double end = begin + piece.length;
+    const Points there = part(one.points, begin / one.length, end / one.length);
+    double factor = there(3, 0) / piece.weight(0);
+    const double c = std::pow(there(3, p) / piece.weight(p) / factor, 1.0 / double(p));
+    for (Eigen::Index i = 0; i <= p; ++i, factor *= c) piece.points.col(i) *= factor;
+    begin = end;
+  }
+}
+
+/// The change w_i -> c^i w_i that makes the weights at both ends equal.
+double balance(const Points& points) {
+  const Eigen::Index p = points.cols() - 1;
+  return std::pow(points(3, 0) / points(3, p), 1.0 / double(p));
+}
+
+/// The charts of the pieces first..last from that of the one in the middle on, its weights balanced: of an
+/// arc they hold for half a turn to either side.
+std::optional<std::vector<Chart>> centred_charts(const Pieces& pieces, int first, int last) {
+  const int middle = (first + last) / 2;
+  const Chart start{balance(pieces[middle].points), 1};
+  Pieces before(pieces.begin() + first, pieces.begin() + middle + 1);
+  std::reverse(before.begin(), before.end());
+  for (Piece& piece : before) piece.points.rowwise().reverseInPlace();
+  const auto backward = run_charts(before, 0, middle - first, {1 / start.c, 1}, CurveParameter::free);
+  const auto forward = run_charts(pieces, middle, last, start, CurveParameter::free);
+  if (!backward || !forward) return std::nullopt;
+  std::vector<Chart> charts(backward->rbegin(), backward->rend());
+  for (Chart& chart : charts) chart.c = 1 / chart.c;
+  charts.insert(charts.end(), forward->begin() + 1, forward->end());
+  return charts;
+}
+
 /// The one Bezier curve that the pieces first..last are, if they are one.
 std::optional<Piece> rejoined(const Pieces& pieces, int first, int last, CurveParameter parameter,
                               double tolerance) {
-  const auto charts = run_charts(pieces, first, last, {1, pieces[first].length}, parameter);
+  const auto charts = parameter == CurveParameter::free
+                          ? centred_charts(pieces, first, last)
+                          : run_charts(pieces, first, last, {1, pieces[first].length}, parameter);
   if (!charts) return std::nullopt;
   Pieces all = charted(pieces, first, *charts);
-  if (parameter == CurveParameter::free) fit_joints(spanning(all), all);
   Piece one = spanning(all);
   fit_inner_points(all, one);
+  if (parameter == CurveParameter::free) {
+    fit_joints(one, all);
+    fit_weights(one, all);
+    fit_inner_points(all, one);
+  }
   double begin = 0;
   for (const Piece& piece : all) {
     if (!(piece.length > 0)) return std::nullopt;
@@ -220,24 +264,23 @@ std::optional<Piece> rejoined(const Pieces& pieces, int first, int last, CurvePa
   return one;
 }
 
-/// Ratio of the weights, as a logarithm, when the Moebius change has made those at both ends equal.
-double balanced_spread(const Points& points) {
-  const Eigen::Index p = points.cols() - 1;
-  const double c = std::pow(points(3, 0) / points(3, p), 1.0 / double(p));
-  Eigen::RowVectorXd weights = points.row(3);
-  for (Eigen::Index i = 0; i <= p; ++i) weights(i) *= std::pow(c, double(i));
-  return spread(weights);
+Points balanced(Points points) {
+  const double c = balance(points);
+  double factor = 1;
+  for (Eigen::Index i = 0; i < points.cols(); ++i, factor *= c) points.col(i) *= factor;
+  return points;
 }
 
-/// The pieces with those of one Bezier curve made one again, as far as its weights stay mild.
-Pieces rejoined(const Pieces& pieces, CurveParameter parameter, double tolerance) {
+/// The pieces with those of one Bezier curve made one again, as far as the weights stay mild when it is
+/// written with this degree.
+Pieces rejoined(const Pieces& pieces, Eigen::Index degree, CurveParameter parameter, double tolerance) {
   const int count = static_cast<int>(pieces.size());
   std::vector<bool> one(pieces.size());  // with the piece after it
   for (int j = 0; j + 1 < count; ++j) one[j] = rejoined(pieces, j, j + 1, parameter, tolerance).has_value();
   const auto cost = [&](int first, int last) {
     if (!std::all_of(one.begin() + first, one.begin() + last, [](bool joins) { return joins; })) return never;
     const auto piece = rejoined(pieces, first, last, parameter, tolerance);
-    return piece ? balanced_spread(piece->points) : never;
+    return piece ? spread(elevated(balanced(piece->points), degree).row(3)) : never;
   };
   const std::vector<int> starts = fewest_runs(count, cost, widest_spread);
   Pieces result;
@@ -409,6 +452,34 @@ SmoothNurbs with_fewest_knots(const Pieces& pieces, double start, double toleran
   }
 }
 
+/// The curve of the pieces, written with this degree, that begins at the parameter `start`.
+SmoothNurbs joined(Pieces pieces, Eigen::Index degree, double start, CurveParameter parameter,
+                   double tolerance) {
+  const auto sum = [](double all, const auto& part) { return all + part.length; };
+  const double length = std::accumulate(pieces.begin(), pieces.end(), 0.0, sum);
+  pieces = rejoined(pieces, degree, parameter, 0.5 * tolerance);
+  for (Piece& piece : pieces)
+    if (piece.degree() < degree) piece.points = elevated(balanced(piece.points), degree);
+  if (parameter == CurveParameter::free) {
+    std::vector<Chart> charts = free_charts(pieces, tolerance);
+    const double scale = length / std::accumulate(charts.begin(), charts.end(), 0.0, sum);
+    for (Chart& chart : charts) chart.length *= scale;
+    pieces = charted(pieces, 0, charts);
+  } else {
+    pieces =
+        charted(pieces, 0, *run_charts(pieces, 0, int(pieces.size()) - 1, {1, pieces[0].length}, parameter));
+  }
+  return with_fewest_knots(pieces, start, tolerance);
+}
+
+/// The number of interior knots where the curve is only C0 in homogeneous coordinates.
+int full_knots(const NurbsCurve& curve) {
+  const std::vector<double> breaks = curve.knots().breaks();
+  return static_cast<int>(std::count_if(breaks.begin() + 1, breaks.end() - 1, [&](double u) {
+    return curve.knots().multiplicity(u) >= curve.degree();
+  }));
+}
+
 NurbsCurve shifted(const NurbsCurve& curve, const Eigen::Vector3d& by) {
   Points points = curve.control_points();
   points.topRows<3>() += by * curve.control_points().row(3);
@@ -428,19 +499,16 @@ SmoothNurbs smooth_nurbs(const BezierPath& path, CurveParameter parameter, doubl
     points.topRows<3>() -= (origin * points.row(3)).eval();
     pieces.push_back({std::move(points), path.breaks[j + 1] - path.breaks[j]});
   }
-  pieces = rejoined(of_lowest_degree(std::move(pieces), 0.25 * tolerance), parameter, 0.5 * tolerance);
-  const double start = path.breaks.front(), length = path.breaks.back() - start;
-  if (parameter == CurveParameter::free) {
-    std::vector<Chart> charts = free_charts(pieces, 0.25 * tolerance);
-    double sum = 0;
-    for (const Chart& chart : charts) sum += chart.length;
-    for (Chart& chart : charts) chart.length *= length / sum;
-    pieces = charted(pieces, 0, charts);
-  } else {
-    pieces =
-        charted(pieces, 0, *run_charts(pieces, 0, int(pieces.size()) - 1, {1, pieces[0].length}, parameter));
+  const Pieces lowest = of_lowest_degree(std::move(pieces), 0.25 * tolerance);
+  const double start = path.breaks.front();
+  SmoothNurbs smooth = joined(lowest, lowest[0].degree(), start, parameter, tolerance);
+  // A whole circle of degree 2 is not C1 throughout; of degree 3 it can be, with no more control points.
+  if (parameter == CurveParameter::free && lowest[0].degree() == 2 && full_knots(smooth.curve) > 0) {
+    SmoothNurbs cubic = joined(lowest, 3, start, parameter, tolerance);
+    if (full_knots(cubic.curve) < full_knots(smooth.curve) &&
+        cubic.curve.control_points().cols() <= smooth.curve.control_points().cols())
+      smooth = std::move(cubic);
   }
-  SmoothNurbs smooth = with_fewest_knots(pieces, start, tolerance);
   smooth.curve = shifted(smooth.curve, origin);
   return smooth;
 }

@@ -40,6 +40,14 @@ DrawnAxis drawn_axis(const Beam& beam, const ModelFrame& frame, const std::vecto
   return candidates.empty() ? DrawnAxis{curves.front().curve, false, false} : candidates.front();
 }
 
+/// Radius of the bore of a section that is a disk or an annulus of the outer radius R; 0 for a disk [m].
+/// I / A = (R^2 + r^2) / 4 for an annulus; what round-off leaves of a disk's r^2 is far below `least`.
+double bore_of(const BeamProperties& section, double R) {
+  constexpr double least = 1e-9;  // of R^2
+  const double squared = 4 * section.bending_stiffness / section.axial_stiffness - R * R;
+  return squared > least * R * R ? std::sqrt(squared) : 0;
+}
+
 std::string ending_of(const std::string& format) {
   if (format == "iges") return ".igs";
   if (format == "step-solid") return "_solid.step";
@@ -89,8 +97,11 @@ std::vector<NamedCurve> CadOutput::curves(const Frame& frame, CurveParameter par
 
 std::vector<Diagnostic> CadOutput::write_solids(const Frame& frame, const std::filesystem::path& file) const {
   std::vector<NamedPipe> pipes;
-  for (NamedCurve& axis : curves(frame, CurveParameter::free))
-    pipes.push_back({std::move(axis), built_.radii[pipes.size()].value()});
+  for (NamedCurve& axis : curves(frame, CurveParameter::free)) {
+    const std::size_t b = pipes.size();
+    const double radius = built_.radii[b].value();
+    pipes.push_back({std::move(axis), radius, bore_of(built_.model.beams[b].properties, radius)});
+  }
   const auto problem = export_solids(file, pipes, parse_length_unit(case_.output.cad_unit));
   return problem ? std::vector{*problem} : std::vector<Diagnostic>{};
 }

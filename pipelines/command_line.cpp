@@ -145,12 +145,15 @@ int export_command(const Arguments& arguments, Streams streams) {
   const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
   if (arguments.has("--solid")) {
     const double radius = quantity_argument("--solid", arguments.required("--solid"), Dimension::length);
+    const double bore = quantity_argument("--bore", arguments.value("--bore", "0"), Dimension::length);
     std::vector<NamedPipe> pipes;
-    for (const NamedCurve& curve : curves) pipes.push_back({curve, radius});
+    for (const NamedCurve& curve : curves) pipes.push_back({curve, radius, bore});
     if (const auto problem = export_solids(file, pipes, unit)) {
       print_diagnostics(streams.err, {*problem});
       return not_written;
     }
+  } else if (arguments.has("--bore")) {
+    throw UsageError("--bore: is the bore of a solid; give its radius with --solid");
   } else {
     export_curves(file, curves, unit);
   }
@@ -242,11 +245,17 @@ const std::vector<Command>& commands() {
        not_written},
       {"export",
        "RESULTS_DIR --time T --to FILE.step|.igs [--unit mm|m|inch] [--parameter free|material] "
-       "[--solid RADIUS]",
-       "writes the deformed curves at a stored time; with --solid, as swept disks of that radius",
+       "[--solid RADIUS [--bore RADIUS]]",
+       "writes the deformed curves at a stored time; with --solid, as rods of that radius, with --bore as "
+       "pipes",
        1,
        1,
-       {{"--time", true}, {"--to", true}, {"--unit", true}, {"--parameter", true}, {"--solid", true}},
+       {{"--time", true},
+        {"--to", true},
+        {"--unit", true},
+        {"--parameter", true},
+        {"--solid", true},
+        {"--bore", true}},
        export_command,
        not_written},
       {"compare",

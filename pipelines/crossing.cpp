@@ -9,25 +9,21 @@ namespace nurbeam {
 
 namespace {
 
-// The place that a body crosses on its way; where there are several, the first.
+// The first place, seen from where the joint was when the mesh was made, that it has passed by now. A landing
+// just before it is not yet that: the joint may turn round there.
 template <int D>
-std::optional<double> crossed_place(const BeamSystem<D>& system, int joint, double from, double to) {
+std::optional<double> crossed_place(const BeamSystem<D>& system, int joint, double s) {
   const BeamModel& model = system.model();
-  const double near = 2 * landing_tolerance(model, joint);  // the joint may turn round where it has landed
-  if (system.mesh().plan.modes[joint] == JointMode::point) {
-    const Beam& beam = model.beams[model.joints[joint].beam];
-    const int h = beam.home_interval(system.mesh().plan.places[joint]);
-    if (to > beam.home_place(h + 1) + near && (beam.is_ring() || h + 1 < beam.home_intervals()))
-      return beam.home_place(h + 1);
-    if (to < beam.home_place(h) - near && (beam.is_ring() || h > 0)) return beam.home_place(h);
-    return std::nullopt;
-  }
-  const ReferenceCurve& curve = curve_of(model, joint);
-  std::optional<double> crossed;
-  const double last = std::max(from, to);
-  for (double s = curve.next_break(std::min(from, to)); s < last; s = curve.next_break(s))
-    if (std::abs(s - from) > near && (!crossed || to < from)) crossed = s;  // the one nearest to `from`
-  return crossed;
+  const MeshPlan& plan = system.mesh().plan;
+  const Beam& beam = model.beams[model.joints[joint].beam];
+  const bool is_point = plan.modes[joint] == JointMode::point, forward = s > plan.places[joint];
+  const double beyond = s + (forward ? -2 : 2) * landing_tolerance(model, joint);
+  const auto inside = [&](int h) { return beam.is_ring() || (h > 0 && h < beam.home_intervals()); };
+  for (int h = beam.home_interval(plan.places[joint]) + (forward ? 1 : 0);
+       inside(h) && (forward ? beam.home_place(h) < beyond : beam.home_place(h) > beyond);
+       h += forward ? 1 : -1)
+    if (is_point || beam.home[beam.home_index(h)].late) return beam.home_place(h);
+  return std::nullopt;
 }
 
 // How far the body is beyond the place; negative before it [m].
@@ -46,11 +42,12 @@ std::optional<Crossing> first_crossing(const BeamSystem<D>& system, const State&
   for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
     const auto s = system.place(after, j);
     if (!s) continue;
-    const double from = *system.place(before, j);
-    const std::optional<double> crossed = crossed_place(system, j, from, *s);
-    if (!crossed || (*crossed - from) / (*s - from) >= earliest) continue;
-    earliest = (*crossed - from) / (*s - from);
-    first = Crossing{j, *crossed, *s > from};
+    const std::optional<double> crossed = crossed_place(system, j, *s);
+    if (!crossed) continue;
+    const double from = *system.place(before, j), part = (*crossed - from) / (*s - from);
+    if (part >= earliest) continue;
+    earliest = part;
+    first = Crossing{j, *crossed, *s > *crossed};
   }
   return first;
 }

@@ -13,10 +13,10 @@ struct Crossing {
   bool forward;  ///< whether s of the body grows
 };
 
-/// The first crossing between two states of a break of the drawing by a moving node, or of a node by a point;
-/// a landing just before a place is not yet one. The drawn curvature may jump there and with it the force
-/// along the beam: a step must end on the near side and the next begin on the far side, or energy drifts at
-/// first order.
+/// The first crossing between two states of a hidden late node by a moving node, or of any node by a point; a
+/// landing just before a place is not yet one. The drawn curvature may jump there and with it the force along
+/// the beam: a step must end on the near side and the next begin on the far side, or energy drifts at first
+/// order.
 template <int D>
 std::optional<Crossing> first_crossing(const BeamSystem<D>& system, const State& before, const State& after);
 

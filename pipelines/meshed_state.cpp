@@ -17,14 +17,6 @@ MeshedState<D> as_drawn(const BeamModel& model) {
 }
 
 template <int D>
-MeshPlan present_plan(const MeshedState<D>& at) {
-  MeshPlan plan = at.system->mesh().plan;
-  for (std::size_t j = 0; j < plan.places.size(); ++j)
-    if (const auto s = at.system->place(at.state, static_cast<int>(j))) plan.places[j] = *s;
-  return plan;
-}
-
-template <int D>
 bool change_mesh(MeshedState<D>& at, const NextPlan& next, bool at_rest, Eigen::VectorXd& impulse,
                  SimulationReport& report) {
   const BeamModel& model = at.system->model();
@@ -57,8 +49,6 @@ bool check_changes(const MeshedState<D>& at, std::size_t count, SimulationReport
 
 template MeshedState<2> as_drawn<2>(const BeamModel&);
 template MeshedState<3> as_drawn<3>(const BeamModel&);
-template MeshPlan present_plan<2>(const MeshedState<2>&);
-template MeshPlan present_plan<3>(const MeshedState<3>&);
 template bool change_mesh<2>(MeshedState<2>&, const NextPlan&, bool, Eigen::VectorXd&, SimulationReport&);
 template bool change_mesh<3>(MeshedState<3>&, const NextPlan&, bool, Eigen::VectorXd&, SimulationReport&);
 template bool check_changes<2>(const MeshedState<2>&, std::size_t, SimulationReport&);

@@ -18,10 +18,6 @@ struct MeshedState {
 template <int D>
 MeshedState<D> as_drawn(const BeamModel& model);
 
-/// The plan of the mesh with the sliding bodies where they are now.
-template <int D>
-MeshPlan present_plan(const MeshedState<D>& at);
-
 /// Goes on on the mesh that length control asks for. `at_rest`: joints are held there, and there are no
 /// velocities to project; else `impulse` is set to the projection's (see transfer). False, and the report
 /// says so, when velocities cannot be projected.
@@ -36,8 +32,6 @@ bool check_changes(const MeshedState<D>& at, std::size_t count, SimulationReport
 
 extern template MeshedState<2> as_drawn<2>(const BeamModel&);
 extern template MeshedState<3> as_drawn<3>(const BeamModel&);
-extern template MeshPlan present_plan<2>(const MeshedState<2>&);
-extern template MeshPlan present_plan<3>(const MeshedState<3>&);
 extern template bool change_mesh<2>(MeshedState<2>&, const NextPlan&, bool, Eigen::VectorXd&,
                                     SimulationReport&);
 extern template bool change_mesh<3>(MeshedState<3>&, const NextPlan&, bool, Eigen::VectorXd&,

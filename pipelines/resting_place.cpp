@@ -106,6 +106,15 @@ bool move_places(MeshedState<D>& at, std::vector<double> ds, const LengthControl
   return true;
 }
 
+// The plan of the mesh with the joints where they have been moved.
+template <int D>
+MeshPlan moved_plan(const MeshedState<D>& at) {
+  MeshPlan plan = at.system->mesh().plan;
+  for (std::size_t j = 0; j < plan.places.size(); ++j)
+    if (const auto s = at.system->place(at.state, static_cast<int>(j))) plan.places[j] = *s;
+  return plan;
+}
+
 // A sliding body on its way to where it rests.
 struct Descent {
   double move;          // the next one's length [m]; 0 when the body has arrived
@@ -171,8 +180,7 @@ void find_rest(MeshedState<D>& at, const LengthControl& control, const std::func
     std::vector<double> ds;
     for (int j = 0; j < n; ++j) ds.push_back(next_move(at, j, bodies[j]));
     if (!move_places(at, ds, control, report)) return;
-    if (!check_bodies_apart(*at.system, at.state, report) ||
-        !hold_in_equilibrium(at, present_plan(at), report))
+    if (!check_bodies_apart(*at.system, at.state, report) || !hold_in_equilibrium(at, moved_plan(at), report))
       return;
   }
   std::vector<bool> at_end;

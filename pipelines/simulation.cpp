@@ -38,11 +38,17 @@ const char* reason_of(StepStatus status) {
   return "converged";
 }
 
-// Whether a beam's end is held, by a support or by another beam.
+bool is_supported(const BeamModel& model, const Crossing& place) {
+  const int beam = model.joints[place.joint].beam;
+  const double s = curve_of(model, place.joint).wrapped(place.s);
+  return std::any_of(model.supports.begin(), model.supports.end(),
+                     [&](const Support& support) { return support.beam == beam && support.s == s; });
+}
+
+// By a support or by another beam.
 bool is_held(const BeamModel& model, const Crossing& end) {
   const int beam = model.joints[end.joint].beam;
-  return std::any_of(model.supports.begin(), model.supports.end(),
-                     [&](const Support& support) { return support.beam == beam && support.s == end.s; }) ||
+  return is_supported(model, end) ||
          std::any_of(model.beam_joints.begin(), model.beam_joints.end(), [&](const BeamJoint& other) {
            return (other.beam_a == beam && other.s_a == end.s) ||
                   (other.beam_b == beam && other.s_b == end.s);
@@ -229,10 +235,7 @@ class Simulation {
     if (ending) land(before, algorithmic, at_.state.t - before.t, *ending);
     if (damped()) dissipated_ += dissipated_between(before, at_.state);
     if (ending && !end_sliding(*ending)) return false;
-    if (crossing && !ending) {
-      step_over(*crossing);
-      if (!restart()) return false;
-    }
+    if (crossing && !ending && !step_over(*crossing)) return false;
     if (!check_bodies_apart(*at_.system, at_.state, report_)) return false;
     settle_mesh();
     return report_.status == SimulationStatus::done;
@@ -257,20 +260,36 @@ class Simulation {
                        [](const Beam& beam) { return beam.properties.damping > 0; });
   }
 
-  // A point goes on in the next element.
-  void step_over(const Crossing& crossing) {
-    MeshPlan plan = at_.system->mesh().plan;
-    if (plan.modes[crossing.joint] != JointMode::point) return;
-    const double beyond = landing_tolerance(model_, crossing.joint);
-    plan.places[crossing.joint] = crossing.s + (crossing.forward ? beyond : -beyond);
-    at_.system = std::make_unique<BeamSystem<D>>(model_, std::move(plan));
+  // Goes on beyond a place that a joint has landed at: its equations, or those of a support there, are those
+  // of the next element. With a discontinuous slope it meets a support with an impact.
+  bool step_over(const Crossing& crossing) {
+    const int joint = crossing.joint;
+    const double beyond = landing_tolerance(model_, joint);
+    at_.state.q[at_.system->mesh().joints[joint].place] = crossing.s + (crossing.forward ? beyond : -beyond);
+    auto next = std::make_unique<BeamSystem<D>>(model_, present_plan<D>(*at_.system, at_.state));
+    const bool impact = !model_.joints[joint].continuous_slope && is_supported(model_, crossing);
+    RunEvent event = event_before(at_, "passed a support", joint);
+    Eigen::VectorXd impulse;
+    if (impact && !project_velocities(*next, at_.state, impulse)) {
+      report_.fail(SimulationStatus::not_converged,
+                   "the impact of \"" + body_name(model_, joint) + "\" at a support is singular");
+      return false;
+    }
+    at_.system = std::move(next);
+    if (!restart()) return false;
+    if (impact) {
+      event.support_impulse = support_impulse<D>(model_, impulse);
+      finish_event(at_, event);
+      report_.events.push_back(std::move(event));
+    }
+    return true;
   }
 
   bool end_sliding(const Crossing& ending) {
     const int joint = ending.joint;
     const bool leaves = model_.joints[joint].leave_at_end && !is_held(model_, ending);
     RunEvent event = event_before(at_, leaves ? "left the beam" : "stopped at the end", joint);
-    MeshPlan plan = present_plan(at_);
+    MeshPlan plan = present_plan<D>(*at_.system, at_.state);
     plan.places[joint] = ending.s;
     plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
     auto next = std::make_unique<BeamSystem<D>>(model_, std::move(plan));

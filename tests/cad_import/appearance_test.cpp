@@ -16,7 +16,7 @@ namespace {
 
 // Three circles: "a" is styled orange, "b" has the pre-defined colour green, "c" has none; "a" and "c" are on
 // the layer "cables".
-const std::string kStyled = R"(#100 = CIRCLE('a',#11,1.);
+const std::string styled_circles = R"(#100 = CIRCLE('a',#11,1.);
 #101 = CIRCLE('b',#11,2.);
 #102 = CIRCLE('c',#11,3.);
 #110 = STYLED_ITEM('',(#111),#100);
@@ -38,7 +38,7 @@ ImportReport import_text(const std::string& text) {
 }
 
 TEST(Appearance, StylesAndLayersOfStepCurvesAreRead) {
-  const ImportReport report = import_text(step_text_of("#100,#101,#102", kStyled));
+  const ImportReport report = import_text(step_text_of("#100,#101,#102", styled_circles));
   ASSERT_EQ(report.curves.size(), 3U);
   const std::array<std::array<std::string, 3>, 3> expected{
       {{"a", "cables", "#ff8000"}, {"b", "frame", "#00ff00"}, {"c", "cables", ""}}};

@@ -28,7 +28,7 @@ struct Expected {
 
 void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
 
-const std::vector<Expected> kManifest{
+const std::vector<Expected> manifest{
     {"igesio-sample-curves.igs",
      "mm",
      12,
@@ -130,7 +130,7 @@ TEST_P(CorpusFile, HasClampedCurvesOnly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CorpusFile, testing::ValuesIn(kManifest), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(All, CorpusFile, testing::ValuesIn(manifest), [](const auto& test) {
   std::string name = test.param.file;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(All, CorpusFile, testing::ValuesIn(kManifest), [](const
 
 TEST(Corpus, HasNoFileThatTheManifestDoesNotKnow) {
   std::set<std::string> known{"README.md", ".gitattributes"};
-  for (const Expected& expected : kManifest) known.insert(expected.file);
+  for (const Expected& expected : manifest) known.insert(expected.file);
   for (const auto& entry : std::filesystem::directory_iterator(corpus_file(""))) {
     EXPECT_TRUE(known.contains(entry.path().filename().string())) << entry.path();
   }

@@ -24,7 +24,7 @@ void PrintTo(const Target& target, std::ostream* out) {
   *out << target.extension << " in " << target.unit_name;
 }
 
-const std::vector<Target> kTargets{
+const std::vector<Target> targets{
     {".step", LengthUnit::metre, "m"},       {".stp", LengthUnit::millimetre, "mm"},
     {".step", LengthUnit::inch, "inch"},     {".igs", LengthUnit::metre, "m"},
     {".iges", LengthUnit::millimetre, "mm"}, {".igs", LengthUnit::inch, "inch"}};
@@ -123,7 +123,7 @@ TEST_P(RoundTrip, PrintsNothing) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(kTargets), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(targets), [](const auto& test) {
   return test.param.extension.substr(1) + "_" + test.param.unit_name;
 });
 

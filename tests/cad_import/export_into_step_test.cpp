@@ -14,8 +14,12 @@
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TColgp_Array1OfPnt.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <numbers>
 #include <set>
@@ -225,6 +229,34 @@ TEST(ExportIntoStep, AFreeEdgeWithVerticesGetsNewOnes) {
   ASSERT_EQ(after.curves.size(), 1u);
   EXPECT_EQ(after.curves[0].name, "brace");
   EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
+}
+
+TEST(ExportIntoStep, AClosedCurveStaysAClosedEdgeWithOneVertex) {
+  const ScratchDirectory scratch;
+  std::string edge = step_text_of("#100", R"(#100 = CONNECTED_EDGE_SET('',(#101));
+#101 = EDGE_CURVE('hoop',#102,#102,#103,.T.);
+#102 = VERTEX_POINT('',#104);
+#103 = CIRCLE('',#11,200.);
+#104 = CARTESIAN_POINT('',(200.,0.,0.));)");
+  edge = with(edge, "GEOMETRIC_CURVE_SET", "EDGE_BASED_WIREFRAME_MODEL");
+  edge = with(edge, "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE", "EDGE_BASED_WIREFRAME_SHAPE");
+  for (const std::string& text : {edge, step_text_of("#100", "#100 = CIRCLE('hoop',#11,200.);")}) {
+    const fs::path source = scratch.file("source.step", text), target = scratch.path() / "target.step";
+    const NurbsCurve drawn = import_curves(source).curves.at(0).curve;
+    Eigen::Matrix4Xd points = drawn.control_points();
+    points.row(0) *= 0.7;
+    const NurbsCurve oval(drawn.knots(), points);
+    ASSERT_TRUE(export_into_step(source, target, {{drawn, oval, "hoop"}}).empty());
+    STEPControl_Reader reader;
+    ASSERT_EQ(reader.ReadFile(target.c_str()), IFSelect_RetDone);
+    reader.TransferRoots();
+    const TopExp_Explorer edges(reader.OneShape(), TopAbs_EDGE);
+    ASSERT_TRUE(edges.More());
+    const TopoDS_Edge& hoop = TopoDS::Edge(edges.Current());
+    EXPECT_TRUE(BRepCheck_Analyzer(hoop).IsValid());
+    EXPECT_TRUE(TopExp::FirstVertex(hoop).IsSame(TopExp::LastVertex(hoop)));
+    EXPECT_LE(difference(import_curves(target).curves.at(0).curve, oval), 1e-15);
+  }
 }
 
 TEST(ExportIntoStep, EveryFreeCurveOfTheCorpusCanBeExchanged) {

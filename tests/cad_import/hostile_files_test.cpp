@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kFiles{"igesio-sample-curves.igs", "iges-126-bsplines.igs",
-                                      "iges-104-conics.igs",      "dealii-line.iges",
-                                      "dealii-line.step",         "rhino-sliced-cylinder.step"};
+const std::vector<std::string> files{"igesio-sample-curves.igs", "iges-126-bsplines.igs",
+                                     "iges-104-conics.igs",      "dealii-line.iges",
+                                     "dealii-line.step",         "rhino-sliced-cylinder.step"};
 
 // The report is an error that names the file; the test's own process goes on.
 void expect_error(const ImportReport& report, const fs::path& file, const std::string& word) {
@@ -55,7 +55,7 @@ TEST(HostileFile, WhatIsNeitherStepNorIgesIsAnErrorThatSaysWhatWasExpected) {
 
 TEST(HostileFile, ATruncatedFileIsAnError) {
   const ScratchDirectory scratch;
-  for (const std::string& name : kFiles) {
+  for (const std::string& name : files) {
     const std::string whole = content_of(corpus_file(name));
     for (int percent : {10, 30, 50, 70, 90}) {
       const fs::path file = scratch.file(name, whole.substr(0, whole.size() * percent / 100));
@@ -66,7 +66,7 @@ TEST(HostileFile, ATruncatedFileIsAnError) {
 
 TEST(HostileFile, ATruncatedFileThatPretendsToBeWholeIsAnswered) {
   const ScratchDirectory scratch;
-  for (const std::string& name : kFiles) {
+  for (const std::string& name : files) {
     const bool step = name.ends_with(".step");
     const std::string whole = content_of(corpus_file(name));
     const std::string terminate = "\nS0000001G0000003D0000002P0000001" + std::string(40, ' ') + "T      1\n";
@@ -82,7 +82,7 @@ TEST(HostileFile, AFileWithOneChangedByteIsAnswered) {
   const ScratchDirectory scratch;
   std::mt19937 random(20240521);
   const int before = open_descriptors();
-  for (const std::string& name : kFiles) {
+  for (const std::string& name : files) {
     const std::string whole = content_of(corpus_file(name));
     for (int i = 0; i < 60; ++i) {
       std::string changed = whole;

@@ -133,7 +133,7 @@ Eigen::Matrix3Xd four_points() {
   points << 0, 1, 2, 3, 0, 2, -1, 0, 0, 0, 0.5, 1;
   return points;
 }
-const std::string kFourPoints = R"(
+const std::string four_points_text = R"(
 #110 = CARTESIAN_POINT('',(0.,0.,0.));
 #111 = CARTESIAN_POINT('',(1000.,2000.,0.));
 #112 = CARTESIAN_POINT('',(2000.,-1000.,500.));
@@ -166,7 +166,8 @@ TEST(ImportCurves, EveryKindOfStepSplineIsExact) {
              bezier,
              {1, 2, 0.5, 1}}}) {
     SCOPED_TRACE(kind.entity);
-    const ImportedCurve curve = only_curve(step_text_of("#100", "#100 = " + kind.entity + ";" + kFourPoints));
+    const ImportedCurve curve =
+        only_curve(step_text_of("#100", "#100 = " + kind.entity + ";" + four_points_text));
     EXPECT_TRUE(curve.exact);
     EXPECT_EQ(curve.curve.degree(), kind.knots.degree());
     expect_same(curve.curve, make_nurbs_curve(kind.knots, four_points(), kind.weights));
@@ -175,7 +176,7 @@ TEST(ImportCurves, EveryKindOfStepSplineIsExact) {
 
 TEST(ImportCurves, APolylineIsABSplineOfDegreeOne) {
   const ImportedCurve curve =
-      only_curve(step_text_of("#100", "#100 = POLYLINE('',(#110,#111,#112,#113));" + kFourPoints));
+      only_curve(step_text_of("#100", "#100 = POLYLINE('',(#110,#111,#112,#113));" + four_points_text));
   EXPECT_TRUE(curve.exact);
   EXPECT_EQ(curve.curve.degree(), 1);
   const Eigen::Matrix3Xd points = curve.curve.control_points().colwise().hnormalized();

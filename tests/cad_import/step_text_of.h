@@ -3,12 +3,12 @@
 
 namespace nurbeam {
 
-inline const std::string kMillimetres = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )";
+inline const std::string millimetres = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )";
 
 /// A STEP file (AP214) whose geometric curve set, of the given name, holds the entities `references`
 /// ("#100,#101") among `entities` (numbers from 100; #11 is the placement at the origin, #13 is z, #14 is x).
 inline std::string step_text_of(const std::string& references, const std::string& entities,
-                                const std::string& set_name = "", const std::string& unit = kMillimetres) {
+                                const std::string& set_name = "", const std::string& unit = millimetres) {
   return R"(ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('curves'),'2;1');

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
@@ -23,11 +24,14 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Shell.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
 #include "cad_import/export_curves.h"
 #include "cad_import/iges_global.h"
+#include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
 #include "nurbs/smooth_nurbs.h"
 #include "tests/cad_import/scratch_directory.h"
@@ -120,6 +124,30 @@ TEST_P(WrittenFile, OfASmoothCableIsOneSoundEdgeToASecondReader) {
     }
 }
 
+TEST_P(WrittenFile, OfACurveOfTheCorpusWithoutCornersIsOneEdgeToASecondReader) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  int whole_conics = 0;
+  for (const auto& entry : fs::directory_iterator(corpus_file(""))) {
+    if (entry.path().extension() == ".md") continue;
+    SCOPED_TRACE(entry.path());
+    std::vector<NamedCurve> curves;
+    for (const ImportedCurve& imported : import_curves(entry.path()).curves) {
+      const double size = length(imported.curve);
+      const BezierPath path = BezierPath::from_nurbs(imported.curve, 1e-6 * size);
+      if (!path.corners(1e-12).empty()) continue;
+      curves.push_back({imported.name, smooth_nurbs(path, CurveParameter::free, 2e-13 * size).curve});
+      whole_conics += imported.curve.degree() == 2 && is_closed(imported.curve, 1e-9 * size);
+    }
+    if (curves.empty()) continue;
+    export_curves(file, curves, GetParam().unit);
+    const TopoDS_Shape shape = second_reading(file);
+    expect_sound_edges(shape);
+    EXPECT_EQ(edges_of(shape).size(), curves.size());
+  }
+  EXPECT_EQ(whole_conics, 29);
+}
+
 TEST_P(WrittenFile, HasItsPlaceInMillimetresToASecondReader) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / GetParam().file;
@@ -168,6 +196,68 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(test.param.file + 2) + "_" + std::to_string(int(test.param.in_millimetres));
     });
 
+/// An arc about the z axis, in quarters of it where it is long, as a rational quadratic.
+NurbsCurve arc(double radius, double angle) {
+  const int pieces = angle > pi / 2 ? 4 : 1;
+  Eigen::Matrix4Xd points(4, 2 * pieces + 1);
+  const double half = 0.5 * angle / pieces;
+  for (int i = 0; i <= 2 * pieces; ++i) {
+    const double weight = i % 2 == 0 ? 1 : std::cos(half), reach = i % 2 == 0 ? radius : radius / weight;
+    points.col(i) << weight * reach * std::cos(i * half), weight * reach * std::sin(i * half), 0, weight;
+  }
+  std::vector<double> knots(3, 0);
+  for (int j = 1; j <= pieces; ++j) knots.insert(knots.end(), j < pieces ? 2 : 3, j);
+  return {KnotVector(2, std::move(knots)), std::move(points)};
+}
+
+/// A closed cable in space, else as wavy_cable.
+BezierPath wavy_ring(int count, double weight_spread) {
+  const auto at = [](double t) {
+    return Eigen::Vector3d((1 + 0.1 * std::cos(3 * t)) * std::cos(t), 0.7 * std::sin(t),
+                           0.2 * std::sin(2 * t));
+  };
+  const auto slope = [](double t) {
+    return Eigen::Vector3d(-0.3 * std::sin(3 * t) * std::cos(t) - (1 + 0.1 * std::cos(3 * t)) * std::sin(t),
+                           0.7 * std::cos(t), 0.4 * std::cos(2 * t));
+  };
+  BezierPath path{{}, {0}, 0};
+  for (int j = 0; j < count; ++j) {
+    const double a = 2 * pi * j / count, b = 2 * pi * ((j + 1) % count) / count, third = 2 * pi / count / 3;
+    const double uneven = 1 + 0.2 * std::sin(double(7 * j));
+    Eigen::Matrix3Xd controls(3, 4);
+    controls << at(a), at(a) + uneven * third * slope(a), at(b) - third / uneven * slope(b), at(b);
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = 1 + weight_spread * std::sin(double(3 * j + 5 * i));
+      points.col(i) << weight * controls.col(i), weight;
+    }
+    path.segments.emplace_back(points);
+    path.breaks.push_back(path.breaks.back() + length(path.segments.back()));
+  }
+  return path;
+}
+
+TEST_P(WrittenFile, OfARingIsOneClosedEdgeWithOneVertexToASecondReader) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / GetParam().file;
+  const auto smooth = [](const BezierPath& path) {
+    return smooth_nurbs(path, CurveParameter::free, 1e-12).curve;
+  };
+  Eigen::Matrix4Xd ellipse = arc(1, 2 * pi).control_points();
+  ellipse.row(1) *= 0.6;
+  for (const NurbsCurve& ring : {smooth(wavy_ring(24, 0)), smooth(wavy_ring(24, 0.01)),
+                                 smooth(BezierPath::from_nurbs({arc(1, 2 * pi).knots(), ellipse}, 1))}) {
+    export_curves(file, {{"ring", ring}}, GetParam().unit);
+    const TopoDS_Shape shape = second_reading(file);
+    expect_sound_edges(shape);
+    const std::vector<TopoDS_Edge> edges = edges_of(shape);
+    ASSERT_EQ(edges.size(), 1u);
+    EXPECT_TRUE(BRep_Tool::IsClosed(edges[0]));
+    EXPECT_TRUE(TopExp::FirstVertex(edges[0]).IsSame(TopExp::LastVertex(edges[0])));
+    EXPECT_TRUE(ShapeAnalysis_Edge().IsClosed3d(edges[0]));
+  }
+}
+
 NurbsCurve straight_line(double size) {
   Eigen::Matrix3Xd points(3, 2);
   points << 0, size, 0, 0.5 * size, 0, 0;
@@ -200,6 +290,85 @@ TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
   }
 }
 
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, 1e-9);
+  return 1e-9 * properties.Mass();
+}
+
+/// The number of wires of each plane face.
+std::vector<int> rims_of_plane_faces(const TopoDS_Shape& shape) {
+  std::vector<int> rims;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
+    if (BRepAdaptor_Surface(TopoDS::Face(face.Current())).GetType() != GeomAbs_Plane) continue;
+    TopTools_IndexedMapOfShape wires;
+    TopExp::MapShapes(face.Current(), TopAbs_WIRE, wires);
+    rims.push_back(wires.Extent());
+  }
+  return rims;
+}
+
+TEST(ExportSolids, AHollowCableIsATubeWithAnnularEnds) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "tube.step";
+  const double radius = 0.02, bore = 0.015, area = pi * (radius * radius - bore * bore);
+  for (const NurbsCurve& curve : {cable(1), cable(10), cable(20, 0.01), straight_line(3)}) {
+    ASSERT_FALSE(export_solids(file, {{{"tube", curve}, radius, bore}}, LengthUnit::inch));
+    const TopoDS_Shape shape = second_reading(file);
+    ASSERT_EQ(shape.ShapeType(), TopAbs_SOLID);
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+    EXPECT_NEAR(volume_of(shape) / (area * length(curve)), 1, 1e-4);
+    EXPECT_EQ(rims_of_plane_faces(shape), (std::vector<int>{2, 2}));
+    ShapeAnalysis_Shell check;
+    check.LoadShells(shape);
+    EXPECT_FALSE(check.HasFreeEdges());
+  }
+}
+
+TEST(ExportSolids, ABentTubeHasTheVolumeOfPappusAndGivesItsCentreLineAgain) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "bend.step";
+  for (const double bore : {0.0, 0.03, 0.08, 0.099}) {
+    ASSERT_FALSE(export_solids(file, {{{"bend", arc(1, 1.5)}, 0.1, bore}}, LengthUnit::metre));
+    EXPECT_NEAR(volume_of(second_reading(file)) / (1.5 * pi * (0.01 - bore * bore)), 1, 1e-9);
+    const ImportReport report = import_curves(file);
+    const auto line = std::find_if(report.curves.begin(), report.curves.end(),
+                                   [](const ImportedCurve& curve) { return curve.is_centre_line(); });
+    ASSERT_NE(line, report.curves.end());
+    EXPECT_NEAR(line->pipe_radius, 0.1, 1e-9);
+    EXPECT_NEAR(line->bore_radius, bore, 1e-9);
+    EXPECT_NEAR(length(line->curve), 1.5, 1e-8);
+  }
+}
+
+TEST(ExportSolids, ARingIsATorusAndAHollowOneATorusWithATorusInIt) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "ring.step";
+  const NurbsCurve circle = arc(1, 2 * pi);
+  const NurbsCurve cubic_circle =
+      smooth_nurbs(BezierPath::from_nurbs(circle, 1), CurveParameter::free, 1e-12).curve;
+  const NurbsCurve in_space = smooth_nurbs(wavy_ring(24, 0), CurveParameter::free, 1e-12).curve;
+  Eigen::Matrix4Xd points = in_space.control_points();
+  points.row(2).setZero();
+  const NurbsCurve wavy(in_space.knots(), points);
+  const auto refused = export_solids(file, {{{"ring", in_space}, 0.1}}, LengthUnit::metre);
+  ASSERT_TRUE(refused);
+  EXPECT_NE(refused->message.find("a ring in space"), std::string::npos) << refused->message;
+  for (const double bore : {0.0, 0.06}) {
+    const double area = pi * (0.01 - bore * bore);
+    for (const NurbsCurve& axis : {circle, cubic_circle, wavy}) {
+      const auto problem = export_solids(file, {{{"ring", axis}, 0.1, bore}}, LengthUnit::metre);
+      ASSERT_FALSE(problem) << problem->message;
+      const TopoDS_Shape shape = second_reading(file);
+      EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+      EXPECT_NEAR(volume_of(shape) / (area * length(axis)), 1, 1e-4);
+      EXPECT_EQ(rims_of_plane_faces(shape), std::vector<int>{});
+    }
+    ASSERT_FALSE(export_solids(file, {{{"ring", circle}, 0.1, bore}}, LengthUnit::metre));
+    EXPECT_NEAR(volume_of(second_reading(file)) / (2 * pi * area), 1, 1e-9);
+  }
+}
+
 TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "solids.step";
@@ -218,6 +387,8 @@ TEST(ExportSolids, RefusesWhatCannotBeSweptAndLeavesNoFile) {
     EXPECT_THROW(static_cast<void>(export_solids(target, pipes, LengthUnit::metre)), std::invalid_argument);
   };
   refused(file, {{{"cable", cable(3)}, 0}});
+  refused(file, {{{"cable", cable(3)}, 0.01, 0.01}});
+  refused(file, {{{"cable", cable(3)}, 0.01, -0.001}});
   refused(scratch.path() / "a.igs", {{{"cable", cable(3)}, 0.01}});
   refused(file, {});
   Eigen::Matrix3Xd points(3, 3);

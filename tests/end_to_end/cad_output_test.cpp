@@ -69,6 +69,9 @@ TEST_F(CadOutputTest, ListedTimesKeepTheirNames) {
   ASSERT_EQ(run_case(R"({"times": [0, 0.05], "formats": ["step", "step-solid"]})"), 0) << messages;
   EXPECT_EQ(cad_files(), (std::vector<std::string>{"deformed_t0.05.step", "deformed_t0.05_solid.step",
                                                    "deformed_t0.step", "deformed_t0_solid.step"}));
+  const std::vector<ImportedCurve> rod = import_curves(results / "deformed_t0_solid.step").curves;
+  EXPECT_NEAR(rod.back().pipe_radius, 0.01, 1e-9);
+  EXPECT_EQ(rod.back().bore_radius, 0);
   // A second run with fewer files leaves none of the first.
   ASSERT_EQ(run_case(R"({"times": [0.05], "formats": ["step"]})"), 0) << messages;
   EXPECT_EQ(cad_files(), std::vector<std::string>{"deformed_t0.05.step"});
@@ -98,6 +101,34 @@ TEST_F(CadOutputTest, ASolidOfASectionWithoutRadiusIsRefusedBeforeTheRun) {
   EXPECT_NE(messages.find("output.cad.formats[1]"), std::string::npos) << messages;
   EXPECT_NE(messages.find("cable"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(results));
+}
+
+TEST_F(CadOutputTest, AHollowPipeOfADrawingComesBackHollow) {
+  Eigen::Matrix3Xd points(3, 4);
+  points << 0, 0.4, 0.7, 1, 0, 0.1, -0.1, 0, 0, 0, 0, 0;
+  const NurbsCurve axis =
+      make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 1}), points, Eigen::Vector4d::Ones());
+  ASSERT_FALSE(
+      export_solids(directory.path() / "pipe.step", {{{"pipe", axis}, 0.02, 0.015}}, LengthUnit::millimetre));
+  ASSERT_EQ(
+      run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set", "analysis.end_time=0.05",
+           "--set", R"(beams[0].axis={"file": "pipe.step"})", "--set", R"(beams[0].section={"from": "cad"})",
+           "--set", R"(output.cad={"formats": ["step-solid"], "times": [0, 0.05]})"}),
+      0)
+      << messages;
+  EXPECT_EQ(messages.find("_solid"), std::string::npos) << messages;
+  double height = 1;
+  for (const char* const file : {"deformed_t0_solid.step", "deformed_t0.05_solid.step"}) {
+    const ImportReport report = import_curves(results / file);
+    const auto line = std::find_if(report.curves.begin(), report.curves.end(),
+                                   [](const ImportedCurve& curve) { return curve.is_centre_line(); });
+    ASSERT_NE(line, report.curves.end()) << file;
+    EXPECT_NEAR(line->pipe_radius, 0.02, 1e-6);
+    EXPECT_NEAR(line->bore_radius, 0.015, 1e-6);
+    const double end = line->curve.point(line->curve.knots().end()).z();
+    EXPECT_LT(end, height);
+    height = end;
+  }
 }
 
 /// A spline and an arc in inches, as a CAD system might have drawn them.
@@ -168,6 +199,14 @@ TEST_F(CadOutputTest, ExportOffersTheSameForms) {
   EXPECT_FALSE(import_curves(directory.path() / "solid.step").curves.at(0).free);
   EXPECT_EQ(exported("solid.igs", {"--solid", "5 mm"}), 2);
   EXPECT_EQ(exported("solid.step", {"--solid", "-1"}), 2);
+  EXPECT_EQ(exported("tube.step", {"--solid", "5 mm", "--bore", "4 mm"}), 0) << messages;
+  const std::vector<ImportedCurve> tube = import_curves(directory.path() / "tube.step").curves;
+  EXPECT_NEAR(tube.back().pipe_radius, 0.005, 1e-6);
+  EXPECT_NEAR(tube.back().bore_radius, 0.004, 1e-6);
+  EXPECT_EQ(exported("tube.step", {"--solid", "5 mm", "--bore", "5 mm"}), 2);
+  EXPECT_NE(messages.find("bore"), std::string::npos) << messages;
+  EXPECT_EQ(exported("tube.step", {"--bore", "4 mm"}), 2);
+  EXPECT_NE(messages.find("--solid"), std::string::npos) << messages;
   EXPECT_EQ(exported("material.igs", {"--parameter", "material", "--unit", "inch"}), 0) << messages;
   EXPECT_EQ(import_curves(directory.path() / "material.igs").unit, "inch");
   EXPECT_NEAR(only_curve(directory.path() / "material.igs").knots().end(), 1, 1e-15);

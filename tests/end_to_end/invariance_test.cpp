@@ -45,6 +45,43 @@ TEST(TwoBodies, ThatShareABreakOfTheDrawingSlideOverIt) {
   EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 5e-3);
 }
 
+// A body that slides over a support in the middle of a soft beam.
+std::vector<std::string> over_a_support(const std::string& slope) {
+  return {
+      "beams[0].axis.polyline=[[0,0,0],[2,0,0]]",
+      "beams[0].elements.count=24",
+      R"(supports=[{"beam":"beam","at":"start","type":"pinned"},{"beam":"beam","at":{"fraction":0.5},"type":"pinned"},{"beam":"beam","at":"end","type":"pinned"}])",
+      R"(sliding_joints[0]={"body":"mass","beam":"beam","at":{"length":0.15},"speed":4,"at_beam_end":"stop","slope":")" +
+          slope + "\"}",
+      "analysis.end_time=0.5",
+      "analysis.step=1e-4",
+      "output.every=0.01"};
+}
+
+TEST(InteriorSupport, IsPassedAsAPoint) {
+  const CaseRun run =
+      test::run_file(test::sample("falling_beam/falling_beam.json"), over_a_support("continuous"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_GT(run.last("mass.s [m]"), 1.1);
+  const double start = run.value(0, "energy.total [J]");
+  for (std::size_t i = 0; i < run.rows.size(); ++i)
+    EXPECT_NEAR(run.value(i, "energy.total [J]"), start, 0.01 * start) << run.value(i, "time [s]");
+}
+
+TEST(InteriorSupport, IsMetWithAnImpactWhereTheSlopeIsDiscontinuous) {
+  const CaseRun run =
+      test::run_file(test::sample("falling_beam/falling_beam.json"), over_a_support("discontinuous"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double start = run.value(0, "energy.total [J]");
+  double farthest = 0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    farthest = std::max(farthest, run.value(i, "mass.s [m]"));
+    EXPECT_LT(run.value(i, "energy.total [J]"), start * (1 + 1e-3)) << run.value(i, "time [s]");
+  }
+  EXPECT_GT(farthest, 1.05);
+  EXPECT_GT(run.last("energy.total [J]"), 0.8 * start);
+}
+
 TEST(Stop, AtAnEndThatAStepReachesExactlyLosesEnergy) {
   // 2 m/s over 0.3 m in steps of 0.2 ms: the last step begins at the end itself.
   const CaseRun run = test::run_file(

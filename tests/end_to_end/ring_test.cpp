@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "cad_import/import_curves.h"
+#include "nurbs/bezier_path.h"
 #include "pipelines/build_model.h"
 #include "tests/end_to_end/case_run.h"
 
@@ -109,6 +110,116 @@ TEST(RingRun, TheDeformedRingIsExportedAsOneSmoothClosedCurve) {
   const Eigen::Vector3d start = curve.derivatives(curve.knots().start(), 1).col(1).normalized();
   const Eigen::Vector3d end = curve.derivatives(curve.knots().end(), 1).col(1).normalized();
   EXPECT_LT((start - end).norm(), 1e-9);
+}
+
+std::string nurbs_axis(const NurbsCurve& curve) {
+  std::ostringstream knots, points, weights;
+  for (auto* stream : {&knots, &points, &weights}) stream->precision(17);
+  for (const double u : curve.knots().knots()) knots << (knots.tellp() > 0 ? ", " : "") << u;
+  for (const auto& column : curve.control_points().colwise()) {
+    const Eigen::Vector3d p = column.head<3>() / column(3);
+    points << (points.tellp() > 0 ? ", [" : "[") << p.x() << ", " << p.y() << ", " << p.z() << ']';
+    weights << (weights.tellp() > 0 ? ", " : "") << column(3);
+  }
+  return R"({"nurbs": {"degree": )" + std::to_string(curve.degree()) + R"(, "knots": [)" + knots.str() +
+         R"(], "control_points": [)" + points.str() + R"(], "weights": [)" + weights.str() + "]}}";
+}
+
+/// An ellipse about the origin from its rightmost point on, in quarters, as wide and high as given [m].
+NurbsCurve ellipse(double width, double height) {
+  Eigen::Matrix4Xd points(4, 9);
+  for (int i = 0; i < 9; ++i) {
+    const double x[] = {1, 1, 0, -1, -1, -1, 0, 1}, y[] = {0, 1, 1, 1, 0, -1, -1, -1};
+    const double weight = i % 2 ? std::sqrt(0.5) : 1;
+    points.col(i) << weight * 0.5 * width * x[i % 8], weight * 0.5 * height * y[i % 8], 0, weight;
+  }
+  return {KnotVector(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}), points};
+}
+
+/// A closed cubic spline of eight spans that is C2 everywhere, at its seam too, and a mirror image of itself
+/// in x; in space where `rise` is not 0 [m].
+NurbsCurve closed_spline(double rise) {
+  // d(k) = f(k - 1, k, k + 1), the blossom of the periodic spline.
+  const auto d = [&](int k) {
+    const double angle = 0.25 * pi * k;
+    return Eigen::Vector3d((0.5 + 0.05 * std::cos(2 * angle)) * std::cos(angle), 0.4 * std::sin(angle),
+                           rise * std::cos(2 * angle));
+  };
+  const Eigen::Vector3d seam = (d(-1) + 4 * d(0) + d(1)) / 6;  // f(0, 0, 0)
+  Eigen::Matrix3Xd points(3, 11);
+  points << seam, (2 * d(0) + d(1)) / 3, d(1), d(2), d(3), d(4), d(5), d(6), d(7), (d(7) + 2 * d(8)) / 3,
+      seam;
+  return make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 8, 8, 8}), points,
+                          Eigen::VectorXd::Ones(11));
+}
+
+/// Position, unit tangent and curvature vector at an end of a cubic.
+struct Contact {
+  Eigen::Vector3d point, tangent, curvature;
+};
+
+Contact contact(const RationalCubic& cubic, double u) {
+  const auto r = cubic.derivatives(u);
+  const Eigen::Vector3d first = r.col(1), second = r.col(2), tangent = first.normalized();
+  return {r.col(0), tangent, (second - second.dot(tangent) * tangent) / first.squaredNorm()};
+}
+
+/// Where a ring of one file, a mirror image of itself in x, closes.
+struct Seam {
+  double gap;        // [m]
+  double turn;       // of the unit tangent
+  double curvature;  // [1/m]
+  double jump;       // of the curvature vector [1/m]
+  double jump_opposite = 0;
+  double largest_jump = 0;  // at the other knots
+};
+
+Seam seam_of(const std::filesystem::path& file) {
+  const ImportReport report = import_curves(file);
+  EXPECT_EQ(report.curves.size(), 1u);
+  const std::vector<RationalCubic> pieces = BezierPath::from_nurbs(report.curves.at(0).curve, 1).segments;
+  const Contact start = contact(pieces.front(), 0), end = contact(pieces.back(), 1);
+  Seam seam{(start.point - end.point).norm(), (start.tangent - end.tangent).norm(), start.curvature.norm(),
+            (start.curvature - end.curvature).norm()};
+  const Eigen::Vector3d opposite(-start.point.x(), start.point.y(), start.point.z());
+  for (std::size_t j = 0; j + 1 < pieces.size(); ++j) {
+    const Contact left = contact(pieces[j], 1), right = contact(pieces[j + 1], 0);
+    const double jump = (left.curvature - right.curvature).norm();
+    seam.largest_jump = std::max(seam.largest_jump, jump);
+    if ((left.point - opposite).norm() < 1e-6) seam.jump_opposite = jump;
+  }
+  return seam;
+}
+
+TEST(RingRun, IsExportedAsSmoothAtItsSeamAsAtItsOtherNodes) {
+  // Held at the bottom and pulled at the top each ring stays a mirror image of itself in x: what the seam, at
+  // the right, is, the node at the left must be, too.
+  for (const NurbsCurve& drawn : {ellipse(1, 0.6), closed_spline(0), closed_spline(0.05)}) {
+    const TemporaryDirectory directory;
+    const auto file = directory.write("ring.json", ring_case(nurbs_axis(drawn), R"(
+        "supports": [{"beam": "ring", "at": {"fraction": 0.75}, "type": "pinned"}],
+        "loads": [{"beam": "ring", "at": {"fraction": 0.25}, "force": [0, 200, 0]}],
+        "analysis": {"end_time": 0.05, "step": "0.5 ms"},
+        "output": {"every": 0.05, "cad": {"formats": ["step", "iges"], "times": [0, 0.05]}})"));
+    const auto results = directory.path() / "r";
+    std::ostringstream out, err;
+    const CapturedErrors errors;
+    ASSERT_EQ(run_command_line({"run", file.string(), "--quiet", "--out", results.string()}, out, err), 0)
+        << err.str() << errors.text();
+    for (const char* const format : {".step", ".igs"}) {
+      SCOPED_TRACE(format);
+      const Seam before = seam_of(results / ("deformed_t0" + std::string(format)));
+      EXPECT_LE(before.gap, 1e-14);
+      EXPECT_LE(before.turn, 1e-11);
+      EXPECT_LE(before.jump, 1e-11 * before.curvature);  // as drawn it is C2
+      const Seam after = seam_of(results / ("deformed_t0.05" + std::string(format)));
+      EXPECT_LE(after.gap, 1e-14);
+      EXPECT_LE(after.turn, 1e-11);
+      EXPECT_GT(std::abs(after.curvature - before.curvature), 0.2 * before.curvature);
+      EXPECT_NEAR(after.jump, after.jump_opposite, 1e-5 * after.curvature);
+      EXPECT_LT(after.jump, after.largest_jump);
+    }
+  }
 }
 
 TEST(RingRun, APrescribedMotionGoesRoundAsOftenAsItSays) {

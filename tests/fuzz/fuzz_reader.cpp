@@ -35,11 +35,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kTimeLimit{4};
-constexpr std::size_t kMemoryLimit = std::size_t{2} << 30;
+constexpr std::chrono::seconds time_limit{4};
+constexpr std::size_t memory_limit = std::size_t{2} << 30;
 // Above the limit of one file: the ends of the child process and of its memory are waited for.
-constexpr std::chrono::seconds kLongestCase{8};
-constexpr std::uint64_t kCasesBetweenCanaries = 500;
+constexpr std::chrono::seconds longest_case{8};
+constexpr std::uint64_t cases_between_canaries = 500;
 
 struct Options {
   CadFormat format = CadFormat::step;
@@ -213,7 +213,7 @@ class Fuzzer {
     std::uint64_t done = 0;
     for (; done < options_.cases && elapsed() < options_.seconds; ++done) {
       run_case();
-      if ((done + 1) % kCasesBetweenCanaries == 0) {
+      if ((done + 1) % cases_between_canaries == 0) {
         check_canary();
         hand_over();
       }
@@ -221,8 +221,8 @@ class Fuzzer {
     check_canary();
     if (open_descriptors() != descriptors) fail("file descriptors are left open");
     if (waitpid(-1, nullptr, WNOHANG) != -1) fail("child processes are left");
-    constexpr long kMostGrowth = 100'000;  // [kB]
-    if (resident_kilobytes() > resident + kMostGrowth) fail("the parent's memory grows");
+    constexpr long most_growth = 100'000;  // [kB]
+    if (resident_kilobytes() > resident + most_growth) fail("the parent's memory grows");
     hand_over();
     print(done, elapsed());
     return failures_;
@@ -237,13 +237,13 @@ class Fuzzer {
     const fs::path file = scratch_.file(content);
     const Clock::time_point begin = Clock::now();
     const ImportReport report =
-        import_curves(file, {.time_limit = kTimeLimit, .memory_limit_bytes = kMemoryLimit});
+        import_curves(file, {.time_limit = time_limit, .memory_limit_bytes = memory_limit});
     const auto took = Clock::now() - begin;
     const std::string outcome = outcome_of(report);
     ++counts_[outcome];
     slowest_ = std::max(slowest_, std::chrono::duration<double>(took).count());
     std::string wrong = violation(report, file);
-    if (took > kLongestCase) wrong = "it took longer than its time limit allows";
+    if (took > longest_case) wrong = "it took longer than its time limit allows";
     if (outcome == "not_started") wrong = "no child process could be started";
     if (!wrong.empty()) fail(source.name + ", case " + std::to_string(seed) + ": " + wrong);
     const bool remarkable = !wrong.empty() || (outcome != "imported" && outcome != "diagnosed");

@@ -73,14 +73,14 @@ void change_digit(std::string& text, Random& random) {
 
 // Padded to the old width where it fits, so that the columns of an IGES file stay.
 void change_number(std::string& text, Random& random) {
-  constexpr std::array<std::string_view, 24> kNumbers{
+  constexpr std::array<std::string_view, 24> odd_numbers{
       "0",        "-1",  "1",       "2",          "-0.",         "1.E308",     "-1.E308",   "1.E-320",
       "NAN",      "INF", "1.E9999", "2147483647", "-2147483648", "4294967296", "65536",     "1000000",
       "99999999", "3",   "25",      "26",         "100",         "0.5",        "1.0000001", ""};
   const std::size_t at = random_place(text, is_digit, random);
   if (at == text.size()) return;
   const Piece old = run_around(text, at, is_in_number);
-  std::string number(kNumbers[below(kNumbers.size(), random)]);
+  std::string number(odd_numbers[below(odd_numbers.size(), random)]);
   if (random() % 2 == 0 && number.size() < old.end - old.begin) number.resize(old.end - old.begin, ' ');
   replace(text, old, number);
 }
@@ -137,8 +137,8 @@ void delete_block(std::string& text, Random& random) {
 }
 
 void insert_symbols(std::string& text, Random& random) {
-  constexpr std::string_view kSymbols = "(),;#*$'\"/\\.&!=\n\r\t @HEDT";
-  const std::string symbols(1 + below(20, random), kSymbols[below(kSymbols.size(), random)]);
+  constexpr std::string_view marks = "(),;#*$'\"/\\.&!=\n\r\t @HEDT";
+  const std::string symbols(1 + below(20, random), marks[below(marks.size(), random)]);
   text.insert(below(text.size(), random), symbols);
 }
 
@@ -164,16 +164,16 @@ void splice(std::string& text, const std::string& other, Random& random) {
 void change(std::string& text, const std::vector<std::string>& others, Random& random) {
   using Change = void (*)(std::string&, Random&);
   // A change that leaves the syntax whole comes more often: it gets deeper into the reader.
-  constexpr std::array<Change, 20> kChanges{
+  constexpr std::array<Change, 20> kinds_of_change{
       flip_bytes,    flip_bit,           change_digit,       change_digit, change_digit,
       change_number, change_number,      change_number,      copy_number,  copy_number,
       copy_number,   redirect_reference, redirect_reference, copy_keyword, delete_line,
       repeat_line,   move_line,          repeat_block,       delete_block, insert_symbols};
-  const std::size_t chosen = below(kChanges.size() + 2, random);
+  const std::size_t chosen = below(kinds_of_change.size() + 2, random);
   if (text.empty()) return;
-  if (chosen < kChanges.size()) {
-    kChanges[chosen](text, random);
-  } else if (chosen == kChanges.size()) {
+  if (chosen < kinds_of_change.size()) {
+    kinds_of_change[chosen](text, random);
+  } else if (chosen == kinds_of_change.size()) {
     truncate(text, random);
   } else {
     splice(text, others[below(others.size(), random)], random);

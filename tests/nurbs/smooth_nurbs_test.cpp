@@ -135,7 +135,7 @@ TEST(SmoothNurbs, ALineIsTwoPolesOfDegreeOne) {
   }
 }
 
-TEST(SmoothNurbs, AnArcIsOneRationalQuadraticAndACircleThree) {
+TEST(SmoothNurbs, AnArcIsOneRationalQuadratic) {
   Generator generator(73);
   for (const double degrees : {10.0, 90.0, 120.0, 170.0}) {
     const BezierPath path = in_pieces(generator, circular_arc(2, degrees * pi / 180), 7);
@@ -144,12 +144,39 @@ TEST(SmoothNurbs, AnArcIsOneRationalQuadraticAndACircleThree) {
     EXPECT_EQ(smooth.curve.control_points().cols(), 3) << degrees;
     EXPECT_LE(distance(smooth.curve, path), 1e-13);
   }
-  const SmoothNurbs circle =
-      smooth_nurbs(in_pieces(generator, unit_circle(), 3), CurveParameter::free, 1e-13);
-  EXPECT_EQ(circle.curve.degree(), 2);
-  EXPECT_LE(circle.curve.control_points().cols(), 7);
-  const double start = circle.curve.knots().start(), all = circle.curve.knots().end() - start;
-  for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(circle.curve.point(start + all * (0.001 * i)).norm(), 1, 2e-14);
+}
+
+// A quadratic on the unit circle is x + iy = z^2, w = |z|^2 with z linear in the parameter. Two of them that
+// are C1 in homogeneous coordinates share z and z z', and so z': they are one, whose angle 2 arg z stays
+// below a full turn, and on a span with positive weights below half of one. So a circle of degree 2 needs
+// three spans and a double knot between two of them: six control points, or seven if it is to be symmetric.
+// Of degree 3 it has six, symmetric, and is C1 throughout.
+TEST(SmoothNurbs, AWholeCircleHasSixControlPointsAndIsC1Throughout) {
+  Generator generator(73);
+  for (const int parts : {3, 4})
+    for (const int cuts : {1, 2, 3, 5, 8, 25}) {
+      SCOPED_TRACE(testing::Message() << parts << " arcs in " << cuts << " pieces");
+      BezierPath arcs{{}, {0}, 0};
+      for (int i = 0; i < parts; ++i) {
+        const double angle = 2 * pi / parts;
+        const Eigen::AngleAxisd turn(i * angle, Eigen::Vector3d::UnitZ());
+        Eigen::Matrix4Xd points = circular_arc(1, angle).control_points();
+        points.topRows<3>() = (turn * points.topRows<3>()).eval();
+        const BezierPath part = in_pieces(generator, {KnotVector(2, {0, 0, 0, 1, 1, 1}), points}, cuts);
+        for (const RationalCubic& segment : part.segments) {
+          arcs.segments.push_back(segment);
+          arcs.breaks.push_back(arcs.breaks.back() + length(segment));
+        }
+      }
+      const NurbsCurve circle = smooth_nurbs(arcs, CurveParameter::free, 1e-12).curve;
+      EXPECT_EQ(circle.degree(), 3);
+      EXPECT_EQ(circle.control_points().cols(), 6);
+      EXPECT_EQ(largest_interior_multiplicity(circle), 2);
+      const Eigen::RowVectorXd weights = circle.control_points().row(3);
+      EXPECT_LE((weights - weights.reverse()).norm(), 1e-9);
+      const double start = circle.knots().start(), all = circle.knots().end() - start;
+      for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(circle.point(start + all * (0.001 * i)).norm(), 1, 2e-13);
+    }
 }
 
 TEST(SmoothNurbs, AMildSmoothChainGetsDoubleKnotsThroughout) {
