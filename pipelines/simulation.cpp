@@ -547,36 +547,14 @@ class Simulation {
     return std::nullopt;
   }
 
-  // Goes on beyond a place that a joint has landed at: its equations, or those of a support there, are those
-  // of the next element. With a discontinuous slope it meets a support with an impact.
+  // Goes on beyond a place that a joint has landed at: a point in the next element.
   bool step_over(const Crossing& crossing) {
     const double beyond = landing_tolerance(crossing.joint);
     state_.q[system_->mesh().joints[crossing.joint].place] =
         crossing.s + (crossing.forward ? beyond : -beyond);
     plan_ = present_plan<D>(*system_, state_);
-    auto next = std::make_unique<BeamSystem<D>>(model_, plan_);
-    const SlidingJoint& joint = model_.joints[crossing.joint];
-    const bool impact = !joint.continuous_slope && is_supported(joint.beam, crossing.s);
-    RunEvent event = event_before("passed a support", crossing.joint);
-    Eigen::VectorXd impulse;
-    if (impact && !project_velocities(*next, state_, impulse)) {
-      fail(SimulationStatus::not_converged,
-           "the impact of \"" + body_name(crossing.joint) + "\" at a support is singular");
-      return false;
-    }
-    system_ = std::move(next);
-    if (!restart()) return false;
-    if (impact) {
-      event.support_impulse = support_impulse(impulse);
-      finish_event(event);
-    }
-    return true;
-  }
-
-  bool is_supported(int beam, double s) const {
-    const double wrapped = model_.beams[beam].curve.wrapped(s);
-    return std::any_of(model_.supports.begin(), model_.supports.end(),
-                       [&](const Support& support) { return support.beam == beam && support.s == wrapped; });
+    system_ = std::make_unique<BeamSystem<D>>(model_, plan_);
+    return restart();
   }
 
   // By a support or by another beam.
