@@ -24,12 +24,12 @@ class JointRules {
  public:
   JointRules(const BeamSystem<D>& system, const State& state, const LengthControl& control, int joint,
              NextPlan& next)
-      : mesh_(system.mesh()),
+      : model_(system.model()),
+        mesh_(system.mesh()),
         control_(control),
         joint_(joint),
-        kinked_(!system.model().joints[joint].continuous_slope),
-        index_(system.model().joints[joint].beam),
-        beam_(system.model().beams[index_]),
+        index_(model_.joints[joint].beam),
+        beam_(model_.beams[index_]),
         next_(next),
         rate_(system.place_rate(state, joint)) {
     const auto s = system.place(state, joint);
@@ -40,8 +40,8 @@ class JointRules {
   bool apply() {
     if (mesh_.plan.modes[joint_] == JointMode::point) return leave_point();
     if (mesh_.plan.modes[joint_] != JointMode::node) return false;
-    if (near_end() || (!kinked_ && late_node_near(beam_, s_, late_zone))) return become_point();
-    return (kinked_ && move_late_nodes()) || exchange_nodes();
+    if (near_end() || near_as_point(model_, model_.joints[joint_], s_, late_zone)) return become_point();
+    return move_late_nodes() || exchange_nodes();
   }
 
  private:
@@ -90,7 +90,7 @@ class JointRules {
   bool leave_point() {
     const double from_end = std::min(s_, at(last()) - s_);
     if (!beam_.is_ring() && from_end < 2 * end_zone * spacing(s_)) return false;
-    if (late_node_near(beam_, s_, late_zone_left)) return false;
+    if (near_as_point(model_, model_.joints[joint_], s_, late_zone_left)) return false;
     next_.plan.modes[joint_] = JointMode::node;
     return change(MeshChange::becomes_node);
   }
@@ -124,9 +124,15 @@ class JointRules {
     return false;
   }
 
+  // A break before a joint with a discontinuous slope.
+  bool gives_way(int h) const {
+    return home(h).late && home(h).kind == NodeKind::smooth &&
+           !passes_as_point(model_, model_.joints[joint_], h);
+  }
+
   bool move_late_nodes() {
     for (int h = lowest(); h <= highest(); ++h) {
-      if (!home(h).late || home(h).kind != NodeKind::smooth) continue;
+      if (!gives_way(h)) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
       if (hidden(h) && distance > late_zone_left * gap && !another_joint_near(h, late_zone_left)) {
@@ -193,11 +199,10 @@ class JointRules {
     return inserted && change(MeshChange::split);
   }
 
+  const BeamModel& model_;
   const Mesh<D>& mesh_;
   const LengthControl& control_;
-  int joint_;
-  bool kinked_;  // the slope may be discontinuous at the joint
-  int index_;
+  int joint_, index_;
   const Beam& beam_;
   NextPlan& next_;
   double s_ = 0, rate_;

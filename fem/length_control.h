@@ -34,9 +34,9 @@ MeshPlan present_plan(const BeamSystem<D>& system, const State& state);
 
 /// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
-/// (unless it is a beam end, a hinge or a corner, or late). Late nodes (breaks, supports) stay: the joint
-/// passes them, and comes to a beam end, as a point of the mesh. Where its slope may be discontinuous, which
-/// a point cannot carry, a late node goes when the joint is very near.
+/// (unless it is a beam end, a hinge or a corner, or late). Late nodes stay: the joint passes them, and comes
+/// to a beam end, as a point of the mesh; but breaks before a joint whose slope may be discontinuous go when
+/// it is very near (passes_as_point).
 template <int D>
 NextPlan next_plan(const BeamSystem<D>& system, const State& state, const LengthControl& control);
 

@@ -68,14 +68,24 @@ Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& n
 
 }  // namespace
 
-bool late_node_near(const Beam& beam, double s, double reach) {
-  const int h = beam.home_interval(s);
-  const double distance = reach * (beam.home_place(h + 1) - beam.home_place(h));
-  const auto near = [&](int i) {
-    const HomeNode& node = beam.home[beam.home_index(i)];
-    return node.late && node.kind == NodeKind::smooth && std::abs(beam.home_place(i) - s) <= distance;
+bool passes_as_point(const BeamModel& model, const SlidingJoint& joint, int h) {
+  const Beam& beam = model.beams[joint.beam];
+  const HomeNode& node = beam.home[beam.home_index(h)];
+  if (!node.late || node.kind != NodeKind::smooth) return false;
+  return joint.continuous_slope ||
+         std::any_of(model.supports.begin(), model.supports.end(), [&](const Support& support) {
+           return support.beam == joint.beam && support.s == node.s;
+         });
+}
+
+bool near_as_point(const BeamModel& model, const SlidingJoint& joint, double s, double reach) {
+  const Beam& beam = model.beams[joint.beam];
+  const int before = beam.home_interval(s);
+  const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));
+  const auto near = [&](int h) {
+    return std::abs(beam.home_place(h) - s) <= distance && passes_as_point(model, joint, h);
   };
-  return near(h) || near(h + 1);
+  return near(before) || near(before + 1);
 }
 
 MeshPlan initial_plan(const BeamModel& model) {
@@ -85,7 +95,7 @@ MeshPlan initial_plan(const BeamModel& model) {
     const Beam& beam = model.beams[joint.beam];
     const double from_end = std::min(joint.s, beam.curve.length() - joint.s);
     const bool on_point = (!beam.is_ring() && from_end < end_zone * spacing_near(beam, joint.s)) ||
-                          (joint.continuous_slope && late_node_near(beam, joint.s, late_zone));
+                          near_as_point(model, joint, joint.s, late_zone);
     plan.modes.push_back(on_point ? JointMode::point : JointMode::node);
     plan.places.push_back(joint.s);
     if (on_point) continue;

@@ -132,10 +132,13 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
 inline constexpr double end_zone = 0.2;
 /// Distance of two joints on a beam, in home element lengths, at which they count as having met.
 inline constexpr double meeting_distance = 0.05;
-/// Nearness to a late home node at which a joint becomes a point (where the slope may be discontinuous: at
-/// which that node is removed) and, larger, a node again, in home element lengths.
+/// Nearness to a late home node at which a joint becomes a point (or that node is removed, see
+/// passes_as_point) and, larger, a node again, in home element lengths.
 inline constexpr double late_zone = 0.04, late_zone_left = 0.05;
-/// Whether a late home node of the beam, but no hinge or corner, is within `reach` home element lengths of s.
-bool late_node_near(const Beam& beam, double s, double reach);
+/// Whether a joint passes home node h of its beam as a point: late nodes, but no hinge or corner; a joint
+/// with a discontinuous slope, which a point cannot carry, only supports. Breaks give way to such a one.
+bool passes_as_point(const BeamModel& model, const SlidingJoint& joint, int h);
+/// Whether a node that the joint passes as a point is within `reach` home element lengths of s.
+bool near_as_point(const BeamModel& model, const SlidingJoint& joint, double s, double reach);
 
 }  // namespace nurbeam

@@ -32,7 +32,6 @@ struct Example {
   std::function<BeamModel(int elements)> model;
   double end;               ///< [s]
   std::string stress_free;  ///< of the page's statements
-  double step = 4e-4;       ///< of the comparisons of accuracy [s]
 };
 Example falling_beam_example();
 Example suspended_beam_example();

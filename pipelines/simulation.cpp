@@ -38,17 +38,11 @@ const char* reason_of(StepStatus status) {
   return "converged";
 }
 
-bool is_supported(const BeamModel& model, const Crossing& place) {
-  const int beam = model.joints[place.joint].beam;
-  const double s = curve_of(model, place.joint).wrapped(place.s);
-  return std::any_of(model.supports.begin(), model.supports.end(),
-                     [&](const Support& support) { return support.beam == beam && support.s == s; });
-}
-
-// By a support or by another beam.
+// Whether a beam's end is held, by a support or by another beam.
 bool is_held(const BeamModel& model, const Crossing& end) {
   const int beam = model.joints[end.joint].beam;
-  return is_supported(model, end) ||
+  return std::any_of(model.supports.begin(), model.supports.end(),
+                     [&](const Support& support) { return support.beam == beam && support.s == end.s; }) ||
          std::any_of(model.beam_joints.begin(), model.beam_joints.end(), [&](const BeamJoint& other) {
            return (other.beam_a == beam && other.s_a == end.s) ||
                   (other.beam_b == beam && other.s_b == end.s);
@@ -260,29 +254,13 @@ class Simulation {
                        [](const Beam& beam) { return beam.properties.damping > 0; });
   }
 
-  // Goes on beyond a place that a joint has landed at: its equations, or those of a support there, are those
-  // of the next element. With a discontinuous slope it meets a support with an impact.
+  // Goes on beyond a place that a joint has landed at: a point in the next element.
   bool step_over(const Crossing& crossing) {
-    const int joint = crossing.joint;
-    const double beyond = landing_tolerance(model_, joint);
-    at_.state.q[at_.system->mesh().joints[joint].place] = crossing.s + (crossing.forward ? beyond : -beyond);
-    auto next = std::make_unique<BeamSystem<D>>(model_, present_plan<D>(*at_.system, at_.state));
-    const bool impact = !model_.joints[joint].continuous_slope && is_supported(model_, crossing);
-    RunEvent event = event_before(at_, "passed a support", joint);
-    Eigen::VectorXd impulse;
-    if (impact && !project_velocities(*next, at_.state, impulse)) {
-      report_.fail(SimulationStatus::not_converged,
-                   "the impact of \"" + body_name(model_, joint) + "\" at a support is singular");
-      return false;
-    }
-    at_.system = std::move(next);
-    if (!restart()) return false;
-    if (impact) {
-      event.support_impulse = support_impulse<D>(model_, impulse);
-      finish_event(at_, event);
-      report_.events.push_back(std::move(event));
-    }
-    return true;
+    const double beyond = landing_tolerance(model_, crossing.joint);
+    at_.state.q[at_.system->mesh().joints[crossing.joint].place] =
+        crossing.s + (crossing.forward ? beyond : -beyond);
+    at_.system = std::make_unique<BeamSystem<D>>(model_, present_plan<D>(*at_.system, at_.state));
+    return restart();
   }
 
   bool end_sliding(const Crossing& ending) {

@@ -68,18 +68,19 @@ TEST(InteriorSupport, IsPassedAsAPoint) {
     EXPECT_NEAR(run.value(i, "energy.total [J]"), start, 0.01 * start) << run.value(i, "time [s]");
 }
 
-TEST(InteriorSupport, IsMetWithAnImpactWhereTheSlopeIsDiscontinuous) {
-  const CaseRun run =
-      test::run_file(test::sample("falling_beam/falling_beam.json"), over_a_support("discontinuous"));
+TEST(InteriorSupport, IsPassedWithADiscontinuousSlopeToo) {
+  std::vector<std::string> overrides = over_a_support("discontinuous");
+  overrides.push_back("gravity=[0,-1,0]");
+  const CaseRun run = test::run_file(test::sample("falling_beam/falling_beam.json"), overrides);
   ASSERT_EQ(run.code, 0) << run.messages;
   const double start = run.value(0, "energy.total [J]");
   double farthest = 0;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     farthest = std::max(farthest, run.value(i, "mass.s [m]"));
-    EXPECT_LT(run.value(i, "energy.total [J]"), start * (1 + 1e-3)) << run.value(i, "time [s]");
+    EXPECT_LT(run.value(i, "energy.total [J]"), start * (1 + 1e-2)) << run.value(i, "time [s]");
   }
   EXPECT_GT(farthest, 1.05);
-  EXPECT_GT(run.last("energy.total [J]"), 0.8 * start);
+  EXPECT_GT(run.last("energy.total [J]"), 0.8 * start);  // the shock makes waves, which the steps damp
 }
 
 TEST(Stop, AtAnEndThatAStepReachesExactlyLosesEnergy) {
