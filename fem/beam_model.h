@@ -31,9 +31,8 @@ enum class NodeKind {
 
 /// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.
 struct HomeNode {
-  double s;  ///< reference arc length [m]
-  bool
-      late;  ///< a break of the drawing or a support: removed for no joint but one with a discontinuous slope
+  double s;   ///< reference arc length [m]
+  bool late;  ///< a break of the drawing or a support: bodies pass it as a point (passes_as_point)
   NodeKind kind = NodeKind::smooth;  ///< a hinge or a corner is never removed: no body slides over it
 };
 

@@ -42,14 +42,15 @@ namespace {
 namespace fs = std::filesystem;
 using std::numbers::pi;
 
-/// A wavy cable of elements that share position and tangent, each with its own speed and its own weights, as
-/// a moving cable leaves them.
-BezierPath wavy_cable(int count, double weight_spread) {
-  const auto at = [](double t) { return Eigen::Vector3d(2 * t, 0.2 * std::sin(5 * t), 0.3 * t * t); };
-  const auto slope = [](double t) { return Eigen::Vector3d(2, std::cos(5 * t), 0.6 * t); };
+/// Elements over `count` equal parts of [0, end] that share position and tangent, each with its own speed and
+/// its own weights, as a moving cable leaves them; a closed one ends exactly where it starts.
+template <typename Curve, typename Slope>
+BezierPath uneven_elements(const Curve& at, const Slope& slope, double end, bool closed, int count,
+                           double weight_spread) {
   BezierPath path{{}, {0}, 0};
+  const double third = end / count / 3;
   for (int j = 0; j < count; ++j) {
-    const double a = double(j) / count, b = double(j + 1) / count, third = (b - a) / 3;
+    const double a = end * j / count, b = end * (closed ? (j + 1) % count : j + 1) / count;
     const double uneven = 1 + 0.2 * std::sin(double(7 * j));
     Eigen::Matrix3Xd controls(3, 4);
     controls << at(a), at(a) + uneven * third * slope(a), at(b) - third / uneven * slope(b), at(b);
@@ -62,6 +63,12 @@ BezierPath wavy_cable(int count, double weight_spread) {
     path.breaks.push_back(path.breaks.back() + length(path.segments.back()));
   }
   return path;
+}
+
+BezierPath wavy_cable(int count, double weight_spread) {
+  const auto at = [](double t) { return Eigen::Vector3d(2 * t, 0.2 * std::sin(5 * t), 0.3 * t * t); };
+  const auto slope = [](double t) { return Eigen::Vector3d(2, std::cos(5 * t), 0.6 * t); };
+  return uneven_elements(at, slope, 1, false, count, weight_spread);
 }
 
 NurbsCurve cable(int count, double weight_spread = 0) {
@@ -220,21 +227,7 @@ BezierPath wavy_ring(int count, double weight_spread) {
     return Eigen::Vector3d(-0.3 * std::sin(3 * t) * std::cos(t) - (1 + 0.1 * std::cos(3 * t)) * std::sin(t),
                            0.7 * std::cos(t), 0.4 * std::cos(2 * t));
   };
-  BezierPath path{{}, {0}, 0};
-  for (int j = 0; j < count; ++j) {
-    const double a = 2 * pi * j / count, b = 2 * pi * ((j + 1) % count) / count, third = 2 * pi / count / 3;
-    const double uneven = 1 + 0.2 * std::sin(double(7 * j));
-    Eigen::Matrix3Xd controls(3, 4);
-    controls << at(a), at(a) + uneven * third * slope(a), at(b) - third / uneven * slope(b), at(b);
-    Eigen::Matrix4d points;
-    for (int i = 0; i < 4; ++i) {
-      const double weight = 1 + weight_spread * std::sin(double(3 * j + 5 * i));
-      points.col(i) << weight * controls.col(i), weight;
-    }
-    path.segments.emplace_back(points);
-    path.breaks.push_back(path.breaks.back() + length(path.segments.back()));
-  }
-  return path;
+  return uneven_elements(at, slope, 2 * pi, true, count, weight_spread);
 }
 
 TEST_P(WrittenFile, OfARingIsOneClosedEdgeWithOneVertexToASecondReader) {
