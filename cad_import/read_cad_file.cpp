@@ -56,7 +56,7 @@
 #include "cad_import/appearance.h"
 #include "cad_import/centre_line.h"
 #include "cad_import/edge_curve.h"
-#include "cad_import/iges_global.h"
+#include "cad_import/iges/iges_global.h"
 #include "cad_import/spline_defect.h"
 
 namespace nurbeam {

@@ -1,11 +1,16 @@
-# nurbeam_room(<name> [PRIVATE <header>...]): the library of one top-level folder, made of every .cpp and .h in it
-# (main.cpp apart). Includes go from the root ("nurbs/knot_vector.h"). Each public header must compile alone (target
-# all_verify_interface_header_sets); PRIVATE headers, which show a library that the room hides, are not installed.
+# nurbeam_room(<name> [PRIVATE <header>...] [EXCEPT <regex>]): the library of one top-level folder, made of every .cpp
+# and .h in it and its sub-folders (main.cpp, and what the regex matches, apart). Includes go from the root
+# ("nurbs/knot_vector.h"). Each public header must compile alone (target all_verify_interface_header_sets); PRIVATE
+# headers, which show a library that the room hides, are not installed.
 function(nurbeam_room name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  cmake_parse_arguments(PARSE_ARGV 1 room "" EXCEPT PRIVATE)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
-  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
-  cmake_parse_arguments(PARSE_ARGV 1 room "" "" PRIVATE)
+  if(room_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "${room_EXCEPT}")
+    list(FILTER headers EXCLUDE REGEX "${room_EXCEPT}")
+  endif()
   list(TRANSFORM room_PRIVATE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   if(room_PRIVATE)
     list(REMOVE_ITEM headers ${room_PRIVATE})

@@ -1,4 +1,4 @@
-// Bundles src/ into dist/report.html: the whole page but for the data of a run, for pipelines/report.cpp to fill in.
+// Bundles src/ into dist/report.html: the whole page but for the data of a run, for pipelines/report/report.cpp to fill in.
 import { build } from 'esbuild';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';

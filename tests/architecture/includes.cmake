@@ -19,10 +19,10 @@ set(homes
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|edge_curve\\.h)"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|sundials_border\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
-  "nlohmann/.*"                                                                   "pipelines/(case_(file|json|check|schema)\\.cpp|case_json\\.h|(inspect|model_summary|report|run_summary)\\.cpp)"
-  "netcdf\\.h"                                                                    "pipelines/netcdf_file\\.cpp"
-  "CGAL/.*"                                                                       "pipelines/cgal/with_cgal\\.cpp"
-  "openssl/.*"                                                                    "pipelines/(file_hash|base64)\\.cpp")
+  "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
+  "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
+  "CGAL/.*"                                                                       "pipelines/section/with_cgal\\.cpp"
+  "openssl/.*"                                                                    "pipelines/results/(file_hash|base64)\\.cpp")
 
 set_property(GLOBAL PROPERTY complaints 0)
 function(complain file included reason)

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "pipelines/report.h"
+#include "pipelines/report/report.h"
 
 namespace {
 

@@ -30,10 +30,10 @@
 #include <stdexcept>
 
 #include "cad_import/export_curves.h"
-#include "cad_import/iges_global.h"
+#include "cad_import/iges/iges_global.h"
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
-#include "nurbs/smooth_nurbs.h"
+#include "nurbs/smooth/smooth_nurbs.h"
 #include "tests/cad_import/scratch_directory.h"
 
 namespace nurbeam {

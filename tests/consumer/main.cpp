@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "fem/beam_system.h"
+#include "fem/system/beam_system.h"
 #include "nurbs/rational_cubic.h"
 
 // The energy of a straight steel wire bent to a quarter circle of radius 1 m: EI/2 times the angle.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "pipelines/papers_chains.h"
-#include "pipelines/papers_events.h"
-#include "pipelines/papers_places.h"
+#include "pipelines/papers/papers_chains.h"
+#include "pipelines/papers/papers_events.h"
+#include "pipelines/papers/papers_places.h"
 
 namespace nurbeam::papers {
 namespace {

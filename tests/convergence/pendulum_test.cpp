@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipelines/papers_pendulum.h"
+#include "pipelines/papers/papers_pendulum.h"
 
 namespace nurbeam {
 namespace {

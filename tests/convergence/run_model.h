@@ -1,7 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "pipelines/verify_run.h"
+#include "pipelines/verification/verify_run.h"
 
 /// The runs of the verification problems, under the name the tests know them by; a run that ends early
 /// throws.

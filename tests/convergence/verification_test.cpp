@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipelines/verify.h"
+#include "pipelines/verification/verify.h"
 
 namespace nurbeam {
 namespace {

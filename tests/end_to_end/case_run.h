@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/command_line.h"
+#include "pipelines/command/command_line.h"
 #include "tests/pipelines/case_text.h"
 
 namespace nurbeam::test {

@@ -12,7 +12,7 @@
 #include "cad_import/import_curves.h"
 #include "nurbs/bezier_path.h"
 #include "nurbs/closest_point.h"
-#include "pipelines/export_results.h"
+#include "pipelines/results/export_results.h"
 #include "tests/convergence/run_model.h"
 #include "tests/pipelines/case_text.h"
 #include "tests/support/models.h"

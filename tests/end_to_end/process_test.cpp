@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "pipelines/results.h"
+#include "pipelines/results/results.h"
 #include "tests/cad_import/step_text_of.h"
 #include "tests/end_to_end/case_run.h"
 

@@ -5,7 +5,7 @@
 
 #include "cad_import/import_curves.h"
 #include "nurbs/bezier_path.h"
-#include "pipelines/build_model.h"
+#include "pipelines/model/build_model.h"
 #include "tests/end_to_end/case_run.h"
 
 namespace nurbeam::test {

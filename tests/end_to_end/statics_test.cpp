@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/verify_oracles.h"
+#include "pipelines/verification/verify_oracles.h"
 #include "tests/end_to_end/case_run.h"
 
 namespace nurbeam {

@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "fem/beam_system.h"
+#include "fem/system/beam_system.h"
 #include "tests/support/models.h"
 
 namespace nurbeam::testing {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/length_control.h"
+#include "fem/motion/length_control.h"
 #include "solver/consistent.h"
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"

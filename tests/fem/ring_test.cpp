@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fem/length_control.h"
+#include "fem/motion/length_control.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fem/beam_system.h"
+#include "fem/system/beam_system.h"
 #include "solver/consistent.h"
 #include "solver/generalized_alpha.h"
 #include "solver/ida_integrator.h"

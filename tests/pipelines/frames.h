@@ -1,7 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "pipelines/frame.h"
+#include "pipelines/motion/frame.h"
 
 namespace nurbeam::test {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/verify_models.h"
+#include "pipelines/verification/verify_models.h"
 
 /// The models of the verification problems, under the name the tests know them by.
 namespace nurbeam::testing {

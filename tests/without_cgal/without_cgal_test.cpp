@@ -2,8 +2,8 @@
 
 #include <sstream>
 
-#include "pipelines/cgal_geometry.h"
-#include "pipelines/section_profile.h"
+#include "pipelines/section/cgal_geometry.h"
+#include "pipelines/section/section_profile.h"
 #include "tests/support/profiles.h"
 
 namespace nurbeam {

@@ -1,4 +1,4 @@
-// The data of the page: what pipelines/report.cpp has written, decoded only where and when it is looked at.
+// The data of the page: what pipelines/report/report.cpp has written, decoded only where and when it is looked at.
 
 const digit_of = new Uint8Array(128);
 [...'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'].forEach((c, i) => {

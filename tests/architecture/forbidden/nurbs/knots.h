@@ -1,2 +1,2 @@
 #pragma once
-#include "fem/mesh.h"
+#include "fem/mesh/mesh.h"

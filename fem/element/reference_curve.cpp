@@ -1,0 +1,116 @@
+#include "fem/element/reference_curve.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace nurbeam {
+
+namespace {
+
+// c = |r' x r''| (signed in the plane) and its first two derivatives.
+std::array<double, 3> cross_product_derivatives(const Eigen::Matrix<double, 3, 6>& r, int dimension) {
+  const Eigen::Vector3d r1 = r.col(1), r2 = r.col(2), r3 = r.col(3), r4 = r.col(4);
+  const Eigen::Vector3d c = r1.cross(r2);
+  const Eigen::Vector3d c1 = r1.cross(r3);
+  const Eigen::Vector3d c2 = r2.cross(r3) + r1.cross(r4);
+  if (dimension == 2) return {c.z(), c1.z(), c2.z()};
+  const double norm = c.norm();
+  if (norm < 1e-12 * r1.squaredNorm()) return {0, 0, 0};
+  const double norm1 = c.dot(c1) / norm;
+  return {norm, norm1, (c1.squaredNorm() + c.dot(c2) - norm1 * norm1) / norm};
+}
+
+}  // namespace
+
+ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric, bool closed)
+    : segments_(std::move(segments)), dimension_(dimension), metric_(metric), closed_(closed) {
+  if (segments_.empty())
+    throw std::invalid_argument("a reference curve needs at least one segment, got none");
+  if (dimension != 2 && dimension != 3)
+    throw std::invalid_argument("a reference curve has dimension 2 or 3, got " + std::to_string(dimension));
+  breaks_.push_back(0);
+  for (const RationalCubic& segment : segments_) {
+    maps_.emplace_back(segment);
+    breaks_.push_back(breaks_.back() + maps_.back().length());
+  }
+  if (!closed_) return;
+  if (segment_count() < 2 || metric_ == Metric::label)
+    throw std::invalid_argument("a closed reference curve needs two segments or more and its metric");
+  const double gap = (segments_.front().point(0) - segments_.back().point(1)).norm();
+  if (gap > 1e-9 * length())
+    throw std::invalid_argument("a closed reference curve ends where it starts; there is a gap of " +
+                                std::to_string(gap) + " m");
+}
+
+double ReferenceCurve::wrapped(double s) const {
+  if (!closed_) return s;
+  const double rest = s - length() * std::floor(s / length());
+  return rest < length() ? rest : 0;  // s a hair below 0
+}
+
+double ReferenceCurve::next_break(double s) const {
+  const double turns = s - wrapped(s);
+  const auto end = breaks_.end() - (closed_ ? 0 : 1);
+  auto next = std::upper_bound(breaks_.begin() + 1, end, wrapped(s));
+  if (next != end && *next + turns <= s) ++next;  // round-off of a full turn
+  if (next != end) return *next + turns;
+  return closed_ ? length() + breaks_[1] + turns : std::numeric_limits<double>::infinity();
+}
+
+int ReferenceCurve::segment_at(double s, bool from_left) const {
+  s = wrapped(s);
+  if (closed_ && from_left && s == 0) return segment_count() - 1;
+  const auto inner_begin = breaks_.begin() + 1, inner_end = breaks_.end() - 1;
+  const auto next =
+      from_left ? std::lower_bound(inner_begin, inner_end, s) : std::upper_bound(inner_begin, inner_end, s);
+  return static_cast<int>(next - inner_begin);
+}
+
+ChartGeometry ReferenceCurve::geometry(int j, double u) const {
+  const Eigen::Matrix<double, 3, 6> r = segments_[j].derivatives(u);
+  const double a0 = r.col(1).squaredNorm();
+  const double a1 = 2 * r.col(1).dot(r.col(2));
+  const double a2 = 2 * (r.col(2).squaredNorm() + r.col(1).dot(r.col(3)));
+  const double a3 = 2 * (3 * r.col(2).dot(r.col(3)) + r.col(1).dot(r.col(4)));
+  const double J = std::sqrt(a0);
+  const double J1 = a1 / (2 * J);
+  const double J2 = (a2 - 2 * J1 * J1) / (2 * J);
+  const double J3 = (a3 - 6 * J1 * J2) / (2 * J);
+  const auto [c, c1, c2] = cross_product_derivatives(r, dimension_);
+  const double p = 1 / (J * J * J);
+  const double k = c * p;
+  const double k1 = c1 * p - 3 * c * p * J1 / J;
+  const double k2 = c2 * p - 6 * c1 * p * J1 / J + 12 * c * p * J1 * J1 / (J * J) - 3 * c * p * J2 / J;
+  std::array<double, 4> stretch{J, J1, J2, J3};
+  if (metric_ == Metric::label) stretch = {segment_length(j), 0, 0, 0};
+  return {stretch, segments_[j].weight_derivatives(u), {k, k1, k2, 0}};
+}
+
+Eigen::Vector3d ReferenceCurve::position(double s) const {
+  const int j = segment_at(s);
+  return segments_[j].point(parameter(j, s));
+}
+
+Eigen::Vector3d ReferenceCurve::tangent(double s, bool from_left) const {
+  const int j = segment_at(s, from_left);
+  const Eigen::Vector3d r_u = segments_[j].derivatives(parameter(j, s)).col(1);
+  return metric_ == Metric::label ? Eigen::Vector3d(r_u / segment_length(j)) : r_u.normalized();
+}
+
+double ReferenceCurve::strain(double s) const {
+  return metric_ == Metric::label ? (tangent(s).squaredNorm() - 1) / 2 : 0;
+}
+
+double ReferenceCurve::largest_curvature() const {
+  constexpr int samples = 33;
+  double largest = 0;
+  for (int j = 0; j < segment_count(); ++j)
+    for (int i = 0; i < samples; ++i)
+      largest = std::max(largest, std::abs(geometry(j, i / (samples - 1.0)).curvature[0]));
+  return largest;
+}
+
+}  // namespace nurbeam

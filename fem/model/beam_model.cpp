@@ -1,0 +1,85 @@
+#include "fem/model/beam_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "fem/element/subdivision.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// floor(h / n) for n > 0.
+int turns_of(int h, int n) { return (h >= 0 ? h : h - n + 1) / n; }
+
+}  // namespace
+
+int Beam::home_index(int h) const {
+  return is_ring() ? h - home_intervals() * turns_of(h, home_intervals()) : h;
+}
+
+double Beam::home_place(int h) const {
+  return home[home_index(h)].s + (is_ring() ? curve.length() * turns_of(h, home_intervals()) : 0);
+}
+
+int Beam::home_interval(double s) const {
+  const double at = curve.wrapped(s);
+  int h = 0;
+  while (h + 1 < home_intervals() && home[h + 1].s <= at) ++h;
+  return h + home_intervals() * static_cast<int>(std::round((s - at) / curve.length()));
+}
+
+std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places) {
+  const double near = 1e-9 * curve.length();
+  std::vector<double> places = curve.breaks();
+  for (double s : support_places)
+    if (std::none_of(places.begin(), places.end(), [&](double x) { return std::abs(x - s) < near; }))
+      places.push_back(s);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+std::vector<int> spread_elements(const std::vector<double>& places, int count) {
+  const int intervals = static_cast<int>(places.size()) - 1;
+  if (count < intervals)
+    throw std::invalid_argument(
+        std::to_string(count) + " elements are fewer than the " + std::to_string(intervals) +
+        " intervals between CAD segments and supports; the smallest count is " + std::to_string(intervals));
+  std::vector<int> parts(intervals, 1);
+  const auto part_length = [&](int i) { return (places[i + 1] - places[i]) / parts[i]; };
+  for (int left = count - intervals; left > 0; --left) {
+    int longest = 0;
+    for (int i = 1; i < intervals; ++i)
+      if (part_length(i) > part_length(longest) * (1 + 1e-12)) longest = i;
+    ++parts[longest];
+  }
+  return parts;
+}
+
+std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts,
+                                 double grading) {
+  const auto length = [&](std::size_t i) { return places[i + 1] - places[i]; };
+  std::size_t tightest = 0;
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (grading_limit(length(i), parts[i]) < grading_limit(length(tightest), parts[tightest])) tightest = i;
+  try {
+    graded_places(length(tightest), parts[tightest], grading);
+  } catch (const std::invalid_argument& refusal) {
+    std::ostringstream message;
+    message.precision(10);
+    message << "between s = " << places[tightest] << " m and s = " << places[tightest + 1]
+            << " m: " << refusal.what();
+    throw std::invalid_argument(message.str());
+  }
+  std::vector<HomeNode> home;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    home.push_back({places[i], i > 0});
+    for (const double x : graded_places(length(i), parts[i], grading)) home.push_back({places[i] + x, false});
+  }
+  home.push_back({places.back(), false});
+  return home;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipelines/case/case_json.h"
+#include "pipelines/case/quantity.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Kind = Shape::Kind;
+
+std::string json_kind(const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::null:
+      return "null";
+    case Json::value_t::object:
+      return "an object";
+    case Json::value_t::array:
+      return "an array";
+    case Json::value_t::string:
+      return "the text " + in_quotes(value.get<std::string>());
+    case Json::value_t::boolean:
+      return value.get<bool>() ? "true" : "false";
+    default:
+      return "the number " + value.dump();
+  }
+}
+
+std::string quantity_hint(Dimension dimension) {
+  return dimension == Dimension::number ? std::string("a number")
+                                        : "a number in " + si_unit(dimension) + " or a text with a unit (" +
+                                              unit_examples(dimension) + ")";
+}
+
+std::string expected(const Shape& shape) {
+  switch (shape.kind) {
+    case Kind::object:
+      return "an object with " + quoted_list(key_names(shape));
+    case Kind::array:
+      return "an array [...]";
+    case Kind::either:
+      return expected(shape.items[0]) + ", or " + expected(shape.items[1]);
+    case Kind::choice:
+      return "one of " + quoted_list(shape.choices);
+    case Kind::text:
+    case Kind::name:
+      return "a text in quotes";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return "an integer";
+    case Kind::quantity:
+      return quantity_hint(shape.dimension);
+    case Kind::vector:
+      return "[x, y, z], each " + quantity_hint(shape.dimension);
+    case Kind::table:
+      return "rows [[time, value], ...], value being " + quantity_hint(shape.dimension);
+  }
+  return {};
+}
+
+bool fits_json_type(const Shape& shape, const Json& value) {
+  switch (shape.kind) {
+    case Kind::object:
+      return value.is_object();
+    case Kind::array:
+      return value.is_array();
+    case Kind::integer:
+      return value.is_number();
+    default:
+      return value.is_string();
+  }
+}
+
+/// Checks values against shapes, turns every quantity into a number in SI units, and makes what is unusable
+/// null (it has been reported), so that what is left can be checked further.
+class Checker {
+ public:
+  explicit Checker(Findings& findings) : findings_(findings) {}
+
+  /// Whether the value is usable.
+  bool check(const Shape& shape, Json& value, const std::string& path) {
+    switch (shape.kind) {
+      case Kind::object:
+        return check_object(shape, value, path);
+      case Kind::array:
+        return check_array(shape, value, path);
+      case Kind::either:
+        return check_either(shape, value, path);
+      case Kind::choice:
+        return check_choice(shape, value, path);
+      case Kind::text:
+      case Kind::name:
+        return check_text(shape, value, path);
+      case Kind::boolean:
+        return value.is_boolean() || wrong_type(shape, value, path);
+      case Kind::integer:
+        return check_integer(shape, value, path);
+      case Kind::quantity:
+        return check_quantity(shape, value, path);
+      case Kind::vector:
+        return check_vector(shape, value, path);
+      case Kind::table:
+        return check_table(shape, value, path);
+    }
+    return false;
+  }
+
+ private:
+  bool failed(const std::string& path, std::string message) {
+    findings_.error(path, std::move(message));
+    return false;
+  }
+  bool wrong_type(const Shape& shape, const Json& value, const std::string& path) {
+    return failed(path, "is " + json_kind(value) + "; expected " + expected(shape));
+  }
+
+  bool check_object(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_object()) {
+      return wrong_type(shape, value, path);
+    }
+    for (const auto& [name, unused] : value.items()) {
+      if (!find_key(shape, name)) {
+        findings_.error(child(path, name),
+                        "unknown key " + in_quotes(name) + known_names(name, key_names(shape)));
+      }
+    }
+    check_presence(shape, value, path);
+    for (const Key& key : shape.keys) {
+      if (value.contains(key.name) && !check(key.shape, value[key.name], child(path, key.name))) {
+        value[key.name] = nullptr;
+      }
+    }
+    return true;
+  }
+
+  void check_presence(const Shape& shape, const Json& value, const std::string& path) {
+    for (const Key& key : shape.keys) {
+      if (key.required && !value.contains(key.name)) {
+        findings_.error(path, in_quotes(key.name) + " is missing (" + key.description + ")");
+      }
+      if (value.contains(key.name) && !key.needs.empty() && !value.contains(key.needs)) {
+        findings_.error(path, in_quotes(key.name) + " needs " + in_quotes(key.needs) + " beside it");
+      }
+    }
+    for (const Alternatives& alternatives : shape.alternatives) {
+      std::vector<std::string> given;
+      std::copy_if(alternatives.keys.begin(), alternatives.keys.end(), std::back_inserter(given),
+                   [&](const std::string& key) { return value.contains(key); });
+      if (given.size() > 1) {
+        findings_.error(path, quoted_list(given) + " exclude each other; give one of them");
+      } else if (given.empty() && alternatives.required) {
+        findings_.error(path, "give one of " + quoted_list(alternatives.keys));
+      }
+    }
+  }
+
+  bool check_array(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_array()) {
+      return wrong_type(shape, value, path);
+    }
+    if (value.size() < static_cast<std::size_t>(shape.min_items)) {
+      return failed(path, "has " + std::to_string(value.size()) + " item(s); expected at least " +
+                              std::to_string(shape.min_items));
+    }
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!check(shape.items[0], value[i], child(path, i))) {
+        value[i] = nullptr;
+      }
+    }
+    return true;
+  }
+
+  bool check_either(const Shape& shape, Json& value, const std::string& path) {
+    for (const Shape& item : shape.items) {
+      if (fits_json_type(item, value)) {
+        return check(item, value, path);
+      }
+    }
+    return wrong_type(shape, value, path);
+  }
+
+  bool check_choice(const Shape& shape, const Json& value, const std::string& path) {
+    if (!value.is_string()) {
+      return wrong_type(shape, value, path);
+    }
+    const auto text = value.get<std::string>();
+    return std::find(shape.choices.begin(), shape.choices.end(), text) != shape.choices.end() ||
+           failed(path, in_quotes(text) + " is not known here" + known_names(text, shape.choices));
+  }
+
+  bool check_text(const Shape& shape, const Json& value, const std::string& path) {
+    if (!value.is_string()) {
+      return wrong_type(shape, value, path);
+    }
+    const auto text = value.get<std::string>();
+    if (text.empty()) {
+      return failed(path, "is empty");
+    }
+    const auto is_barred = [](char c) { return c == ',' || c == '"' || (c >= 0 && c < ' '); };
+    if (shape.kind == Kind::name && std::any_of(text.begin(), text.end(), is_barred)) {
+      return failed(path, in_quotes(text) + ": a name must not hold commas, quotes or control characters");
+    }
+    return true;
+  }
+
+  bool in_range(const Shape& shape, double value, const std::string& path) {
+    if (shape.range.contains(value)) {
+      return true;
+    }
+    const std::string unit = shape.dimension == Dimension::number ? "" : " " + si_unit(shape.dimension);
+    return failed(path, "is " + text_of(value, all_digits) + unit + "; must be " + shape.range.rule() +
+                            (shape.range.reason.empty() ? "" : " (" + shape.range.reason + ")"));
+  }
+
+  bool check_integer(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_number()) {
+      return wrong_type(shape, value, path);
+    }
+    const double number = value.get<double>();
+    if (number != std::floor(number)) {
+      return failed(path, "is " + text_of(number, all_digits) + "; expected an integer");
+    }
+    if (!in_range(shape, number, path)) {
+      return false;
+    }
+    constexpr int largest = std::numeric_limits<int>::max();
+    if (std::abs(number) > largest) {
+      return failed(path,
+                    "is " + text_of(number, all_digits) + "; must be at most " + std::to_string(largest));
+    }
+    value = static_cast<int>(number);
+    return true;
+  }
+
+  bool check_quantity(const Shape& shape, Json& value, const std::string& path) {
+    if (value.is_string()) {
+      const ParsedQuantity quantity = parse_quantity(value.get<std::string>(), shape.dimension);
+      if (!quantity.value) {
+        return failed(path, quantity.error);
+      }
+      value = *quantity.value;
+    }
+    if (!value.is_number()) {
+      return wrong_type(shape, value, path);
+    }
+    value = value.get<double>();
+    return in_range(shape, value.get<double>(), path);
+  }
+
+  bool check_vector(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_array()) {
+      return wrong_type(shape, value, path);
+    }
+    if (value.size() != 3) {
+      return failed(path, "has " + std::to_string(value.size()) + " item(s); expected " + expected(shape));
+    }
+    const Shape component = {.kind = Kind::quantity, .dimension = shape.dimension};
+    bool usable = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      usable = check(component, value[i], child(path, i)) && usable;
+    }
+    return usable;
+  }
+
+  bool check_table(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_array() || value.empty()) {
+      return wrong_type(shape, value, path);
+    }
+    const Shape time = {.kind = Kind::quantity, .dimension = Dimension::time};
+    const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension};
+    double last = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      Json& row = value[i];
+      const std::string row_path = child(path, i);
+      if (!row.is_array() || row.size() != 2) {
+        return failed(row_path, "expected a row [time, value]");
+      }
+      if (!check(time, row[0], child(row_path, std::size_t{0})) ||
+          !check(entry, row[1], child(row_path, 1))) {
+        return false;
+      }
+      if (row[0].get<double>() <= last) {
+        return failed(row_path, "time " + text_of(row[0].get<double>(), all_digits) +
+                                    " s does not come after " + text_of(last, all_digits) +
+                                    " s; times must increase");
+      }
+      last = row[0].get<double>();
+    }
+    return true;
+  }
+
+  Findings& findings_;
+};
+
+}  // namespace
+
+bool check_shape(const Shape& shape, Json& value, Findings& findings) {
+  return Checker(findings).check(shape, value, "");
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,204 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "cad_import/import_report.h"
+#include "fem/model/beam_model.h"
+#include "nurbs/smooth/smooth_nurbs.h"
+
+namespace nurbeam {
+
+/// A place on a beam; lengths in reference arc length from the beam's start.
+struct Place {
+  enum class Kind { start, end, length, fraction, near } kind = Kind::start;
+  double value = 0;                                 ///< [m] for length, [-] in [0,1] for fraction
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m] for near
+  std::optional<double> within = {};  ///< greatest distance of the point from the axis [m] for near
+};
+
+/// Which curves of a CAD file.
+struct AxisFile {
+  std::filesystem::path path;  ///< absolute
+  std::optional<std::string> curve_name = {};
+  std::optional<int> curve_index = {};  ///< from 1
+  bool chain = false;
+  std::optional<std::string> layer = {}, colour = {};
+  std::optional<Eigen::Vector3d> near = {};  ///< [m]
+  bool longest = false;
+  bool all_chains = false;
+  std::optional<double> gap = {};  ///< largest gap to close [m]
+};
+
+struct CaseAxis {
+  using File = AxisFile;
+  using Polyline = std::vector<Eigen::Vector3d>;
+  struct Arc {
+    Eigen::Vector3d center, start, end, normal;
+  };
+  std::variant<File, NurbsCurve, Polyline, Arc> source;
+};
+
+/// A section drawn in a CAD file.
+struct CaseProfile {
+  std::filesystem::path path;  ///< absolute
+  bool x_in_plane = false;     ///< a planar model bends along the profile's x axis; else along y
+};
+
+struct CaseSection {
+  double area = 0;                          ///< [m^2]
+  double second_moment = 0;                 ///< [m^4]
+  std::optional<double> radius = {};        ///< of a disk [m]
+  std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
+  bool from_cad = false;                    ///< all are those of the pipe whose centre line the axis is
+};
+
+struct CaseMaterial {
+  double density = 0;         ///< [kg/m^3]
+  double youngs_modulus = 0;  ///< [Pa]
+  double damping = 0;         ///< [s], theory c
+};
+
+struct CaseElements {
+  std::optional<int> count;
+  std::optional<double> max_length;  ///< [m]
+  std::optional<int> per_segment;
+  double grading = 0;  ///< increment of length between neighbouring elements of one segment [m]
+};
+
+/// What a run can be asked for.
+constexpr int most_elements = 100'000;  ///< of one beam
+constexpr int most_frames = 1'000'000;
+constexpr double most_steps = 1e9;
+
+enum class ElementKind { ale_rancf, ale_ancf };
+/// What a corner of the axis above `smooth_angle` is; error and smooth: an error; rigid: it keeps its angle.
+enum class Corners { error, smooth, rigid, hinge };
+enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
+
+struct CaseBeam {
+  std::string name;
+  std::string path;  ///< JSON path of this object, for messages
+  CaseAxis axis;
+  double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  bool ring = false;                      ///< the axis is closed, and so is the beam
+  Corners corners = Corners::error;
+  double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]; 0: none
+  CaseSection section;
+  CaseMaterial material;
+  CaseElements elements;
+  ElementKind element = ElementKind::ale_rancf;
+  WeightRule weights = WeightRule::material;
+  MergeRule merge = MergeRule::standard;
+  StressFree stress_free = StressFree::automatic;
+  CurvatureMeasure curvature = CurvatureMeasure::material;
+  Metric metric = Metric::arc_length;
+  Form form = Form::variational;
+};
+
+struct CaseBody {
+  std::string name;
+  double mass = 0;  ///< [kg]
+};
+
+struct CaseLoad {
+  enum class Kind { force, moment, force_per_length } kind = Kind::force;
+  std::string path;
+  std::string beam;
+  Place at;                                         ///< for force and moment
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N], [N m] or [N/m]
+  bool follower = false;
+  std::optional<double> moving_speed;  ///< along the beam from `at` [m/s]
+  TimeTable time;                      ///< factor; empty: 1
+};
+
+struct CaseSupport {
+  enum class Type { clamped, pinned } type = Type::pinned;
+  std::string path;
+  std::string beam;
+  Place at;
+};
+
+struct CaseSlidingJoint {
+  std::string path;
+  std::string body, beam;
+  Place at;
+  double speed = 0;                    ///< initial [m/s]
+  std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
+  TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
+  bool continuous_slope = true;
+  bool leave_at_end = true;  ///< false: stop
+};
+
+/// Beams that meet at one place.
+struct CaseBeamJoint {
+  std::string path;
+  std::vector<std::string> beams;       ///< two or more; each is joined to the first
+  bool rigid = false;                   ///< else hinged
+  std::optional<Eigen::Vector3d> near;  ///< where [m]; else where an end of one meets the other
+};
+
+struct CaseAnalysis {
+  enum class Type { dynamic, statics } type = Type::dynamic;
+  enum class Method { generalized_alpha, ida, rk4 } method = Method::generalized_alpha;
+  bool start_from_equilibrium = false;
+  double end_time = 0;              ///< [s]
+  std::optional<double> step;       ///< [s]
+  std::optional<double> tolerance;  ///< adaptive steps
+  double rho_infinity = 0.8;
+  double length_control_min = 0.1, length_control_max = 1.15;  ///< in standard element lengths
+};
+
+struct CaseProbe {
+  std::string name, beam;
+  Place at;
+};
+
+struct CaseOutput {
+  std::optional<double> every;           ///< [s]
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid", "step-source"
+  std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
+  bool cad_at_all_times = false;         ///< every stored frame, numbered
+  std::string cad_unit = "mm";
+  CurveParameter cad_parameter = CurveParameter::free;
+  std::vector<CaseProbe> probes;
+  bool paraview = false;  ///< a series of files for ParaView
+  bool report = true;     ///< report.html
+};
+
+/// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
+struct CaseFile {
+  std::filesystem::path path;
+  std::string json;  ///< as read, overrides applied, without comments and spaces
+  std::string name;
+  Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);
+  std::vector<CaseBeam> beams;
+  std::vector<CaseBody> bodies;
+  std::vector<CaseLoad> loads;
+  std::vector<CaseSupport> supports;
+  std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseBeamJoint> joints;
+  CaseAnalysis analysis;
+  CaseOutput output;
+};
+
+/// A case file and everything that is wrong with it; `value` is empty when any diagnostic is an error.
+struct CaseFileReport {
+  std::optional<CaseFile> value;
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Reads, checks and resolves a case file: comments allowed, unit strings ("5 mm"), unknown keys are errors
+/// that name the closest known key, all errors at once, each with its JSON path. `overrides`: "path=value"
+/// (--set), applied before the checks; the value is JSON or else a text, and null removes the key.
+CaseFileReport read_case_file(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides = {});
+
+/// The JSON schema of the case file.
+std::string case_file_schema();
+
+}  // namespace nurbeam

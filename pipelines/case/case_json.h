@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/case/case_shape.h"
+#include "pipelines/diagnostics/findings.h"
+
+/// Private to the reader of case files: its JSON.
+namespace nurbeam {
+
+using Json = nlohmann::ordered_json;
+
+inline std::string child(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+inline std::string child(const std::string& path, std::size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
+
+/// The key of an object shape, nullptr if it has none of that name.
+const Key* find_key(const Shape& shape, const std::string& name);
+std::vector<std::string> key_names(const Shape& shape);
+
+/// The JSON of a case file with comments; nothing, and findings, when it cannot be read as JSON.
+std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings);
+
+/// Applies --set path=value texts; what is wrong with them goes to `wrong`.
+void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong);
+
+/// Checks a value against its shape, turns every quantity into a number in SI units, and makes what is
+/// unusable null (it has been reported), so that what is left can be checked further. Returns whether the
+/// value is usable.
+bool check_shape(const Shape& shape, Json& value, Findings& findings);
+
+}  // namespace nurbeam

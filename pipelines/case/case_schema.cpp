@@ -1,0 +1,102 @@
+#include <cmath>
+
+#include "pipelines/case/case_file.h"
+#include "pipelines/case/case_json.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Kind = Shape::Kind;
+
+Json schema_of(const Shape& shape);
+
+Json object_schema(const Shape& shape) {
+  Json schema = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+  for (const Key& key : shape.keys) {
+    Json property = schema_of(key.shape);
+    const std::string detail = property.value("description", "");
+    property["description"] = key.description + (detail.empty() ? "" : " (" + detail + ")");
+    schema["properties"][key.name] = property;
+    if (key.required) {
+      schema["required"].push_back(key.name);
+    }
+    if (!key.needs.empty()) {
+      schema["dependentRequired"][key.name] = Json::array({key.needs});
+    }
+  }
+  for (const Alternatives& alternatives : shape.alternatives) {
+    Json one_of = Json::array();
+    for (const std::string& key : alternatives.keys) {
+      one_of.push_back({{"required", Json::array({key})}});
+    }
+    if (!alternatives.required) {
+      one_of.push_back({{"not", {{"anyOf", one_of}}}});
+    }
+    schema["allOf"].push_back({{"oneOf", one_of}});
+  }
+  return schema;
+}
+
+Json with_range(Json schema, const Range& range) {
+  if (std::isfinite(range.lower)) {
+    schema[range.open ? "exclusiveMinimum" : "minimum"] = range.lower;
+  }
+  if (std::isfinite(range.upper)) {
+    schema[range.open ? "exclusiveMaximum" : "maximum"] = range.upper;
+  }
+  return schema;
+}
+
+Json quantity_schema(Dimension dimension) {
+  if (dimension == Dimension::number) {
+    return {{"type", "number"}};
+  }
+  return {{"type", {"number", "string"}},
+          {"description", "in " + si_unit(dimension) + ", or a text with a unit"}};
+}
+
+Json schema_of(const Shape& shape) {
+  switch (shape.kind) {
+    case Kind::object:
+      return object_schema(shape);
+    case Kind::array:
+      return {{"type", "array"}, {"items", schema_of(shape.items[0])}, {"minItems", shape.min_items}};
+    case Kind::either:
+      return {{"anyOf", {schema_of(shape.items[0]), schema_of(shape.items[1])}}};
+    case Kind::choice:
+      return {{"enum", shape.choices}};
+    case Kind::text:
+      return {{"type", "string"}, {"minLength", 1}};
+    case Kind::name:
+      return {{"type", "string"}, {"pattern", "^[^,\"\\u0000-\\u001f]+$"}};
+    case Kind::boolean:
+      return {{"type", "boolean"}};
+    case Kind::integer:
+      return with_range({{"type", "integer"}}, shape.range);
+    case Kind::quantity:
+      return with_range(quantity_schema(shape.dimension), shape.range);
+    case Kind::vector:
+      return {
+          {"type", "array"}, {"items", quantity_schema(shape.dimension)}, {"minItems", 3}, {"maxItems", 3}};
+    case Kind::table:
+      return {{"type", "array"},
+              {"items",
+               {{"type", "array"},
+                {"prefixItems", {quantity_schema(Dimension::time), quantity_schema(shape.dimension)}},
+                {"minItems", 2},
+                {"maxItems", 2}}},
+              {"minItems", 1}};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string case_file_schema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "nurbeam case file"}};
+  schema.update(schema_of(case_shape()));
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,310 @@
+#include "pipelines/case/case_shape.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "pipelines/case/case_file.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Kind = Shape::Kind;
+constexpr bool required = true;
+
+Range positive(std::string reason = {}) { return {.lower = 0, .open = true, .reason = std::move(reason)}; }
+Range not_negative() { return {.lower = 0}; }
+Range from(double lower) { return {.lower = lower}; }
+/// Wide enough for every structure, narrow enough for round-off: what lies outside is a wrong unit.
+Range plausible(double lower, double upper) {
+  return {.lower = lower, .upper = upper, .reason = "what lies outside is most likely in another unit"};
+}
+Range time_step() { return plausible(1e-12, 1e9); }
+Range element_count() {
+  return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
+}
+
+Shape object(std::vector<Key> keys, std::vector<Alternatives> alternatives = {}) {
+  return {.kind = Kind::object, .keys = std::move(keys), .alternatives = std::move(alternatives)};
+}
+Shape array(Shape item, int min_items = 0) {
+  return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
+}
+Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::move(a), std::move(b)}}; }
+Shape choice(std::vector<std::string> choices) {
+  return {.kind = Kind::choice, .choices = std::move(choices)};
+}
+Shape text() { return {.kind = Kind::text}; }
+Shape name() { return {.kind = Kind::name}; }
+Shape boolean() { return {.kind = Kind::boolean}; }
+Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(range)}; }
+Shape quantity(Dimension dimension, Range range = {}) {
+  return {.kind = Kind::quantity, .dimension = dimension, .range = std::move(range)};
+}
+Shape vector(Dimension dimension) { return {.kind = Kind::vector, .dimension = dimension}; }
+Shape table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension}; }
+
+Shape place() {
+  return either(
+      choice({"start", "end"}),
+      object({{"length", quantity(Dimension::length, not_negative()),
+               "reference arc length from the beam's start"},
+              {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+               "fraction of the beam's reference length"},
+              {"near", vector(Dimension::length), "the place of the drawn axis nearest to this point"},
+              {"within", quantity(Dimension::length, not_negative()),
+               "greatest distance of that point from the axis; 1 % of the beam's length when omitted", false,
+               "near"}},
+             {{{"length", "fraction", "near"}, required}}));
+}
+
+Shape axis() {
+  const Shape nurbs = object({{"degree", integer(from(1)), "degree of the curve", required},
+                              {"knots", array(quantity(Dimension::number), 4),
+                               "full non-decreasing knots, both ends included", required},
+                              {"control_points", array(vector(Dimension::length), 2),
+                               "plain (not weighted) control points", required},
+                              {"weights", array(quantity(Dimension::number, positive()), 2),
+                               "one per control point; 1 when omitted"}});
+  const Shape arc =
+      object({{"center", vector(Dimension::length), "centre of the circle", required},
+              {"start", vector(Dimension::length), "start point", required},
+              {"end", vector(Dimension::length), "end point", required},
+              {"normal", vector(Dimension::number), "the arc turns by the right hand about it", required}});
+  return object(
+      {{"file", text(), "STEP or IGES file, relative to the case file"},
+       {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
+        false, "file"},
+       {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
+       {"layer", text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
+       {"colour", text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
+       {"near", vector(Dimension::length), "the chain of curves nearest to this point", false, "file"},
+       {"longest", boolean(), "the longest chain of curves", false, "file"},
+       {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
+       {"gap", quantity(Dimension::length, not_negative()),
+        "ends of curves up to this far apart meet; the file's own resolution when omitted", false, "file"},
+       {"nurbs", nurbs, "an inline NURBS curve"},
+       {"polyline", array(vector(Dimension::length), 2), "straight pieces through these points"},
+       {"arc", arc, "a circular arc"}},
+      {{{"file", "nurbs", "polyline", "arc"}, required}, {{"curve", "near", "longest", "chains"}, false}});
+}
+
+Shape section() {
+  const Shape profile =
+      object({{"file", text(), "STEP or IGES file with an outline and its holes, relative to the case file",
+               required},
+              {"in_plane", choice({"y", "x"}),
+               "the profile's axis that lies in the plane of a planar model; y when omitted"}});
+  return object(
+      {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round solid section"},
+       {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area", false,
+        "second_moment"},
+       {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
+        false, "area"},
+       {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
+       {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
+      {{{"radius", "area", "profile", "from"}, required}});
+}
+
+Shape elements() {
+  return object(
+      {{"count", integer(element_count()),
+        "number of elements of the beam; 20 when nothing is said, or as many as there are segments"},
+       {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
+       {"per_segment", integer(element_count()),
+        "elements per cubic segment of the axis, cut at the supports"},
+       {"grading", quantity(Dimension::length),
+        "how much longer each element is than the one before it in its segment; negative: shorter", false,
+        "per_segment"}},
+      {{{"count", "max_length", "per_segment"}, false}});
+}
+
+Shape beam() {
+  const Shape material = object(
+      {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
+       {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
+       {"damping", quantity(Dimension::time, plausible(0, 1e9)),
+        "time c of the stress c E d(strain)/dt; 0 when omitted"}});
+  return object(
+      {{"name", name(), "name of the beam", required},
+       {"axis", axis(), "the beam's axis as drawn", required},
+       {"section", section(), "cross-section", required},
+       {"material", material, "material", required},
+       {"elements", elements(), "how the axis is divided"},
+       {"element", choice({"ale-rancf", "ale-ancf"}),
+        "rational elements, or all weights 1; ale-rancf when omitted"},
+       {"weights", choice({"material", "constant"}),
+        "whether weights follow the material or stay with the element, as the paper's; material when "
+        "omitted"},
+       {"merge", choice({"default", "paper", "ones"}),
+        "for comparison, with constant weights: the paper's weights of merged elements (Eqs. 31-38), or "
+        "ones; "
+        "the nodes keep their velocities then"},
+       {"metric", choice({"reference", "none"}),
+        "metric of the material coordinate; none: the subdivision paper's elements, for comparison, with "
+        "spatial "
+        "curvature and no sliding bodies; reference when omitted"},
+       {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
+        "the unstressed shape; as-drawn in planar models, straight in spatial ones when omitted"},
+       {"curvature", choice({"material", "spatial"}),
+        "curvature measure; spatial: the papers'; material when omitted"},
+       {"form", choice({"variational", "virtual-work"}),
+        "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
+        "variational when omitted"},
+       {"closed", boolean(), "true: a ring, whose end is its start; else a closed axis is open at its seam"},
+       {"corners", choice({"error", "smooth", "rigid", "hinge"}),
+        "what a corner of the axis is; smooth: rounded, if small; rigid: kept, with its angle; error when "
+        "omitted"},
+       {"smooth_up_to", quantity(Dimension::number, {.lower = 0, .upper = 45, .open = true}),
+        "greatest corner that is rounded, in degrees, whatever greater ones are; when omitted 5 with smooth, "
+        "else none",
+        false, "corners"},
+       {"approximation_tolerance", quantity(Dimension::length, positive()),
+        "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m when omitted"}});
+}
+
+Shape load() {
+  const Shape moves = object({{"speed", quantity(Dimension::speed), "speed along the beam", required}});
+  return object(
+      {{"beam", name(), "the loaded beam", required},
+       {"at", place(), "where the force or moment acts"},
+       {"force", vector(Dimension::force), "point force, fixed in space", false, "at"},
+       {"moment", vector(Dimension::moment), "point moment", false, "at"},
+       {"force_per_length", vector(Dimension::force_per_length), "per metre of reference arc length"},
+       {"follower", boolean(), "the force turns with the section; false when omitted", false, "force"},
+       {"moves", moves, "a force that moves along the beam", false, "force"},
+       {"time", table(Dimension::number), "factor over time, linear between rows, constant outside"}},
+      {{{"force", "moment", "force_per_length"}, required}, {{"at", "force_per_length"}, false}});
+}
+
+Shape support() {
+  return object({{"beam", name(), "the supported beam", required},
+                 {"at", place(), "where", required},
+                 {"type", choice({"clamped", "pinned"}),
+                  "clamped: position and direction are held; pinned: the position", required}});
+}
+
+Shape sliding_joint() {
+  const Shape motion = object({{"speed", quantity(Dimension::speed), "constant speed along the beam"},
+                               {"table", table(Dimension::length), "reference arc length over time"}},
+                              {{{"speed", "table"}, required}});
+  return object(
+      {{"body", name(), "the sliding body", required},
+       {"beam", name(), "the beam it slides on", required},
+       {"at", place(), "where it starts", required},
+       {"speed", quantity(Dimension::speed), "initial speed in reference arc length; 0 when omitted"},
+       {"motion", motion, "prescribes the body's place, from `at` on"},
+       {"slope", choice({"continuous", "discontinuous"}),
+        "whether the beam may have a kink at the body; continuous when omitted"},
+       {"at_beam_end", choice({"leave", "stop"}),
+        "what happens at the beam's end; leave when omitted; at a supported end a body stops"}},
+      {{{"speed", "motion"}, false}});
+}
+
+Shape beam_joint() {
+  return object({{"beams", array(name(), 2), "the beams that meet", required},
+                 {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
+                 {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
+                  "where, if not at an end of one of them"}});
+}
+
+Shape analysis() {
+  const Shape integrator =
+      object({{"type", choice({"generalized-alpha", "ida", "rk4"}),
+               "ida: SUNDIALS' BDF of variable order; rk4: explicit, fixed `step`, no sliding bodies; "
+               "generalized-alpha when omitted"},
+              {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+               "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
+  const Shape length_control =
+      object({{"min", quantity(Dimension::number, {.lower = 0, .upper = 1, .open = true}),
+               "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
+              {"max", quantity(Dimension::number, {.lower = 1, .open = true}),
+               "a longer element is split; 1.15 when omitted (the paper's: 1.5)"}});
+  return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium; dynamic when omitted"},
+                 {"initial", choice({"as-drawn", "equilibrium"}),
+                  "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
+                  "when omitted"},
+                 {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
+                  "end of the motion; a dynamic analysis needs it"},
+                 {"step", quantity(Dimension::time, time_step()),
+                  "fixed step; with ida how often length control looks"},
+                 {"tolerance", quantity(Dimension::number, positive()),
+                  "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
+                 {"integrator", integrator, "time integrator"},
+                 {"length_control", length_control,
+                  "when elements beside a sliding body change, in standard element lengths"}},
+                {{{"step", "tolerance"}, false}});
+}
+
+Shape output() {
+  const Shape cad =
+      object({{"formats", array(choice({"step", "iges", "step-solid", "step-source"}), 1),
+               "file formats; step when omitted"},
+              {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
+               "times to write, or all stored frames as a numbered sequence; the end time when omitted"},
+              {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files; mm when omitted"},
+              {"parameter", choice({"free", "material"}),
+               "parameter of the curves: free for the fewest control points, or reference arc length; free "
+               "when omitted"}});
+  const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
+                              {"beam", name(), "the probed beam", required},
+                              {"at", place(), "where", required}});
+  return object({{"every", quantity(Dimension::time, time_step()),
+                  "time between stored frames; a hundredth of `end_time` when omitted"},
+                 {"cad", cad, "deformed axes as CAD files"},
+                 {"probes", array(probe), "points whose motion is stored"},
+                 {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
+                 {"report", boolean(), "report.html; true when omitted"}});
+}
+
+Shape body() {
+  return object(
+      {{"name", name(), "name of the body", required},
+       {"mass",
+        quantity(Dimension::mass,
+                 {.lower = 1e-9,
+                  .upper = 1e9,
+                  .reason = "a body without mass has no inertia; what lies outside is most likely in another "
+                            "unit"}),
+        "mass", required}});
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return open ? value > lower && value < upper : value >= lower && value <= upper;
+}
+
+std::string Range::rule() const {
+  std::ostringstream rule;
+  if (lower == upper) {
+    rule << lower;
+  } else if (std::isfinite(lower) && std::isfinite(upper)) {
+    rule << "between " << lower << " and " << upper << (open ? " (both excluded)" : "");
+  } else if (std::isfinite(lower)) {
+    rule << (open ? "greater than " : "at least ") << lower;
+  } else {
+    rule << (open ? "less than " : "at most ") << upper;
+  }
+  return rule.str();
+}
+
+const Shape& case_shape() {
+  static const Shape shape = object(
+      {{"$schema", text(), "for editors; ignored"},
+       {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
+        "version of the case-file format", required},
+       {"name", text(), "title of the case; the file's name when omitted"},
+       {"gravity", vector(Dimension::acceleration), "acceleration of gravity; [0, 0, -9.81] when omitted"},
+       {"beams", array(beam(), 1), "the beams", required},
+       {"bodies", array(body()), "point masses that slide on beams; each needs a sliding joint"},
+       {"loads", array(load()), "forces and moments"},
+       {"supports", array(support()), "where beams are held"},
+       {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+       {"joints", array(beam_joint()), "which beams are joined to each other"},
+       {"analysis", analysis(), "what to compute", required},
+       {"output", output(), "what to store"}});
+  return shape;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,241 @@
+#include "pipelines/case/quantity.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Exponents = std::array<int, 3>;  // of metre, kilogram, second
+
+/// One unit is multiply / divide SI units: two factors, so that "350 ms" is the number nearest to 0.35.
+struct Unit {
+  const char* name;
+  double multiply, divide;
+  Exponents exponents;
+};
+
+constexpr double pound = 0.45359237, pound_force = pound * 9.80665, inch = 0.0254;
+
+const std::vector<Unit>& units() {
+  static const std::vector<Unit> table = {
+      {"m", 1, 1, {1, 0, 0}},
+      {"km", 1e3, 1, {1, 0, 0}},
+      {"dm", 1, 1e1, {1, 0, 0}},
+      {"cm", 1, 1e2, {1, 0, 0}},
+      {"mm", 1, 1e3, {1, 0, 0}},
+      {"um", 1, 1e6, {1, 0, 0}},
+      {"nm", 1, 1e9, {1, 0, 0}},
+      {"in", 127, 5000, {1, 0, 0}},
+      {"inch", 127, 5000, {1, 0, 0}},
+      {"ft", 381, 1250, {1, 0, 0}},
+      {"kg", 1, 1, {0, 1, 0}},
+      {"g", 1, 1e3, {0, 1, 0}},
+      {"mg", 1, 1e6, {0, 1, 0}},
+      {"t", 1e3, 1, {0, 1, 0}},
+      {"lb", pound, 1, {0, 1, 0}},
+      {"s", 1, 1, {0, 0, 1}},
+      {"ms", 1, 1e3, {0, 0, 1}},
+      {"us", 1, 1e6, {0, 0, 1}},
+      {"min", 60, 1, {0, 0, 1}},
+      {"h", 3600, 1, {0, 0, 1}},
+      {"N", 1, 1, {1, 1, -2}},
+      {"mN", 1, 1e3, {1, 1, -2}},
+      {"kN", 1e3, 1, {1, 1, -2}},
+      {"MN", 1e6, 1, {1, 1, -2}},
+      {"lbf", pound_force, 1, {1, 1, -2}},
+      {"Pa", 1, 1, {-1, 1, -2}},
+      {"kPa", 1e3, 1, {-1, 1, -2}},
+      {"MPa", 1e6, 1, {-1, 1, -2}},
+      {"GPa", 1e9, 1, {-1, 1, -2}},
+      {"bar", 1e5, 1, {-1, 1, -2}},
+      {"psi", pound_force, inch * inch, {-1, 1, -2}},
+      {"ksi", 1e3 * pound_force, inch * inch, {-1, 1, -2}},
+  };
+  return table;
+}
+
+struct DimensionInfo {
+  const char* name;
+  const char* si_unit;
+  Exponents exponents;
+  const char* examples;
+};
+
+DimensionInfo info(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::number:
+      return {"plain number", "", {0, 0, 0}, "none (a plain number)"};
+    case Dimension::length:
+      return {"length", "m", {1, 0, 0}, "m, mm, cm, km, um, in, ft"};
+    case Dimension::area:
+      return {"area", "m^2", {2, 0, 0}, "m^2, mm^2, cm^2, in^2"};
+    case Dimension::second_moment:
+      return {"second moment of area", "m^4", {4, 0, 0}, "m^4, mm^4, cm^4, in^4"};
+    case Dimension::mass:
+      return {"mass", "kg", {0, 1, 0}, "kg, g, mg, t, lb"};
+    case Dimension::density:
+      return {"density", "kg/m^3", {-3, 1, 0}, "kg/m^3, g/cm^3, t/m^3, lb/ft^3"};
+    case Dimension::time:
+      return {"time", "s", {0, 0, 1}, "s, ms, us, min, h"};
+    case Dimension::speed:
+      return {"speed", "m/s", {1, 0, -1}, "m/s, mm/s, km/h, ft/s"};
+    case Dimension::acceleration:
+      return {"acceleration", "m/s^2", {1, 0, -2}, "m/s^2, mm/s^2, ft/s^2"};
+    case Dimension::force:
+      return {"force", "N", {1, 1, -2}, "N, kN, mN, MN, lbf"};
+    case Dimension::moment:
+      return {"moment", "N m", {2, 1, -2}, "N m, N mm, kN m, lbf in, lbf ft"};
+    case Dimension::force_per_length:
+      return {"force per length", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, lbf/ft"};
+    case Dimension::pressure:
+      return {"modulus", "Pa", {-1, 1, -2}, "Pa, kPa, MPa, GPa, N/mm^2, bar, psi, ksi"};
+  }
+  return {};
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// The text with powers as ^n, products as spaces and micro as u.
+std::string plain(std::string_view unit) {
+  std::string text(unit);
+  for (const auto& [from, to] :
+       {std::pair{"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"·", " "}, {"*", " "}, {"µ", "u"}, {"μ", "u"}}) {
+    replace_all(text, from, to);
+  }
+  return text;
+}
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+struct UnitProduct {
+  double multiply = 1, divide = 1;
+  Exponents exponents{};
+  std::string error;
+};
+
+const Unit* find_unit(std::string_view name) {
+  for (const Unit& unit : units()) {
+    if (name == unit.name) {
+      return &unit;
+    }
+  }
+  return nullptr;
+}
+
+std::vector<std::string> unit_names() {
+  std::vector<std::string> names;
+  for (const Unit& unit : units()) {
+    names.emplace_back(unit.name);
+  }
+  return names;
+}
+
+/// Reads the power that follows a unit's name and moves `rest` behind it; 1 if there is none, 0 if it is not
+/// one.
+int take_power(std::string_view& rest) {
+  const bool caret = rest.starts_with('^');
+  if (caret) {
+    rest.remove_prefix(1);
+  }
+  int power = caret ? 0 : 1;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), power);
+  rest.remove_prefix(end - rest.data());
+  return power;
+}
+
+UnitProduct parse_units(const std::string& text) {
+  UnitProduct product;
+  std::string_view rest = text;
+  int sign = 1;
+  while (!rest.empty()) {
+    if (rest.front() == ' ') {
+      rest.remove_prefix(1);
+      continue;
+    }
+    if (rest.front() == '/' && sign == 1) {
+      sign = -1;
+      rest.remove_prefix(1);
+      continue;
+    }
+    std::size_t letters = 0;
+    while (letters < rest.size() && is_letter(rest[letters])) {
+      ++letters;
+    }
+    const std::string_view name = rest.substr(0, letters);
+    const Unit* unit = find_unit(name);
+    if (!unit) {
+      product.error = name.empty() ? "cannot read the unit from " + in_quotes(rest) + " on"
+                                   : "unknown unit " + in_quotes(name) + known_names(name, unit_names());
+      return product;
+    }
+    rest.remove_prefix(letters);
+    const int power = sign * take_power(rest);
+    if (power == 0) {
+      product.error = "the power after the unit " + in_quotes(name) + " must be an integer other than 0";
+      return product;
+    }
+    product.multiply *= std::pow(power > 0 ? unit->multiply : unit->divide, std::abs(power));
+    product.divide *= std::pow(power > 0 ? unit->divide : unit->multiply, std::abs(power));
+    for (int i = 0; i < 3; ++i) {
+      product.exponents[i] += power * unit->exponents[i];
+    }
+    sign = 1;
+  }
+  if (sign == -1) {
+    product.error = "a unit is missing after \"/\"";
+  }
+  return product;
+}
+
+}  // namespace
+
+std::string dimension_name(Dimension dimension) { return info(dimension).name; }
+std::string si_unit(Dimension dimension) { return info(dimension).si_unit; }
+std::string unit_examples(Dimension dimension) { return info(dimension).examples; }
+
+ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
+  const auto failed = [&](const std::string& reason) {
+    return ParsedQuantity{{}, in_quotes(text) + ": " + reason};
+  };
+  const std::string expected = dimension_name(dimension) + " (valid units: " + unit_examples(dimension) + ")";
+
+  std::string_view rest = text;
+  rest.remove_prefix(std::min(rest.find_first_not_of(" +"), rest.size()));
+  double number = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  if (error != std::errc{} || !std::isfinite(number)) {
+    return failed("does not begin with a finite number; expected a number and a unit of " + expected);
+  }
+  rest.remove_prefix(end - rest.data());
+  const UnitProduct product = parse_units(plain(rest));
+  if (!product.error.empty()) {
+    return failed(product.error + "; expected " + expected);
+  }
+  if (rest.find_first_not_of(' ') == std::string_view::npos && dimension != Dimension::number) {
+    return failed("has no unit; expected " + expected + "; a number without quotes is in " +
+                  si_unit(dimension));
+  }
+  if (product.exponents != info(dimension).exponents) {
+    return failed("the unit does not measure " + expected);
+  }
+  const double value = number * product.multiply / product.divide;
+  if (!std::isfinite(value) || (value == 0 && number != 0)) {
+    return failed(std::string("is too ") + (value == 0 ? "small" : "large") + " for a number in " +
+                  si_unit(dimension));
+  }
+  return {value, {}};
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,73 @@
+#include "pipelines/command/compare.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "cad_import/import_curves.h"
+#include "nurbs/closest_point.h"
+#include "pipelines/diagnostics/print_diagnostics.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// The segments of all curves as one path to measure distances to (it need not be connected).
+BezierPath all_segments(const std::vector<ImportedCurve>& curves, double tolerance) {
+  BezierPath all;
+  for (const ImportedCurve& curve : curves) {
+    const BezierPath path = BezierPath::from_nurbs(curve.curve, tolerance);
+    all.segments.insert(all.segments.end(), path.segments.begin(), path.segments.end());
+  }
+  return all;
+}
+
+std::string name_of(const ImportReport& report, std::size_t curve) {
+  const std::string& name = report.curves[curve].name;
+  return "curve " + std::to_string(curve + 1) + (name.empty() ? "" : " \"" + name + "\"") + " of " +
+         report.file;
+}
+
+}  // namespace
+
+FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b,
+                             double tolerance) {
+  const BezierPath target = all_segments(b, tolerance);
+  FarthestPoint farthest;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const RationalCubic& segment : BezierPath::from_nurbs(a[i].curve, tolerance).segments) {
+      const double distance = largest_distance([&](double u) { return segment.point(u); }, target);
+      if (distance > farthest.distance) {
+        farthest = {distance, i};
+      }
+    }
+  }
+  return farthest;
+}
+
+int compare_files(const std::filesystem::path& a, const std::filesystem::path& b, double tolerance,
+                  std::ostream& out, std::ostream& err) {
+  const ImportReport reports[] = {import_curves(a), import_curves(b)};
+  for (const ImportReport& report : reports) {
+    print_diagnostics(err, report.diagnostics);
+    if (!report.ok()) {
+      return 2;
+    }
+    if (report.curves.empty()) {
+      err << "error: " << report.file << ": holds no curve to compare\n";
+      return 2;
+    }
+  }
+  const double approximation = 0.01 * tolerance;
+  double largest = 0;
+  for (const int from : {0, 1}) {
+    const ImportReport &source = reports[from], &target = reports[1 - from];
+    const FarthestPoint farthest = farthest_point(source.curves, target.curves, approximation);
+    largest = std::max(largest, farthest.distance);
+    out << "from " << source.file << " to " << target.file << ": " << farthest.distance << " m ("
+        << name_of(source, farthest.curve) << ")\n";
+  }
+  out << "largest distance: " << largest << " m; tolerance: " << tolerance << " m\n";
+  return largest <= tolerance ? 0 : 1;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,54 @@
+#include "pipelines/diagnostics/closest_name.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace nurbeam {
+
+namespace {
+
+int lower(char c) { return std::tolower(static_cast<unsigned char>(c)); }
+
+}  // namespace
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);  // row[j]: distance between the first i of a and the first j of b
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replaced = diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "" : ", ") + in_quotes(name);
+  }
+  return list;
+}
+
+std::string known_names(std::string_view unknown, const std::vector<std::string>& known) {
+  if (known.empty()) {
+    return "; there is none to name here";
+  }
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return edit_distance(unknown, a) < edit_distance(unknown, b);
+  });
+  const int near = std::max(2, static_cast<int>(unknown.size()) / 3);
+  const std::string question = edit_distance(unknown, *nearest) <= near
+                                   ? "; did you mean " + in_quotes(*nearest) + "? Known: "
+                                   : "; known: ";
+  return question + quoted_list(known);
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,322 @@
+#include "pipelines/model/axis_selection.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "nurbs/closest_point.h"
+#include "nurbs/curve_vertices.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Indices = std::vector<int>;
+
+// Gaps below this part of the curves' size are round-off.
+constexpr double round_off = 1e-12;
+
+AxisSelection failure(std::string key, std::string error) {
+  return {{}, {}, std::move(key), std::move(error)};
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// The diagonal of the box around all control points [m].
+double size_of(const ImportReport& report) {
+  Eigen::AlignedBox3d box;
+  for (const ImportedCurve& imported : report.curves) {
+    const Eigen::Matrix3Xd points = imported.curve.control_points().colwise().hnormalized();
+    box.extend(points.rowwise().minCoeff()).extend(points.rowwise().maxCoeff());
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+Indices all_curves(const ImportReport& report) {
+  Indices all(report.curves.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+template <class Predicate>
+Indices those(const ImportReport& report, const Indices& indices, Predicate wanted) {
+  Indices found;
+  for (int i : indices)
+    if (wanted(report.curves[i])) found.push_back(i);
+  return found;
+}
+
+// Free curves before centre lines before edges of faces.
+Indices that_count(const ImportReport& report, const Indices& candidates) {
+  const Indices free = those(report, candidates, [](const ImportedCurve& c) { return c.free; });
+  if (!free.empty()) return free;
+  const Indices centre = those(report, candidates, [](const ImportedCurve& c) { return c.is_centre_line(); });
+  return centre.empty() ? candidates : centre;
+}
+
+std::vector<NurbsCurve> curves_at(const ImportReport& report, const Indices& indices) {
+  std::vector<NurbsCurve> curves;
+  for (int i : indices) curves.push_back(report.curves[i].curve);
+  return curves;
+}
+
+std::vector<Chain> chains_among(const ImportReport& report, const Indices& indices, double tolerance) {
+  std::vector<Chain> chains = find_chains(curves_at(report, indices), tolerance);
+  for (Chain& chain : chains)
+    for (int& curve : chain.curves) curve = indices[curve];
+  return chains;
+}
+
+double length_of(const Chain& chain, const ImportReport& report) {
+  double sum = 0;
+  for (int curve : chain.curves) sum += length(report.curves[curve].curve);
+  return sum;
+}
+
+double distance_to(const Chain& chain, const Eigen::Vector3d& point, const ImportReport& report) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i : chain.curves) {
+    const NurbsCurve& curve = report.curves[i].curve;
+    least =
+        std::min(least, closest_point(BezierPath::from_nurbs(curve, 1e-6 * length(curve)), point).distance);
+  }
+  return least;
+}
+
+// The first of the chains for which the measure is least.
+template <class Measure>
+Chain least(const std::vector<Chain>& chains, Measure measure) {
+  std::vector<double> measured;
+  for (const Chain& chain : chains) measured.push_back(measure(chain));
+  return chains[std::min_element(measured.begin(), measured.end()) - measured.begin()];
+}
+
+// The connected curves that continue without a corner on both sides of one curve.
+Chain smooth_chain_around(const ImportReport& report, const Indices& candidates, int chosen,
+                          double tolerance) {
+  for (const Chain& chain : chains_among(report, candidates, tolerance)) {
+    const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
+    if (at == chain.curves.end()) continue;
+    const auto tangent = [&](std::size_t i, bool at_end) -> Eigen::Vector3d {
+      const NurbsCurve& own = report.curves[chain.curves[i]].curve;
+      const NurbsCurve curve = chain.reversed[i] ? own.reversed() : own;
+      return curve.derivatives(at_end ? curve.knots().end() : curve.knots().start(), 1).col(1).normalized();
+    };
+    const auto smooth = [&](std::size_t i) {
+      return (tangent(i, true) - tangent(i + 1, false)).norm() < default_corner_angle;
+    };
+    std::size_t first = at - chain.curves.begin(), last = first;
+    while (first > 0 && smooth(first - 1)) --first;
+    while (last + 1 < chain.curves.size() && smooth(last)) ++last;
+    return {{chain.curves.begin() + first, chain.curves.begin() + last + 1},
+            {chain.reversed.begin() + first, chain.reversed.begin() + last + 1},
+            chain.closed && last - first + 1 == chain.curves.size()};
+  }
+  return {{chosen}, {false}, false};
+}
+
+// The gaps between consecutive curves of the chains.
+std::vector<Gap> gaps_in(const std::vector<Chain>& chains, const ImportReport& report) {
+  const double least = round_off * size_of(report);
+  std::vector<Gap> gaps;
+  for (const Chain& chain : chains) {
+    const std::size_t count = chain.curves.size();
+    for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < count; ++i) {
+      const std::size_t j = (i + 1) % count;
+      const auto end = [&](std::size_t k, bool last) -> Eigen::Vector3d {
+        const NurbsCurve& curve = report.curves[chain.curves[k]].curve;
+        return curve.point(last != chain.reversed[k] ? curve.knots().end() : curve.knots().start());
+      };
+      const Eigen::Vector3d a = end(i, true), b = end(j, false);
+      if ((a - b).norm() > least)
+        gaps.push_back({chain.curves[i], chain.curves[j], (a + b) / 2, (a - b).norm()});
+    }
+  }
+  return gaps;
+}
+
+// The narrowest gap between ends of chains, up to a hundredth of the curves' size: most likely not meant.
+std::optional<Gap> narrowest_gap_between(const std::vector<Chain>& chains, const ImportReport& report) {
+  struct End {
+    int curve;
+    Eigen::Vector3d point;
+  };
+  std::vector<End> ends;
+  for (const Chain& chain : chains) {
+    if (chain.closed) continue;
+    for (const auto& [k, last] : {std::pair{std::size_t{0}, false}, {chain.curves.size() - 1, true}}) {
+      const NurbsCurve& curve = report.curves[chain.curves[k]].curve;
+      const double u = last != chain.reversed[k] ? curve.knots().end() : curve.knots().start();
+      ends.push_back({chain.curves[k], curve.point(u)});
+    }
+  }
+  constexpr std::size_t most_ends = 2000;  // all pairs are compared
+  if (ends.size() > most_ends) return {};
+  std::optional<Gap> narrowest;
+  double width = 1e-2 * size_of(report);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = (ends[i].point - ends[j].point).norm();
+      if (ends[i].curve == ends[j].curve || distance == 0 || distance >= width) continue;
+      width = distance;
+      narrowest = Gap{ends[j].curve, ends[i].curve, (ends[i].point + ends[j].point) / 2, distance};
+    }
+  return narrowest;
+}
+
+std::string several_chains(const std::vector<Chain>& chains, const ImportReport& report, double tolerance) {
+  std::string message =
+      report.file + " has " + std::to_string(chains.size()) + " separate chains of curves: ";
+  constexpr std::size_t most_listed = 10;
+  for (std::size_t i = 0; i < std::min(chains.size(), most_listed); ++i)
+    message += (i > 0 ? "; " : "") + list_of_curves(report, chains[i].curves) + " (" +
+               text_of(length_of(chains[i], report), all_digits) + " m)";
+  if (chains.size() > most_listed) message += "; ...";
+  message +=
+      "; choose one with \"curve\", \"layer\", \"colour\", \"near\" or \"longest\", or take \"chains\": "
+      "\"all\"";
+  const std::optional<Gap> gap = narrowest_gap_between(chains, report);
+  if (gap && gap->width > tolerance)
+    message += "; curves " + std::to_string(gap->curve_a + 1) + " and " + std::to_string(gap->curve_b + 1) +
+               " end " + text_of(gap->width, all_digits) + " m apart at " + text_of(gap->point, all_digits) +
+               ", and gaps up to " + text_of(tolerance, all_digits) + " m are closed (\"gap\")";
+  return message;
+}
+
+std::vector<std::string> different(const ImportReport& report, std::string ImportedCurve::*property) {
+  std::set<std::string> values;
+  for (const ImportedCurve& curve : report.curves)
+    if (!(curve.*property).empty()) values.insert(curve.*property);
+  return {values.begin(), values.end()};
+}
+
+// Why no curve has the property; the file may have none at all of the kind.
+AxisSelection without(const std::string& key, const std::string& value, const ImportReport& report,
+                      std::string ImportedCurve::*property) {
+  const std::vector<std::string> known = different(report, property);
+  if (known.empty())
+    return failure(key, "is " + in_quotes(value) + ", but no curve of " + report.file + " has a " + key);
+  return failure(key, "no curve of " + report.file + " has the " + key + " " + in_quotes(value) +
+                          known_names(value, known));
+}
+
+// The one curve that is named; when several have the name, their chain.
+AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indices& candidates,
+                    double tolerance) {
+  Indices found;
+  if (axis.curve_index) {
+    const int index = *axis.curve_index - 1, count = static_cast<int>(report.curves.size());
+    if (index >= count)
+      return failure("curve", "index " + std::to_string(*axis.curve_index) +
+                                  " is out of range: " + report.file + " has " + std::to_string(count) +
+                                  " curves: " + list_of_curves(report, all_curves(report)));
+    if (std::find(candidates.begin(), candidates.end(), index) == candidates.end())
+      return failure("curve", "index " + std::to_string(*axis.curve_index) +
+                                  " is not among the curves of the layer and colour: " +
+                                  list_of_curves(report, candidates));
+    found = {index};
+  } else {
+    found = those(report, candidates, [&](const ImportedCurve& c) { return c.name == *axis.curve_name; });
+    if (found.empty())
+      return failure("curve", "no curve is named " + in_quotes(*axis.curve_name) + " in " + report.file +
+                                  "; its curves (index and name): " + list_of_curves(report, candidates));
+  }
+  if (found.size() == 1)
+    return {{axis.chain ? smooth_chain_around(report, candidates, found[0], tolerance)
+                        : Chain{found, {false}, false}},
+            {},
+            "",
+            ""};
+  const std::vector<Chain> chains = chains_among(report, found, tolerance);
+  if (chains.size() == 1) return {chains, {}, "", ""};
+  return failure("curve", "several curves are named " + in_quotes(*axis.curve_name) + " in " + report.file +
+                              " and are no one chain: " + list_of_curves(report, found) +
+                              "; choose one by its index");
+}
+
+AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, double tolerance) {
+  Indices candidates = all_curves(report);
+  if (axis.layer) {
+    candidates = those(report, candidates, [&](const ImportedCurve& c) { return c.layer == *axis.layer; });
+    if (candidates.empty()) return without("layer", *axis.layer, report, &ImportedCurve::layer);
+  }
+  if (axis.colour) {
+    const std::string colour = lower_case(*axis.colour);
+    candidates = those(report, candidates, [&](const ImportedCurve& c) { return c.colour == colour; });
+    if (candidates.empty()) return without("colour", colour, report, &ImportedCurve::colour);
+  }
+  if (axis.curve_index || axis.curve_name) return named(axis, report, candidates, tolerance);
+  const std::vector<Chain> chains = chains_among(report, that_count(report, candidates), tolerance);
+  if (axis.near)
+    return {{least(chains, [&](const Chain& c) { return distance_to(c, *axis.near, report); })}, {}, "", ""};
+  if (axis.longest)
+    return {{least(chains, [&](const Chain& c) { return -length_of(c, report); })}, {}, "", ""};
+  if (axis.all_chains || chains.size() == 1) return {chains, {}, "", ""};
+  return failure("", several_chains(chains, report, tolerance));
+}
+
+}  // namespace
+
+double gap_tolerance(const ImportReport& report, const std::optional<double>& asked) {
+  if (asked) return *asked;
+  const double size = size_of(report);
+  if (report.resolution == 0) return 1e-6 * size;
+  return std::clamp(report.resolution, 1e-9 * size, 1e-3 * size);
+}
+
+AxisSelection select_axis(const AxisFile& axis, const ImportReport& report) {
+  AxisSelection selection = chosen_chains(axis, report, gap_tolerance(report, axis.gap));
+  selection.gaps = gaps_in(selection.chains, report);
+  return selection;
+}
+
+std::vector<Junction> junctions(const ImportReport& report, double tolerance) {
+  const Indices indices = that_count(report, all_curves(report));
+  const bool edges_of_faces =
+      !indices.empty() && !report.curves[indices[0]].free && !report.curves[indices[0]].is_centre_line();
+  if (edges_of_faces) return {};
+  std::vector<Junction> found;
+  for (const CurveVertex& vertex : vertices_of(curves_at(report, indices), tolerance)) {
+    if (vertex.ends.size() < 3) continue;
+    std::set<int> curves;
+    for (int end : vertex.ends) curves.insert(indices[end / 2]);
+    found.push_back({vertex.point, {curves.begin(), curves.end()}});
+  }
+  return found;
+}
+
+std::vector<Chain> chains_of(const ImportReport& report, double tolerance) {
+  return chains_among(report, that_count(report, all_curves(report)), tolerance);
+}
+
+std::string list_of_curves(const ImportReport& report, std::vector<int> indices) {
+  std::sort(indices.begin(), indices.end());
+  constexpr int most_listed = 20;
+  std::string list;
+  int listed = 0;
+  for (std::size_t i = 0; i < indices.size(); ++listed) {
+    if (!list.empty()) list += ", ";
+    if (listed == most_listed) return list + "...";
+    const auto is_plain = [&](std::size_t k) { return report.curves[indices[k]].name.empty(); };
+    std::size_t last = i;
+    while (is_plain(i) && last + 1 < indices.size() && is_plain(last + 1) &&
+           indices[last + 1] == indices[last] + 1)
+      ++last;
+    list += std::to_string(indices[i] + 1);
+    if (last > i) list += "-" + std::to_string(indices[last] + 1);
+    if (!is_plain(i)) list += " " + in_quotes(report.curves[indices[i]].name);
+    i = last + 1;
+  }
+  return list;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,228 @@
+#include "pipelines/model/beam_axis.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "nurbs/smooth/smooth_corners.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/number_text.h"
+#include "pipelines/model/axis_selection.h"
+
+namespace nurbeam {
+
+namespace {
+
+// A closed axis has its end on its start, to this part of its length.
+constexpr double closed_gap = 1e-6;
+
+RationalCubic straight_cubic(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Matrix4d points;
+  for (int i = 0; i < 4; ++i) points.col(i) << a + (b - a) * (i / 3.0), 1;
+  return RationalCubic(points);
+}
+
+// Circular arc about `normal` from start to end in pieces of at most 90 degrees (Eq. 43 of Ding & Ouyang).
+std::vector<RationalCubic> arc_cubics(const CaseAxis::Arc& arc) {
+  const Eigen::Vector3d n = arc.normal.normalized(), a = arc.start - arc.center, b = arc.end - arc.center;
+  double angle = std::atan2(n.dot(a.cross(b)), a.dot(b));
+  if (angle <= 1e-12) angle += 2 * M_PI;
+  const int pieces = static_cast<int>(std::ceil(angle / (M_PI / 2) - 1e-9));
+  const double step = angle / pieces, w1 = (1 + 2 * std::cos(step / 2)) / 3;
+  const auto at = [&](double theta) -> Eigen::Vector3d {
+    return a * std::cos(theta) + n.cross(a) * std::sin(theta);
+  };
+  std::vector<RationalCubic> cubics;
+  for (int i = 0; i < pieces; ++i) {
+    const double theta = i * step;
+    const Eigen::Vector3d p0 = at(theta), p3 = i + 1 == pieces ? Eigen::Vector3d(b) : at(theta + step);
+    // Control points of the elevated quadratic: w1 P1 = (P0 + 2 w C)/3 with the tangents' intersection C.
+    const Eigen::Vector3d tip = at(theta + step / 2) / std::cos(step / 2);
+    const double wc = std::cos(step / 2);
+    Eigen::Matrix4d points;
+    points.col(0) << p0 + arc.center, 1;
+    points.col(1) << (p0 + 2 * wc * tip) / 3 + w1 * arc.center, w1;
+    points.col(2) << (p3 + 2 * wc * tip) / 3 + w1 * arc.center, w1;
+    points.col(3) << p3 + arc.center, 1;
+    cubics.emplace_back(points);
+  }
+  return cubics;
+}
+
+BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain& chain, CadFiles& files,
+                        Findings& findings) {
+  const ImportReport& report = files.read(axis.path, findings);
+  std::vector<NurbsCurve> curves;
+  for (const ImportedCurve& curve : report.curves) curves.push_back(curve.curve);
+  const std::string& name = report.curves[chain.curves[0]].name;
+  const BezierPath path = join(curves, chain, beam.approximation_tolerance);
+  const bool approximated =
+      std::any_of(chain.curves.begin(), chain.curves.end(), [&](int i) { return curves[i].degree() > 3; });
+  if (approximated)
+    findings.warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
+                                           text_of(path.deviation) + " m");
+  return {name.empty() ? beam.name : name, path.segments, {}};
+}
+
+// As it is drawn. Throws std::invalid_argument where a curve cannot be an axis.
+BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
+  return std::visit(
+      [&](const auto& source) -> BeamAxis {
+        using Source = std::decay_t<decltype(source)>;
+        if constexpr (std::is_same_v<Source, AxisFile>)
+          return axis_from_file(beam, source, chain, files, findings);
+        if constexpr (std::is_same_v<Source, NurbsCurve>)
+          return {beam.name, BezierPath::from_nurbs(source, beam.approximation_tolerance).segments, {}};
+        if constexpr (std::is_same_v<Source, CaseAxis::Arc>) return {beam.name, arc_cubics(source), {}};
+        if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
+          std::vector<RationalCubic> cubics;
+          for (std::size_t i = 0; i + 1 < source.size(); ++i)
+            cubics.push_back(straight_cubic(source[i], source[i + 1]));
+          return {beam.name, std::move(cubics), {}};
+        }
+      },
+      beam.axis.source);
+}
+
+// The axis has an extent, and coordinates that arithmetic can bear.
+void check_extent(const CaseBeam& beam, const std::vector<RationalCubic>& segments, Findings& findings) {
+  double largest = 0, extent = 0;
+  for (const RationalCubic& cubic : segments)
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector3d p = cubic.control_point(i);
+      largest = std::max(largest,
+                         p.allFinite() ? p.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity());
+      extent = std::max(extent, (p - segments.front().control_point(0)).norm());
+    }
+  if (!(largest <= longest_beam))
+    findings.error(beam.path + ".axis", "has a coordinate of " + text_of(largest) + " m; the limit is " +
+                                            text_of(longest_beam) + " m (is the unit right?)");
+  else if (!segments.empty() && extent < shortest_beam)
+    findings.error(beam.path + ".axis", "has an extent of " + text_of(extent) + " m; the smallest is " +
+                                            text_of(shortest_beam) + " m (is the unit right?)");
+}
+
+// What is there for comparison with the papers, whose beams have ends.
+void check_ring(const CaseBeam& from, Findings& findings) {
+  if (from.weights == WeightRule::constant)
+    findings.error(from.path + ".weights",
+                   "\"constant\" is a comparison for beams with ends; a ring needs \"material\"");
+  if (from.metric == Metric::label)
+    findings.error(from.path + ".metric",
+                   "\"none\" is a comparison for beams with ends; a ring needs \"reference\"");
+  for (const auto& [kind, name] : {std::pair(Corners::hinge, "hinge"), std::pair(Corners::rigid, "rigid")})
+    if (from.corners == kind)
+      findings.error(from.path + ".corners", in_quotes(name) + " is not available on a ring; leave it out");
+}
+
+double gap_of(const std::vector<RationalCubic>& segments) {
+  return (segments.front().control_point(0) - segments.back().control_point(3)).norm();
+}
+
+// The axis of a ring: its end on its start, without a corner there, and two segments at least.
+void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Findings& findings) {
+  const std::string where = beam.path + ".closed";
+  const Eigen::Vector3d start = segments.front().control_point(0), end = segments.back().control_point(3);
+  const double L = BezierPath{segments, {}, 0}.length();
+  if (gap_of(segments) > closed_gap * L)
+    return findings.error(where, "is true, but the axis starts at " + text_of(start) + " and ends at " +
+                                     text_of(end) + ", " + text_of(gap_of(segments)) +
+                                     " m apart; a ring may have a gap of " + text_of(closed_gap * L) +
+                                     " m: close the curve, or leave \"closed\" out");
+  const std::vector<Corner> seam =
+      BezierPath{{segments.back(), segments.front()}, {}, 0}.corners(default_corner_angle);
+  if (!seam.empty())
+    return findings.error(where, "is true, but the axis has a corner of " +
+                                     text_of(seam[0].angle * 180 / M_PI) + " degrees at its seam, " +
+                                     text_of(start) +
+                                     "; a ring is smooth: round the corner, or leave \"closed\" out");
+  if (segments.size() == 1) {
+    const auto [first, second] = segments[0].split(0.5);
+    segments = {first, second};
+  }
+  Eigen::Matrix4d points = segments.back().points();
+  points.col(3).head<3>() = points(3, 3) * start;
+  segments.back() = RationalCubic(points);
+}
+
+void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
+                         Findings& findings) {
+  if (gap_of(segments) <= closed_gap * BezierPath{segments, {}, 0}.length())
+    findings.warn(beam.path + ".axis", "is closed; the beam is open at its seam, " +
+                                           text_of(segments.front().control_point(0)) +
+                                           ": \"closed\": true makes it a ring");
+}
+
+std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
+                                    Findings& findings) {
+  const BezierPath smooth = smooth_corners({segments, {}, 0}, beam.smooth_angle);
+  if (smooth.deviation > 0)
+    findings.warn(beam.path + ".corners", "corners of up to " + text_of(beam.smooth_angle * 180 / M_PI) +
+                                              " degrees were smoothed; largest deviation " +
+                                              text_of(smooth.deviation) + " m");
+  return smooth.segments;
+}
+
+// How to be without a corner.
+std::string rounding(const Corner& corner) {
+  constexpr int most_degrees = 45;  // that "smooth_up_to" may be
+  const int degrees = static_cast<int>(std::ceil(corner.angle * 180 / M_PI));
+  if (degrees >= most_degrees) return "round the corner";
+  return "round the corner, in the drawing or with \"corners\": \"smooth\", \"smooth_up_to\": " +
+         std::to_string(degrees);
+}
+
+// The breaks that stay corners; an error for every one that cannot.
+std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments, bool slides,
+                              Findings& findings) {
+  std::vector<int> corners;
+  for (const Corner& corner : BezierPath{segments, {}, 0}.corners(default_corner_angle)) {
+    corners.push_back(corner.after_segment + 1);
+    const std::string place = "the axis has a corner of " + text_of(corner.angle * 180 / M_PI) +
+                              " degrees at " + text_of(corner.point) + "; ";
+    const bool is_rigid = beam.corners == Corners::rigid;
+    if (is_rigid || beam.corners == Corners::hinge) {
+      if (slides)
+        findings.error(beam.path + ".corners",
+                       place + "a body cannot slide over a " + (is_rigid ? "rigid corner" : "hinge") + ": " +
+                           rounding(corner) +
+                           ", or divide the beam there and join the parts with \"joints\"");
+      continue;
+    }
+    findings.error(
+        beam.path + (beam.corners == Corners::smooth ? ".corners" : ".axis"),
+        place +
+            (beam.smooth_angle > 0 ? "those of up to " + text_of(beam.smooth_angle * 180 / M_PI) +
+                                         " degrees are smoothed (\"smooth_up_to\"): "
+                                   : "a beam needs a smooth axis: ") +
+            rounding(corner) +
+            (beam.ring ? "" : ", or keep it with \"corners\": \"rigid\" (its angle stays) or \"hinge\""));
+  }
+  return corners;
+}
+
+}  // namespace
+
+BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies, CadFiles& files,
+                   Findings& findings) {
+  BeamAxis axis;
+  try {
+    axis = drawn_axis(beam, chain, files, findings);
+    check_extent(beam, axis.segments, findings);
+  } catch (const std::invalid_argument& problem) {
+    findings.error(beam.path + ".axis", problem.what());
+  }
+  if (!findings.has_errors() && beam.smooth_angle > 0)
+    axis.segments = smoothed(beam, axis.segments, findings);
+  if (!findings.has_errors() && beam.ring) {
+    check_ring(beam, findings);
+    close_ring(beam, axis.segments, findings);
+  }
+  if (!findings.has_errors() && !beam.ring) mention_closed_axis(beam, axis.segments, findings);
+  if (!findings.has_errors()) axis.corners = kept_corners(beam, axis.segments, sliding_bodies > 0, findings);
+  return axis;
+}
+
+}  // namespace nurbeam

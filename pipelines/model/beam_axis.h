@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "nurbs/bezier_path.h"
+#include "pipelines/case/case_file.h"
+#include "pipelines/diagnostics/findings.h"
+#include "pipelines/model/cad_files.h"
+
+namespace nurbeam {
+
+/// What a beam's axis may measure [m].
+constexpr double shortest_beam = 1e-6, longest_beam = 1e7;
+
+/// The axis of one beam in the coordinates of the case.
+struct BeamAxis {
+  std::string curve_name;               ///< in its file, or else the beam's name
+  std::vector<RationalCubic> segments;  ///< smooth where they meet, but for the corners [m]
+  std::vector<int> corners;             ///< the breaks between segments that stay corners, ascending
+};
+
+/// The axis that the case describes, of a beam whose curves are the chain (empty for an axis that is in no
+/// file) and on which so many bodies slide: its corners smoothed, its ends closed where it is a ring. With
+/// errors among the findings the result cannot be used.
+BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies, CadFiles& files,
+                   Findings& findings);
+
+}  // namespace nurbeam

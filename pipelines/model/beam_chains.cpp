@@ -1,0 +1,176 @@
+#include "pipelines/model/beam_chains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/number_text.h"
+#include "pipelines/model/axis_selection.h"
+
+namespace nurbeam {
+
+namespace {
+
+// Radii nearer to each other than this part of them are the same radius.
+constexpr double same_radius = 1e-6;
+
+// The beams that a name of the case stands for.
+using BeamNames = std::map<std::string, std::vector<std::string>>;
+
+// Where other curves meet the chosen ones.
+void note_junctions(const std::string& where, const std::vector<Chain>& chains, const ImportReport& report,
+                    double tolerance, Findings& findings) {
+  std::set<int> chosen;
+  for (const Chain& chain : chains) chosen.insert(chain.curves.begin(), chain.curves.end());
+  for (const Junction& junction : junctions(report, tolerance)) {
+    if (std::none_of(junction.curves.begin(), junction.curves.end(),
+                     [&](int curve) { return chosen.contains(curve); }))
+      continue;
+    findings.add(Severity::note, where,
+                 "curves " + list_of_curves(report, junction.curves) + " of " + report.file + " meet at " +
+                     text_of(junction.point));
+  }
+}
+
+// The chains of curves that the case chooses; one empty chain, with a diagnostic, where it cannot.
+std::vector<Chain> chosen_chains(const CaseBeam& beam, const AxisFile& axis, CadFiles& files,
+                                 Findings& findings) {
+  const ImportReport& report = files.read(axis.path, findings);
+  if (!report.ok()) return {{}};
+  const AxisSelection selection = select_axis(axis, report);
+  const std::string where = beam.path + ".axis";
+  if (!selection.error.empty()) {
+    findings.error(selection.key.empty() ? where : where + "." + selection.key, selection.error);
+    return {{}};
+  }
+  for (const Gap& gap : selection.gaps)
+    findings.warn(where, "the gap of " + text_of(gap.width) + " m between curves " +
+                             std::to_string(gap.curve_a + 1) + " and " + std::to_string(gap.curve_b + 1) +
+                             " of " + report.file + " at " + text_of(gap.point) + " was closed");
+  note_junctions(where, selection.chains, report, gap_tolerance(report, axis.gap), findings);
+  return selection.chains;
+}
+
+// The section of the pipe whose centre line the chain is.
+CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
+  const auto* file = std::get_if<AxisFile>(&beam.axis.source);
+  const std::string where = beam.path + ".section.from";
+  if (!file) {
+    findings.error(where, "\"cad\" needs an axis from a file; give \"radius\"");
+    return {};
+  }
+  if (chain.curves.empty()) return {};
+  const std::vector<ImportedCurve>& curves = files.read(file->path, findings).curves;
+  const ImportedCurve& first = curves[chain.curves.front()];
+  for (int i : chain.curves) {
+    const ImportedCurve& curve = curves[i];
+    if (!curve.is_centre_line())
+      findings.error(where, "is \"cad\", but curve " + std::to_string(i + 1) + " of " + file->path.string() +
+                                " is a " + curve.entity + " and no centre line of a pipe; give \"radius\"");
+    else if (std::abs(curve.pipe_radius - first.pipe_radius) > same_radius * first.pipe_radius ||
+             std::abs(curve.bore_radius - first.bore_radius) > same_radius * first.pipe_radius)
+      findings.error(where, "the pipe has the radius " + text_of(first.pipe_radius) + " m (bore " +
+                                text_of(first.bore_radius) + " m) at curve " +
+                                std::to_string(chain.curves.front() + 1) + " and " +
+                                text_of(curve.pipe_radius) + " m (bore " + text_of(curve.bore_radius) +
+                                " m) at curve " + std::to_string(i + 1) +
+                                "; a beam has one section: give \"radius\", or choose a part with \"curve\"");
+  }
+  const double outer = first.pipe_radius, inner = first.bore_radius;
+  return {.area = M_PI * (outer * outer - inner * inner),
+          .second_moment = M_PI / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
+          .radius = outer};
+}
+
+// Whether the name stands for beams; else an error.
+bool check_name(const std::string& name, const std::string& path, const BeamNames& names,
+                const std::vector<CaseBeam>& beams, Findings& findings) {
+  if (names.contains(name)) return true;
+  std::vector<std::string> known;
+  for (const CaseBeam& beam : beams) known.push_back(beam.name);
+  findings.error(path + ".beam", "there is no beam " + in_quotes(name) + known_names(name, known));
+  return false;
+}
+
+// What was said of a name is said of every beam that it stands for.
+template <class Item>
+void name_each_beam(std::vector<Item>& items, const BeamNames& names, const std::vector<CaseBeam>& beams,
+                    Findings& findings) {
+  std::vector<Item> each;
+  for (const Item& item : items) {
+    if (!check_name(item.beam, item.path, names, beams, findings)) continue;
+    for (const std::string& name : names.at(item.beam)) {
+      each.push_back(item);
+      each.back().beam = name;
+    }
+  }
+  items = std::move(each);
+}
+
+// Loads and supports of a name are those of every beam that it stands for; the rest needs one beam.
+void name_beams(CaseFile& case_file, const BeamNames& names, Findings& findings) {
+  name_each_beam(case_file.loads, names, case_file.beams, findings);
+  name_each_beam(case_file.supports, names, case_file.beams, findings);
+  const auto known = [&](const std::string& name, const std::string& path) {
+    return check_name(name, path, names, case_file.beams, findings);
+  };
+  for (const CaseSlidingJoint& joint : case_file.sliding_joints)
+    if (known(joint.beam, joint.path) && names.at(joint.beam).size() > 1)
+      findings.error(joint.path + ".beam",
+                     "is " + in_quotes(joint.beam) +
+                         ", which is several beams; choose one: " + quoted_list(names.at(joint.beam)));
+  for (const CaseBeamJoint& joint : case_file.joints)
+    for (const std::string& name : joint.beams)
+      if (known(name, joint.path) && names.at(name).size() > 1)
+        findings.error(joint.path + ".beams",
+                       "names " + in_quotes(name) +
+                           ", which is several beams; choose of: " + quoted_list(names.at(name)));
+  for (const CaseProbe& probe : case_file.output.probes)
+    if (known(probe.beam, "output.probes") && names.at(probe.beam).size() > 1)
+      findings.error("output.probes",
+                     "probe " + in_quotes(probe.name) + " is on " + in_quotes(probe.beam) +
+                         ", which is several beams; choose one: " + quoted_list(names.at(probe.beam)));
+}
+
+}  // namespace
+
+BeamChains choose_chains(CaseFile case_file, CadFiles& files, Findings& findings) {
+  std::vector<CaseBeam> beams;
+  std::vector<Chain> chains_of_beams;
+  BeamNames names;
+  for (const CaseBeam& beam : case_file.beams) {
+    const auto* file = std::get_if<AxisFile>(&beam.axis.source);
+    const std::vector<Chain> chains =
+        file ? chosen_chains(beam, *file, files, findings) : std::vector<Chain>{{}};
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+      CaseBeam one = beam;
+      if (file && file->all_chains) {
+        one.name += " " + std::to_string(i + 1);
+        names[beam.name].push_back(one.name);
+      }
+      names[one.name] = {one.name};
+      if (one.section.from_cad) one.section = pipe_section(one, chains[i], files, findings);
+      beams.push_back(std::move(one));
+      chains_of_beams.push_back(chains[i]);
+    }
+  }
+  case_file.beams = std::move(beams);
+  if (!findings.has_errors()) name_beams(case_file, names, findings);
+  return {std::move(case_file), std::move(chains_of_beams)};
+}
+
+int beam_index(const CaseFile& case_file, const std::string& name) {
+  const auto found = std::find_if(case_file.beams.begin(), case_file.beams.end(),
+                                  [&](const CaseBeam& beam) { return beam.name == name; });
+  return static_cast<int>(found - case_file.beams.begin());
+}
+
+int sliding_bodies(const CaseFile& case_file, const std::string& name) {
+  return static_cast<int>(std::count_if(case_file.sliding_joints.begin(), case_file.sliding_joints.end(),
+                                        [&](const CaseSlidingJoint& joint) { return joint.beam == name; }));
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,53 @@
+#include "pipelines/model/beam_section.h"
+
+#include <cmath>
+#include <string>
+
+#include "pipelines/diagnostics/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+// A spatial model has one bending stiffness for all directions.
+void check_isotropy(const std::string& where, const SectionProfile& profile, Findings& findings) {
+  constexpr double alike = 1e-3;
+  const double most = profile.principal_1(), least = profile.principal_2();
+  if (most - least > alike * most)
+    findings.error(where,
+                   "the profile's principal second moments are " + text_of(most) + " and " + text_of(least) +
+                       " m^4; in a spatial model, whose beams bend alike in all directions, they may differ "
+                       "by " +
+                       text_of(alike * most) +
+                       " m^4: draw a section that is alike in both, give \"area\" and \"second_moment\", or "
+                       "keep axes, loads and gravity in one plane");
+}
+
+}  // namespace
+
+std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
+                                        Findings& findings) {
+  if (!beam.section.profile) return BeamSection{beam.section};
+  const std::filesystem::path& file = beam.section.profile->path;
+  const std::string where = beam.path + ".section.profile";
+  const ImportReport& report = files.read(file, findings);
+  if (!report.ok()) return {};
+  ProfileReport drawn = section_profile(report.curves, findings.where(where) + ": " + file.string());
+  findings.append(drawn.diagnostics);
+  if (!drawn.value) return {};
+  const SectionProfile& profile = *drawn.value;
+  CaseSection section{.area = profile.area, .second_moment = profile.second_x};
+  if (dimension == 3) {
+    check_isotropy(where, profile, findings);
+  } else {
+    if (beam.section.profile->x_in_plane) section.second_moment = profile.second_y;
+    if (std::abs(profile.product) > 1e-6 * profile.principal_1())
+      findings.warn(where,
+                    "the principal axes of the profile are turned by " +
+                        text_of(profile.principal_angle() * 180 / M_PI) +
+                        " degrees: it would bend out of the plane; the planar model holds it in its plane");
+  }
+  return BeamSection{section, profile};
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,222 @@
+#include "pipelines/model/build_model.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "pipelines/diagnostics/findings.h"
+#include "pipelines/diagnostics/number_text.h"
+#include "pipelines/model/beam_axis.h"
+#include "pipelines/model/beam_chains.h"
+#include "pipelines/model/beam_section.h"
+#include "pipelines/model/cad_files.h"
+#include "pipelines/model/divide_beam.h"
+#include "pipelines/model/drawn_beam.h"
+#include "pipelines/model/join_beams.h"
+#include "pipelines/model/sliding_joints.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The axes of all beams, as far as the first that is wrong.
+std::vector<BeamAxis> axes_of(const BeamChains& chosen, CadFiles& files, Findings& findings) {
+  const CaseFile& case_file = chosen.case_file;
+  std::vector<BeamAxis> axes;
+  for (std::size_t b = 0; b < case_file.beams.size() && !findings.has_errors(); ++b) {
+    const CaseBeam& beam = case_file.beams[b];
+    axes.push_back(beam_axis(beam, chosen.chains[b], sliding_bodies(case_file, beam.name), files, findings));
+  }
+  return axes;
+}
+
+// That of the axes, gravity and loads.
+ModelFrame frame_of(const CaseFile& case_file, const std::vector<BeamAxis>& axes) {
+  std::vector<RationalCubic> segments;
+  for (const BeamAxis& axis : axes)
+    segments.insert(segments.end(), axis.segments.begin(), axis.segments.end());
+  std::vector<Eigen::Vector3d> forces = {case_file.gravity}, moments;
+  for (const CaseLoad& load : case_file.loads)
+    (load.kind == CaseLoad::Kind::moment ? moments : forces).push_back(load.value);
+  return model_frame(segments, forces, moments);
+}
+
+bool is_straight(const CaseBeam& from, const ReferenceCurve& curve, Findings& findings) {
+  if (curve.dimension() == 2 || from.stress_free == StressFree::straight)
+    return from.stress_free == StressFree::straight;
+  const bool curved = curve.largest_curvature() * curve.length() > 1e-9;
+  if (from.stress_free == StressFree::as_drawn_without_torsion) return false;
+  if (from.stress_free == StressFree::as_drawn && curved)
+    findings.error(
+        from.path + ".stress_free",
+        "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model, which this element "
+        "has not; "
+        "use \"straight\" (exact for cables) or \"as-drawn-without-torsion\" (the limit of no torsional "
+        "stiffness)");
+  return true;
+}
+
+// The comparison of the subdivision paper: its strain law and measure, no sliding.
+void check_without_metric(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints,
+                          Findings& findings) {
+  if (beam.curvature != CurvatureMeasure::spatial)
+    findings.error(beam.path + ".metric",
+                   "\"none\" needs \"curvature\": \"spatial\", which it is defined for");
+  for (const CaseSlidingJoint& joint : joints)
+    if (joint.beam == beam.name)
+      findings.error(beam.path + ".metric", "\"none\" is a comparison without sliding joints, but body \"" +
+                                                joint.body + "\" slides on this beam; use \"reference\"");
+}
+
+// A beam without elements yet.
+Beam beam_of(const CaseFile& case_file, const CaseBeam& from, const ReferenceCurve& curve,
+             const CaseSection& section, Findings& findings) {
+  Beam beam{from.name, curve, {}, false, from.weights, from.merge, {}};
+  if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
+  beam.properties.axial_stiffness = from.material.youngs_modulus * section.area;
+  beam.properties.bending_stiffness = from.material.youngs_modulus * section.second_moment;
+  beam.properties.mass_per_length = from.material.density * section.area;
+  beam.properties.damping = from.material.damping;
+  beam.properties.curvature = from.curvature;
+  beam.properties.form = from.form;
+  if (from.metric == Metric::label) check_without_metric(from, case_file.sliding_joints, findings);
+  beam.straight = is_straight(from, curve, findings);
+  return beam;
+}
+
+// Adds the supports of one beam; returns their places in reference arc length [m].
+std::vector<double> add_supports(const CaseFile& case_file, int b, const DrawnBeam& beam, BeamModel& model,
+                                 Findings& findings) {
+  const double same = same_place * beam.measured.length();
+  std::vector<double> places;
+  std::vector<std::string> paths;
+  for (const CaseSupport& support : case_file.supports) {
+    if (beam_index(case_file, support.beam) != b) continue;
+    const double s = place_on(beam, support.at, support.path, findings);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (std::abs(places[i] - s) < same)
+        findings.error(support.path,
+                       "holds beam \"" + support.beam + "\" at s = " + text_of(s) + " m, where " + paths[i] +
+                           " already holds it; keep one of them (\"clamped\" holds what \"pinned\" holds)");
+    places.push_back(s);
+    paths.push_back(support.path);
+    model.supports.push_back({b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped});
+  }
+  return places;
+}
+
+void add_loads(const CaseFile& case_file, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
+               BeamModel& model, Findings& findings) {
+  for (const CaseLoad& load : case_file.loads) {
+    const int b = beam_index(case_file, load.beam);
+    const bool is_moment = load.kind == CaseLoad::Kind::moment;
+    const Eigen::Vector3d value =
+        is_moment ? frame.moment_to_local(load.value) : frame.direction_to_local(load.value);
+    if (load.kind == CaseLoad::Kind::force_per_length) {
+      model.line_loads.push_back({b, value, load.time});
+      continue;
+    }
+    const double s = beams[b].material_coordinate(place_on(beams[b], load.at, load.path, findings));
+    const ReferenceCurve& curve = beams[b].curve;
+    const double speed = load.moving_speed.value_or(0);
+    if (!curve.closed() && ((s == 0 && speed < 0) || (s == curve.length() && speed > 0)))
+      findings.warn(load.path + ".moves.speed", "is " + text_of(speed) +
+                                                    " m/s: the force leaves the beam at once and does "
+                                                    "nothing; it moves from the " +
+                                                    (s == 0 ? "start" : "end") + " into the beam with a " +
+                                                    (s == 0 ? "positive" : "negative") + " speed");
+    const Eigen::Vector3d along = curve.tangent(s);
+    if (is_moment && std::abs(value.dot(along)) > 1e-9 * value.norm())
+      findings.error(load.path + ".moment",
+                     "the moment has a component of " + text_of(value.dot(along)) +
+                         " N m along the beam, which has no torsion; leave only the part across it");
+    model.point_loads.push_back({is_moment ? PointLoad::Kind::moment : PointLoad::Kind::force, b, s, speed,
+                                 value, load.follower, load.time});
+  }
+}
+
+double mass_of(const BeamModel& model) {
+  double mass = 0;
+  for (const Beam& beam : model.beams) mass += beam.properties.mass_per_length * beam.curve.length();
+  for (const Body& body : model.bodies) mass += body.mass;
+  return mass;
+}
+
+// Draws the beams and adds them to a model that has its frame, without supports and elements.
+std::vector<DrawnBeam> add_beams(const CaseFile& case_file, const std::vector<BeamAxis>& axes,
+                                 CadFiles& files, BuiltModel& built, Findings& findings) {
+  std::vector<DrawnBeam> beams;
+  for (std::size_t b = 0; b < axes.size() && !findings.has_errors(); ++b) {
+    const CaseBeam& from = case_file.beams[b];
+    const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
+    const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
+    if (!drawn || !section) break;
+    built.model.beams.push_back(beam_of(case_file, from, drawn->curve, section->section, findings));
+    built.radii.push_back(section->section.radius);
+    built.curve_names.push_back(axes[b].curve_name);
+    if (section->profile)
+      built.profiles.push_back({static_cast<int>(b), from.section.profile->path, *section->profile});
+    beams.push_back(*drawn);
+  }
+  return beams;
+}
+
+// Adds supports and elements.
+void divide_beams(const CaseFile& case_file, const std::vector<DrawnBeam>& beams, const JoinedBeams& joined,
+                  const ModelFrame& frame, BeamModel& model, Findings& findings) {
+  for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
+    const CaseBeam& from = case_file.beams[b];
+    std::vector<double> held = add_supports(case_file, static_cast<int>(b), beams[b], model, findings);
+    held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
+    model.beams[b].home =
+        divide_beam(from, beams[b], held, sliding_bodies(case_file, from.name), frame, findings);
+  }
+}
+
+// Nothing, with errors among the findings, where the case cannot be a model.
+std::optional<BuiltModel> built_model(const CaseFile& as_read, Findings& findings) {
+  CadFiles files;
+  const BeamChains chosen = choose_chains(as_read, files, findings);
+  const CaseFile& case_file = chosen.case_file;
+  const std::vector<BeamAxis> axes = axes_of(chosen, files, findings);
+  if (findings.has_errors()) return {};
+
+  BuiltModel built;
+  built.frame = frame_of(case_file, axes);
+  built.model.dimension = built.frame.dimension;
+  built.model.gravity = built.frame.direction_to_local(case_file.gravity);
+  const std::vector<DrawnBeam> beams = add_beams(case_file, axes, files, built, findings);
+  if (findings.has_errors()) return {};
+
+  const JoinedBeams joined = join_beams(case_file, beams, built.frame, findings);
+  built.model.beam_joints = joined.joints;
+  divide_beams(case_file, beams, joined, built.frame, built.model, findings);
+  if (findings.has_errors()) return {};
+  check_joined_supports(case_file, beams, joined, findings);
+  if (findings.has_errors()) return {};
+
+  add_loads(case_file, beams, built.frame, built.model, findings);
+  add_sliding_joints(case_file, beams, joined, built.model, findings);
+  built.frame.gravity_energy = -mass_of(built.model) * case_file.gravity.dot(built.frame.origin);
+  for (const CaseProbe& probe : case_file.output.probes) {
+    const int b = beam_index(case_file, probe.beam);
+    const double s = place_on(beams[b], probe.at, "output.probes", findings);
+    built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
+  }
+  built.inputs = files.inputs();
+  built.import_seconds = files.seconds();
+  if (findings.has_errors()) return {};
+  return built;
+}
+
+}  // namespace
+
+BuildReport build_model(const CaseFile& case_file) {
+  Findings findings(case_file.path.string());
+  BuildReport report;
+  report.value = built_model(case_file, findings);
+  report.diagnostics = findings.take();
+  return report;
+}
+
+}  // namespace nurbeam

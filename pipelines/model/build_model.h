@@ -1,0 +1,48 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/model/beam_model.h"
+#include "pipelines/case/case_file.h"
+#include "pipelines/model/model_frame.h"
+#include "pipelines/section/section_profile.h"
+
+namespace nurbeam {
+
+/// A place where results are recorded.
+struct Probe {
+  std::string name;
+  int beam;
+  double s;  ///< [m]
+};
+
+/// A section that was drawn.
+struct BeamProfile {
+  int beam;
+  std::filesystem::path file;
+  SectionProfile profile;
+};
+
+/// A case as a model: everything resolved and in place.
+struct BuiltModel {
+  BeamModel model;
+  ModelFrame frame;
+  std::vector<std::string> curve_names;      ///< per beam, for export
+  std::vector<std::optional<double>> radii;  ///< per beam: of its section, where that is a disk or a pipe [m]
+  std::vector<Probe> probes;
+  std::vector<BeamProfile> profiles;
+  std::vector<std::filesystem::path> inputs;  ///< CAD files read
+  double import_seconds = 0;
+};
+
+struct BuildReport {
+  std::optional<BuiltModel> value;  ///< empty when any diagnostic is an error
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Reads the curves of a case and makes its model: axes to segments, plane detection, elements, places.
+BuildReport build_model(const CaseFile& case_file);
+
+}  // namespace nurbeam

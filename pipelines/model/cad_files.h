@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "cad_import/import_report.h"
+#include "pipelines/diagnostics/findings.h"
+
+namespace nurbeam {
+
+/// The CAD files that a case names, each read once.
+class CadFiles {
+ public:
+  /// The curves of a file; what is to be said of it is added to the findings when it is read.
+  const ImportReport& read(const std::filesystem::path& file, Findings& findings);
+
+  /// In the order in which they were read.
+  const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
+  /// What reading them took [s].
+  double seconds() const { return seconds_; }
+
+ private:
+  std::map<std::filesystem::path, ImportReport> reports_;
+  std::vector<std::filesystem::path> inputs_;
+  double seconds_ = 0;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,115 @@
+#include "pipelines/model/model_summary.h"
+
+#include <nlohmann/json.hpp>
+
+namespace nurbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+std::string name_of(WeightRule rule) {
+  switch (rule) {
+    case WeightRule::material:
+      return "ALE-RANCF, material weights";
+    case WeightRule::constant:
+      return "ALE-RANCF, constant weights";
+    case WeightRule::ones:
+      return "ALE-ANCF";
+  }
+  return {};
+}
+
+Json to_json(const Beam& beam) {
+  const BeamProperties& p = beam.properties;
+  return {{"name", beam.name},
+          {"length [m]", beam.curve.length()},
+          {"mass [kg]", beam.curve.length() * p.mass_per_length},
+          {"elements", beam.home.size() - 1},
+          {"CAD segments", beam.curve.segment_count()},
+          {"element", name_of(beam.weights)},
+          {"stress-free", beam.straight ? "straight" : "as drawn"},
+          {"EA [N]", p.axial_stiffness},
+          {"EI [N m^2]", p.bending_stiffness},
+          {"damping [s]", p.damping}};
+}
+
+/// Away from the beam at its ends, else up.
+Eigen::Vector3d outward(const BeamModel& model, const Support& support) {
+  const ReferenceCurve& curve = model.beams[support.beam].curve;
+  if (support.s <= 0) {
+    return -curve.tangent(0);
+  }
+  if (support.s >= curve.length()) {
+    return curve.tangent(curve.length(), true);
+  }
+  return -model.gravity.stableNormalized();
+}
+
+Json to_json(const Support& support, const BuiltModel& built) {
+  const Beam& beam = built.model.beams[support.beam];
+  return {{"beam", beam.name},
+          {"type", support.clamped ? "clamped" : "pinned"},
+          {"s [m]", support.s},
+          {"position [m]", to_json(built.frame.to_world(beam.curve.position(support.s)))},
+          {"outward", to_json(built.frame.direction_to_world(outward(built.model, support)))}};
+}
+
+Json to_json(const SlidingJoint& joint, const BeamModel& model) {
+  return {{"body", model.bodies[joint.body].name},
+          {"beam", model.beams[joint.beam].name},
+          {"s at start [m]", joint.s},
+          {"speed at start [m/s]", joint.speed},
+          {"motion", joint.motion ? "prescribed" : "free"},
+          {"slope", joint.continuous_slope ? "continuous" : "discontinuous"},
+          {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};
+}
+
+Json to_json(const CaseLoad& load) {
+  const char* kind = load.kind == CaseLoad::Kind::force    ? "force [N]"
+                     : load.kind == CaseLoad::Kind::moment ? "moment [N m]"
+                                                           : "force per length [N/m]";
+  return {{"beam", load.beam},
+          {"kind", kind},
+          {"value", to_json(load.value)},
+          {"direction", load.follower ? "turns with the beam" : "fixed"},
+          {"place speed [m/s]", load.moving_speed.value_or(0)},
+          {"in time", load.time.empty() ? "constant" : "table"}};
+}
+
+}  // namespace
+
+std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
+  const BeamModel& model = built.model;
+  Json json = {
+      {"dimension", model.dimension},
+      {"plane_normal",
+       model.dimension == 2 ? to_json(built.frame.direction_to_world(Eigen::Vector3d::UnitZ())) : Json()},
+      {"gravity [m/s^2]", to_json(case_file.gravity)},
+      {"beams", Json::array()},
+      {"bodies", Json::array()},
+      {"supports", Json::array()},
+      {"joints", Json::array()},
+      {"loads", Json::array()}};
+  for (const Beam& beam : model.beams) {
+    json["beams"].push_back(to_json(beam));
+  }
+  for (const Body& body : model.bodies) {
+    json["bodies"].push_back({{"name", body.name}, {"mass [kg]", body.mass}});
+  }
+  for (const Support& support : model.supports) {
+    json["supports"].push_back(to_json(support, built));
+  }
+  for (const SlidingJoint& joint : model.joints) {
+    json["joints"].push_back(to_json(joint, model));
+  }
+  for (const CaseLoad& load : case_file.loads) {
+    json["loads"].push_back(to_json(load));
+  }
+  // Names from files need not be valid UTF-8: what is not is replaced.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace nurbeam

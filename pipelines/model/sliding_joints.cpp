@@ -1,0 +1,102 @@
+#include "pipelines/model/sliding_joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "pipelines/diagnostics/number_text.h"
+#include "pipelines/model/beam_chains.h"
+
+namespace nurbeam {
+
+namespace {
+
+// A prescribed motion begins where the body is and stays on the beam.
+void check_motion(const CaseSlidingJoint& joint, double s, const ReferenceCurve& curve, Findings& findings) {
+  const double L = curve.length(), start = value_and_slope(joint.motion_table, 0).first;
+  if (std::abs(start - s) > same_place * L)
+    findings.error(joint.path + ".motion.table", "is at s = " + text_of(start) +
+                                                     " m at time 0, but \"at\" is s = " + text_of(s) +
+                                                     " m; it must start where \"at\" is");
+  for (std::size_t i = 0; i < joint.motion_table.size(); ++i) {
+    const double row = joint.motion_table[i].second;
+    if (curve.closed()) continue;  // as often around as it says
+    if (!(row >= -same_place * L && row <= L * (1 + same_place)))
+      findings.error(joint.path + ".motion.table[" + std::to_string(i) + "]",
+                     text_of(row) + " m is not on beam \"" + joint.beam + "\", which is " + text_of(L) +
+                         " m long; must be between 0 and " + text_of(L) + " m");
+  }
+}
+
+// The motion at a constant speed from s, to the end of the beam or of the analysis.
+TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, double end_time) {
+  const double end = curve.closed() ? s + speed * end_time : speed > 0 ? curve.length() : 0;
+  if (speed == 0 || end == s) return {{0, s}, {1, s}};
+  return {{0, s}, {(end - s) / speed, end}};
+}
+
+void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurve& curve,
+                       const std::vector<Support>& supports, const std::vector<double>& joint_places,
+                       Findings& findings) {
+  if (curve.closed()) return;
+  bool start = false, end = false;
+  for (const Support& support : supports) {
+    start = start || (support.beam == b && support.s == 0);
+    end = end || (support.beam == b && support.s == curve.length());
+  }
+  for (const double s : joint_places) {
+    start = start || s == 0;
+    end = end || s == curve.length();
+  }
+  if (start || end)
+    findings.warn(joint.path + ".at_beam_end", std::string("the ") +
+                                                   (start && end ? "start and the end"
+                                                    : start      ? "start"
+                                                                 : "end") +
+                                                   " of beam \"" + joint.beam + "\" " +
+                                                   (start && end ? "are" : "is") +
+                                                   " supported: there \"leave\" acts like \"stop\"");
+}
+
+}  // namespace
+
+void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+                        const JoinedBeams& joined, BeamModel& model, Findings& findings) {
+  if (case_file.analysis.method == CaseAnalysis::Method::rk4 && !case_file.sliding_joints.empty())
+    findings.error("analysis.integrator.type",
+                   "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
+  for (const CaseBody& body : case_file.bodies) {
+    model.bodies.push_back({body.name, body.mass});
+    const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };
+    const auto count =
+        std::count_if(case_file.sliding_joints.begin(), case_file.sliding_joints.end(), carries);
+    if (count != 1)
+      findings.error("bodies", "body \"" + body.name + "\" is in " + std::to_string(count) +
+                                   " sliding joints; a body needs exactly one");
+  }
+  for (const CaseSlidingJoint& joint : case_file.sliding_joints) {
+    const int b = beam_index(case_file, joint.beam);
+    const ReferenceCurve& curve = beams[b].curve;
+    SlidingJoint added{0,
+                       b,
+                       place_on(beams[b], joint.at, joint.path, findings),
+                       joint.speed,
+                       std::nullopt,
+                       joint.continuous_slope,
+                       joint.leave_at_end};
+    for (std::size_t i = 0; i < case_file.bodies.size(); ++i)
+      if (case_file.bodies[i].name == joint.body) added.body = static_cast<int>(i);
+    if (!joint.motion_table.empty()) {
+      check_motion(joint, added.s, curve, findings);
+      added.motion = joint.motion_table;
+      added.s = value_and_slope(joint.motion_table, 0).first;
+    }
+    if (joint.motion_speed)
+      added.motion = steady_motion(added.s, *joint.motion_speed, curve, case_file.analysis.end_time);
+    if (joint.leave_at_end && case_file.analysis.type != CaseAnalysis::Type::statics)
+      warn_of_held_ends(joint, b, curve, model.supports, joined.places[b], findings);
+    model.joints.push_back(std::move(added));
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,401 @@
+#include "pipelines/report/report.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "pipelines/report/report_template.h"
+#include "pipelines/results/atomic_file.h"
+#include "pipelines/results/results.h"
+
+namespace nurbeam {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Bytes = std::vector<unsigned char>;
+
+static_assert(std::endian::native == std::endian::little, "the page reads little-endian numbers");
+
+template <class Number>
+void append(Bytes& bytes, const Number* numbers, std::size_t count) {
+  const auto* first = reinterpret_cast<const unsigned char*>(numbers);
+  bytes.insert(bytes.end(), first, first + count * sizeof(Number));
+}
+
+/// Base64 (RFC 4648, section 4).
+std::string base64(const Bytes& bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      word = word << 8 | (k < left ? bytes[i + k] : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= left ? digits[word >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+template <class Number>
+std::string base64_of(const std::vector<Number>& numbers) {
+  Bytes bytes;
+  append(bytes, numbers.data(), numbers.size());
+  return base64(bytes);
+}
+
+// ---- histories ----
+
+/// One history: `of` is run, probe, body, beam or energy, `index` counts within it.
+struct Column {
+  std::string of;
+  std::size_t index;
+  std::string name, unit;
+  std::vector<double> values;
+};
+
+constexpr std::array point_parts = {std::pair{"x", "m"},    std::pair{"y", "m"},    std::pair{"z", "m"},
+                                    std::pair{"vx", "m/s"}, std::pair{"vy", "m/s"}, std::pair{"vz", "m/s"}};
+
+std::vector<Column> empty_columns(const FrameNames& names) {
+  std::vector<Column> columns = {{"run", 0, "time", "s", {}}, {"run", 0, "step", "s", {}}};
+  const auto add_point = [&](const char* of, std::size_t index) {
+    for (const auto& [name, unit] : point_parts) {
+      columns.push_back({of, index, name, unit, {}});
+    }
+  };
+  for (std::size_t i = 0; i < names.probes.size(); ++i) {
+    add_point("probe", i);
+  }
+  for (std::size_t i = 0; i < names.bodies.size(); ++i) {
+    add_point("body", i);
+    columns.push_back({"body", i, "s", "m", {}});
+    for (const char* part : {"fx", "fy", "fz"}) {
+      columns.push_back({"body", i, part, "N", {}});
+    }
+  }
+  for (std::size_t i = 0; i < names.beams.size(); ++i) {
+    columns.push_back({"beam", i, "length", "m", {}});
+  }
+  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total"}) {
+    columns.push_back({"energy", 0, part, "J", {}});
+  }
+  return columns;
+}
+
+/// Appends one value of the frame to each column, in the order of empty_columns().
+void append_values(const Frame& frame, std::vector<Column>& columns) {
+  auto column = columns.begin();
+  const auto add = [&](double value) { (column++)->values.push_back(value); };
+  const auto add_vector = [&](const Eigen::Vector3d& v) { std::for_each(v.begin(), v.end(), add); };
+  const auto add_point = [&](const PointRecord& point) {
+    add_vector(point.position);
+    add_vector(point.velocity);
+  };
+  add(frame.time);
+  add(frame.step);
+  std::for_each(frame.probes.begin(), frame.probes.end(), add_point);
+  for (const BodyRecord& body : frame.bodies) {
+    add_point(body.point);
+    add(body.s.value_or(std::numeric_limits<double>::quiet_NaN()));
+    add_vector(body.joint_force);
+  }
+  for (const BeamRecord& beam : frame.beams) {
+    add(beam.length);
+  }
+  const EnergyRecord& e = frame.energy;
+  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total}) {
+    add(energy);
+  }
+}
+
+// ---- shapes ----
+
+/// A quantity that beams can be coloured by, at the four sample parameters of an element.
+struct Field {
+  const char *name, *unit;
+  Eigen::Vector4d (*values)(const ElementRecord& element);
+  double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
+
+  /// A value as a byte: 0 is min, 255 is max.
+  unsigned char byte_of(double value) const {
+    const double part = max > min ? (value - min) / (max - min) : 0;
+    return static_cast<unsigned char>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
+  }
+};
+
+std::vector<Field> all_fields() {
+  return {{"strain", "1", [](const ElementRecord& e) { return e.strain; }},
+          {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
+          {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
+          {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
+          {"speed", "m/s",
+           [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }}};
+}
+
+/// What must be known of all frames before one can be written.
+struct Survey {
+  std::vector<Field> fields = all_fields();
+  Eigen::AlignedBox<double, 3> box;                        ///< of the whole run [m]
+  bool rational = false;                                   ///< the weights of some element differ
+  std::vector<std::vector<std::uint32_t>> element_counts;  ///< per frame, per beam
+  std::vector<Column> columns;
+
+  void add(const Frame& frame) {
+    append_values(frame, columns);
+    std::vector<std::uint32_t>& counts = element_counts.emplace_back();
+    for (const BeamRecord& beam : frame.beams) {
+      counts.push_back(static_cast<std::uint32_t>(beam.elements.size()));
+      for (const ElementRecord& element : beam.elements) {
+        add(element);
+      }
+    }
+    for (const BodyRecord& body : frame.bodies) {
+      box.extend(body.point.position);
+    }
+  }
+
+  Eigen::Vector3d origin() const { return box.center(); }
+
+  std::size_t bytes_of_frame(std::size_t frame) const {
+    std::size_t bytes = columns.size() * sizeof(double);
+    for (const std::size_t n : element_counts[frame]) {
+      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0)) + 4 * n * fields.size();
+    }
+    return bytes;
+  }
+
+ private:
+  void add(const ElementRecord& element) {
+    const auto weights = element.control_points.row(3);
+    for (int i = 0; i < 4; ++i) {
+      box.extend(Eigen::Vector3d(element.control_points.col(i).head<3>() / weights[i]));
+    }
+    rational = rational || weights.minCoeff() != weights.maxCoeff();
+    for (Field& field : fields) {
+      const Eigen::Vector4d values = field.values(element);
+      field.min = std::min(field.min, values.minCoeff());
+      field.max = std::max(field.max, values.maxCoeff());
+    }
+  }
+};
+
+/// The beams of one frame; the layout stands in report/src/data.js.
+Bytes shape_bytes(const Frame& frame, const Survey& survey) {
+  Bytes bytes;
+  const auto add_point = [&](const ElementRecord& element, int i) {
+    const Eigen::Vector4d p = element.control_points.col(i);
+    const Eigen::Vector3f local = (p.head<3>() / p[3] - survey.origin()).cast<float>();
+    append(bytes, local.data(), 3);
+  };
+  for (const BeamRecord& beam : frame.beams) {
+    for (const ElementRecord& element : beam.elements) {
+      for (int i = 0; i < 3; ++i) {
+        add_point(element, i);
+      }
+    }
+    add_point(beam.elements.back(), 3);
+    for (const ElementRecord& element : beam.elements) {
+      if (survey.rational) {
+        const Eigen::Vector4f weights = element.control_points.row(3).transpose().cast<float>();
+        append(bytes, weights.data(), 4);
+      }
+    }
+    for (const Field& field : survey.fields) {
+      for (const ElementRecord& element : beam.elements) {
+        for (const double value : field.values(element)) {
+          bytes.push_back(field.byte_of(value));
+        }
+      }
+    }
+  }
+  return bytes;
+}
+
+// ---- the page ----
+
+/// Calls `use(frame, index)` for all frames; few of them are in memory at a time.
+template <class Use>
+void for_each_frame(const ReportFrames& frames, Use use) {
+  constexpr std::size_t at_once = 16;
+  for (std::size_t first = 0; first < frames.times.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, frames.times.size() - first);
+    const std::vector<Frame> piece = frames.read(first, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      use(piece[i], first + i);
+    }
+  }
+}
+
+/// Which frames the page holds: all, or every second, third, ... and the last.
+std::vector<std::size_t> kept_frames(const Survey& survey, std::size_t most_bytes) {
+  const std::size_t frames = survey.element_counts.size();
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < frames; ++i) {
+    bytes += survey.bytes_of_frame(i);
+  }
+  const std::size_t every = std::max<std::size_t>((bytes + most_bytes - 1) / most_bytes, 1);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < frames; i += every) {
+    kept.push_back(i);
+  }
+  if (kept.back() != frames - 1) {
+    kept.push_back(frames - 1);
+  }
+  return kept;
+}
+
+Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json description(const ReportFrames& frames, const Survey& survey, const std::vector<std::size_t>& kept) {
+  Json columns = Json::array(), values = Json::array(), fields = Json::array();
+  std::vector<double> kept_values;
+  for (const Column& column : survey.columns) {
+    kept_values.clear();
+    for (const std::size_t i : kept) {
+      kept_values.push_back(column.values[i]);
+    }
+    columns.push_back(
+        {{"of", column.of}, {"index", column.index}, {"name", column.name}, {"unit", column.unit}});
+    values.push_back(base64_of(kept_values));
+  }
+  for (const Field& field : survey.fields) {
+    fields.push_back({{"name", field.name}, {"unit", field.unit}, {"min", field.min}, {"max", field.max}});
+  }
+  std::vector<std::uint32_t> counts;
+  for (const std::size_t i : kept) {
+    counts.insert(counts.end(), survey.element_counts[i].begin(), survey.element_counts[i].end());
+  }
+  return {{"title", frames.title},
+          {"names",
+           {{"probes", frames.names.probes}, {"bodies", frames.names.bodies}, {"beams", frames.names.beams}}},
+          {"stored_frames", frames.times.size()},
+          {"box", {to_json(survey.box.min()), to_json(survey.box.max())}},
+          {"columns", columns},
+          {"values", values},
+          {"shapes",
+           {{"rational", survey.rational},
+            {"origin", to_json(survey.origin())},
+            {"fields", fields},
+            {"element_counts", base64_of(counts)}}}};
+}
+
+/// JSON text that cannot end the <script> element it stands in. "<" occurs only in JSON's strings.
+std::string script_text(const Json& json) {
+  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text;
+  text.reserve(plain.size());
+  for (const char c : plain) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string html_text(const std::string& plain) {
+  std::string text;
+  for (const char c : plain) {
+    text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return text;
+}
+
+/// What stands before and after a marker of the template.
+std::pair<std::string_view, std::string_view> cut(std::string_view text, std::string_view marker) {
+  const std::size_t at = text.find(marker);
+  return {text.substr(0, at), text.substr(at + marker.size())};
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw std::invalid_argument(file.string() + ": " + std::strerror(errno) +
+                                "; expected a directory that nurbeam run has written");
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+void write_report_page(std::ostream& stream, const ReportFrames& frames, const std::string& run_json,
+                       std::size_t most_bytes) {
+  const Json run = Json::parse(run_json, nullptr, false);
+  if (!run.is_object()) {
+    throw std::invalid_argument("run.json: is not a JSON object");
+  }
+  if (frames.times.empty()) {
+    throw std::invalid_argument("there is no stored frame to report");
+  }
+  Survey survey;
+  survey.columns = empty_columns(frames.names);
+  for_each_frame(frames, [&](const Frame& frame, std::size_t) { survey.add(frame); });
+  const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
+  Json data = description(frames, survey, kept);
+  data["run"] = run;
+
+  const auto [head, after_title] = cut(report_template, "{{title}}");
+  const auto [body, tail] = cut(after_title, "{{data}}");
+  stream << head << html_text(frames.title) << body << R"(<script type="application/json" id="data">)"
+         << script_text(data) << "</script>\n"
+         << R"(<script type="text/plain" id="shapes">)";
+  for_each_frame(frames, [&](const Frame& frame, std::size_t index) {
+    if (std::binary_search(kept.begin(), kept.end(), index)) {
+      stream << base64(shape_bytes(frame, survey));
+    }
+  });
+  stream << "</script>" << tail;
+}
+
+void write_report(const fs::path& directory) {
+  const fs::path file = directory / "report.html";
+  const auto discard = [&] {
+    std::error_code ignored;
+    fs::remove(temporary_name(file), ignored);
+  };
+  const std::string run_json = text_of(directory / "run.json");
+  std::ofstream stream;
+  try {
+    const StoredFrames stored(directory);
+    const ReportFrames frames{
+        stored.title(), stored.names(), stored.times(),
+        [&](std::size_t first, std::size_t count) { return stored.read(first, count); }};
+    stream.open(temporary_name(file), std::ios::binary);
+    write_report_page(stream, frames, run_json);
+  } catch (const std::invalid_argument& error) {
+    discard();
+    throw std::invalid_argument(directory.string() + ": " + error.what());
+  } catch (const std::runtime_error& error) {  // netCDF's; it names its file
+    discard();
+    throw std::invalid_argument(error.what());
+  }
+  stream.close();
+  if (!stream) {
+    const std::string reason = std::strerror(errno);
+    discard();
+    throw std::runtime_error(file.string() + ": cannot be written: " + reason);
+  }
+  publish(file);
+}
+
+}  // namespace nurbeam

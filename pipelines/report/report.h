@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "pipelines/motion/frame.h"
+
+namespace nurbeam {
+
+/// The frames that a report shows.
+struct ReportFrames {
+  std::string title;
+  FrameNames names;
+  std::vector<double> times;  ///< at least one [s]
+  std::function<std::vector<Frame>(std::size_t first, std::size_t count)> read;
+};
+
+/// Writes the page (HTML) with the frames and run.json in it; it needs nothing else, no network either.
+/// Histories are stored as they are (float64), control points as float32 relative to the middle of the model,
+/// fields as one byte of their range over the whole run. Where shapes and histories would take more than
+/// `most_bytes` it holds every second, third, ... frame and the last, and says so.
+/// Throws std::invalid_argument unless `run_json` is a JSON object and there is a frame.
+void write_report_page(std::ostream& stream, const ReportFrames& frames, const std::string& run_json,
+                       std::size_t most_bytes = 100'000'000);
+
+/// Writes report.html into a results directory, from its results.nc and run.json. Throws
+/// std::invalid_argument (file and reason) when they are not there or cannot be read, and std::runtime_error
+/// when the page cannot be written.
+void write_report(const std::filesystem::path& directory);
+
+}  // namespace nurbeam

@@ -1,0 +1,55 @@
+#include "pipelines/results/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace nurbeam {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Waits until a file, or the names in a directory, are on the disk. False with errno where that fails.
+bool reaches_the_disk(const fs::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  // Some file systems cannot synchronise a directory, and say so.
+  const bool done = fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
+  const int reason = errno;
+  close(descriptor);
+  errno = reason;
+  return done;
+}
+
+[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
+  std::error_code ignored;
+  fs::remove(temporary_name(file), ignored);
+  throw std::runtime_error(file.string() + ": " + reason);
+}
+
+}  // namespace
+
+fs::path temporary_name(const fs::path& file) { return file.string() + ".part"; }
+
+void publish(const fs::path& file) {
+  std::error_code error;
+  fs::rename(temporary_name(file), file, error);
+  if (error) fail(file, "cannot be renamed from its temporary name: " + error.message());
+}
+
+void publish_durably(const fs::path& file) {
+  if (!reaches_the_disk(temporary_name(file)))
+    fail(file, std::string("cannot be written: ") + std::strerror(errno));
+  publish(file);
+  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!reaches_the_disk(directory))
+    fail(file, std::string("its directory cannot be written: ") + std::strerror(errno));
+}
+
+}  // namespace nurbeam

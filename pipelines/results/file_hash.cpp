@@ -1,0 +1,64 @@
+#include "pipelines/results/file_hash.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+namespace nurbeam {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
+  throw std::runtime_error(file.string() + ": " + reason);
+}
+
+std::string hexadecimal(const unsigned char* bytes, unsigned count) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (unsigned i = 0; i < count; ++i) {
+    text += {digits[bytes[i] / 16], digits[bytes[i] % 16]};
+  }
+  return text;
+}
+
+/// SHA-256 of all that a stream holds; an empty text when it or OpenSSL fails.
+std::string sha256(std::istream& stream) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  bool good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  std::array<char, 1 << 16> buffer;
+  while (good && stream) {
+    stream.read(buffer.data(), buffer.size());
+    good = EVP_DigestUpdate(context.get(), buffer.data(), stream.gcount()) == 1;
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned size = 0;
+  if (!good || stream.bad() || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1) return {};
+  return hexadecimal(digest.data(), size);
+}
+
+}  // namespace
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, std::string("cannot be read: ") + std::strerror(errno));
+  const std::string digest = sha256(stream);
+  if (digest.empty())
+    fail(file, stream.bad() ? std::string("cannot be read: ") + std::strerror(errno)
+                            : std::string("OpenSSL offers no SHA-256"));
+  return digest;
+}
+
+std::string sha256_of_text(const std::string& text) {
+  std::istringstream stream(text);
+  const std::string digest = sha256(stream);
+  if (digest.empty()) throw std::runtime_error("OpenSSL offers no SHA-256");
+  return digest;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,421 @@
+#include "pipelines/results/frame_store.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace nurbeam {
+
+namespace {
+
+using Type = NetcdfFile::Type;
+using Doubles = std::vector<double>;
+using Integers = std::vector<int>;
+
+constexpr std::size_t time_chunk = 128, row_chunk = 256;
+constexpr std::size_t sample_count = 4;
+
+struct EnergyPart {
+  const char* name;
+  double EnergyRecord::*value;
+};
+constexpr EnergyPart energy_parts[] = {
+    {"kinetic", &EnergyRecord::kinetic},       {"gravity", &EnergyRecord::gravity},
+    {"axial", &EnergyRecord::axial},           {"bending", &EnergyRecord::bending},
+    {"dissipated", &EnergyRecord::dissipated}, {"total", &EnergyRecord::total}};
+
+struct SampledField {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+  Eigen::Vector4d ElementRecord::*values;
+};
+constexpr SampledField sampled_fields[] = {
+    {"strain", "1", "Green's axial strain", &ElementRecord::strain},
+    {"curvature", "m-1", "curvature, signed in a planar model", &ElementRecord::curvature},
+    {"axial_force", "N", "elastic axial force, tension positive", &ElementRecord::axial_force},
+    {"bending_moment", "N m", "elastic bending moment, signed in a planar model",
+     &ElementRecord::bending_moment}};
+
+template <class Array>
+void append(Doubles& values, const Array& array) {
+  values.insert(values.end(), array.data(), array.data() + array.size());
+}
+
+template <class Visit>
+void for_each_element(std::span<const Frame> frames, Visit visit) {
+  for (const Frame& frame : frames)
+    for (const BeamRecord& beam : frame.beams)
+      for (const ElementRecord& element : beam.elements) visit(element);
+}
+
+template <class Visit>
+void for_each_element(std::vector<Frame>& frames, Visit visit) {
+  for (Frame& frame : frames)
+    for (BeamRecord& beam : frame.beams)
+      for (ElementRecord& element : beam.elements) visit(element);
+}
+
+std::size_t sum(Integers::const_iterator first, Integers::const_iterator last) {
+  return std::accumulate(first, last, std::size_t{0});
+}
+
+}  // namespace
+
+// --- Writing
+// -----------------------------------------------------------------------------------------------------
+
+FrameStore::FrameStore(const std::filesystem::path& file, const FrameNames& names, const std::string& title)
+    : file_(NetcdfFile::create(file)),
+      probe_count_(names.probes.size()),
+      body_count_(names.bodies.size()),
+      beam_count_(names.beams.size()) {
+  file_.put_attribute("", "Conventions", "CF-1.8");
+  file_.put_attribute("", "title", title);
+  file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
+  file_.define_dimension("time", NetcdfFile::unlimited);
+  file_.define_dimension("xyz", 3);
+  define_scalars();
+  define_points("probe", names.probes);
+  define_points("body", names.bodies);
+  if (body_count_ > 0) {
+    define_of_time("body_joint_force", {"body", "xyz"}, "N", "force of the beam on the body");
+    define_of_time("body_s", {"body"}, "m", "reference arc length of the body from the start of its beam");
+  }
+  define_beams(names.beams);
+  define_steps();
+}
+
+void FrameStore::define_of_time(const std::string& name, std::vector<std::string> dimensions,
+                                const std::string& unit, const std::string& long_name, Type type) {
+  dimensions.insert(dimensions.begin(), "time");
+  file_.define(name, type, dimensions, unit, long_name, time_chunk);
+}
+
+void FrameStore::define_scalars() {
+  define_of_time("time", {}, "s", "time");
+  file_.put_attribute("time", "standard_name", "time");
+  file_.put_attribute("time", "axis", "T");
+  define_of_time("step", {}, "s", "last step size");
+  define_of_time("newton_iterations", {}, "1", "Newton iterations since the previous frame", Type::integer);
+  for (const EnergyPart& part : energy_parts)
+    define_of_time(std::string("energy_") + part.name, {}, "J", std::string(part.name) + " energy");
+}
+
+void FrameStore::define_points(const std::string& kind, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  file_.define_dimension(kind, names.size());
+  file_.define_texts(kind + "_name", kind, names);
+  define_of_time(kind + "_position", {kind, "xyz"}, "m", "position of the " + kind);
+  define_of_time(kind + "_velocity", {kind, "xyz"}, "m s-1", "velocity of the " + kind);
+}
+
+void FrameStore::define_beams(const std::vector<std::string>& names) {
+  file_.define_dimension("beam", names.size());
+  file_.define_dimension("element", NetcdfFile::unlimited);
+  file_.define_dimension("node", NetcdfFile::unlimited);
+  file_.define_dimension("control_point", 4);
+  file_.define_dimension("homogeneous", 4);
+  file_.define_dimension("sample", sample_count);
+  file_.define_texts("beam_name", "beam", names);
+  define_of_time("beam_length", {"beam"}, "m", "deformed length of the beam");
+  define_of_time("element_count", {"beam"}, "1", "number of elements of the beam", Type::integer);
+  define_of_time("node_count", {"beam"}, "1", "number of nodes of the beam", Type::integer);
+  file_.put_attribute("element_count", "sample_dimension", "element");
+  file_.put_attribute("node_count", "sample_dimension", "node");
+  const auto define = [&](const char* name, const std::vector<std::string>& dimensions, const char* unit,
+                          const char* long_name) {
+    file_.define(name, Type::real, dimensions, unit, long_name, row_chunk);
+  };
+  define("control_points", {"element", "control_point", "homogeneous"}, "m",
+         "deformed rational cubic as (w x, w y, w z, w); the weight w has no unit");
+  define("element_s_start", {"element"}, "m", "reference arc length at the element's start");
+  define("element_s_end", {"element"}, "m", "reference arc length at the element's end");
+  for (const SampledField& field : sampled_fields)
+    define(field.name, {"element", "sample"}, field.unit, field.long_name);
+  define("velocity", {"element", "sample", "xyz"}, "m s-1", "velocity of the material");
+  for (const char* field : {"strain", "curvature", "axial_force", "bending_moment", "velocity"})
+    file_.put_attribute(field, "comment", "samples at u = 0, 1/3, 2/3, 1 of the element's cubic");
+  define("node_position", {"node", "xyz"}, "m", "position of the node");
+  define("node_slope", {"node", "xyz"}, "1",
+         "derivative of position by reference arc length, left at a kink");
+  define("node_s", {"node"}, "m", "reference arc length of the node");
+}
+
+void FrameStore::define_steps() {
+  file_.define_dimension("solver_step", NetcdfFile::unlimited);
+  define_of_time("solver_step_count", {}, "1", "number of steps since the previous frame", Type::integer);
+  file_.put_attribute("solver_step_count", "sample_dimension", "solver_step");
+  const auto define = [&](const char* name, Type type, const char* unit, const char* long_name) {
+    file_.define(name, type, {"solver_step"}, unit, long_name, row_chunk);
+  };
+  define("solver_step_time", Type::real, "s", "time at the end of the step");
+  define("solver_step_size", Type::real, "s", "length of the step");
+  define("solver_step_newton_iterations", Type::integer, "1", "Newton iterations of the step");
+  define("solver_step_rejected", Type::integer, "1", "attempts at the step that were thrown away");
+}
+
+void FrameStore::write(std::span<const Frame> frames) {
+  const std::size_t n = frames.size();
+  if (n == 0) return;
+  const auto put = [&](const std::string& name, NetcdfFile::Sizes shape, const auto& values) {
+    NetcdfFile::Sizes start(shape.size() + 1, 0);
+    start[0] = frames_;
+    shape.insert(shape.begin(), n);
+    file_.put(name, start, shape, values.data());
+  };
+  const auto reals = [&](auto value) {
+    Doubles values;
+    for (const Frame& frame : frames) value(frame, values);
+    return values;
+  };
+  put("time", {}, reals([](const Frame& f, Doubles& x) { x.push_back(f.time); }));
+  put("step", {}, reals([](const Frame& f, Doubles& x) { x.push_back(f.step); }));
+  for (const EnergyPart& part : energy_parts)
+    put(std::string("energy_") + part.name, {},
+        reals([&](const Frame& f, Doubles& x) { x.push_back(f.energy.*part.value); }));
+  Integers iterations;
+  for (const Frame& frame : frames) iterations.push_back(frame.newton_iterations);
+  put("newton_iterations", {}, iterations);
+  if (probe_count_ > 0) {
+    put("probe_position", {probe_count_, 3}, reals([](const Frame& f, Doubles& x) {
+          for (const PointRecord& probe : f.probes) append(x, probe.position);
+        }));
+    put("probe_velocity", {probe_count_, 3}, reals([](const Frame& f, Doubles& x) {
+          for (const PointRecord& probe : f.probes) append(x, probe.velocity);
+        }));
+  }
+  if (body_count_ > 0) {
+    put("body_position", {body_count_, 3}, reals([](const Frame& f, Doubles& x) {
+          for (const BodyRecord& body : f.bodies) append(x, body.point.position);
+        }));
+    put("body_velocity", {body_count_, 3}, reals([](const Frame& f, Doubles& x) {
+          for (const BodyRecord& body : f.bodies) append(x, body.point.velocity);
+        }));
+    put("body_joint_force", {body_count_, 3}, reals([](const Frame& f, Doubles& x) {
+          for (const BodyRecord& body : f.bodies) append(x, body.joint_force);
+        }));
+    put("body_s", {body_count_}, reals([](const Frame& f, Doubles& x) {
+          for (const BodyRecord& body : f.bodies) x.push_back(body.s.value_or(NetcdfFile::fill));
+        }));
+  }
+  put("beam_length", {beam_count_}, reals([](const Frame& f, Doubles& x) {
+        for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
+      }));
+  Integers element_counts, node_counts;
+  for (const Frame& frame : frames)
+    for (const BeamRecord& beam : frame.beams) {
+      element_counts.push_back(static_cast<int>(beam.elements.size()));
+      node_counts.push_back(static_cast<int>(beam.node_s.size()));
+    }
+  put("element_count", {beam_count_}, element_counts);
+  put("node_count", {beam_count_}, node_counts);
+  write_elements(frames);
+  write_nodes(frames);
+  write_steps(frames);
+  frames_ += n;
+}
+
+void FrameStore::write_elements(std::span<const Frame> frames) {
+  std::size_t count = 0;
+  Doubles points, start, end, velocity;
+  std::vector<Doubles> fields(std::size(sampled_fields));
+  for_each_element(frames, [&](const ElementRecord& e) {
+    // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
+    append(points, e.control_points);
+    start.push_back(e.s_start);
+    end.push_back(e.s_end);
+    for (std::size_t i = 0; i < fields.size(); ++i) append(fields[i], e.*sampled_fields[i].values);
+    append(velocity, e.velocity);
+    ++count;
+  });
+  if (count == 0) return;
+  file_.put("control_points", {elements_, 0, 0}, {count, 4, 4}, points.data());
+  file_.put("element_s_start", {elements_}, {count}, start.data());
+  file_.put("element_s_end", {elements_}, {count}, end.data());
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    file_.put(sampled_fields[i].name, {elements_, 0}, {count, sample_count}, fields[i].data());
+  file_.put("velocity", {elements_, 0, 0}, {count, sample_count, 3}, velocity.data());
+  elements_ += count;
+}
+
+void FrameStore::write_nodes(std::span<const Frame> frames) {
+  Doubles position, slope, s;
+  for (const Frame& frame : frames)
+    for (const BeamRecord& beam : frame.beams) {
+      for (const Eigen::Vector3d& r : beam.node_positions) append(position, r);
+      for (const Eigen::Vector3d& r_s : beam.node_slopes) append(slope, r_s);
+      s.insert(s.end(), beam.node_s.begin(), beam.node_s.end());
+    }
+  if (s.empty()) return;
+  file_.put("node_position", {nodes_, 0}, {s.size(), 3}, position.data());
+  file_.put("node_slope", {nodes_, 0}, {s.size(), 3}, slope.data());
+  file_.put("node_s", {nodes_}, {s.size()}, s.data());
+  nodes_ += s.size();
+}
+
+void FrameStore::write_steps(std::span<const Frame> frames) {
+  Integers counts, iterations, rejected;
+  Doubles time, size;
+  for (const Frame& frame : frames) {
+    counts.push_back(static_cast<int>(frame.steps.size()));
+    for (const StepRecord& step : frame.steps) {
+      time.push_back(step.time);
+      size.push_back(step.size);
+      iterations.push_back(step.newton_iterations);
+      rejected.push_back(step.rejected);
+    }
+  }
+  file_.put("solver_step_count", {frames_}, {counts.size()}, counts.data());
+  if (time.empty()) return;
+  const NetcdfFile::Sizes start{steps_}, count{time.size()};
+  file_.put("solver_step_time", start, count, time.data());
+  file_.put("solver_step_size", start, count, size.data());
+  file_.put("solver_step_newton_iterations", start, count, iterations.data());
+  file_.put("solver_step_rejected", start, count, rejected.data());
+  steps_ += time.size();
+}
+
+// --- Reading
+// -----------------------------------------------------------------------------------------------------
+
+FrameReader::FrameReader(const std::filesystem::path& file)
+    : file_(NetcdfFile::open(file)), title_(file_.attribute("", "title")) {
+  if (file_.has_dimension("probe")) names_.probes = file_.texts("probe_name");
+  if (file_.has_dimension("body")) names_.bodies = file_.texts("body_name");
+  names_.beams = file_.texts("beam_name");
+  const std::size_t n = file_.size("time"), beams = names_.beams.size();
+  if (n == 0) return;
+  times_ = file_.doubles("time", {0}, {n});
+  element_counts_ = file_.integers("element_count", {0, 0}, {n, beams});
+  node_counts_ = file_.integers("node_count", {0, 0}, {n, beams});
+  step_counts_ = file_.integers("solver_step_count", {0}, {n});
+}
+
+std::vector<Frame> FrameReader::read(std::size_t first, std::size_t count) const {
+  if (first + count > times_.size()) throw std::out_of_range("FrameReader::read: no such frame");
+  std::vector<Frame> frames(count);
+  if (count == 0) return frames;
+  for (Frame& frame : frames) {
+    frame.probes.resize(names_.probes.size());
+    frame.bodies.resize(names_.bodies.size());
+    frame.beams.resize(names_.beams.size());
+  }
+  read_scalars(first, frames);
+  read_points(first, frames);
+  read_elements(first, frames);
+  read_nodes(first, frames);
+  read_steps(first, frames);
+  return frames;
+}
+
+void FrameReader::read_scalars(std::size_t first, std::vector<Frame>& frames) const {
+  const std::size_t n = frames.size();
+  const Doubles step = file_.doubles("step", {first}, {n});
+  const Integers iterations = file_.integers("newton_iterations", {first}, {n});
+  for (std::size_t i = 0; i < n; ++i) {
+    frames[i].time = times_[first + i];
+    frames[i].step = step[i];
+    frames[i].newton_iterations = iterations[i];
+  }
+  for (const EnergyPart& part : energy_parts) {
+    const Doubles values = file_.doubles(std::string("energy_") + part.name, {first}, {n});
+    for (std::size_t i = 0; i < n; ++i) frames[i].energy.*part.value = values[i];
+  }
+  const std::size_t beams = names_.beams.size();
+  const Doubles length = file_.doubles("beam_length", {first, 0}, {n, beams});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t b = 0; b < beams; ++b) frames[i].beams[b].length = length[i * beams + b];
+}
+
+void FrameReader::read_points(std::size_t first, std::vector<Frame>& frames) const {
+  const std::size_t n = frames.size();
+  const auto vectors = [&](const std::string& name, std::size_t points, auto target) {
+    if (points == 0) return;
+    const Doubles values = file_.doubles(name, {first, 0, 0}, {n, points, 3});
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < points; ++j)
+        target(frames[i], j) = Eigen::Vector3d(values.data() + 3 * (i * points + j));
+  };
+  const std::size_t probes = names_.probes.size(), bodies = names_.bodies.size();
+  vectors(
+      "probe_position", probes, [](Frame & f, std::size_t j) -> auto& { return f.probes[j].position; });
+  vectors(
+      "probe_velocity", probes, [](Frame & f, std::size_t j) -> auto& { return f.probes[j].velocity; });
+  vectors(
+      "body_position", bodies, [](Frame & f, std::size_t j) -> auto& { return f.bodies[j].point.position; });
+  vectors(
+      "body_velocity", bodies, [](Frame & f, std::size_t j) -> auto& { return f.bodies[j].point.velocity; });
+  vectors(
+      "body_joint_force", bodies, [](Frame & f, std::size_t j) -> auto& { return f.bodies[j].joint_force; });
+  if (bodies == 0) return;
+  const Doubles s = file_.doubles("body_s", {first, 0}, {n, bodies});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < bodies; ++j)
+      if (s[i * bodies + j] != NetcdfFile::fill) frames[i].bodies[j].s = s[i * bodies + j];
+}
+
+void FrameReader::read_elements(std::size_t first, std::vector<Frame>& frames) const {
+  const std::size_t beams = names_.beams.size();
+  const auto counts = element_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
+  const std::size_t start = sum(element_counts_.begin(), counts);
+  const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size() * beams));
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    for (std::size_t b = 0; b < beams; ++b)
+      frames[i].beams[b].elements.resize(counts[static_cast<std::ptrdiff_t>(i * beams + b)]);
+  if (count == 0) return;
+  const Doubles points = file_.doubles("control_points", {start, 0, 0}, {count, 4, 4});
+  const Doubles s_start = file_.doubles("element_s_start", {start}, {count});
+  const Doubles s_end = file_.doubles("element_s_end", {start}, {count});
+  const Doubles velocity = file_.doubles("velocity", {start, 0, 0}, {count, sample_count, 3});
+  std::vector<Doubles> fields;
+  for (const SampledField& field : sampled_fields)
+    fields.push_back(file_.doubles(field.name, {start, 0}, {count, sample_count}));
+  std::size_t i = 0;
+  for_each_element(frames, [&](ElementRecord& e) {
+    e.control_points = Eigen::Map<const Eigen::Matrix4d>(points.data() + 16 * i);
+    e.s_start = s_start[i];
+    e.s_end = s_end[i];
+    e.velocity = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(velocity.data() + 12 * i);
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      e.*sampled_fields[k].values = Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i);
+    ++i;
+  });
+}
+
+void FrameReader::read_nodes(std::size_t first, std::vector<Frame>& frames) const {
+  const std::size_t beams = names_.beams.size();
+  const auto counts = node_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
+  const std::size_t start = sum(node_counts_.begin(), counts);
+  const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size() * beams));
+  if (count == 0) return;
+  const Doubles position = file_.doubles("node_position", {start, 0}, {count, 3});
+  const Doubles slope = file_.doubles("node_slope", {start, 0}, {count, 3});
+  const Doubles s = file_.doubles("node_s", {start}, {count});
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < frames.size() * beams; ++k) {
+    BeamRecord& beam = frames[k / beams].beams[k % beams];
+    for (int node = 0; node < counts[static_cast<std::ptrdiff_t>(k)]; ++node, ++i) {
+      beam.node_positions.emplace_back(position.data() + 3 * i);
+      beam.node_slopes.emplace_back(slope.data() + 3 * i);
+      beam.node_s.push_back(s[i]);
+    }
+  }
+}
+
+void FrameReader::read_steps(std::size_t first, std::vector<Frame>& frames) const {
+  const auto counts = step_counts_.begin() + static_cast<std::ptrdiff_t>(first);
+  const std::size_t start = sum(step_counts_.begin(), counts);
+  const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size()));
+  if (count == 0) return;
+  const Doubles time = file_.doubles("solver_step_time", {start}, {count});
+  const Doubles size = file_.doubles("solver_step_size", {start}, {count});
+  const Integers iterations = file_.integers("solver_step_newton_iterations", {start}, {count});
+  const Integers rejected = file_.integers("solver_step_rejected", {start}, {count});
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    for (int step = 0; step < counts[static_cast<std::ptrdiff_t>(k)]; ++step, ++i)
+      frames[k].steps.push_back({time[i], size[i], iterations[i], rejected[i]});
+}
+
+}  // namespace nurbeam

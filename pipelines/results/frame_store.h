@@ -1,0 +1,75 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipelines/motion/frame.h"
+#include "pipelines/results/netcdf_file.h"
+
+namespace nurbeam {
+
+/// Frames in one netCDF-4 file, compressed; every variable carries its unit and a long_name:
+///   time(time), step(time), newton_iterations(time), energy_*(time)
+///   probe_position, probe_velocity (time, probe, xyz); body_position, body_velocity, body_joint_force (time,
+///   body, xyz); body_s (time, body), the fill value after a body has left; beam_length (time, beam)
+///   probe_name, body_name, beam_name
+/// and, because the elements of a beam and the steps between two frames change in number, contiguous ragged
+/// arrays (CF conventions, 9.3.3): the elements of the first beam at the first time, of the second beam, ...,
+/// of the first beam at the second time, ...:
+///   element_count, node_count (time, beam): how many of the rows below belong to a beam at a time
+///   control_points (element, control_point, homogeneous): (w x, w y, w z, w); element_s_start, element_s_end
+///   (element); strain, curvature, axial_force, bending_moment (element, sample), velocity (element, sample,
+///   xyz); node_position, node_slope (node, xyz); node_s (node)
+///   solver_step_count (time); solver_step_time, _size, _newton_iterations, _rejected (solver_step)
+class FrameStore {
+ public:
+  /// Makes the file, without frames. This and the others throw std::runtime_error (file and reason).
+  FrameStore(const std::filesystem::path& file, const FrameNames& names, const std::string& title);
+  /// Appends frames whose vectors fit the names.
+  void write(std::span<const Frame> frames);
+  void close() { file_.close(); }
+
+ private:
+  void define_of_time(const std::string& name, std::vector<std::string> dimensions, const std::string& unit,
+                      const std::string& long_name, NetcdfFile::Type type = NetcdfFile::Type::real);
+  void define_scalars();
+  void define_points(const std::string& kind, const std::vector<std::string>& names);
+  void define_beams(const std::vector<std::string>& names);
+  void define_steps();
+  void write_elements(std::span<const Frame> frames);
+  void write_nodes(std::span<const Frame> frames);
+  void write_steps(std::span<const Frame> frames);
+
+  NetcdfFile file_;
+  std::size_t probe_count_, body_count_, beam_count_;
+  std::size_t frames_ = 0, elements_ = 0, nodes_ = 0, steps_ = 0;
+};
+
+/// What a FrameStore has written.
+class FrameReader {
+ public:
+  /// Throws std::runtime_error (file and reason).
+  explicit FrameReader(const std::filesystem::path& file);
+
+  const std::string& title() const { return title_; }
+  const FrameNames& names() const { return names_; }
+  const std::vector<double>& times() const { return times_; }
+  /// Frames first, first + 1, ..., first + count - 1. Throws std::runtime_error (file and reason).
+  std::vector<Frame> read(std::size_t first, std::size_t count) const;
+
+ private:
+  void read_scalars(std::size_t first, std::vector<Frame>& frames) const;
+  void read_points(std::size_t first, std::vector<Frame>& frames) const;
+  void read_elements(std::size_t first, std::vector<Frame>& frames) const;
+  void read_nodes(std::size_t first, std::vector<Frame>& frames) const;
+  void read_steps(std::size_t first, std::vector<Frame>& frames) const;
+
+  NetcdfFile file_;
+  std::string title_;
+  FrameNames names_;
+  std::vector<double> times_;
+  std::vector<int> element_counts_, node_counts_, step_counts_;  // (time, beam), (time, beam), (time)
+};
+
+}  // namespace nurbeam

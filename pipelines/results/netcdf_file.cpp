@@ -1,0 +1,169 @@
+#include "pipelines/results/netcdf_file.h"
+
+#include <netcdf.h>
+
+#include <cerrno>
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace nurbeam {
+
+namespace {
+
+// netCDF hides a full disk behind codes of its own.
+std::string reason_of(int status) {
+  const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
+  return is_full ? std::strerror(errno) : nc_strerror(status);
+}
+
+std::size_t product(const NetcdfFile::Sizes& count) {
+  return std::accumulate(count.begin(), count.end(), std::size_t{1}, std::multiplies<>());
+}
+
+}  // namespace
+
+static_assert(NetcdfFile::unlimited == NC_UNLIMITED);
+const double NetcdfFile::fill = NC_FILL_DOUBLE;
+
+NetcdfFile::NetcdfFile(std::filesystem::path file, int id, int status) : file_(std::move(file)), id_(id) {
+  if (status == NC_NOERR) return;
+  id_ = -1;
+  throw std::runtime_error(file_.string() + ": " + reason_of(status));
+}
+
+NetcdfFile NetcdfFile::create(const std::filesystem::path& file) {
+  int id = -1;
+  errno = 0;
+  const int status = nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
+  return {file, id, status};
+}
+
+NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
+  int id = -1;
+  errno = 0;
+  const int status = nc_open(file.c_str(), NC_NOWRITE, &id);
+  return {file, id, status};
+}
+
+NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
+    : file_(std::move(other.file_)), id_(std::exchange(other.id_, -1)) {}
+
+NetcdfFile::~NetcdfFile() {
+  if (id_ >= 0) nc_close(id_);
+}
+
+void NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
+  int dimension;
+  check(nc_def_dim(id_, name.c_str(), size, &dimension), name);
+}
+
+void NetcdfFile::define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
+                        const std::string& unit, const std::string& long_name, std::size_t chunk) {
+  const int variable = define_variable(name, type == Type::real ? NC_DOUBLE : NC_INT, dimensions);
+  Sizes chunks(dimensions.size());
+  for (std::size_t i = 0; i < dimensions.size(); ++i) chunks[i] = i == 0 ? chunk : size(dimensions[i]);
+  check(nc_def_var_chunking(id_, variable, NC_CHUNKED, chunks.data()), name);
+  constexpr int shuffle = 1, deflate = 1, level = 2;
+  check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
+  put_attribute(name, "units", unit);
+  put_attribute(name, "long_name", long_name);
+}
+
+void NetcdfFile::define_texts(const std::string& name, const std::string& dimension,
+                              const std::vector<std::string>& texts) {
+  const int variable = define_variable(name, NC_STRING, {dimension});
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  check(nc_put_var_string(id_, variable, pointers.data()), name);
+}
+
+void NetcdfFile::put_attribute(const std::string& variable, const std::string& name,
+                               const std::string& text) {
+  const int owner = variable.empty() ? NC_GLOBAL : this->variable(variable);
+  check(nc_put_att_text(id_, owner, name.c_str(), text.size(), text.c_str()), name);
+}
+
+std::string NetcdfFile::attribute(const std::string& variable, const std::string& name) const {
+  const int owner = variable.empty() ? NC_GLOBAL : this->variable(variable);
+  std::size_t length = 0;
+  check(nc_inq_attlen(id_, owner, name.c_str(), &length), name);
+  std::string text(length, '\0');
+  check(nc_get_att_text(id_, owner, name.c_str(), text.data()), name);
+  return text;
+}
+
+void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const double* values) {
+  check(nc_put_vara_double(id_, variable(name), start.data(), count.data(), values), name);
+}
+
+void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const int* values) {
+  check(nc_put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
+}
+
+std::vector<double> NetcdfFile::doubles(const std::string& name, const Sizes& start,
+                                        const Sizes& count) const {
+  std::vector<double> values(product(count));
+  check(nc_get_vara_double(id_, variable(name), start.data(), count.data(), values.data()), name);
+  return values;
+}
+
+std::vector<int> NetcdfFile::integers(const std::string& name, const Sizes& start, const Sizes& count) const {
+  std::vector<int> values(product(count));
+  check(nc_get_vara_int(id_, variable(name), start.data(), count.data(), values.data()), name);
+  return values;
+}
+
+std::vector<std::string> NetcdfFile::texts(const std::string& name) const {
+  int dimension;
+  check(nc_inq_vardimid(id_, variable(name), &dimension), name);
+  std::size_t size = 0;
+  check(nc_inq_dimlen(id_, dimension, &size), name);
+  std::vector<char*> pointers(size, nullptr);
+  check(nc_get_var_string(id_, variable(name), pointers.data()), name);
+  std::vector<std::string> texts(pointers.begin(), pointers.end());
+  nc_free_string(size, pointers.data());
+  return texts;
+}
+
+bool NetcdfFile::has_dimension(const std::string& name) const {
+  int dimension;
+  return nc_inq_dimid(id_, name.c_str(), &dimension) == NC_NOERR;
+}
+
+std::size_t NetcdfFile::size(const std::string& dimension) const {
+  std::size_t size = 0;
+  check(nc_inq_dimlen(id_, this->dimension(dimension), &size), dimension);
+  return size;
+}
+
+void NetcdfFile::close() { check(nc_close(std::exchange(id_, -1)), "close"); }
+
+void NetcdfFile::check(int status, const std::string& what) const {
+  if (status != NC_NOERR) throw std::runtime_error(file_.string() + ": " + what + ": " + reason_of(status));
+}
+
+int NetcdfFile::dimension(const std::string& name) const {
+  int dimension = -1;
+  check(nc_inq_dimid(id_, name.c_str(), &dimension), name);
+  return dimension;
+}
+
+int NetcdfFile::variable(const std::string& name) const {
+  int variable = -1;
+  check(nc_inq_varid(id_, name.c_str(), &variable), name);
+  return variable;
+}
+
+int NetcdfFile::define_variable(const std::string& name, int type,
+                                const std::vector<std::string>& dimensions) {
+  std::vector<int> ids;
+  for (const std::string& each : dimensions) ids.push_back(dimension(each));
+  int variable = -1;
+  check(nc_def_var(id_, name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &variable), name);
+  return variable;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,213 @@
+#include "pipelines/results/paraview.h"
+
+#include <Eigen/LU>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "pipelines/results/atomic_file.h"
+#include "pipelines/results/base64.h"
+
+namespace nurbeam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int vertex_cell = 1, bezier_curve_cell = 75;  // VTK's numbers
+
+// An XML file under its temporary name, and its own name once it is whole.
+template <class Write>
+void write_xml(const fs::path& file, Write write) {
+  std::ofstream stream(temporary_name(file));
+  stream << "<?xml version=\"1.0\"?>\n";
+  write(stream);
+  stream.close();
+  if (!stream) {
+    const std::string reason = std::strerror(errno);
+    std::error_code ignored;
+    fs::remove(temporary_name(file), ignored);
+    throw std::runtime_error(file.string() + ": cannot be written: " + reason);
+  }
+  publish(file);
+}
+
+std::string number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+template <class T>
+const char* type_name();
+template <>
+const char* type_name<double>() {
+  return "Float64";
+}
+template <>
+const char* type_name<std::int64_t>() {
+  return "Int64";
+}
+template <>
+const char* type_name<std::uint8_t>() {
+  return "UInt8";
+}
+
+template <class T>
+void write_array(std::ostream& out, const std::string& name, int components, const std::vector<T>& values) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  std::string bytes(reinterpret_cast<const char*>(&size), sizeof size);
+  bytes.append(reinterpret_cast<const char*>(values.data()), size);
+  out << "<DataArray type=\"" << type_name<T>() << "\" Name=\"" << name << "\" NumberOfComponents=\""
+      << components << "\" format=\"binary\">" << base64(bytes.data(), bytes.size()) << "</DataArray>\n";
+}
+
+// Points and cells of one file; every cell has points of its own, in order.
+struct Grid {
+  int cell_type = 0, points_per_cell = 0;
+  std::vector<double> points;
+  struct Field {
+    std::string name;
+    int components;
+    std::vector<double> values;
+  };
+  std::vector<Field> point_data, cell_data;
+};
+
+void write_grid(const fs::path& file, double time, const Grid& grid) {
+  const std::size_t point_count = grid.points.size() / 3, cell_count = point_count / grid.points_per_cell;
+  std::vector<std::int64_t> connectivity(point_count), offsets(cell_count);
+  for (std::size_t i = 0; i < point_count; ++i) connectivity[i] = static_cast<std::int64_t>(i);
+  for (std::size_t i = 0; i < cell_count; ++i)
+    offsets[i] = static_cast<std::int64_t>(i + 1) * grid.points_per_cell;
+  const bool rational = grid.cell_type == bezier_curve_cell;
+  write_xml(file, [&](std::ostream& out) {
+    out << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+           "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
+        << "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">"
+        << number(time) << "</DataArray>\n</FieldData>\n"
+        << "<Piece NumberOfPoints=\"" << point_count << "\" NumberOfCells=\"" << cell_count
+        << "\">\n<PointData" << (rational ? " RationalWeights=\"RationalWeights\"" : "") << ">\n";
+    for (const Grid::Field& field : grid.point_data)
+      write_array(out, field.name, field.components, field.values);
+    out << "</PointData>\n<CellData>\n";
+    for (const Grid::Field& field : grid.cell_data)
+      write_array(out, field.name, field.components, field.values);
+    out << "</CellData>\n<Points>\n";
+    write_array(out, "Points", 3, grid.points);
+    out << "</Points>\n<Cells>\n";
+    write_array(out, "connectivity", 1, connectivity);
+    write_array(out, "offsets", 1, offsets);
+    write_array(out, "types", 1,
+                std::vector<std::uint8_t>(cell_count, static_cast<std::uint8_t>(grid.cell_type)));
+    out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  });
+}
+
+// VTK's order of the points of a curve: its ends, then what is between them.
+constexpr int vtk_order[] = {0, 3, 1, 2};
+
+Grid beam_grid(const std::vector<BeamRecord>& beams) {
+  Grid grid{.cell_type = bezier_curve_cell, .points_per_cell = 4};
+  grid.point_data = {{"RationalWeights", 1, {}}, {"strain", 1, {}},         {"curvature", 1, {}},
+                     {"axial_force", 1, {}},     {"bending_moment", 1, {}}, {"velocity", 3, {}}};
+  grid.cell_data = {{"beam", 1, {}}, {"element", 1, {}}, {"s_start", 1, {}}, {"s_end", 1, {}}};
+  for (std::size_t b = 0; b < beams.size(); ++b)
+    for (std::size_t i = 0; i < beams[b].elements.size(); ++i) {
+      const ElementRecord& e = beams[b].elements[i];
+      const Eigen::Vector4d weights = e.control_points.row(3);
+      Eigen::Matrix<double, 4, 7> values;  // by control point, in the order of point_data after the weights
+      values << rational_coefficients(e.strain, weights), rational_coefficients(e.curvature, weights),
+          rational_coefficients(e.axial_force, weights), rational_coefficients(e.bending_moment, weights),
+          rational_coefficients(e.velocity.row(0), weights),
+          rational_coefficients(e.velocity.row(1), weights),
+          rational_coefficients(e.velocity.row(2), weights);
+      for (const int k : vtk_order) {
+        const Eigen::Vector3d p = e.control_points.col(k).head<3>() / weights[k];
+        grid.points.insert(grid.points.end(), p.begin(), p.end());
+        grid.point_data[0].values.push_back(weights[k]);
+        for (int column = 0; column < 7; ++column)
+          grid.point_data[std::min(1 + column, 5)].values.push_back(values(k, column));
+      }
+      const double of_cell[] = {static_cast<double>(b), static_cast<double>(i), e.s_start, e.s_end};
+      for (int k = 0; k < 4; ++k) grid.cell_data[k].values.push_back(of_cell[k]);
+    }
+  return grid;
+}
+
+Grid body_grid(const std::vector<BodyRecord>& bodies) {
+  Grid grid{.cell_type = vertex_cell, .points_per_cell = 1};
+  grid.point_data = {{"velocity", 3, {}}, {"joint_force", 3, {}}, {"s", 1, {}}};
+  grid.cell_data = {{"body", 1, {}}};
+  const auto append = [](std::vector<double>& values, const Eigen::Vector3d& x) {
+    values.insert(values.end(), x.begin(), x.end());
+  };
+  for (const BodyRecord& body : bodies) {
+    append(grid.points, body.point.position);
+    append(grid.point_data[0].values, body.point.velocity);
+    append(grid.point_data[1].values, body.joint_force);
+    grid.point_data[2].values.push_back(body.s.value_or(std::numeric_limits<double>::quiet_NaN()));
+    grid.cell_data[0].values.push_back(static_cast<double>(grid.cell_data[0].values.size()));
+  }
+  return grid;
+}
+
+// "frames/beams_000042.vtu"
+std::string frame_file(const char* kind, std::size_t frame) {
+  char name[64];
+  std::snprintf(name, sizeof name, "frames/%s_%06zu.vtu", kind, frame);
+  return name;
+}
+
+}  // namespace
+
+Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eigen::Vector4d& weights) {
+  static const Eigen::Matrix4d bernstein = [] {  // row i: the values at u = i/3
+    Eigen::Matrix4d values;
+    for (int i = 0; i < 4; ++i) {
+      const double u = i / 3.0, v = 1 - u;
+      values.row(i) << v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u;
+    }
+    return values;
+  }();
+  static const Eigen::Matrix4d inverse = bernstein.inverse();
+  return (inverse * samples.cwiseProduct(bernstein * weights)).cwiseQuotient(weights);
+}
+
+ParaviewSeries::ParaviewSeries(fs::path directory, FrameNames names, std::vector<double> times)
+    : directory_(std::move(directory)), names_(std::move(names)), times_(std::move(times)) {
+  std::error_code error;
+  fs::create_directory(directory_ / "frames", error);
+  if (error)
+    throw std::runtime_error((directory_ / "frames").string() + ": cannot be made: " + error.message());
+}
+
+void ParaviewSeries::write(const Frame& frame) {
+  const std::size_t i = times_.size();
+  write_grid(directory_ / frame_file("beams", i), frame.time, beam_grid(frame.beams));
+  if (!names_.bodies.empty())
+    write_grid(directory_ / frame_file("bodies", i), frame.time, body_grid(frame.bodies));
+  times_.push_back(frame.time);
+}
+
+void ParaviewSeries::write_index() const {
+  write_xml(directory_ / "frames.pvd", [&](std::ostream& out) {
+    out << "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
+    const auto entry = [&](std::size_t frame, int part, const char* kind) {
+      out << "<DataSet timestep=\"" << number(times_[frame]) << "\" part=\"" << part << "\" name=\"" << kind
+          << "\" file=\"" << frame_file(kind, frame) << "\"/>\n";
+    };
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      entry(i, 0, "beams");
+      if (!names_.bodies.empty()) entry(i, 1, "bodies");
+    }
+    out << "</Collection>\n</VTKFile>\n";
+  });
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "pipelines/motion/frame.h"
+
+namespace nurbeam {
+
+/// Writes frames for ParaView: frames.pvd, which names the time of each file, and frames/beams_000000.vtu,
+/// frames/bodies_000000.vtu, ...
+///
+/// Each element is one cell VTK_BEZIER_CURVE of degree 3 with its own four points and the point data
+/// `RationalWeights`: the exact curve. Strain, curvature, axial force, bending moment and velocity are point
+/// data too, interpolated by the same rational functions through their samples. Cell data: beam, element and
+/// the reference arc lengths of the element's ends. Bodies are vertices with velocity, joint force and s (NaN
+/// after a body has left its beam).
+class ParaviewSeries {
+ public:
+  /// `directory` exists. The first frames of an earlier run, with these times, are kept.
+  ParaviewSeries(std::filesystem::path directory, FrameNames names, std::vector<double> times = {});
+  /// Writes one frame. This and the other throw std::runtime_error (file and reason).
+  void write(const Frame& frame);
+  /// Writes frames.pvd for the frames so far.
+  void write_index() const;
+
+ private:
+  std::filesystem::path directory_;
+  FrameNames names_;
+  std::vector<double> times_;
+};
+
+/// The coefficients c (Bernstein, rational with `weights`) of the function that takes the values `samples` at
+/// u = 0, 1/3, 2/3, 1: f(u) = sum B_i w_i c_i / sum B_i w_i.
+Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eigen::Vector4d& weights);
+
+}  // namespace nurbeam

@@ -1,0 +1,280 @@
+#include "pipelines/results/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "pipelines/results/atomic_file.h"
+#include "pipelines/results/frame_store.h"
+#include "pipelines/results/history_table.h"
+
+namespace nurbeam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t batch = 64;  ///< frames that are copied at once
+/// A chunk is closed with this many elements: it bounds the memory.
+constexpr std::size_t most_open_elements = 50'000;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
+  throw std::runtime_error(file.string() + ": " + reason);
+}
+
+void check_count(const char* what, std::size_t found, std::size_t expected) {
+  if (found != expected) {
+    throw std::invalid_argument(std::string("a frame with ") + std::to_string(found) + " " + what +
+                                "; expected " + std::to_string(expected));
+  }
+}
+
+fs::path created(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error || !fs::is_directory(directory)) {
+    fail(directory, "cannot be made a directory" + (error ? ": " + error.message() : std::string()));
+  }
+  return directory;
+}
+
+fs::path store_file(const fs::path& directory) { return directory / "results.nc"; }
+fs::path history_file(const fs::path& directory) { return directory / "histories.csv"; }
+
+fs::path chunk_file(const fs::path& directory, std::size_t number) {
+  std::string digits = std::to_string(number);
+  digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
+  return directory / ("results.chunk" + digits + ".nc");
+}
+
+std::vector<fs::path> chunks_in(const fs::path& directory) {
+  std::vector<fs::path> chunks;
+  while (fs::exists(chunk_file(directory, chunks.size() + 1)))
+    chunks.push_back(chunk_file(directory, chunks.size() + 1));
+  return chunks;
+}
+
+/// Removes its file's temporary name, unless it has been published, when writing fails.
+template <class Write>
+void write_file(const fs::path& file, const FrameNames& names, const std::string& title, Write write) {
+  try {
+    FrameStore store(temporary_name(file), names, title);
+    write(store);
+    store.close();
+  } catch (const std::runtime_error&) {
+    std::error_code ignored;
+    fs::remove(temporary_name(file), ignored);
+    throw;
+  }
+  publish_durably(file);
+}
+
+/// Calls visit(frames) for the frames [0, count) of a reader, a batch at a time.
+template <class Reader, class Visit>
+void for_each_batch(const Reader& reader, std::size_t count, Visit visit) {
+  for (std::size_t first = 0; first < count; first += batch)
+    visit(reader.read(first, std::min(batch, count - first)));
+}
+
+}  // namespace
+
+// --- Writing
+// -----------------------------------------------------------------------------------------------------
+
+struct ResultsWriter::Implementation {
+  fs::path directory;
+  FrameNames names;
+  std::string title;
+  HistoryTable histories;
+  std::size_t chunk_count = 0;
+  std::vector<Frame> open;
+  std::size_t open_elements = 0;
+
+  Implementation(fs::path where, FrameNames of, std::string name)
+      : directory(created(where)),
+        names(std::move(of)),
+        title(std::move(name)),
+        histories(temporary_name(history_file(directory)), names) {}
+
+  void close_chunk() {
+    if (open.empty()) return;
+    write_file(chunk_file(directory, chunk_count + 1), names, title,
+               [&](FrameStore& store) { store.write(open); });
+    ++chunk_count;
+    open.clear();
+    open_elements = 0;
+  }
+
+  void merge() {
+    if (chunk_count == 1 && open.empty()) {
+      fs::rename(chunk_file(directory, 1), store_file(directory));
+      return;
+    }
+    write_file(store_file(directory), names, title, [&](FrameStore& store) {
+      for (const fs::path& file : chunks()) {
+        const FrameReader chunk(file);
+        for_each_batch(chunk, chunk.times().size(), [&](const auto& frames) { store.write(frames); });
+      }
+      store.write(open);
+    });
+    for (const fs::path& file : chunks()) fs::remove(file);
+  }
+
+  std::vector<fs::path> chunks() const {
+    std::vector<fs::path> files;
+    for (std::size_t i = 1; i <= chunk_count; ++i) files.push_back(chunk_file(directory, i));
+    return files;
+  }
+
+  /// Makes the first frames of what is stored the chunks of this run.
+  void take_over(std::size_t frames) {
+    if (fs::exists(store_file(directory))) {
+      for (const fs::path& file : chunks_in(directory)) fs::remove(file);
+      keep_frames(store_file(directory), frames, chunk_file(directory, 1));
+      fs::remove(store_file(directory));
+    }
+    std::size_t left = frames;
+    for (const fs::path& file : chunks_in(directory)) {
+      if (left == 0) {
+        fs::remove(file);
+        continue;
+      }
+      ++chunk_count;
+      left -= keep_frames(file, left, file);
+    }
+    if (left > 0)
+      fail(directory, "holds " + std::to_string(frames - left) +
+                          " frames of the run; its restart point needs " + std::to_string(frames));
+    for (const fs::path& file : chunks()) {
+      const FrameReader chunk(file);
+      for_each_batch(chunk, chunk.times().size(), [&](const auto& stored) {
+        for (const Frame& frame : stored) histories.write(frame);
+      });
+    }
+  }
+
+  /// Writes the first frames of a file, at most `most`, to another, or the same; returns how many.
+  std::size_t keep_frames(const fs::path& from, std::size_t most, const fs::path& to) {
+    const FrameReader reader(from);
+    const std::size_t count = std::min(most, reader.times().size());
+    if (from != to || count < reader.times().size())
+      write_file(to, names, title, [&](FrameStore& store) {
+        for_each_batch(reader, count, [&](const auto& frames) { store.write(frames); });
+      });
+    return count;
+  }
+};
+
+ResultsWriter::ResultsWriter(fs::path directory, FrameNames names, std::string title)
+    : implementation_(
+          std::make_unique<Implementation>(std::move(directory), std::move(names), std::move(title))) {}
+
+ResultsWriter::ResultsWriter(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
+ResultsWriter::~ResultsWriter() = default;
+
+ResultsWriter ResultsWriter::resume(fs::path directory, FrameNames names, std::string title,
+                                    std::size_t frames) {
+  auto files = std::make_unique<Implementation>(std::move(directory), std::move(names), std::move(title));
+  files->take_over(frames);
+  return ResultsWriter(std::move(files));
+}
+
+void ResultsWriter::write(const Frame& frame) {
+  Implementation& files = *implementation_;
+  check_count("probes", frame.probes.size(), files.names.probes.size());
+  check_count("bodies", frame.bodies.size(), files.names.bodies.size());
+  check_count("beams", frame.beams.size(), files.names.beams.size());
+  files.histories.write(frame);
+  files.open.push_back(frame);
+  for (const BeamRecord& beam : frame.beams) files.open_elements += beam.elements.size();
+  if (files.open_elements >= most_open_elements) files.close_chunk();
+}
+
+void ResultsWriter::close_chunk() { implementation_->close_chunk(); }
+
+void ResultsWriter::finish() {
+  Implementation& files = *implementation_;
+  files.merge();
+  files.histories.close();
+  publish_durably(history_file(files.directory));
+}
+
+// --- Reading
+// -----------------------------------------------------------------------------------------------------
+
+struct StoredFrames::Implementation {
+  fs::path file;  ///< for messages
+  std::vector<FrameReader> files;
+};
+
+StoredFrames::StoredFrames(const fs::path& directory) : implementation_(std::make_unique<Implementation>()) {
+  implementation_->file = store_file(directory);
+  if (fs::exists(store_file(directory))) {
+    implementation_->files.emplace_back(store_file(directory));
+  } else {
+    for (const fs::path& file : chunks_in(directory)) implementation_->files.emplace_back(file);
+  }
+  if (implementation_->files.empty())
+    fail(store_file(directory), fs::is_directory(directory)
+                                    ? "does not exist; expected a directory that `nurbeam run` has written"
+                                    : "does not exist, nor does its directory");
+  for (const FrameReader& reader : implementation_->files)
+    times_.insert(times_.end(), reader.times().begin(), reader.times().end());
+}
+
+StoredFrames::StoredFrames(StoredFrames&&) noexcept = default;
+StoredFrames::~StoredFrames() = default;
+
+const std::string& StoredFrames::title() const { return implementation_->files.front().title(); }
+const FrameNames& StoredFrames::names() const { return implementation_->files.front().names(); }
+
+std::vector<Frame> StoredFrames::read(std::size_t first, std::size_t count) const {
+  std::vector<Frame> frames;
+  for (const FrameReader& reader : implementation_->files) {
+    const std::size_t there = reader.times().size();
+    if (first < there && count > 0) {
+      std::vector<Frame> part = reader.read(first, std::min(count, there - first));
+      count -= part.size();
+      std::move(part.begin(), part.end(), std::back_inserter(frames));
+      first = 0;
+    } else {
+      first -= std::min(first, there);
+    }
+  }
+  return frames;
+}
+
+std::size_t StoredFrames::nearest(double time) const {
+  if (times_.empty()) fail(implementation_->file, "holds no frame");
+  const double slack = 1e-9 * std::max(std::abs(times_.front()), std::abs(times_.back()));
+  if (!(time >= times_.front() - slack && time <= times_.back() + slack)) {
+    std::ostringstream reason;
+    reason << "time " << time << " s is not stored; expected one from " << times_.front() << " s to "
+           << times_.back() << " s";
+    fail(implementation_->file, reason.str());
+  }
+  const auto nearest = std::min_element(times_.begin(), times_.end(), [&](double a, double b) {
+    return std::abs(a - time) < std::abs(b - time);
+  });
+  return static_cast<std::size_t>(nearest - times_.begin());
+}
+
+StoredResults read_results(const fs::path& directory) {
+  const StoredFrames stored(directory);
+  return {stored.title(), stored.names(), stored.read(0, stored.times().size())};
+}
+
+std::pair<double, std::vector<StoredBeam>> read_stored_beams(const fs::path& directory, double time) {
+  const StoredFrames stored(directory);
+  const Frame frame = stored.read(stored.nearest(time), 1).front();
+  std::vector<StoredBeam> beams;
+  for (std::size_t b = 0; b < frame.beams.size(); ++b)
+    beams.push_back({stored.names().beams[b], frame.beams[b].elements});
+  return {frame.time, beams};
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,100 @@
+#include "pipelines/results/results_directory.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <regex>
+#include <stdexcept>
+#include <vector>
+
+namespace nurbeam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw std::runtime_error(path.string() + ": " + reason);
+}
+
+/// The names that a run gives to its files.
+bool is_of_a_run(const std::string& name) {
+  static const std::regex ours(
+      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|frames\.pvd|report\.html)(\.part)?|)"
+      R"(run\.log|deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_source)?\.(step|igs)(\.part[0-9]+)?)");
+  return std::regex_match(name, ours);
+}
+
+constexpr const char* frames_directory = "frames";
+
+/// The names that a run gives to the files in frames/.
+bool is_a_frame(const std::string& name) {
+  static const std::regex ours(R"((beams|bodies)_[0-9]+\.vtu(\.part)?)");
+  return std::regex_match(name, ours);
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) fail(file, "of a former run cannot be removed: " + error.message());
+}
+
+}  // namespace
+
+ResultsDirectory::ResultsDirectory(fs::path path) : path_(std::move(path)) {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (!fs::is_directory(path_)) {
+    fail(path_, fs::exists(path_) ? "is a file; expected a directory for the results"
+                                  : "cannot be made a directory: " + error.message());
+  }
+  lock();
+}
+
+ResultsDirectory::~ResultsDirectory() { close(descriptor_); }
+
+void ResultsDirectory::lock() {
+  descriptor_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) {
+    fail(path_, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  // Where the file system has no locks there is nothing to be held by.
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close(descriptor_);
+    fail(path_, "another run writes its results there; wait for its end or give another directory");
+  }
+}
+
+void ResultsDirectory::clear() const {
+  std::vector<fs::path> former;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (!is_of_a_run(entry.path().filename().string())) continue;
+    if (entry.is_directory()) fail(entry.path(), "is a directory; a run needs this name for a file");
+    former.push_back(entry.path());
+  }
+  const fs::path frames = path_ / frames_directory;
+  if (fs::is_directory(frames)) {
+    for (const auto& entry : fs::directory_iterator(frames))
+      if (is_a_frame(entry.path().filename().string())) former.push_back(entry.path());
+  } else if (fs::exists(frames)) {
+    fail(frames, "is a file; a run needs this name for a directory");
+  }
+  for (const fs::path& file : former) remove_file(file);
+  if (fs::is_directory(frames) && fs::is_empty(frames)) remove_file(frames);
+}
+
+std::vector<fs::path> ResultsDirectory::files() const {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    const fs::path name = entry.path().filename();
+    if (name == frames_directory || is_of_a_run(name.string())) files.push_back(name);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace nurbeam

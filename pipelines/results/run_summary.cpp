@@ -1,0 +1,91 @@
+#include "pipelines/results/run_summary.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/results/atomic_file.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json to_json(const RunEvent& event) {
+  return {{"time [s]", event.time},
+          {"kind", event.kind},
+          {"beam", event.beam},
+          {"body", event.body},
+          {"s [m]", event.s ? Json(*event.s) : Json()},
+          {"energy_before [J]", event.energy_before},
+          {"energy_after [J]", event.energy_after},
+          {"momentum_before [kg m/s]", to_json(event.momentum_before)},
+          {"momentum_after [kg m/s]", to_json(event.momentum_after)},
+          {"length_before [m]", event.length_before},
+          {"length_after [m]", event.length_after}};
+}
+
+Json to_json(const Diagnostic& d) {
+  return {{"severity", severity_name(d.severity)}, {"where", d.where}, {"message", d.message}};
+}
+
+Json to_json(const RunInput& input) { return {{"file", input.file.string()}, {"sha256", input.sha256}}; }
+Json to_json(const std::filesystem::path& path) { return path.string(); }
+
+template <class Item>
+Json list(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) {
+    list.push_back(to_json(item));
+  }
+  return list;
+}
+
+Json to_json(const RunSummary& summary) {
+  const PhaseTimes& wall = summary.wall_times;
+  return {{"nurbeam", summary.version},
+          {"case", summary.case_name},
+          {"status", summary.status},
+          {"resumed_at [s]", summary.resumed_at ? Json(*summary.resumed_at) : Json()},
+          {"end_time [s]", summary.end_time},
+          {"steps", summary.steps},
+          {"rejected_steps", summary.rejected_steps},
+          {"newton_iterations", summary.newton_iterations},
+          {"energy_drift [J]", summary.energy_drift},
+          {"wall_times [s]",
+           {{"import", wall.import},
+            {"model", wall.model},
+            {"motion", wall.motion},
+            {"length_control", wall.length_control},
+            {"output", wall.output}}},
+          {"inputs", list(summary.inputs)},
+          {"model", summary.model.empty() ? Json() : Json::parse(summary.model)},
+          {"events", list(summary.events)},
+          {"diagnostics", list(summary.diagnostics)},
+          {"files", list(summary.files)}};
+}
+
+}  // namespace
+
+void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
+  const std::filesystem::path temporary = temporary_name(file);
+  std::ofstream stream(temporary);
+  // Names from files need not be valid UTF-8: what is not is replaced.
+  stream << to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  stream.close();
+  if (!stream) {
+    const std::string reason = std::strerror(errno);
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw std::runtime_error(file.string() + ": cannot be written: " + reason);
+  }
+  publish(file);
+}
+
+}  // namespace nurbeam

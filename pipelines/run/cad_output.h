@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cad_import/export_curves.h"
+#include "pipelines/case/case_file.h"
+#include "pipelines/model/build_model.h"
+#include "pipelines/motion/frame.h"
+
+namespace nurbeam {
+
+/// The curve of a CAD file that is the axis of a beam.
+struct DrawnAxis {
+  NurbsCurve curve;  ///< as imported
+  bool reversed;     ///< whether the beam runs against it
+  bool whole;        ///< false: the beam is more than this curve, as in a chain
+};
+
+/// Writes the deformed curves of a run, at the times the case asks for, into its results directory.
+class CadOutput {
+ public:
+  /// The first two are kept by reference. `first_frame`: the number of the first frame that will be written.
+  CadOutput(const CaseFile& case_file, const BuiltModel& built, std::filesystem::path directory,
+            std::size_t first_frame = 0);
+
+  /// Writes the files of this frame (in world coordinates), if it is one of those asked for:
+  /// "deformed_t0.35.step", "deformed_t0.35_solid.step", "deformed_t0.35_source.step", or numbered,
+  /// "deformed_0035.step", when all frames are wanted; without a time for a static case. What keeps a shape
+  /// out of a file is a warning among the diagnostics, once. Throws std::runtime_error when a file cannot be
+  /// written.
+  void write(const Frame& frame, std::vector<Diagnostic>& diagnostics);
+
+ private:
+  bool is_wanted(const Frame& frame) const;
+  std::string stem(const Frame& frame) const;
+  std::vector<NamedCurve> curves(const Frame& frame, CurveParameter parameter) const;
+  std::vector<Diagnostic> write_solids(const Frame& frame, const std::filesystem::path& file) const;
+  std::vector<Diagnostic> write_into_source(const Frame& frame, const std::filesystem::path& file) const;
+  void write(const Frame& frame, const std::string& format, std::vector<Diagnostic>& diagnostics) const;
+
+  const CaseFile& case_;
+  const BuiltModel& built_;
+  std::filesystem::path directory_;
+  std::vector<DrawnAxis> drawn_;  // per beam, when they are to be written into their source
+  std::size_t frame_;             // the number of the next one
+};
+
+}  // namespace nurbeam

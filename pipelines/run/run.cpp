@@ -1,0 +1,333 @@
+#include "pipelines/run/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/model/build_model.h"
+#include "pipelines/model/model_summary.h"
+#include "pipelines/motion/simulation.h"
+#include "pipelines/report/report.h"
+#include "pipelines/results/file_hash.h"
+#include "pipelines/results/results_directory.h"
+#include "pipelines/results/run_summary.h"
+#include "pipelines/run/progress.h"
+#include "pipelines/run/run_outputs.h"
+#include "pipelines/run/signals.h"
+
+namespace nurbeam {
+
+namespace {
+
+enum ExitCode { done = 0, bad_input = 2, not_converged = 3, not_written = 4, interrupted = 130 };
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<double> output_times(const CaseFile& c) {
+  const double end = c.analysis.end_time;
+  std::vector<double> times;
+  const double every = c.output.every.value_or(end / 100);
+  for (int k = 0; k * every < end * (1 - 1e-9); ++k) times.push_back(k * every);
+  times.push_back(end);
+  for (double t : c.output.cad_times)
+    if (t >= 0 && t <= end) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  const double same = 1e-9 * end;
+  times.erase(std::unique(times.begin(), times.end(), [=](double a, double b) { return b - a < same; }),
+              times.end());
+  return times;
+}
+
+SimulationOptions simulation_options(const CaseFile& c) {
+  SimulationOptions options;
+  const CaseAnalysis& a = c.analysis;
+  options.statics = a.type == CaseAnalysis::Type::statics;
+  options.start_from_equilibrium = a.start_from_equilibrium;
+  options.end_time = a.end_time;
+  options.step = a.step;
+  if (a.method == CaseAnalysis::Method::ida)
+    options.integrator = Ida{.tolerance = a.tolerance.value_or(Ida{}.tolerance)};
+  else if (a.method == CaseAnalysis::Method::rk4)
+    options.integrator = ExplicitRungeKutta{};
+  else
+    options.integrator = GeneralizedAlpha{.rho_infinity = a.rho_infinity,
+                                          .tolerance = a.step ? 0 : a.tolerance.value_or(1e-4)};
+  options.length_control = {a.length_control_min, a.length_control_max};
+  if (!options.statics) options.output_times = output_times(c);
+  return options;
+}
+
+// A warning when energy changes in a run where nothing does work but the weight.
+std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
+  constexpr double noticed = 0.05;  // of the largest kinetic energy
+  const bool driven = !c.loads.empty() ||
+                      std::any_of(c.sliding_joints.begin(), c.sliding_joints.end(), [](const auto& joint) {
+                        return joint.motion_speed || !joint.motion_table.empty();
+                      });
+  const bool stopped = std::any_of(run.events.begin(), run.events.end(),
+                                   [](const RunEvent& event) { return event.kind == "stopped at the end"; });
+  const bool between_events = run.integration_error > noticed * run.peak_kinetic_energy;
+  const bool over_events = !stopped && run.energy_drift > noticed * run.peak_kinetic_energy;
+  if (driven || !(between_events || over_events)) return {};
+  std::ostringstream message;
+  message << "the total energy changed by " << (between_events ? run.integration_error : run.energy_drift)
+          << " J, with a largest kinetic energy of " << run.peak_kinetic_energy
+          << " J: do not trust the result; ";
+  if (between_events)
+    message << "take a shorter \"step\" or a \"tolerance\"";
+  else
+    message << "nodes were removed where the mesh is too coarse: take more elements or, for a cable that "
+               "hardly resists "
+               "bending, \"slope\": \"discontinuous\"";
+  return Diagnostic{Severity::warning, c.path.string() + ": analysis", message.str()};
+}
+
+std::string status_text(SimulationStatus status, const std::string& message) {
+  return status == SimulationStatus::done ? "done" : message;
+}
+
+ExitCode exit_code(SimulationStatus status) {
+  switch (status) {
+    case SimulationStatus::done:
+      return done;
+    case SimulationStatus::not_converged:
+      return not_converged;
+    case SimulationStatus::interrupted:
+      return interrupted;
+  }
+  return not_converged;
+}
+
+// What a restart point belongs to: the program, the case with its overrides, the CAD files.
+std::string digest_of_inputs(const CaseFile& c, const BuiltModel& built) {
+  std::string text = std::string(NURBEAM_VERSION) + "\n" + c.json + "\n";
+  for (const auto& file : built.inputs) text += sha256_of_file(file) + "\n";
+  return sha256_of_text(text);
+}
+
+std::filesystem::path restart_file(const std::filesystem::path& directory) {
+  return directory / "restart.nc";
+}
+
+// A restart point that cannot be used.
+struct UnusableRestartPoint : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The restart point of a directory, if it belongs to these inputs. Throws UnusableRestartPoint.
+RestartPoint find_restart_point(const std::filesystem::path& directory, const std::string& inputs) {
+  const std::filesystem::path file = restart_file(directory);
+  RestartPoint point;
+  try {
+    point = read_restart_point(file);
+  } catch (const std::runtime_error& problem) {
+    throw UnusableRestartPoint(std::string(problem.what()) + "; run without --resume");
+  }
+  if (point.inputs != inputs)
+    throw UnusableRestartPoint(
+        file.string() +
+        ": belongs to another case: the case file, its overrides (--set), a CAD file or "
+        "nurbeam have changed since; run without --resume");
+  return point;
+}
+
+// The run itself, once everything it needs is there.
+class Run {
+ public:
+  Run(const CaseFile& c, const BuildReport& report, const RunOptions& options, RunSummary summary)
+      : case_(c),
+        built_(*report.value),
+        options_(options),
+        directory_(options.out),
+        inputs_(digest_of_inputs(c, built_)),
+        summary_(std::move(summary)) {
+    if (options.resume)
+      from_ = find_restart_point(options.out, inputs_);
+    else
+      directory_.clear();
+    log_.emplace(options.out / "run.log", options.resume ? std::ios::app : std::ios::trunc);
+  }
+
+  ExitCode play() {
+    begin_log();
+    RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
+    const SimulationReport simulated = simulate_into(outputs);
+    outputs.finish();
+    // A run that ended before its first frame has nothing to show.
+    const bool with_report = case_.output.report && !StoredFrames(options_.out).times().empty();
+    summarise(simulated, outputs, with_report);
+    write_run_summary(options_.out / "run.json", summary_);
+    if (with_report) write_report(options_.out);
+    if (simulated.status != SimulationStatus::done)
+      tell(case_.path.string() + ": error: " + simulated.message);
+    *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
+    return exit_code(simulated.status);
+  }
+
+ private:
+  // A line for people, and for the log.
+  void tell(const std::string& line) {
+    std::cerr << line << "\n";
+    *log_ << line << std::endl;
+  }
+
+  void begin_log() {
+    *log_ << "nurbeam " << NURBEAM_VERSION << ": " << case_.path.string()
+          << (from_ ? ", resumed at t = " + std::to_string(from_->state.t) + " s" : std::string())
+          << std::endl;
+    print_diagnostics(*log_, summary_.diagnostics);
+  }
+
+  SimulationReport simulate_into(RunOutputs& outputs) {
+    const double start_time = from_ ? from_->state.t : 0;
+    Progress shown(std::cerr, Progress::style_of_stderr(options_.quiet), start_time, case_.analysis.end_time);
+    Progress logged(*log_, Progress::Style::lines, start_time, case_.analysis.end_time);
+    std::vector<ProbePlace> probes;
+    for (const Probe& probe : built_.probes) probes.push_back({probe.beam, probe.s});
+    const InterruptGuard guard;
+    SimulationObserver observer;
+    observer.interrupted = [&] { return guard.interrupted(); };
+    observer.progress = [&](const StepRecord& step) {
+      shown.update(step);
+      logged.update(step);
+    };
+    observer.frame = [&](const Frame& frame) { outputs.write(frame); };
+    observer.restart_point_due = [&] { return outputs.restart_point_due(); };
+    observer.restart_point = [&](const RestartPoint& point) { outputs.write(point); };
+    SimulationReport simulated =
+        simulate(built_.model, probes, simulation_options(case_), observer, from_ ? &*from_ : nullptr);
+    shown.finish();
+    return simulated;
+  }
+
+  void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
+    summary_.status = status_text(simulated.status, simulated.message);
+    summary_.wall_times.output = outputs.seconds();
+    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
+    summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
+                                outputs.diagnostics().end());
+    print_diagnostics(*log_, outputs.diagnostics());
+    summary_.wall_times.length_control = simulated.length_control_seconds;
+    if (from_) summary_.resumed_at = from_->state.t;
+    summary_.end_time = simulated.time;
+    summary_.steps = simulated.steps;
+    summary_.rejected_steps = simulated.rejected_steps;
+    summary_.newton_iterations = simulated.newton_iterations;
+    summary_.energy_drift = simulated.energy_drift;
+    summary_.events = simulated.events;
+    for (RunEvent& event : summary_.events) {
+      event.energy_before += built_.frame.gravity_energy;
+      event.energy_after += built_.frame.gravity_energy;
+      event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
+      event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
+    }
+    if (const auto warning = energy_warning(case_, simulated)) {
+      print_diagnostics(std::cerr, {*warning});
+      print_diagnostics(*log_, {*warning});
+      summary_.diagnostics.push_back(*warning);
+    }
+    summary_.files = directory_.files();
+    summary_.files.emplace_back("run.json");
+    if (with_report) summary_.files.emplace_back("report.html");
+    std::sort(summary_.files.begin(), summary_.files.end());  // a resumed run finds both there
+    summary_.files.erase(std::unique(summary_.files.begin(), summary_.files.end()), summary_.files.end());
+  }
+
+  const CaseFile& case_;
+  const BuiltModel& built_;
+  const RunOptions& options_;
+  ResultsDirectory directory_;
+  std::string inputs_;
+  RunSummary summary_;
+  std::optional<RestartPoint> from_;
+  std::optional<std::ofstream> log_;
+};
+
+}  // namespace
+
+int run_case(const CaseFile& c, const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  if (options.resume && !std::filesystem::exists(restart_file(options.out))) {
+    std::cerr << "error: " << restart_file(options.out).string()
+              << ": does not exist: there is no run to resume; run without --resume\n";
+    return bad_input;
+  }
+  const BuildReport report = build_model(c);
+  print_diagnostics(std::cerr, report.diagnostics);
+  if (!report.value) return bad_input;
+
+  RunSummary summary;
+  summary.version = NURBEAM_VERSION;
+  summary.case_name = c.name;
+  summary.model = model_summary(c, *report.value);
+  summary.diagnostics = report.diagnostics;
+  summary.wall_times.import = report.value->import_seconds;
+  summary.wall_times.model = seconds_since(start) - report.value->import_seconds;
+  summary.inputs.push_back({c.path, sha256_of_file(c.path)});
+  for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
+  try {
+    return Run(c, report, options, std::move(summary)).play();
+  } catch (const UnusableRestartPoint& problem) {
+    std::cerr << "error: " << problem.what() << "\n";
+    return bad_input;
+  } catch (const std::runtime_error& problem) {
+    std::cerr << "error: " << problem.what() << "\n";
+    return not_written;
+  }
+}
+
+int check_case(const CaseFile& c) {
+  const BuildReport report = build_model(c);
+  print_diagnostics(std::cerr, report.diagnostics);
+  if (!report.value) return bad_input;
+  const BeamModel& model = report.value->model;
+  const MeshPlan plan = initial_plan(model);
+  const int dofs = model.dimension == 2 ? make_mesh<2>(model, plan).coordinate_count
+                                        : make_mesh<3>(model, plan).coordinate_count;
+  std::printf("case      %s\n", c.name.c_str());
+  std::printf("model     %s, %d coordinates\n", model.dimension == 2 ? "planar" : "spatial", dofs);
+  for (const Beam& beam : model.beams) {
+    const double L = beam.curve.length();
+    double shortest = L, longest = 0;
+    for (std::size_t i = 1; i < beam.home.size(); ++i) {
+      const double length = beam.home[i].s - beam.home[i - 1].s;
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+    std::printf(
+        "beam      %s: %slength %.9g m, mass %.6g kg, %d CAD segments, %zu elements of %.6g to %.6g m, "
+        "EA %.6g N, EI %.6g N m^2, stress-free %s\n",
+        beam.name.c_str(), beam.is_ring() ? "a ring, " : "", L, L * beam.properties.mass_per_length,
+        beam.curve.segment_count(), beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
+        beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
+  }
+  for (const Beam& beam : model.beams)
+    for (const HomeNode& node : beam.home)
+      if (node.kind != NodeKind::smooth)
+        std::printf("corner    of %s at s = %.9g m, %s\n", beam.name.c_str(), node.s,
+                    node.kind == NodeKind::rigid ? "rigid" : "a hinge");
+  for (const BeamProfile& drawn : report.value->profiles) {
+    std::cout << "section   of " << model.beams[drawn.beam].name << ": " << drawn.file.string() << '\n';
+    print_profile(std::cout, drawn.profile);
+  }
+  for (const SlidingJoint& joint : model.joints)
+    std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
+                model.bodies[joint.body].mass, model.beams[joint.beam].name.c_str(), joint.s);
+  for (const BeamJoint& joint : model.beam_joints)
+    std::printf("joint     %s at s = %.9g m and %s at s = %.9g m, %s\n",
+                model.beams[joint.beam_a].name.c_str(), joint.s_a, model.beams[joint.beam_b].name.c_str(),
+                joint.s_b, joint.rigid ? "rigid" : "hinged");
+  std::printf("supports  %zu, point loads %zu, distributed loads %zu\n", model.supports.size(),
+              model.point_loads.size(), model.line_loads.size());
+  return done;
+}
+
+}  // namespace nurbeam

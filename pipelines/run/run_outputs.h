@@ -1,0 +1,54 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "pipelines/case/case_file.h"
+#include "pipelines/model/build_model.h"
+#include "pipelines/motion/restart.h"
+#include "pipelines/results/paraview.h"
+#include "pipelines/results/results.h"
+#include "pipelines/run/cad_output.h"
+
+namespace nurbeam {
+
+/// Names in the order of the vectors of a Frame.
+FrameNames frame_names(const BuiltModel& built);
+
+/// All that a run writes frame by frame: stored frames, CAD files, ParaView files, restart points.
+class RunOutputs {
+ public:
+  /// With `from`, goes on after the frames that lie before that restart point. This and the others throw
+  /// std::runtime_error (file and reason).
+  RunOutputs(const CaseFile& case_file, const BuiltModel& built, const std::filesystem::path& directory,
+             std::string inputs, const RestartPoint* from);
+
+  /// Writes one frame, in the model's own coordinates.
+  void write(const Frame& local);
+  /// Whether the last restart point is old enough for another.
+  bool restart_point_due() const;
+  /// Puts all frames so far, and the point, on the disk.
+  void write(const RestartPoint& point);
+  void finish();
+  /// What could not be written into a CAD file; the run goes on.
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  /// Wall time spent here [s].
+  double seconds() const { return seconds_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  template <class Work>
+  void timed(Work work);
+
+  const BuiltModel& built_;
+  std::filesystem::path directory_;
+  std::string inputs_;
+  ResultsWriter results_;
+  CadOutput cad_;
+  std::optional<ParaviewSeries> paraview_;
+  Clock::time_point last_restart_ = Clock::now();
+  double seconds_ = 0;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,291 @@
+#include "fem/system/beam_system.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "solver/consistent.h"
+#include "solver/generalized_alpha.h"
+#include "tests/fem/random_models.h"
+
+namespace nurbeam {
+namespace {
+
+using testing::cornered_model;
+using testing::disturbed_state;
+using testing::joined_model;
+using testing::line_cubic;
+using testing::model_with_everything;
+using testing::one_beam;
+using testing::uneven_axis;
+
+Eigen::VectorXd random_vector(Eigen::Index size, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  return Eigen::VectorXd::NullaryExpr(size, [&] { return unit(random); });
+}
+
+template <int D>
+Eigen::VectorXd residual(const BeamSystem<D>& system, const State& state) {
+  const int n = system.coordinate_count(), m = system.constraint_count();
+  Eigen::VectorXd dynamics(n), constraints(m), both(n + m);
+  system.residual(state, dynamics, constraints);
+  both << dynamics, constraints;
+  return both;
+}
+
+template <int D>
+Eigen::SparseMatrix<double> tangent(const BeamSystem<D>& system, const State& state,
+                                    const TangentWeights& w) {
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  system.tangent(state, w, kkt);
+  return kkt;
+}
+
+// The state moved by h along a direction of (q, v, a, lambda).
+State moved(State state, const State& direction, double h) {
+  state.q += h * direction.q;
+  state.v += h * direction.v;
+  state.a += h * direction.a;
+  state.lambda += h * direction.lambda;
+  return state;
+}
+
+// Central differences of f about 0 with steps h and h/2: their distance to the derivative must be small, or
+// fall with the square of the step.
+template <class F>
+void expect_second_order(const F& f, const Eigen::VectorXd& derivative, double h) {
+  const auto error = [&](double step) { return ((f(step) - f(-step)) / (2 * step) - derivative).norm(); };
+  const double coarse = error(h), fine = error(h / 2);
+  EXPECT_LT(coarse, 0.02 * derivative.norm());
+  EXPECT_NEAR(coarse / fine, 4, 0.25) << coarse << " " << fine;
+}
+
+template <int D>
+void check_tangent(int seed, const auto& make_model) {
+  std::mt19937 random(seed);
+  const BeamModel model = make_model(random, D);
+  for (const bool held : {false, true}) {
+    std::vector<bool> all_held(model.joints.size(), false);
+    std::fill_n(all_held.begin(), std::min<std::size_t>(all_held.size(), 2), held);
+    const BeamSystem<D> system(model, initial_plan(model), all_held);
+    State state = disturbed_state(system, random);
+    state.t = 0.3;
+    const int n = system.coordinate_count(), m = system.constraint_count();
+    State direction = state;
+    direction.q = random_vector(n, random);
+    direction.v = random_vector(n, random);
+    direction.a = random_vector(n, random);
+    direction.lambda = random_vector(m, random);
+    Eigen::VectorXd by_q(n + m), by_v(n + m), by_a(n + m);
+    by_q << direction.q, direction.lambda;
+    by_v << direction.v, Eigen::VectorXd::Zero(m);
+    by_a << direction.a, Eigen::VectorXd::Zero(m);
+    const auto constraint_rows = [&](const Eigen::VectorXd& x) {  // G and G' stand in every tangent
+      return Eigen::VectorXd(tangent(system, state, {}) * x);
+    };
+    const Eigen::VectorXd derivative = tangent(system, state, {.stiffness = 1}) * by_q +
+                                       tangent(system, state, {.damping = 1}) * by_v - constraint_rows(by_v) +
+                                       tangent(system, state, {.mass = 1}) * by_a - constraint_rows(by_a);
+    expect_second_order([&](double h) { return residual(system, moved(state, direction, h)); }, derivative,
+                        5e-4);
+  }
+}
+
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInThePlane) {
+  check_tangent<2>(1, model_with_everything);
+  check_tangent<2>(5, joined_model);
+  check_tangent<2>(9, cornered_model);
+}
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInSpace) {
+  check_tangent<3>(2, model_with_everything);
+  check_tangent<3>(6, joined_model);
+  check_tangent<3>(10, cornered_model);
+}
+
+template <int D>
+void check_constraints(int seed, const auto& make_model) {
+  std::mt19937 random(seed);
+  const BeamModel model = make_model(random, D);
+  const BeamSystem<D> system(model, initial_plan(model));
+  State state = disturbed_state(system, random);
+  state.t = 0.3;
+  const int n = system.coordinate_count(), m = system.constraint_count();
+  // Along q(t) = q + v t + a t^2/2: dg/dt = G v + rate, d2g/dt2 = G a + curvature.
+  const auto constraints = [&](double h) -> Eigen::VectorXd {
+    State later = state;
+    later.t += h;
+    later.q += h * state.v + h * h / 2 * state.a;
+    return residual(system, later).tail(m);
+  };
+  const Eigen::MatrixXd G = Eigen::MatrixXd(tangent(system, state, {})).bottomLeftCorner(m, n);
+  expect_second_order(constraints, G * state.v + system.constraint_rate(state), 1e-3);
+  const double h = 1e-3;
+  const Eigen::VectorXd second = (constraints(h) - 2 * constraints(0) + constraints(-h)) / (h * h);
+  const Eigen::VectorXd expected = G * state.a + system.constraint_curvature(state);
+  EXPECT_LT((second - expected).norm(), 1e-3 * expected.norm());
+}
+
+TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInThePlane) {
+  check_constraints<2>(3, model_with_everything);
+  check_constraints<2>(7, joined_model);
+  check_constraints<2>(11, cornered_model);
+}
+TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInSpace) {
+  check_constraints<3>(4, model_with_everything);
+  check_constraints<3>(8, joined_model);
+  check_constraints<3>(12, cornered_model);
+}
+
+// The coordinates after r -> A r + b of the whole model.
+template <int D>
+Eigen::VectorXd affine_image(const BeamSystem<D>& system, const Eigen::VectorXd& q,
+                             const Eigen::Matrix<double, D, D>& A, const Eigen::Matrix<double, D, 1>& b) {
+  Eigen::VectorXd image = q;
+  for (const auto& nodes : system.mesh().nodes)
+    for (const MeshNode& node : nodes) {
+      image.segment<D>(node.r) = A * q.segment<D>(node.r) + b;
+      image.segment<D>(node.slope_left) = A * q.segment<D>(node.slope_left);
+      if (node.slope_right != node.slope_left)
+        image.segment<D>(node.slope_right) = A * q.segment<D>(node.slope_right);
+    }
+  return image;
+}
+
+template <int D>
+Eigen::Matrix<double, D, D> rotation() {
+  return Eigen::AngleAxisd(1.1, D == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, 2, -2) / 3)
+      .toRotationMatrix()
+      .topLeftCorner<D, D>();
+}
+
+// A free beam with a mass on it.
+template <int D>
+BeamModel free_beam(std::mt19937& random, WeightRule weights, bool straight) {
+  BeamModel model = one_beam(uneven_axis(random, D), D, {300, 2, 0.7, 0, {}}, 6, {});
+  model.beams[0].weights = weights;
+  model.beams[0].straight = straight;
+  model.gravity.setZero();
+  testing::add_slider(model, 0.8, 0.4);
+  return model;
+}
+
+template <int D>
+void check_rigid_motion() {
+  std::mt19937 random(5);
+  for (WeightRule weights : {WeightRule::material, WeightRule::constant, WeightRule::ones}) {
+    const BeamModel model = free_beam<D>(random, weights, D == 3);
+    const BeamSystem<D> system(model, initial_plan(model));
+    State state = disturbed_state(system, random, 0.02);
+    state.v.setZero();
+    state.a.setZero();
+    State turned = state;
+    turned.q = affine_image<D>(system, state.q, rotation<D>(), Eigen::Matrix<double, D, 1>::Constant(3));
+    const SystemEnergy energy = system.energy(state), after = system.energy(turned);
+    EXPECT_NEAR(after.axial, energy.axial, 1e-12 * energy.mechanical());
+    EXPECT_NEAR(after.bending, energy.bending, 1e-12 * energy.mechanical());
+    // The forces turn too.
+    const Eigen::VectorXd force = residual(system, state);
+    const Eigen::VectorXd expected =
+        affine_image<D>(system, force, rotation<D>(), Eigen::Matrix<double, D, 1>::Zero());
+    EXPECT_LT((residual(system, turned) - expected).norm(), 1e-11 * expected.norm());
+  }
+}
+
+TEST(BeamSystem, TurnsItsForcesWithARigidMotionInThePlane) { check_rigid_motion<2>(); }
+TEST(BeamSystem, TurnsItsForcesWithARigidMotionInSpace) { check_rigid_motion<3>(); }
+
+TEST(BeamSystem, HasNoElasticForceInARigidlyMovedDrawnShape) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 5; ++trial) {
+    const BeamModel model = free_beam<2>(random, WeightRule::material, false);
+    const BeamSystem<2> system(model, initial_plan(model));
+    State state = system.drawn_state();
+    state.q = affine_image<2>(system, state.q, rotation<2>(), Eigen::Vector2d(3, -1));
+    const SystemEnergy energy = system.energy(state);
+    EXPECT_LT(energy.axial + energy.bending, 1e-20);
+    EXPECT_LT(residual(system, state).norm(), 1e-9 * model.beams[0].properties.axial_stiffness);
+  }
+}
+
+// Weights that follow the material hold every affine image of the drawn curve exactly: strain and length at
+// any point are those of the image.
+template <int D>
+void check_patch() {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const BeamModel model = free_beam<D>(random, WeightRule::material, true);
+  const BeamSystem<D> system(model, initial_plan(model));
+  const Eigen::Matrix<double, D, D> A = Eigen::Matrix<double, D, D>::NullaryExpr(
+      [&](Eigen::Index i, Eigen::Index j) { return (i == j) + 0.2 * unit(random); });
+  State state = system.drawn_state();
+  state.q = affine_image<D>(system, state.q, A, Eigen::Matrix<double, D, 1>::Constant(0.5));
+  const ReferenceCurve& curve = model.beams[0].curve;
+  for (int i = 0; i <= 50; ++i) {
+    const double s = curve.length() * i / 50;
+    const auto& e = system.mesh().elements[find_element<D>(model, system.mesh(), state.q, 0, s)];
+    const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+    const Eigen::Matrix<double, D, 1> r =
+        A * curve.position(s).template head<D>() + Eigen::Matrix<double, D, 1>::Constant(0.5);
+    EXPECT_LT((p.r - r).norm(), 1e-12);
+    EXPECT_LT((p.rs - A * curve.tangent(s).template head<D>()).norm(), 1e-11);
+  }
+}
+
+TEST(BeamSystem, HoldsAffineImagesOfTheDrawnCurveExactlyInThePlane) { check_patch<2>(); }
+TEST(BeamSystem, HoldsAffineImagesOfTheDrawnCurveExactlyInSpace) { check_patch<3>(); }
+
+template <int D>
+void check_mass() {
+  std::mt19937 random(8);
+  const BeamModel model = free_beam<D>(random, WeightRule::material, true);
+  const BeamSystem<D> system(model, initial_plan(model));
+  State state = disturbed_state(system, random);
+  const double total = model.beams[0].properties.mass_per_length * model.beams[0].curve.length() + 0.8;
+  const Eigen::SparseMatrix<double> M = tangent(system, state, {.mass = 1});
+  for (int d = 0; d < D; ++d) {
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(system.coordinate_count());
+    for (const MeshNode& node : system.mesh().nodes[0]) shift[node.r + d] = 1;
+    EXPECT_NEAR(shift.dot(M * shift), total, 1e-9 * total);
+    // The material at rest but for a shift has that momentum.
+    state.v = shift;
+    EXPECT_NEAR(system.momentum(state)[d], total, 1e-9 * total);
+    EXPECT_NEAR(shift.dot(M * state.v), total, 1e-9 * total);
+  }
+  // Kinetic energy is the quadratic form of the mass, whatever moves.
+  state.v = random_vector(system.coordinate_count(), random);
+  EXPECT_NEAR(system.energy(state).kinetic, state.v.dot(M * state.v) / 2, 1e-12 * state.v.dot(M * state.v));
+}
+
+TEST(BeamSystem, HasAMassWhoseRowsSumToTheWholeInThePlane) { check_mass<2>(); }
+TEST(BeamSystem, HasAMassWhoseRowsSumToTheWholeInSpace) { check_mass<3>(); }
+
+// A soft clamped beam with a sliding mass, over a time without event.
+State run(const BeamModel& model, int steps, double end) {
+  const BeamSystem<2> system(model, initial_plan(model));
+  State start = system.drawn_state();
+  system.start_joints(start);
+  EXPECT_TRUE(make_accelerations_consistent(system, start));
+  GeneralizedAlphaIntegrator integrator({.rho_infinity = 0.6, .newton_tolerance = 1e-12}, system, start);
+  for (int i = 0; i < steps; ++i) EXPECT_EQ(integrator.advance(end / steps).status, StepStatus::converged);
+  return integrator.state();
+}
+
+TEST(BeamSystem, IsIntegratedToSecondOrderInPositionVelocityAndMultiplier) {
+  BeamModel model = one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {60, 0.5, 2, 0, {}}, 4, {{0, true}});
+  testing::add_slider(model, 0.8, 0.4);
+  model.joints[0].speed = 0.2;
+  const double end = 0.1;
+  const State fine = run(model, 4800, end);
+  std::vector<Eigen::Vector3d> errors;
+  for (int steps : {150, 300, 600}) {
+    const State state = run(model, steps, end);
+    errors.emplace_back((state.q - fine.q).norm(), (state.v - fine.v).norm(),
+                        (state.lambda - fine.lambda).norm());
+  }
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(std::log2(errors[i][k] / errors[i + 1][k]), 2, 0.35) << "quantity " << k << " at " << i;
+}
+
+}  // namespace
+}  // namespace nurbeam

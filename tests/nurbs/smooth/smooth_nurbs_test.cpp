@@ -1,0 +1,306 @@
+#include "nurbs/smooth/smooth_nurbs.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "nurbs/arc_length.h"
+#include "nurbs/closest_point.h"
+#include "tests/support/curves.h"
+
+namespace nurbeam {
+namespace {
+
+using std::numbers::pi;
+
+double size_of(const NurbsCurve& curve) {
+  const Eigen::Matrix3Xd points = curve.control_points().colwise().hnormalized();
+  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+}
+
+/// The curve as cubics, each cut into `count` at places that are not evenly spread; weights scaled at will.
+BezierPath in_pieces(Generator& generator, const NurbsCurve& curve, int count) {
+  const BezierPath whole = BezierPath::from_nurbs(curve, 1e-6);
+  BezierPath cut{{}, {whole.breaks.front()}, 0};
+  for (const RationalCubic& segment : whole.segments)
+    for (int i = 0; i < count; ++i) {
+      const auto at = [count](int k) { return std::pow(double(k) / count, 1.3); };
+      const RationalCubic piece = segment.piece(at(i), at(i + 1));
+      cut.segments.emplace_back(piece.points() * uniform(generator, 0.5, 2));
+      cut.breaks.push_back(cut.breaks.back() + length(piece));
+    }
+  return cut;
+}
+
+/// Distance both ways, seen by projection, independent of the bound that comes with the curve.
+double distance(const NurbsCurve& a, const BezierPath& b) {
+  return hausdorff_distance(BezierPath::from_nurbs(a, 1e-6), b);
+}
+
+/// A polynomial B-spline of degree p with simple interior knots.
+NurbsCurve smooth_spline(Generator& generator, int degree, int spans) {
+  std::vector<double> knots(degree + 1, 0);
+  for (int i = 1; i < spans; ++i) knots.push_back(knots.back() + uniform(generator, 0.2, 1));
+  knots.insert(knots.end(), degree + 1, knots.back() + uniform(generator, 0.2, 1));
+  Eigen::Matrix3Xd points(3, degree + spans);
+  for (int i = 0; i < points.cols(); ++i)
+    points.col(i) = Eigen::Vector3d(i, 0, 0) + 0.6 * random_point(generator);
+  return make_nurbs_curve(KnotVector(degree, knots), points, Eigen::VectorXd::Ones(points.cols()));
+}
+
+/// The same with weights in [low, high].
+NurbsCurve weighted(Generator& generator, const NurbsCurve& curve, double low, double high) {
+  Eigen::Matrix4Xd points = curve.control_points();
+  for (int i = 0; i < points.cols(); ++i) points.col(i) *= uniform(generator, low, high);
+  return {curve.knots(), points};
+}
+
+/// A chain of random cubics that share tangents, with weights in [low, high] and lengths of their own.
+BezierPath smooth_chain(Generator& generator, int count, double low, double high) {
+  BezierPath path{{}, {0}, 0};
+  Eigen::Vector3d point = random_point(generator), tangent(1, 0, 0);
+  for (int j = 0; j < count; ++j) {
+    const Eigen::Vector3d next = point + Eigen::Vector3d(3, 0, 0) + random_point(generator);
+    const Eigen::Vector3d next_tangent = (Eigen::Vector3d(2, 0, 0) + random_point(generator)).normalized();
+    Eigen::Matrix3Xd controls(3, 4);
+    controls << point, point + uniform(generator, 0.3, 1.2) * tangent,
+        next - uniform(generator, 0.3, 1.2) * next_tangent, next;
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = uniform(generator, low, high);
+      points.col(i) << weight * controls.col(i), weight;
+    }
+    path.segments.emplace_back(points);
+    path.breaks.push_back(path.breaks.back() + length(path.segments.back()));
+    point = next;
+    tangent = next_tangent;
+  }
+  return path;
+}
+
+int largest_interior_multiplicity(const NurbsCurve& curve) {
+  int most = 0;
+  for (const double u : curve.knots().breaks())
+    if (u != curve.knots().start() && u != curve.knots().end())
+      most = std::max(most, curve.knots().multiplicity(u));
+  return most;
+}
+
+TEST(SmoothNurbs, APieceMealSplineGetsItsOwnControlPointsBack) {
+  Generator generator(70);
+  for (int i = 0; i < 120; ++i) {
+    const NurbsCurve source = smooth_spline(generator, 1 + i % 3, 1 + i % 12);
+    const BezierPath path = in_pieces(generator, source, 1 + i % 5);
+    const double size = size_of(source);
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 2e-13 * size);
+    ASSERT_EQ(smooth.curve.degree(), source.degree()) << i;
+    ASSERT_EQ(smooth.curve.control_points().cols(), source.control_points().cols()) << i;
+    EXPECT_FALSE(smooth.curve.is_rational());
+    ASSERT_LE((smooth.curve.control_points() - source.control_points()).cwiseAbs().maxCoeff(), 1e-12 * size);
+    ASSERT_LE(smooth.deviation, 2e-13 * size);
+    ASSERT_LE(distance(smooth.curve, path), smooth.deviation + 1e-14 * size);
+  }
+}
+
+TEST(SmoothNurbs, APieceMealRationalSplineGetsAsManyControlPointsAsItHad) {
+  Generator generator(71);
+  for (int i = 0; i < 120; ++i) {
+    const NurbsCurve source = weighted(generator, smooth_spline(generator, 2 + i % 2, 1 + i % 9), 0.6, 1.4);
+    const BezierPath path = in_pieces(generator, source, 1 + i % 4);
+    const double size = size_of(source);
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 2e-13 * size);
+    ASSERT_EQ(smooth.curve.degree(), source.degree()) << i;
+    ASSERT_EQ(smooth.curve.control_points().cols(), source.control_points().cols()) << i;
+    ASSERT_LE(smooth.deviation, 2e-13 * size);
+    ASSERT_LE(distance(smooth.curve, path), smooth.deviation + 1e-14 * size);
+  }
+}
+
+TEST(SmoothNurbs, ALineIsTwoPolesOfDegreeOne) {
+  Generator generator(72);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d a = 10 * random_point(generator), b = 10 * random_point(generator);
+    const BezierPath path = in_pieces(generator, line(a, b), 1 + 10 * i);
+    for (const CurveParameter parameter : {CurveParameter::free, CurveParameter::material}) {
+      const SmoothNurbs smooth = smooth_nurbs(path, parameter, 1e-13 * (b - a).norm());
+      ASSERT_EQ(smooth.curve.degree(), 1);
+      ASSERT_EQ(smooth.curve.control_points().cols(), 2);
+      EXPECT_LE((smooth.curve.point(smooth.curve.knots().start()) - a).norm(), 4e-15);
+      EXPECT_LE((smooth.curve.point(smooth.curve.knots().end()) - b).norm(), 4e-15);
+    }
+  }
+}
+
+TEST(SmoothNurbs, AnArcIsOneRationalQuadratic) {
+  Generator generator(73);
+  for (const double degrees : {10.0, 90.0, 120.0, 170.0}) {
+    const BezierPath path = in_pieces(generator, circular_arc(2, degrees * pi / 180), 7);
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 1e-13);
+    EXPECT_EQ(smooth.curve.degree(), 2);
+    EXPECT_EQ(smooth.curve.control_points().cols(), 3) << degrees;
+    EXPECT_LE(distance(smooth.curve, path), 1e-13);
+  }
+}
+
+// A quadratic on the unit circle is x + iy = z^2, w = |z|^2 with z linear in the parameter. Two of them that
+// are C1 in homogeneous coordinates share z and z z', and so z': they are one, whose angle 2 arg z stays
+// below a full turn, and on a span with positive weights below half of one. So a circle of degree 2 needs
+// three spans and a double knot between two of them: six control points, or seven if it is to be symmetric.
+// Of degree 3 it has six, symmetric, and is C1 throughout.
+TEST(SmoothNurbs, AWholeCircleHasSixControlPointsAndIsC1Throughout) {
+  Generator generator(73);
+  for (const int parts : {3, 4})
+    for (const int cuts : {1, 2, 3, 5, 8, 25}) {
+      SCOPED_TRACE(testing::Message() << parts << " arcs in " << cuts << " pieces");
+      BezierPath arcs{{}, {0}, 0};
+      for (int i = 0; i < parts; ++i) {
+        const double angle = 2 * pi / parts;
+        const Eigen::AngleAxisd turn(i * angle, Eigen::Vector3d::UnitZ());
+        Eigen::Matrix4Xd points = circular_arc(1, angle).control_points();
+        points.topRows<3>() = (turn * points.topRows<3>()).eval();
+        const BezierPath part = in_pieces(generator, {KnotVector(2, {0, 0, 0, 1, 1, 1}), points}, cuts);
+        for (const RationalCubic& segment : part.segments) {
+          arcs.segments.push_back(segment);
+          arcs.breaks.push_back(arcs.breaks.back() + length(segment));
+        }
+      }
+      const NurbsCurve circle = smooth_nurbs(arcs, CurveParameter::free, 1e-12).curve;
+      EXPECT_EQ(circle.degree(), 3);
+      EXPECT_EQ(circle.control_points().cols(), 6);
+      EXPECT_EQ(largest_interior_multiplicity(circle), 2);
+      const Eigen::RowVectorXd weights = circle.control_points().row(3);
+      EXPECT_LE((weights - weights.reverse()).norm(), 1e-9);
+      const double start = circle.knots().start(), all = circle.knots().end() - start;
+      for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(circle.point(start + all * (0.001 * i)).norm(), 1, 2e-13);
+    }
+}
+
+TEST(SmoothNurbs, AMildSmoothChainGetsDoubleKnotsThroughout) {
+  Generator generator(74);
+  for (int i = 0; i < 80; ++i) {
+    const int count = 2 + i % 20;
+    const BezierPath path = smooth_chain(generator, count, 1, 1.01);
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 1e-12);
+    ASSERT_EQ(smooth.curve.degree(), 3);
+    ASSERT_EQ(smooth.curve.control_points().cols(), 2 * count + 2) << i;
+    ASSERT_EQ(largest_interior_multiplicity(smooth.curve), 2);
+    ASSERT_LE(smooth.deviation, 1e-12);
+    ASSERT_LE(distance(smooth.curve, path), 1e-12);
+  }
+}
+
+TEST(SmoothNurbs, AWildSmoothChainStaysWhereItIsWithTripleKnotsWhereItMust) {
+  Generator generator(75);
+  int double_knots = 0, knots = 0;
+  for (int i = 0; i < 80; ++i) {
+    const int count = 2 + i % 40;
+    const BezierPath path = smooth_chain(generator, count, 0.3, 1.5);
+    const double tolerance = 1e-13 * path.length();
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, tolerance);
+    ASSERT_LE(smooth.deviation, tolerance);
+    ASSERT_LE(distance(smooth.curve, path), tolerance);
+    ASSERT_LE(smooth.curve.control_points().cols(), 3 * count + 1);
+    double_knots += 3 * count + 1 - int(smooth.curve.control_points().cols());
+    knots += count - 1;
+    const Eigen::RowVectorXd weights = smooth.curve.control_points().row(3);
+    ASSERT_GT(weights.minCoeff(), 0);
+  }
+  EXPECT_GT(double_knots, knots / 2);
+}
+
+TEST(SmoothNurbs, TheSpeedIsContinuousEvenAcrossTripleKnots) {
+  Generator generator(76);
+  for (int i = 0; i < 100; ++i) {
+    const SmoothNurbs smooth =
+        smooth_nurbs(smooth_chain(generator, 10, 0.3, 1.5), CurveParameter::free, 1e-12);
+    const BezierPath pieces = BezierPath::from_nurbs(smooth.curve, 0);
+    const auto speed = [&](std::size_t j, double u) -> Eigen::Vector3d {
+      return pieces.segments[j].derivatives(u).col(1) / (pieces.breaks[j + 1] - pieces.breaks[j]);
+    };
+    for (std::size_t j = 0; j + 1 < pieces.segments.size(); ++j)
+      ASSERT_LE((speed(j, 1) - speed(j + 1, 0)).norm(), 1e-9 * speed(j, 1).norm());
+  }
+}
+
+TEST(SmoothNurbs, ACornerKeepsItsFullKnot) {
+  Eigen::Matrix3Xd points(3, 3);
+  points << 0, 1, 1, 0, 0, 1, 0, 0, 0;
+  const NurbsCurve corner = make_nurbs_curve(KnotVector(1, {0, 0, 1, 2, 2}), points, Eigen::Vector3d::Ones());
+  Generator generator(77);
+  const SmoothNurbs smooth = smooth_nurbs(in_pieces(generator, corner, 5), CurveParameter::free, 1e-13);
+  EXPECT_EQ(smooth.curve.degree(), 1);
+  EXPECT_EQ(smooth.curve.control_points().cols(), 3);
+  EXPECT_LE((smooth.curve.point(1) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-14);
+}
+
+TEST(SmoothNurbs, MaterialParameterKeepsEveryPointAtItsParameter) {
+  Generator generator(78);
+  for (int i = 0; i < 80; ++i) {
+    const NurbsCurve source = smooth_spline(generator, 3, 1 + i % 12);
+    // The source's own parameter, in thirds of spans: every knot but the source's is removable.
+    const BezierPath whole = BezierPath::from_nurbs(source, 0);
+    BezierPath path{{}, {whole.breaks.front()}, 0};
+    for (std::size_t j = 0; j < whole.segments.size(); ++j)
+      for (int k = 0; k < 3; ++k) {
+        path.segments.push_back(whole.segments[j].piece(k / 3.0, (k + 1) / 3.0));
+        path.breaks.push_back(whole.breaks[j] + (k + 1) / 3.0 * (whole.breaks[j + 1] - whole.breaks[j]));
+      }
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::material, 1e-12);
+    ASSERT_EQ(smooth.curve.control_points().cols(), source.control_points().cols());
+    for (double t = 0; t <= 1; t += 0.01) {
+      const double u = source.knots().start() + t * (source.knots().end() - source.knots().start());
+      ASSERT_LE((smooth.curve.point(u) - source.point(u)).norm(), 1e-12);
+    }
+    // In an uneven parameter of the same shape the joints of the lossless form stay.
+    const BezierPath chain = smooth_chain(generator, 1 + i % 12, 0.9, 1.1);
+    const SmoothNurbs kept = smooth_nurbs(chain, CurveParameter::material, 1e-12);
+    for (std::size_t j = 0; j < chain.segments.size(); ++j)
+      for (double t = 0; t <= 1; t += 0.25) {
+        const double u = chain.breaks[j] + t * (chain.breaks[j + 1] - chain.breaks[j]);
+        ASSERT_LE((kept.curve.point(u) - chain.segments[j].point(t)).norm(), 1e-12);
+      }
+  }
+}
+
+TEST(SmoothNurbs, TheBoundIsAboveEveryMeasuredDistanceAndNotIdle) {
+  // Tolerances far above round-off make the bound work for its living.
+  Generator generator(79);
+  double largest_share = 0;
+  for (int i = 0; i < 80; ++i) {
+    BezierPath path = in_pieces(generator, weighted(generator, smooth_spline(generator, 3, 4), 0.7, 1.3), 2);
+    for (RationalCubic& segment : path.segments) {
+      Eigen::Matrix4d points = segment.points();
+      for (int k = 1; k < 3; ++k) points.col(k).head<3>() += 1e-6 * points(3, k) * random_point(generator);
+      segment = RationalCubic(points);
+    }
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 2e-5);
+    ASSERT_LE(smooth.deviation, 2e-5);
+    const double measured = distance(smooth.curve, path);
+    ASSERT_LE(measured, smooth.deviation * (1 + 1e-6) + 1e-13);
+    ASSERT_LT(smooth.curve.control_points().cols(), 3 * int(path.segments.size()) + 1);
+    largest_share = std::max(largest_share, measured / smooth.deviation);
+  }
+  EXPECT_GT(largest_share, 0.02);
+}
+
+TEST(SmoothNurbs, APlaceFarFromTheOriginCostsNoControlPoints) {
+  Generator generator(80);
+  const NurbsCurve source = smooth_spline(generator, 3, 6);
+  Eigen::Matrix4Xd points = source.control_points();
+  points.topRows<3>() += Eigen::Vector3d(1000, -2000, 500) * points.row(3);
+  const BezierPath path = in_pieces(generator, {source.knots(), points}, 3);
+  const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 1e-11);
+  EXPECT_EQ(smooth.curve.control_points().cols(), source.control_points().cols());
+  EXPECT_LE(distance(smooth.curve, path), 1e-11);
+}
+
+TEST(SmoothNurbs, RefusesAnEmptyPath) {
+  EXPECT_THROW(smooth_nurbs(BezierPath{}, CurveParameter::free, 1e-9), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,69 @@
+#include "pipelines/case/quantity.h"
+
+#include <gtest/gtest.h>
+
+namespace nurbeam {
+namespace {
+
+double value(const std::string& text, Dimension dimension) {
+  const ParsedQuantity quantity = parse_quantity(text, dimension);
+  EXPECT_EQ(quantity.error, "");
+  return quantity.value.value_or(-1);
+}
+
+TEST(Quantity, UnitsAreConvertedToSi) {
+  EXPECT_DOUBLE_EQ(value("5 mm", Dimension::length), 0.005);
+  EXPECT_DOUBLE_EQ(value("5cm", Dimension::length), 0.05);
+  EXPECT_DOUBLE_EQ(value("2 in", Dimension::length), 0.0508);
+  EXPECT_DOUBLE_EQ(value("-1.5e1 ft", Dimension::length), -4.572);
+  EXPECT_DOUBLE_EQ(value("20 MPa", Dimension::pressure), 20e6);
+  EXPECT_DOUBLE_EQ(value("3 N/mm^2", Dimension::pressure), 3e6);
+  EXPECT_DOUBLE_EQ(value("7200 kg/m^3", Dimension::density), 7200);
+  EXPECT_DOUBLE_EQ(value("7.2 g/cm3", Dimension::density), 7200);
+  EXPECT_DOUBLE_EQ(value("0.8 kg", Dimension::mass), 0.8);
+  EXPECT_DOUBLE_EQ(value("10 ms", Dimension::time), 0.01);
+  EXPECT_DOUBLE_EQ(value("3 kN", Dimension::force), 3000);
+  EXPECT_DOUBLE_EQ(value("2 N m", Dimension::moment), 2);
+  EXPECT_DOUBLE_EQ(value("2 N*mm", Dimension::moment), 2e-3);
+  EXPECT_DOUBLE_EQ(value("2 N·m", Dimension::moment), 2);
+  EXPECT_DOUBLE_EQ(value("5 N/m", Dimension::force_per_length), 5);
+  EXPECT_DOUBLE_EQ(value("72 km/h", Dimension::speed), 20);
+  EXPECT_DOUBLE_EQ(value("9.81 m/s²", Dimension::acceleration), 9.81);
+  EXPECT_DOUBLE_EQ(value("9.81 m s^-2", Dimension::acceleration), 9.81);
+  EXPECT_DOUBLE_EQ(value("100 mm^4", Dimension::second_moment), 1e-10);
+  EXPECT_DOUBLE_EQ(value("+3 µm", Dimension::length), 3e-6);
+}
+
+TEST(Quantity, PoundsPerSquareInchAgreeWithTheirDefinition) {
+  EXPECT_NEAR(value("1 psi", Dimension::pressure), 6894.757293168, 1e-8);  // NIST SP 811, B.8
+  EXPECT_NEAR(value("1 lbf", Dimension::force), 4.4482216152605, 1e-13);
+}
+
+TEST(Quantity, AWrongDimensionNamesTheValidUnits) {
+  const ParsedQuantity quantity = parse_quantity("5 kg", Dimension::length);
+  EXPECT_FALSE(quantity.value);
+  EXPECT_NE(quantity.error.find("m, mm, cm, km, um, in, ft"), std::string::npos) << quantity.error;
+}
+
+TEST(Quantity, AnUnknownUnitNamesTheClosestOne) {
+  EXPECT_NE(parse_quantity("5 Mpa", Dimension::pressure).error.find("did you mean \"MPa\""),
+            std::string::npos);
+}
+
+TEST(Quantity, TextsThatAreNoQuantityAreRefused) {
+  for (const char* text : {"", "mm", "5", "nan mm", "inf mm", "1e999 mm", "5 mm/", "5 mm^0", "5 mm^",
+                           "5 mm mm", "5 / / mm", "5 m-m", "five mm", "1e308 km", "1e-323 nm",
+                           "1e200 km^100 m^-99", "5 mm, 3 mm", "0x5 m", "5 mm^99999999999"}) {
+    const ParsedQuantity quantity = parse_quantity(text, Dimension::length);
+    EXPECT_FALSE(quantity.value) << text;
+    EXPECT_NE(quantity.error, "") << text;
+  }
+}
+
+TEST(Quantity, AValueThatIsNotFiniteInSiUnitsSaysSo) {
+  EXPECT_NE(parse_quantity("1e308 t", Dimension::mass).error.find("too large for a number in kg"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace nurbeam

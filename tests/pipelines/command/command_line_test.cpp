@@ -1,0 +1,200 @@
+#include "pipelines/command/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "cad_import/export_curves.h"
+#include "cad_import/import_curves.h"
+#include "nurbs/bezier_path.h"
+#include "pipelines/results/results.h"
+#include "tests/pipelines/case_text.h"
+
+namespace nurbeam {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Outcome {
+  int code;
+  std::string out, err;
+};
+
+Outcome run(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const int code = run_command_line(arguments, out, err);
+  return {code, out.str(), err.str()};
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A quarter of the unit circle about the origin, moved along x.
+NurbsCurve quarter_circle(double x = 0) {
+  Eigen::Matrix3Xd points(3, 3);
+  points << 1 + x, 1 + x, x, 0, 1, 1, 0, 0, 0;
+  return make_nurbs_curve(KnotVector(2, {0, 0, 0, 1, 1, 1}), points,
+                          Eigen::Vector3d(1, std::numbers::sqrt2 / 2, 1));
+}
+
+NurbsCurve line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Matrix3Xd points(3, 2);
+  points << a, b;
+  return make_nurbs_curve(KnotVector(1, {0, 0, 1, 1}), points, Eigen::Vector2d::Ones());
+}
+
+TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
+  EXPECT_EQ(run({"--help"}).code, 0);
+  EXPECT_TRUE(holds(run({"--help"}).out, "nurbeam compare A B"));
+  EXPECT_TRUE(holds(run({"run", "--help"}).out, "--set path=value"));
+  EXPECT_TRUE(run({"--version"}).out.starts_with("nurbeam "));
+  EXPECT_EQ(run({}).code, 2);
+}
+
+TEST(CommandLine, UnknownCommandsAndOptionsNameTheClosestOne) {
+  const Outcome command = run({"inspct"}), option = run({"run", "case.json", "--quite"});
+  EXPECT_EQ(command.code, 2);
+  EXPECT_TRUE(holds(command.err, "did you mean \"inspect\"")) << command.err;
+  EXPECT_EQ(option.code, 2);
+  EXPECT_TRUE(holds(option.err, "did you mean \"--quiet\"")) << option.err;
+}
+
+TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"run"},
+                                                {"compare", "a"},
+                                                {"run", "a", "b"},
+                                                {"run", "a", "--out"},
+                                                {"run", "a", "--out", ""},
+                                                {"run", "a", "--quiet=1"},
+                                                {"export", "d", "--to", "f.step"},
+                                                {"export", "d", "--time", "x", "--to", "f.step"},
+                                                {"compare", "a", "b", "--tolerance", "-1"},
+                                                {"schema", "cases"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(holds(outcome.err, "usage: nurbeam " + words[0])) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(CommandLine, WhatThisVersionDoesNotOfferSaysSo) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"study", "s.json"}, {"schema", "study"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(holds(outcome.err, "not available in this version")) << outcome.err;
+  }
+}
+
+TEST(CommandLine, ABadCaseFileEndsWithTwoAndItsPlace) {
+  const test::TemporaryDirectory directory;
+  const std::string file = directory.write("case.json", test::smallest_case).string();
+  const Outcome outcome = run({"check", file, "--set", "beams[0].section.radius=-1"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(holds(outcome.err, "error: " + file + ": beams[0].section.radius: is -1 m")) << outcome.err;
+  EXPECT_EQ(run({"run", (directory.path() / "absent.json").string()}).code, 2);
+}
+
+TEST(CommandLine, TheSchemaIsPrinted) {
+  EXPECT_TRUE(Json::parse(run({"schema"}).out).contains("properties"));
+  EXPECT_EQ(run({"schema", "case"}).out, run({"schema"}).out);
+}
+
+TEST(CommandLine, InspectListsTheCurvesOfAFile) {
+  const test::TemporaryDirectory directory;
+  const std::string file = (directory.path() / "curves.step").string();
+  export_curves(file, {{"arc", quarter_circle()}, {"line", line({0, 0, 0}, {0, 0, 2})}},
+                LengthUnit::millimetre);
+  const Outcome table = run({"inspect", file}), json = run({"inspect", "--json", file});
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_TRUE(holds(table.out, "unit mm")) << table.out;
+  EXPECT_TRUE(holds(table.out, "(1, 0, 0)")) << table.out;
+  const Json curves = Json::parse(json.out).at(0).at("curves");
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_EQ(curves[0].at("index"), 1);
+  EXPECT_EQ(curves[0].at("name"), "arc");
+  EXPECT_EQ(curves[0].at("rational"), true);
+  EXPECT_EQ(curves[0].at("degree"), 2);
+  EXPECT_NEAR(curves[0].at("length [m]"), std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(curves[1].at("closed"), false);
+}
+
+TEST(CommandLine, InspectOfAnUnreadableFileEndsWithTwoAndStillListsTheOthers) {
+  const test::TemporaryDirectory directory;
+  const std::string good = (directory.path() / "good.igs").string();
+  export_curves(good, {{"arc", quarter_circle()}}, LengthUnit::metre);
+  const std::string bad = directory.write("bad.step", "this is no CAD file").string();
+  const Outcome outcome = run({"inspect", bad, good});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(holds(outcome.err, "error: ")) << outcome.err;
+  EXPECT_TRUE(holds(outcome.out, "good.igs: 1 curve(s)")) << outcome.out;
+}
+
+TEST(CommandLine, CompareMeasuresBothWaysAgainstAllCurves) {
+  const test::TemporaryDirectory directory;
+  const auto write = [&](const std::string& name, const std::vector<NamedCurve>& curves) {
+    export_curves(directory.path() / name, curves, LengthUnit::millimetre);
+    return (directory.path() / name).string();
+  };
+  const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(2, 0, 0);
+  const std::string whole = write("whole.step", {{"whole", line(a, c)}});
+  const std::string halves = write("halves.igs", {{"first", line(a, b)}, {"second", line(b, c)}});
+  const std::string half = write("half.step", {{"first", line(a, b)}});
+  const Outcome same = run({"compare", whole, halves, "--tolerance", "1e-12"});
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  for (const auto& [first, second] : {std::pair{whole, half}, {half, whole}}) {
+    const Outcome different = run({"compare", first, second, "--tolerance", "999 mm"});
+    EXPECT_EQ(different.code, 1) << different.out;
+    EXPECT_TRUE(holds(different.out, "largest distance: 1 m")) << different.out;
+    EXPECT_EQ(run({"compare", first, second, "--tolerance=1001 mm"}).code, 0);
+  }
+  EXPECT_EQ(run({"compare", whole, (directory.path() / "absent.step").string()}).code, 2);
+}
+
+TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
+  const test::TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "title");
+  const NurbsCurve arc = quarter_circle();
+  const BezierPath path = BezierPath::from_nurbs(arc, 1e-9);
+  Frame frame{};
+  frame.beams.resize(1);
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    frame.beams[0].elements.push_back({path.segments[i].points(), path.breaks[i], path.breaks[i + 1]});
+  }
+  writer.write(frame);
+  writer.finish();
+  const std::string file = (directory.path() / "deformed.step").string();
+  const Outcome outcome =
+      run({"export", directory.path().string(), "--time", "0 ms", "--to", file, "--unit", "inch"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const ImportReport report = import_curves(file);
+  ASSERT_EQ(report.curves.size(), 1u);
+  EXPECT_EQ(report.curves[0].name, "cable");
+  EXPECT_EQ(report.unit, "inch");
+  for (int i = 0; i <= 10; ++i) {
+    EXPECT_NEAR(report.curves[0].curve.point(0.1 * i).norm(), 1, 1e-14);
+  }
+}
+
+TEST(CommandLine, ExportTellsBadInputFromWhatCannotBeWritten) {
+  const test::TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "title");
+  Frame frame{};
+  frame.beams.resize(1);
+  frame.beams[0].elements = {{BezierPath::from_nurbs(quarter_circle(), 1e-9).segments[0].points(), 0, 1}};
+  writer.write(frame);
+  writer.finish();
+  const auto code = [&](const std::string& results, const std::string& time, const std::string& file) {
+    return run({"export", results, "--time", time, "--to", file}).code;
+  };
+  const std::string results = directory.path().string();
+  EXPECT_EQ(code(results, "0", results + "/good.igs"), 0);
+  EXPECT_EQ(code(results, "7", results + "/late.igs"), 2);
+  EXPECT_EQ(code(results, "0", results + "/curve.obj"), 2);
+  EXPECT_EQ(code(results + "/absent", "0", results + "/a.igs"), 2);
+  EXPECT_EQ(code(results, "0", results + "/absent/a.igs"), 4);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,78 @@
+#include "pipelines/model/build_model.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "pipelines/run/run.h"
+#include "tests/pipelines/case_text.h"
+
+namespace nurbeam {
+namespace {
+
+/// Two quarter circles of radius 1 m and a support on the second one, at 0.2 pi from its start.
+const std::vector<std::string> half_circle = {
+    R"(beams[0].axis={"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [-1, 0, 0], "normal": [0, 0, 1]}})",
+    R"(supports=[{"beam": "cable", "at": {"fraction": 0.7}, "type": "clamped"}])"};
+
+BuildReport build(const std::string& elements) {
+  const test::TemporaryDirectory directory;
+  std::vector<std::string> overrides = half_circle;
+  overrides.push_back("beams[0].elements=" + elements);
+  const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
+  return build_model(report.value.value());
+}
+
+std::vector<double> lengths(const BuildReport& report) {
+  const std::vector<HomeNode>& home = report.value.value().model.beams.at(0).home;
+  std::vector<double> found;
+  for (std::size_t i = 1; i < home.size(); ++i) found.push_back(home[i].s - home[i - 1].s);
+  return found;
+}
+
+TEST(BuildModel, ElementsOfEachSegmentGrowByTheGrading) {
+  const double pi = std::numbers::pi;
+  for (const auto& [grading, k] : {std::pair{"\"10 cm\"", 0.1}, {"-0.1", -0.1}, {"0", 0.0}}) {
+    const BuildReport report = build(std::string(R"({"per_segment": 3, "grading": )") + grading + "}");
+    EXPECT_TRUE(report.diagnostics.empty());
+    const std::vector<double> found = lengths(report);
+    ASSERT_EQ(found.size(), 9u);
+    for (int i = 0; i < 9; ++i)
+      EXPECT_NEAR(found[i], (i < 3 ? 0.5 : i < 6 ? 0.2 : 0.3) * pi / 3 + (i % 3 - 1) * k, 1e-13);
+  }
+}
+
+TEST(BuildModel, AGradingThatLeavesNoRoomIsRefusedWithItsRange) {
+  // The tightest interval is the one before the support: |k| < 2 (0.2 pi) / (3 * 2).
+  const BuildReport report = build(R"({"per_segment": 3, "grading": "30 cm"})");
+  EXPECT_FALSE(report.value);
+  ASSERT_EQ(report.diagnostics.size(), 1u);
+  EXPECT_NE(report.diagnostics[0].where.find("beams[0].elements.grading"), std::string::npos);
+  for (const char* part : {"0.3 m", "3 parts", "0.6283185307 m", "greater than -0.2094395102 m",
+                           "less than 0.2094395102 m", "between s = 1.570796327 m and s = 2.199114858 m"})
+    EXPECT_NE(report.diagnostics[0].message.find(part), std::string::npos) << report.diagnostics[0].message;
+}
+
+TEST(BuildModel, AGradingWithoutEffectIsMentioned) {
+  const BuildReport report = build(R"({"per_segment": 1, "grading": 0.1})");
+  EXPECT_EQ(lengths(report).size(), 3u);
+  ASSERT_EQ(report.diagnostics.size(), 1u);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].message.find("no effect"), std::string::npos);
+}
+
+TEST(BuildModel, TheCheckPrintsTheShortestAndTheLongestElement) {
+  const test::TemporaryDirectory directory;
+  const CaseFileReport report =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {R"(beams[0].elements={"per_segment": 4, "grading": "10 cm"})"});
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(check_case(report.value.value()), 0);
+  const std::string out = ::testing::internal::GetCapturedStdout();
+  EXPECT_NE(out.find("4 elements of 0.1 to 0.4 m"), std::string::npos) << out;
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,50 @@
+#include "pipelines/results/paraview.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/case_text.h"
+
+namespace nurbeam {
+namespace {
+
+TEST(Paraview, RationalCoefficientsTakeTheSamplesAtThirds) {
+  const Eigen::Vector4d samples(1.5, -2, 7, 0.25), weights(1, 0.4, 2, 0.8);
+  const Eigen::Vector4d c = rational_coefficients(samples, weights);
+  for (int i = 0; i < 4; ++i) {
+    const double u = i / 3.0, v = 1 - u;
+    const Eigen::Vector4d b(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
+    EXPECT_NEAR(b.cwiseProduct(weights).dot(c) / b.dot(weights), samples[i], 1e-14);
+  }
+}
+
+TEST(Paraview, AConstantFieldHasConstantCoefficients) {
+  const Eigen::Vector4d c = rational_coefficients(Eigen::Vector4d::Constant(3), {1, 0.4, 2, 0.8});
+  EXPECT_NEAR((c.array() - 3).abs().maxCoeff(), 0, 1e-14);
+}
+
+// VTK itself reads the series in tests/paraview; here is what does not need it.
+TEST(Paraview, AResumedSeriesKeepsTheFramesBeforeIt) {
+  const test::TemporaryDirectory directory;
+  Frame frame;
+  frame.beams.resize(1);
+  const auto index = [&] {
+    std::ifstream stream(directory.path() / "frames.pvd");
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  ParaviewSeries whole(directory.path(), {{}, {}, {"beam"}});
+  for (const double time : {0.0, 0.1, 0.2}) {
+    frame.time = time;
+    whole.write(frame);
+  }
+  whole.write_index();
+  const std::string expected = index();
+  ParaviewSeries rest(directory.path(), {{}, {}, {"beam"}}, {0.0, 0.1});
+  rest.write(frame);
+  rest.write_index();
+  EXPECT_EQ(index(), expected);
+  EXPECT_NE(expected.find("timestep=\"0.2\" part=\"0\" name=\"beams\" file=\"frames/beams_000002.vtu\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,90 @@
+#include "pipelines/results/results_directory.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "tests/pipelines/case_text.h"
+
+namespace nurbeam {
+namespace {
+
+using test::TemporaryDirectory;
+
+std::string refusal(const std::filesystem::path& path) {
+  try {
+    const ResultsDirectory directory(path);
+    directory.clear();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
+  const TemporaryDirectory temporary;
+  const auto path = temporary.path() / "new" / "results";
+  std::optional<ResultsDirectory> first(path);
+  EXPECT_TRUE(std::filesystem::is_directory(path));
+  EXPECT_TRUE(holds(refusal(path), path.string() + ": another run")) << refusal(path);
+  first.reset();
+  EXPECT_EQ(refusal(path), "");
+  EXPECT_TRUE(std::filesystem::is_empty(path));
+}
+
+TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
+  const TemporaryDirectory temporary;
+  std::filesystem::create_directory(temporary.path() / "frames");
+  for (const char* name :
+       {"histories.csv", "results.nc", "results.nc.part", "results.chunk0001.nc", "restart.nc",
+        "restart.nc.part", "run.json", "run.log", "report.html", "frames.pvd", "frames/beams_000000.vtu",
+        "frames/bodies_000012.vtu", "deformed.step", "deformed_t0.5.igs", "deformed_t1e-05.step",
+        "deformed_0012.igs", "deformed_t0.5_solid.step", "deformed_t0_source.step",
+        "deformed_t0.5.step.part123"}) {
+    temporary.write(name, "");
+  }
+  const std::vector<std::string> others = {"deformed_tip.step", "notes.txt", "my_histories.csv",
+                                           "deformed_t0.5.pdf", "results.nc.bak"};
+  for (const std::string& name : others) {
+    temporary.write(name, "");
+  }
+  EXPECT_EQ(refusal(temporary.path()), "");
+  for (const std::string& name : others) {
+    EXPECT_TRUE(std::filesystem::exists(temporary.path() / name)) << name;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(temporary.path()), {}),
+            static_cast<std::ptrdiff_t>(others.size()));
+}
+
+TEST(ResultsDirectory, KeepsWhatElseLiesAmongTheFrames) {
+  const TemporaryDirectory temporary;
+  std::filesystem::create_directory(temporary.path() / "frames");
+  temporary.write("frames/beams_000000.vtu", "");
+  temporary.write("frames/camera.pvcc", "");
+  ResultsDirectory(temporary.path()).clear();
+  EXPECT_FALSE(std::filesystem::exists(temporary.path() / "frames/beams_000000.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(temporary.path() / "frames/camera.pvcc"));
+}
+
+TEST(ResultsDirectory, NamesTheFilesOfItsRunInOrder) {
+  const TemporaryDirectory temporary;
+  for (const char* name : {"run.log", "histories.csv", "notes.txt", "deformed_t0.igs"})
+    temporary.write(name, "");
+  EXPECT_EQ(ResultsDirectory(temporary.path()).files(),
+            (std::vector<std::filesystem::path>{"deformed_t0.igs", "histories.csv", "run.log"}));
+}
+
+TEST(ResultsDirectory, SaysWhatStandsInItsWay) {
+  const TemporaryDirectory temporary;
+  const auto file = temporary.write("file", "");
+  EXPECT_TRUE(holds(refusal(file), file.string() + ": is a file; expected a directory")) << refusal(file);
+  EXPECT_TRUE(holds(refusal(file / "below"), "Not a directory")) << refusal(file / "below");
+  EXPECT_TRUE(holds(refusal("/proc/no"), "/proc/no: cannot be made")) << refusal("/proc/no");
+  std::filesystem::create_directory(temporary.path() / "histories.csv");
+  EXPECT_TRUE(holds(refusal(temporary.path()), "histories.csv: is a directory")) << refusal(temporary.path());
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,309 @@
+#include "pipelines/results/results.h"
+
+#include <gtest/gtest.h>
+#include <netcdf.h>
+
+#include <sstream>
+
+#include "tests/pipelines/case_text.h"
+#include "tests/pipelines/frames.h"
+
+namespace nurbeam {
+namespace {
+
+using test::expect_equal;
+using test::TemporaryDirectory;
+
+/// A frame of two beams, one probe and one body; all numbers differ and depend on `time`.
+Frame make_frame(double time, int elements, bool body_has_left = false) {
+  double next = time + 1.0 / 3;
+  const auto number = [&] { return next += 0.1; };
+  const auto vector = [&] { return Eigen::Vector3d(number(), number(), number()); };
+  const auto point = [&] { return PointRecord{vector(), vector()}; };
+  const auto beam = [&](int count) {
+    BeamRecord record;
+    for (int i = 0; i < count; ++i) {
+      const auto four = [&] { return Eigen::Vector4d::NullaryExpr([&] { return number(); }).eval(); };
+      ElementRecord element;
+      element.control_points = Eigen::Matrix4d::NullaryExpr([&] { return number(); });
+      element.s_start = number();
+      element.s_end = number();
+      element.strain = four();
+      element.curvature = four();
+      element.axial_force = four();
+      element.bending_moment = four();
+      element.velocity = Eigen::Matrix<double, 3, 4>::NullaryExpr([&] { return number(); });
+      record.elements.push_back(element);
+    }
+    for (int i = 0; i <= count; ++i) {
+      record.node_positions.push_back(vector());
+      record.node_slopes.push_back(vector());
+      record.node_s.push_back(number());
+    }
+    record.length = number();
+    return record;
+  };
+  Frame frame{};
+  frame.time = time;
+  frame.step = 1e-3;
+  frame.newton_iterations = 7;
+  for (int i = 0; i < elements; ++i) frame.steps.push_back({number(), number(), i, 2 * i});
+  frame.probes = {point()};
+  frame.bodies = {{point(), number(), vector()}};
+  if (body_has_left) {
+    frame.bodies[0].s.reset();
+  }
+  frame.beams = {beam(elements), beam(2)};
+  frame.energy = {number(), number(), number(), number(), number(), number()};
+  return frame;
+}
+
+const FrameNames names = {.probes = {"tip"}, .bodies = {"trolley"}, .beams = {"cable", "arch"}};
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+TEST(Results, HistoriesHaveTheColumnsOfTheContract) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  writer.finish();
+  EXPECT_EQ(
+      lines_of(directory.path() / "histories.csv"),
+      std::vector<std::string>{
+          "time [s],tip.x [m],tip.y [m],tip.z [m],tip.vx [m/s],tip.vy [m/s],tip.vz [m/s],trolley.x [m],"
+          "trolley.y [m],trolley.z [m],trolley.vx [m/s],trolley.vy [m/s],trolley.vz [m/s],trolley.s [m],"
+          "cable.length [m],arch.length [m],energy.kinetic [J],energy.gravity [J],energy.axial [J],"
+          "energy.bending [J],energy.dissipated [J],energy.total [J]"});
+}
+
+TEST(Results, HistoriesGiveEveryNumberBackExactly) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  const Frame held = make_frame(0, 3), left = make_frame(0.1, 3, true);
+  writer.write(held);
+  writer.write(left);
+  writer.finish();
+  const auto lines = lines_of(directory.path() / "histories.csv");
+  ASSERT_EQ(lines.size(), 3u);
+  const auto first = cells_of(lines[1]), second = cells_of(lines[2]);
+  ASSERT_EQ(first.size(), cells_of(lines[0]).size());
+  ASSERT_EQ(second.size(), first.size());
+  EXPECT_EQ(std::stod(second[0]), 0.1);
+  EXPECT_EQ(std::stod(first[1]), held.probes[0].position.x());
+  EXPECT_EQ(std::stod(first[12]), held.bodies[0].point.velocity.z());
+  EXPECT_EQ(std::stod(first[13]), *held.bodies[0].s);
+  EXPECT_EQ(second[13], "");
+  EXPECT_EQ(std::stod(second[14]), left.beams[0].length);
+  EXPECT_EQ(std::stod(first[21]), held.energy.total);
+}
+
+TEST(Results, StoredBeamsComeBackExactlyWhileTheirElementsChangeInNumber) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path() / "new" / "directory", names, "title");
+  const std::vector<Frame> frames = {make_frame(0, 3), make_frame(0.5, 5), make_frame(1, 1)};
+  for (const Frame& frame : frames) {
+    writer.write(frame);
+  }
+  writer.finish();
+  for (const Frame& frame : frames) {
+    const auto [time, beams] =
+        read_stored_beams(directory.path() / "new" / "directory", frame.time + 0.1 * (1 - frame.time));
+    EXPECT_EQ(time, frame.time);
+    ASSERT_EQ(beams.size(), 2u);
+    for (int b = 0; b < 2; ++b) {
+      EXPECT_EQ(beams[b].name, names.beams[b]);
+      ASSERT_EQ(beams[b].elements.size(), frame.beams[b].elements.size());
+      for (std::size_t i = 0; i < beams[b].elements.size(); ++i) {
+        EXPECT_EQ(beams[b].elements[i].control_points, frame.beams[b].elements[i].control_points);
+        EXPECT_EQ(beams[b].elements[i].s_start, frame.beams[b].elements[i].s_start);
+        EXPECT_EQ(beams[b].elements[i].s_end, frame.beams[b].elements[i].s_end);
+      }
+    }
+  }
+}
+
+TEST(Results, ATimeOutsideTheStoredRangeNamesTheRange) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  writer.write(make_frame(0.25, 1));
+  writer.write(make_frame(0.75, 1));
+  writer.finish();
+  for (const double time : {0.2, 0.8, std::nan("")}) {
+    try {
+      read_stored_beams(directory.path(), time);
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("from 0.25 s to 0.75 s"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("results.nc"), std::string::npos);
+    }
+  }
+}
+
+const std::vector<Frame> five_frames = {make_frame(0, 3), make_frame(0.25, 5), make_frame(0.5, 1),
+                                        make_frame(0.75, 0, true), make_frame(1, 2, true)};
+
+std::vector<std::string> files_in(const std::filesystem::path& directory) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    files.push_back(entry.path().filename().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(Results, FramesComeBackWholeFromChunksThatWereMerged) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  for (std::size_t i = 0; i < five_frames.size(); ++i) {
+    writer.write(five_frames[i]);
+    if (i % 2 == 0) writer.close_chunk();
+  }
+  writer.finish();
+  EXPECT_EQ(files_in(directory.path()), (std::vector<std::string>{"histories.csv", "results.nc"}));
+  const StoredResults stored = read_results(directory.path());
+  EXPECT_EQ(stored.title, "title");
+  EXPECT_EQ(stored.names.bodies, names.bodies);
+  ASSERT_EQ(stored.frames.size(), five_frames.size());
+  for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
+}
+
+TEST(Results, AnUnfinishedRunLeavesItsClosedChunksAndNoFileUnderAFinalName) {
+  const TemporaryDirectory directory;
+  {
+    ResultsWriter writer(directory.path(), names, "title");
+    writer.write(five_frames[0]);
+    writer.write(five_frames[1]);
+    writer.close_chunk();
+    writer.write(five_frames[2]);
+  }
+  EXPECT_EQ(files_in(directory.path()),
+            (std::vector<std::string>{"histories.csv.part", "results.chunk0001.nc"}));
+  EXPECT_EQ(lines_of(directory.path() / "histories.csv.part").size(), 4u);
+  const StoredResults stored = read_results(directory.path());
+  ASSERT_EQ(stored.frames.size(), 2u);
+  expect_equal(stored.frames[1], five_frames[1]);
+}
+
+TEST(Results, ADirectoryWithoutResultsIsNamed) {
+  const TemporaryDirectory directory;
+  for (const auto& path : {directory.path(), directory.path() / "none"}) {
+    try {
+      read_results(path);
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find((path / "results.nc").string()), std::string::npos);
+    }
+  }
+}
+
+class ResumedResults : public testing::TestWithParam<bool> {};
+
+TEST_P(ResumedResults, AreThoseOfARunWithoutABreakWhereverItWasCut) {
+  const bool finished = GetParam();
+  const TemporaryDirectory whole;
+  ResultsWriter uninterrupted(whole.path(), names, "title");
+  for (const Frame& frame : five_frames) uninterrupted.write(frame);
+  uninterrupted.finish();
+  for (std::size_t kept = 0; kept <= 4; ++kept) {
+    const TemporaryDirectory directory;
+    {
+      ResultsWriter first(directory.path(), names, "title");
+      for (std::size_t i = 0; i < 4; ++i) {
+        first.write(make_frame(five_frames[i].time,
+                               i < kept ? static_cast<int>(five_frames[i].steps.size()) : 7, i == 3));
+        if (i % 2 == 1) first.close_chunk();
+      }
+      if (finished) first.finish();
+    }
+    ResultsWriter second = ResultsWriter::resume(directory.path(), names, "title", kept);
+    for (std::size_t i = kept; i < five_frames.size(); ++i) second.write(five_frames[i]);
+    second.finish();
+    EXPECT_EQ(lines_of(directory.path() / "histories.csv"), lines_of(whole.path() / "histories.csv"));
+    const StoredResults stored = read_results(directory.path());
+    ASSERT_EQ(stored.frames.size(), five_frames.size()) << kept;
+    for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
+    EXPECT_EQ(files_in(directory.path()), (std::vector<std::string>{"histories.csv", "results.nc"}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ResumedResults, testing::Bool(),
+                         [](const auto& info) { return info.param ? "AFinishedRun" : "AKilledRun"; });
+
+TEST(Results, MoreFramesThanAreStoredCannotBeResumed) {
+  const TemporaryDirectory directory;
+  {
+    ResultsWriter writer(directory.path(), names, "title");
+    writer.write(five_frames[0]);
+    writer.finish();
+  }
+  EXPECT_THROW(ResultsWriter::resume(directory.path(), names, "title", 2), std::runtime_error);
+}
+
+TEST(Results, EveryNumericVariableHasAUnitAndALongName) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  writer.write(make_frame(0, 2, true));
+  writer.finish();
+  int file = -1, variables = 0;
+  ASSERT_EQ(nc_open((directory.path() / "results.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+  ASSERT_EQ(nc_inq_nvars(file, &variables), NC_NOERR);
+  EXPECT_GT(variables, 20);
+  for (int v = 0; v < variables; ++v) {
+    char name[NC_MAX_NAME + 1];
+    nc_type type;
+    ASSERT_EQ(nc_inq_var(file, v, name, &type, nullptr, nullptr, nullptr), NC_NOERR);
+    if (type != NC_STRING) {
+      EXPECT_EQ(nc_inq_attid(file, v, "units", nullptr), NC_NOERR) << name;
+      EXPECT_EQ(nc_inq_attid(file, v, "long_name", nullptr), NC_NOERR) << name;
+    }
+  }
+  nc_close(file);
+}
+
+TEST(Results, ProbesAndBodiesMayBeMissing) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "");
+  Frame frame = make_frame(0, 1);
+  frame.probes.clear();
+  frame.bodies.clear();
+  frame.beams.resize(1);
+  writer.write(frame);
+  writer.finish();
+  EXPECT_EQ(read_stored_beams(directory.path(), 0).second.size(), 1u);
+}
+
+TEST(Results, AFrameThatDoesNotFitTheNamesIsRefused) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  Frame frame = make_frame(0, 1);
+  frame.probes.clear();
+  EXPECT_THROW(writer.write(frame), std::invalid_argument);
+}
+
+TEST(Results, ADirectoryThatCannotBeMadeIsNamed) {
+  const TemporaryDirectory directory;
+  const auto in_the_way = directory.write("file", "");
+  try {
+    ResultsWriter(in_the_way, names, "title");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find(in_the_way.string()), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace nurbeam
