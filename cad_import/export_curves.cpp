@@ -7,9 +7,10 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "cad_import/cad_text.h"
-#include "cad_import/child_process.h"
-#include "cad_import/write_file.h"
+#include "cad_import/files/child_process.h"
+#include "cad_import/files/write_file.h"
+#include "cad_import/iges/iges_text.h"
+#include "cad_import/step/step_text.h"
 
 namespace nurbeam {
 namespace {
@@ -56,13 +57,6 @@ void check_pipe(const NamedPipe& pipe) {
 }
 
 }  // namespace
-
-LengthUnit parse_length_unit(const std::string& text) {
-  if (text == "m") return LengthUnit::metre;
-  if (text == "mm") return LengthUnit::millimetre;
-  if (text == "inch" || text == "in") return LengthUnit::inch;
-  throw std::invalid_argument("'" + text + "' is no length unit for export; known are m, mm, inch (in)");
-}
 
 void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit) {
   const bool step = is_step_name(file);

@@ -1,29 +1,13 @@
 #pragma once
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "cad_import/import_report.h"
-#include "nurbs/nurbs_curve.h"
+#include "cad_import/report/import_report.h"
+#include "cad_import/report/length_unit.h"
+#include "cad_import/report/named_curve.h"
 
 namespace nurbeam {
-
-struct NamedCurve {
-  std::string name;
-  NurbsCurve curve;
-};
-
-/// A curve with a circular section, solid or hollow.
-struct NamedPipe {
-  NamedCurve axis;
-  double radius;    ///< [m]
-  double bore = 0;  ///< radius of its bore [m]; 0 where it is solid
-};
-
-enum class LengthUnit { metre, millimetre, inch };
-/// "m", "mm", "inch" ("in"). Throws std::invalid_argument listing these for anything else.
-LengthUnit parse_length_unit(const std::string& text);
 
 /// Writes the curves, one B-spline curve entity each, under their names, in the unit, at full (17 digits)
 /// precision; STEP or IGES by the extension (.step .stp .igs .iges). Written to a temporary name and renamed.

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "cad_import/child_process.h"
+#include "cad_import/files/child_process.h"
 #include "cad_import/read_cad_file.h"
-#include "cad_import/report_bytes.h"
+#include "cad_import/report/report_bytes.h"
 
 namespace nurbeam {
 namespace {

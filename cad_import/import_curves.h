@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "cad_import/import_report.h"
+#include "cad_import/report/import_report.h"
 
 namespace nurbeam {
 

@@ -53,11 +53,11 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/appearance.h"
-#include "cad_import/centre_line.h"
-#include "cad_import/edge_curve.h"
 #include "cad_import/iges/iges_global.h"
-#include "cad_import/spline_defect.h"
+#include "cad_import/occt/appearance.h"
+#include "cad_import/occt/centre_line.h"
+#include "cad_import/occt/edge_curve.h"
+#include "cad_import/occt/spline_defect.h"
 
 namespace nurbeam {
 namespace {

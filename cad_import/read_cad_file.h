@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 
-#include "cad_import/cad_format.h"
-#include "cad_import/import_report.h"
+#include "cad_import/files/cad_format.h"
+#include "cad_import/report/import_report.h"
 
 namespace nurbeam {
 

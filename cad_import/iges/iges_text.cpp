@@ -1,3 +1,5 @@
+#include "cad_import/iges/iges_text.h"
+
 #include <IGESBasic_Name.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESData_BasicEditor.hxx>
@@ -14,8 +16,6 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
-
-#include "cad_import/cad_text.h"
 
 namespace nurbeam {
 namespace {

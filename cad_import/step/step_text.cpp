@@ -1,3 +1,5 @@
+#include "cad_import/step/step_text.h"
+
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -46,8 +48,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-
-#include "cad_import/cad_text.h"
 
 namespace nurbeam {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "nurbs/number_text.h"
 #include "pipelines/case/case_json.h"
 #include "pipelines/case/quantity.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/diagnostics/number_text.h"
 
 namespace nurbeam {
 

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <set>
 
-#include "cad_import/cad_format.h"
+#include "cad_import/files/cad_format.h"
+#include "nurbs/number_text.h"
 #include "pipelines/case/case_json.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/diagnostics/number_text.h"
 
 namespace nurbeam {
 

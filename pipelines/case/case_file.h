@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "cad_import/import_report.h"
+#include "cad_import/report/import_report.h"
 #include "fem/model/beam_model.h"
 #include "nurbs/smooth/smooth_nurbs.h"
 

@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/diagnostics/number_text.h"
 
 namespace nurbeam {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "cad_import/import_curves.h"
-#include "pipelines/diagnostics/number_text.h"
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/model/axis_selection.h"
 #include "pipelines/section/section_profile.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/import_report.h"
+#include "cad_import/report/import_report.h"
 
 namespace nurbeam {
 

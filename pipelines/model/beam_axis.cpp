@@ -6,9 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "nurbs/number_text.h"
 #include "nurbs/smooth/smooth_corners.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/diagnostics/number_text.h"
 #include "pipelines/model/axis_selection.h"
 
 namespace nurbeam {

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/diagnostics/number_text.h"
 #include "pipelines/model/axis_selection.h"
 
 namespace nurbeam {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "pipelines/diagnostics/number_text.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 

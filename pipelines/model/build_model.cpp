@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/findings.h"
-#include "pipelines/diagnostics/number_text.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/beam_chains.h"
 #include "pipelines/model/beam_section.h"

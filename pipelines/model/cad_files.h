@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "cad_import/import_report.h"
+#include "cad_import/report/import_report.h"
 #include "pipelines/diagnostics/findings.h"
 
 namespace nurbeam {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "pipelines/diagnostics/number_text.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "pipelines/diagnostics/number_text.h"
+#include "nurbs/number_text.h"
 #include "pipelines/section/cgal_geometry.h"
 
 namespace nurbeam {

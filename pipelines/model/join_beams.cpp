@@ -6,8 +6,8 @@
 #include <string>
 
 #include "nurbs/closest_point.h"
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/diagnostics/number_text.h"
 #include "pipelines/model/beam_chains.h"
 
 namespace nurbeam {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "pipelines/diagnostics/number_text.h"
+#include "nurbs/number_text.h"
 #include "pipelines/model/beam_chains.h"
 
 namespace nurbeam {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
-#include "pipelines/motion/simulation.h"
+#include "fem/motion/simulation.h"
 
 namespace nurbeam {
 

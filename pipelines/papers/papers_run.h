@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/motion/simulation.h"
+#include "fem/motion/simulation.h"
 
 /// The examples of Ding & Ouyang 2022 computed in the ways that are compared with the paper.
 namespace nurbeam::papers {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/motion/frame.h"
+#include "fem/motion/frame.h"
 
 namespace nurbeam {
 

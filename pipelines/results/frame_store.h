@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/motion/frame.h"
+#include "fem/motion/frame.h"
 #include "pipelines/results/netcdf_file.h"
 
 namespace nurbeam {

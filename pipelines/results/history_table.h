@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "pipelines/motion/frame.h"
+#include "fem/motion/frame.h"
 
 namespace nurbeam {
 

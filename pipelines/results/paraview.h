@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "pipelines/motion/frame.h"
+#include "fem/motion/frame.h"
 
 namespace nurbeam {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/motion/frame.h"
+#include "fem/motion/frame.h"
 
 namespace nurbeam {
 

@@ -1,11 +1,11 @@
 #pragma once
-#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "cad_import/import_report.h"
+#include "cad_import/report/import_report.h"
+#include "fem/motion/run_event.h"
 
 namespace nurbeam {
 
@@ -22,20 +22,6 @@ struct PhaseTimes {
   double motion = 0;  ///< integration or equilibrium
   double length_control = 0;
   double output = 0;
-};
-
-/// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...
-struct RunEvent {
-  double time = 0;   ///< [s]
-  std::string kind;  ///< "split", "merge", "left the beam", ...
-  std::string beam, body;
-  std::optional<double> s;                     ///< reference arc length of the body [m]
-  double energy_before = 0, energy_after = 0;  ///< [J]
-  Eigen::Vector3d momentum_before = Eigen::Vector3d::Zero(),
-                  momentum_after = Eigen::Vector3d::Zero();  ///< [kg m/s]
-  /// What the supports gave to the momentum when the velocities were projected [kg m/s].
-  Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
-  double length_before = 0, length_after = 0;  ///< deformed length of the beam [m]
 };
 
 /// What run.json says about a run.

@@ -8,8 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "cad_import/export_into_step.h"
 #include "cad_import/import_curves.h"
-#include "cad_import/step/export_into_step.h"
 #include "nurbs/closest_point.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/results/export_results.h"

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "cad_import/export_curves.h"
+#include "fem/motion/frame.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
-#include "pipelines/motion/frame.h"
 
 namespace nurbeam {
 

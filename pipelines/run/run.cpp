@@ -9,10 +9,10 @@
 #include <optional>
 #include <sstream>
 
+#include "fem/motion/simulation.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/model/model_summary.h"
-#include "pipelines/motion/simulation.h"
 #include "pipelines/report/report.h"
 #include "pipelines/results/file_hash.h"
 #include "pipelines/results/results_directory.h"

@@ -5,8 +5,8 @@
 
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
-#include "pipelines/motion/restart.h"
 #include "pipelines/results/paraview.h"
+#include "pipelines/results/restart_file.h"
 #include "pipelines/results/results.h"
 #include "pipelines/run/cad_output.h"
 

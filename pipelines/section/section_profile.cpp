@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "nurbs/area_moments.h"
-#include "pipelines/diagnostics/number_text.h"
+#include "nurbs/number_text.h"
 #include "pipelines/section/cgal_geometry.h"
 #include "pipelines/section/profile_polygon.h"
 #include "pipelines/section/torsion_constant.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipelines/motion/simulation.h"
+#include "fem/motion/simulation.h"
 
 namespace nurbeam::verification {
 

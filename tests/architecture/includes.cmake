@@ -2,6 +2,8 @@
 # on a library's header outside its home.
 #
 #   cad_import --> nurbs <-- fem --> solver        pipelines --> all of them        nothing --> pipelines, tests, samples
+#
+# Inside a room a folder may include itself and those that stand before it in the room's list; "." is the room itself.
 
 cmake_minimum_required(VERSION 3.25)
 set(rooms cad_import fem nurbs pipelines solver)
@@ -11,12 +13,18 @@ set(fem_may_include fem nurbs solver)
 set(cad_import_may_include cad_import nurbs)
 set(pipelines_may_include pipelines cad_import fem nurbs solver)
 
+set(nurbs_floors . smooth)
+set(cad_import_floors report files occt iges step .)
+set(solver_floors .)
+set(fem_floors material element model mesh constraints forces system motion)
+set(pipelines_floors diagnostics case section model results report run verification papers command)
+
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
   "[a-z_]+"                                                                       ".*"  # the standard library
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
   "(fcntl|poll|signal|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
-  "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|edge_curve\\.h)"
+  "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|occt/edge_curve\\.h)"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|sundials_border\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
@@ -38,6 +46,30 @@ function(check_own_header room file path)
     complain(${file} ${path} "${room} may include only ${${room}_may_include}")
   elseif(NOT EXISTS ${ROOT}/${path})
     complain(${file} ${path} "includes go from the root, as in \"nurbs/knot_vector.h\"")
+  endif()
+endfunction()
+
+# The folder of a file in its room: "." for the room itself.
+function(floor_of path result)
+  if(path MATCHES "^[a-z_]+/([a-z_]+)/")
+    set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
+  else()
+    set(${result} . PARENT_SCOPE)
+  endif()
+endfunction()
+
+function(check_floor room file path)
+  if(NOT path MATCHES "^${room}/")
+    return()
+  endif()
+  floor_of(${file} from)
+  floor_of(${path} to)
+  list(FIND ${room}_floors ${from} from_rank)
+  list(FIND ${room}_floors ${to} to_rank)
+  if(from_rank EQUAL -1)
+    complain(${file} ${path} "${room}/${from} has no place among the folders of ${room}: ${${room}_floors}")
+  elseif(to_rank GREATER from_rank)
+    complain(${file} ${path} "${to} stands above ${from}: the order is ${${room}_floors}")
   endif()
 endfunction()
 
@@ -64,6 +96,7 @@ foreach(room IN LISTS rooms)
       math(EXPR count "${count} + 1")
       if(line MATCHES "\"([^\"]+)\"")
         check_own_header(${room} ${file} ${CMAKE_MATCH_1})
+        check_floor(${room} ${file} ${CMAKE_MATCH_1})
       elseif(line MATCHES "<([^>]+)>")
         check_library_header(${file} ${CMAKE_MATCH_1})
       endif()

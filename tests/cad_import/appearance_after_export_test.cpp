@@ -34,8 +34,8 @@
 #include <gp_Circ.hxx>
 #include <set>
 
+#include "cad_import/export_into_step.h"
 #include "cad_import/import_curves.h"
-#include "cad_import/step/export_into_step.h"
 #include "cad_import/step/step_instances.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <random>
 
-#include "cad_import/child_process.h"
+#include "cad_import/files/child_process.h"
 #include "cad_import/import_curves.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "cad_import/child_process.h"
+#include "cad_import/files/child_process.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "pipelines/motion/frame.h"
+#include "fem/motion/frame.h"
 
 namespace nurbeam::test {
 

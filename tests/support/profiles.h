@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cad_import/import_report.h"
+#include "cad_import/report/import_report.h"
 #include "tests/support/curves.h"
 
 namespace nurbeam {

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cad_import/report/import_report.h"
+
+namespace nurbeam {
+
+/// A curve of a STEP file and the shape it has taken.
+struct DeformedCurve {
+  NurbsCurve drawn;     ///< as import_curves() gives it from that file
+  NurbsCurve deformed;  ///< [m], world coordinates
+  std::string name;     ///< for messages, and for a curve that is added
+  bool beside = false;  ///< leave the drawn curve and add the deformed one (it stands for a chain of several)
+};
+
+/// Writes `source`, a STEP file, to `file` with its curves in their deformed shape: assembly, names, colours
+/// and all else stay as they are, in the source's own unit and text.
+///
+/// Of a free curve only the geometry is exchanged, in the instance that styles and layers are attached to. An
+/// edge that bounds faces cannot move without them, nor a curve of which another one is made: there the
+/// deformed curve is added to the same part, without style, and a warning says so. A part that is placed
+/// several times shows the shape at every place (a warning). The source is read in a child process as by
+/// import_curves(); when that fails, or a drawn curve is not in it, nothing is written and a Diagnostic of
+/// severity error says why. Written to a temporary name and renamed; throws std::runtime_error when the file
+/// cannot be written.
+[[nodiscard]] std::vector<Diagnostic> export_into_step(const std::filesystem::path& source,
+                                                       const std::filesystem::path& file,
+                                                       const std::vector<DeformedCurve>& curves);
+
+}  // namespace nurbeam

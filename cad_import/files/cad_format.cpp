@@ -1,0 +1,84 @@
+#include "cad_import/files/cad_format.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+namespace nurbeam {
+namespace {
+
+constexpr std::size_t section_column = 72;  // column 73, counted from 0
+constexpr std::size_t count_width = 7;
+
+std::string_view without_leading_space(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos ? std::string_view() : text.substr(first);
+}
+
+bool has_iges_section(std::string_view line, char section) {
+  return line.size() > section_column && line[section_column] == section;
+}
+
+std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of("\r\n")); }
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    lines.push_back(first_line(text.substr(begin)));
+    begin += lines.back().size() + 1;
+  }
+  return lines;
+}
+
+std::string_view terminate_line(const std::vector<std::string_view>& lines) {
+  const auto line = std::find_if(lines.begin(), lines.end(), [](auto l) { return has_iges_section(l, 'T'); });
+  return line == lines.end() ? std::string_view() : *line;
+}
+
+// The number after the letter in "S0000001G0000004D0000016P0000020"; nothing if there is none.
+std::optional<long> declared_count(std::string_view terminate, char section) {
+  const std::size_t at = terminate.substr(0, section_column).find(section);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string digits(terminate.substr(at + 1, count_width));
+  char* end = nullptr;
+  const long count = std::strtol(digits.c_str(), &end, 10);
+  return end == digits.c_str() ? std::nullopt : std::optional(count);
+}
+
+}  // namespace
+
+std::optional<CadFormat> format_of(const std::string& content) {
+  if (without_leading_space(content).starts_with("ISO-10303-21")) return CadFormat::step;
+  if (has_iges_section(first_line(content), 'S')) return CadFormat::iges;
+  return std::nullopt;
+}
+
+std::string incompleteness(const std::string& content, CadFormat format) {
+  if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos) {
+    return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
+  }
+  if (format == CadFormat::iges && terminate_line(lines_of(content)).empty()) {
+    return "the IGES file is truncated: no line has a 'T' (Terminate section) in column 73; export or copy "
+           "it again";
+  }
+  return "";
+}
+
+std::string miscounted_lines(const std::string& content) {
+  const std::vector<std::string_view> lines = lines_of(content);
+  const std::string_view terminate = terminate_line(lines);
+  for (const char section : {'S', 'G', 'D', 'P'}) {
+    const std::optional<long> declared = declared_count(terminate, section);
+    const auto found =
+        std::count_if(lines.begin(), lines.end(), [=](auto l) { return has_iges_section(l, section); });
+    if (!declared || *declared == found) continue;
+    return "section " + std::string(1, section) + " has " + std::to_string(found) +
+           " lines, the Terminate section says " + std::to_string(*declared) +
+           "; curves may be missing or wrong; export or copy it again";
+  }
+  return "";
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,83 @@
+#include "cad_import/occt/spline_defect.h"
+
+#include <IGESGeom_BSplineCurve.hxx>
+#include <StepGeom_BSplineCurveWithKnots.hxx>
+#include <StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve.hxx>
+#include <TColStd_HArray1OfInteger.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace nurbeam {
+namespace {
+
+std::vector<double> values_of(const Handle(TColStd_HArray1OfReal) & array) {
+  if (array.IsNull()) return {};
+  return {array->begin(), array->end()};
+}
+
+std::string knots_defect(const std::vector<double>& knots) {
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (!std::isfinite(knots[i])) return "knot " + std::to_string(i + 1) + " is not finite";
+    if (i > 0 && knots[i] < knots[i - 1]) {
+      return "knot " + std::to_string(i + 1) + " (" + std::to_string(knots[i]) +
+             ") is less than the one before (" + std::to_string(knots[i - 1]) + "); knots must not decrease";
+    }
+  }
+  return "";
+}
+
+std::string weights_defect(const std::vector<double>& weights) {
+  for (double weight : weights) {
+    if (!(std::isfinite(weight) && weight > 0)) {
+      return "a weight is " + std::to_string(weight) + "; weights must be positive";
+    }
+  }
+  return "";
+}
+
+std::string step_defect(const std::vector<double>& knots,
+                        const Handle(TColStd_HArray1OfInteger) & multiplicities,
+                        const std::vector<double>& weights, const StepGeom_BSplineCurve& curve) {
+  if (curve.ControlPointsList().IsNull() || multiplicities.IsNull())
+    return "its control points or knots are missing";
+  int count = 0;
+  for (int multiplicity : *multiplicities) count += multiplicity;
+  const int expected = curve.NbControlPointsList() + curve.Degree() + 1;
+  const bool counts_agree = multiplicities->Length() == static_cast<int>(knots.size()) && count == expected;
+  if (!counts_agree) {
+    return "it has " + std::to_string(count) + " knots; " + std::to_string(expected) +
+           " must go with its control points and degree";
+  }
+  const std::string defect = knots_defect(knots);
+  return defect.empty() ? weights_defect(weights) : defect;
+}
+
+std::string iges_defect(const IGESGeom_BSplineCurve& curve) {
+  std::vector<double> knots;
+  for (int i = 0; i < curve.NbKnots(); ++i) knots.push_back(curve.Knot(i - curve.Degree()));
+  std::vector<double> weights;
+  for (int i = 0; i < curve.NbPoles(); ++i) weights.push_back(curve.Weight(i));
+  const std::string defect = knots_defect(knots);
+  return defect.empty() ? weights_defect(weights) : defect;
+}
+
+}  // namespace
+
+std::string spline_defect(const Standard_Transient& entity) {
+  if (const auto* curve = dynamic_cast<const StepGeom_BSplineCurveWithKnots*>(&entity)) {
+    return step_defect(values_of(curve->Knots()), curve->KnotMultiplicities(), {}, *curve);
+  }
+  if (const auto* curve =
+          dynamic_cast<const StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve*>(&entity)) {
+    if (curve->BSplineCurveWithKnots().IsNull() || curve->RationalBSplineCurve().IsNull())
+      return "it is incomplete";
+    return step_defect(values_of(curve->Knots()), curve->KnotMultiplicities(),
+                       values_of(curve->WeightsData()), *curve);
+  }
+  if (const auto* curve = dynamic_cast<const IGESGeom_BSplineCurve*>(&entity)) return iges_defect(*curve);
+  return "";
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,22 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+namespace nurbeam {
+
+/// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...
+struct RunEvent {
+  double time = 0;   ///< [s]
+  std::string kind;  ///< "split", "merge", "left the beam", ...
+  std::string beam, body;
+  std::optional<double> s;                     ///< reference arc length of the body [m]
+  double energy_before = 0, energy_after = 0;  ///< [J]
+  Eigen::Vector3d momentum_before = Eigen::Vector3d::Zero(),
+                  momentum_after = Eigen::Vector3d::Zero();  ///< [kg m/s]
+  /// What the supports gave to the momentum when the velocities were projected [kg m/s].
+  Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
+  double length_before = 0, length_after = 0;  ///< deformed length of the beam [m]
+};
+
+}  // namespace nurbeam

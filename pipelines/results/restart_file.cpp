@@ -1,0 +1,276 @@
+#include "pipelines/results/restart_file.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "pipelines/results/atomic_file.h"
+#include "pipelines/results/netcdf_file.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Writes named lists of numbers and of texts; an empty list is left out.
+class Writer {
+ public:
+  explicit Writer(const std::filesystem::path& file) : file_(NetcdfFile::create(file)) {
+    file_.put_attribute("", "title", "restart point");
+    file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
+  }
+
+  void numbers(const std::string& name, const std::string& meaning, std::vector<double>& values) {
+    if (values.empty()) return;
+    const std::string dimension = name + "_count";
+    file_.define_dimension(dimension, values.size());
+    file_.define(name, NetcdfFile::Type::real, {dimension}, "SI", meaning, values.size());
+    file_.put(name, {0}, {values.size()}, values.data());
+  }
+  void texts(const std::string& name, std::vector<std::string>& values) {
+    if (values.empty()) return;
+    file_.define_dimension(name + "_count", values.size());
+    file_.define_texts(name, name + "_count", values);
+  }
+  void close() { file_.close(); }
+
+ private:
+  NetcdfFile file_;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(NetcdfFile::open(file)) {}
+
+  void numbers(const std::string& name, const std::string&, std::vector<double>& values) {
+    values.clear();
+    if (file_.has_dimension(name + "_count"))
+      values = file_.doubles(name, {0}, {file_.size(name + "_count")});
+  }
+  void texts(const std::string& name, std::vector<std::string>& values) {
+    values.clear();
+    if (file_.has_dimension(name + "_count")) values = file_.texts(name);
+  }
+
+ private:
+  NetcdfFile file_;
+};
+
+/// A row of numbers: what `visit(row, slot)` calls slot with, in order. The same visit writes and reads.
+class RowWriter {
+ public:
+  explicit RowWriter(std::vector<double>& values) : values_(&values) {}
+  template <class T>
+  void operator()(T& value) {
+    values_->push_back(static_cast<double>(value));
+  }
+  void operator()(std::optional<double>& value) { values_->push_back(value.value_or(none)); }
+
+ private:
+  std::vector<double>* values_;
+};
+
+class RowReader {
+ public:
+  explicit RowReader(const std::vector<double>& values) : values_(&values) {}
+  template <class T>
+  void operator()(T& value) {
+    value = static_cast<T>(next());
+  }
+  void operator()(std::optional<double>& value) {
+    const double x = next();
+    value = x == x ? std::optional(x) : std::nullopt;
+  }
+  bool at_end() const { return next_ == values_->size(); }
+
+ private:
+  double next() { return values_->at(next_++); }
+
+  const std::vector<double>* values_;
+  std::size_t next_ = 0;
+};
+
+template <class Row, class Visit>
+void exchange_rows(Writer& archive, const std::string& name, const std::string& meaning,
+                   std::vector<Row>& rows, Visit visit) {
+  std::vector<double> values;
+  RowWriter slot(values);
+  for (Row& row : rows) visit(row, slot);
+  archive.numbers(name, meaning, values);
+}
+
+template <class Row, class Visit>
+void exchange_rows(Reader& archive, const std::string& name, const std::string& meaning,
+                   std::vector<Row>& rows, Visit visit) {
+  std::vector<double> values;
+  archive.numbers(name, meaning, values);
+  rows.clear();
+  for (RowReader slot(values); !slot.at_end();) visit(rows.emplace_back(), slot);
+}
+
+void exchange_vector(Writer& archive, const std::string& name, const std::string& meaning,
+                     Eigen::VectorXd& x) {
+  std::vector<double> values(x.begin(), x.end());
+  archive.numbers(name, meaning, values);
+}
+
+void exchange_vector(Reader& archive, const std::string& name, const std::string& meaning,
+                     Eigen::VectorXd& x) {
+  std::vector<double> values;
+  archive.numbers(name, meaning, values);
+  x = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+struct PresentNode {
+  int beam = 0;
+  bool present = false;
+};
+
+std::vector<PresentNode> flattened(const std::vector<std::vector<bool>>& present) {
+  std::vector<PresentNode> nodes;
+  for (std::size_t b = 0; b < present.size(); ++b)
+    for (const bool node : present[b]) nodes.push_back({static_cast<int>(b), node});
+  return nodes;
+}
+
+std::vector<std::vector<bool>> by_beam(const std::vector<PresentNode>& nodes) {
+  std::vector<std::vector<bool>> present;
+  for (const PresentNode& node : nodes) {
+    present.resize(std::max<std::size_t>(present.size(), node.beam + 1));
+    present[node.beam].push_back(node.present);
+  }
+  return present;
+}
+
+template <class Slot>
+void visit_vector(Eigen::Vector3d& x, Slot& slot) {
+  for (double& component : x) slot(component);
+}
+
+template <class Archive>
+void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
+  exchange_rows(archive, "events", "time, s, energies, momenta, impulse and lengths of each event", events,
+                [](RunEvent& event, auto& slot) {
+                  slot(event.time);
+                  slot(event.s);
+                  slot(event.energy_before);
+                  slot(event.energy_after);
+                  visit_vector(event.momentum_before, slot);
+                  visit_vector(event.momentum_after, slot);
+                  visit_vector(event.support_impulse, slot);
+                  slot(event.length_before);
+                  slot(event.length_after);
+                });
+  const auto texts = [&](const char* name, std::string RunEvent::*member) {
+    std::vector<std::string> values;
+    for (const RunEvent& event : events) values.push_back(event.*member);
+    archive.texts(name, values);
+    for (std::size_t i = 0; i < events.size(); ++i) events[i].*member = values.at(i);
+  };
+  texts("event_kind", &RunEvent::kind);
+  texts("event_beam", &RunEvent::beam);
+  texts("event_body", &RunEvent::body);
+}
+
+/// The one list of what a restart point holds: it writes and reads.
+template <class Archive>
+void exchange(Archive& archive, RestartPoint& p) {
+  std::vector<std::string> inputs{p.inputs};
+  archive.texts("inputs", inputs);
+
+  // One row, of all that is a single number.
+  std::vector<RestartPoint> row{p};
+  exchange_rows(archive, "scalars", "time, frames, and what the run has counted", row,
+                [](RestartPoint& point, auto& slot) {
+                  SimulationReport& r = point.report;
+                  slot(point.state.t);
+                  slot(point.frames);
+                  slot(point.next_step);
+                  slot(point.last_step);
+                  slot(point.dissipated);
+                  slot(point.start_energy);
+                  slot(point.iterations_in_frames);
+                  slot(point.history.last_step);
+                  slot(point.history.last_error);
+                  slot(point.history.mass_scale);
+                  slot(r.time);
+                  slot(r.steps);
+                  slot(r.rejected_steps);
+                  slot(r.newton_iterations);
+                  slot(r.motion_seconds);
+                  slot(r.length_control_seconds);
+                  slot(r.energy_drift);
+                  slot(r.integration_error);
+                  slot(r.peak_kinetic_energy);
+                });
+  const std::string digest = inputs.at(0);
+  p = row.at(0);
+  p.inputs = digest;
+
+  exchange_vector(archive, "q", "generalised positions", p.state.q);
+  exchange_vector(archive, "v", "generalised velocities", p.state.v);
+  exchange_vector(archive, "a", "generalised accelerations", p.state.a);
+  exchange_vector(archive, "lambda", "Lagrange multipliers", p.state.lambda);
+  exchange_vector(archive, "algorithmic_acceleration", "of generalized-alpha",
+                  p.history.algorithmic_acceleration);
+  exchange_vector(archive, "jerk", "third derivatives over the last step", p.history.jerk);
+
+  std::vector<PresentNode> nodes = flattened(p.plan.present);
+  exchange_rows(archive, "home_nodes", "beam, and whether the node is in the mesh", nodes,
+                [](PresentNode& node, auto& slot) {
+                  slot(node.beam);
+                  slot(node.present);
+                });
+  p.plan.present = by_beam(nodes);
+  exchange_rows(archive, "joint_places", "s of the sliding joints when the mesh was made", p.plan.places,
+                [](double& place, auto& slot) { slot(place); });
+  exchange_rows(archive, "joint_modes", "node, point, stopped, free", p.plan.modes,
+                [](JointMode& mode, auto& slot) { slot(mode); });
+  exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", p.plan.weights,
+                [](MeshPlan::Weights& weights, auto& slot) {
+                  slot(weights.beam);
+                  slot(weights.s_a);
+                  slot(weights.s_b);
+                  for (double& w : weights.w) slot(w);
+                });
+  exchange_rows(archive, "steps",
+                "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
+                [](StepRecord& step, auto& slot) {
+                  slot(step.time);
+                  slot(step.size);
+                  slot(step.newton_iterations);
+                  slot(step.rejected);
+                });
+  exchange_events(archive, p.report.events);
+}
+
+}  // namespace
+
+void write_restart_point(const std::filesystem::path& file, const RestartPoint& point) {
+  try {
+    Writer archive(temporary_name(file));
+    RestartPoint copy = point;
+    exchange(archive, copy);
+    archive.close();
+  } catch (const std::runtime_error&) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary_name(file), ignored);
+    throw;
+  }
+  publish_durably(file);
+}
+
+RestartPoint read_restart_point(const std::filesystem::path& file) {
+  RestartPoint point;
+  Reader archive(file);
+  try {
+    exchange(archive, point);
+  } catch (const std::out_of_range&) {
+    throw std::runtime_error(file.string() + ": is not a restart point of this version");
+  }
+  return point;
+}
+
+}  // namespace nurbeam

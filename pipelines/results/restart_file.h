@@ -1,0 +1,14 @@
+#pragma once
+#include <filesystem>
+
+#include "fem/motion/checkpoint.h"
+
+namespace nurbeam {
+
+/// Writes a restart point as netCDF, to a temporary name that is renamed. Throws std::runtime_error (file and
+/// reason).
+void write_restart_point(const std::filesystem::path& file, const RestartPoint& point);
+/// Throws std::runtime_error (file and reason).
+RestartPoint read_restart_point(const std::filesystem::path& file);
+
+}  // namespace nurbeam

@@ -1,0 +1,330 @@
+#include "cad_import/export_into_step.h"
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom_BezierCurve.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Reader.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TColgp_Array1OfPnt.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "cad_import/export_curves.h"
+#include "cad_import/import_curves.h"
+#include "cad_import/step/step_instances.h"
+#include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_text_of.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A rational cubic B-spline with two spans, bent by `bend` [m].
+NurbsCurve bent(double bend, bool rational) {
+  Eigen::Matrix3Xd points(3, 5);
+  points << 1, 2, 3, 4, 5, 0, bend, -bend, bend, 2, 3, 3, 3 + bend, 3, 3;
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(5);
+  if (rational) weights(2) = 1.25;
+  return make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 0.5, 1, 1, 1, 1}), points, weights);
+}
+
+double difference(const NurbsCurve& a, const NurbsCurve& b) {
+  if (a.knots() != b.knots()) return 1e9;
+  return (a.control_points() - b.control_points()).cwiseAbs().maxCoeff();
+}
+
+TEST(ExportIntoStep, ExchangesOneCurveAndLeavesTheRestOfTheTextAlone) {
+  const ScratchDirectory scratch;
+  for (const LengthUnit unit : {LengthUnit::metre, LengthUnit::millimetre, LengthUnit::inch})
+    for (const bool rational : {false, true}) {
+      const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+      export_curves(source, {{"left", bent(0.1, !rational)}, {"right 'x'", bent(0.2, false)}}, unit);
+      const ImportReport before = import_curves(source);
+      const NurbsCurve deformed = bent(0.7, rational);
+      EXPECT_TRUE(
+          export_into_step(source, target, {{before.curves.at(1).curve, deformed, "right 'x'"}}).empty());
+      const ImportReport after = import_curves(target);
+      ASSERT_EQ(after.curves.size(), 2u);
+      EXPECT_TRUE(after.diagnostics.empty());
+      EXPECT_EQ(after.unit, before.unit);
+      EXPECT_EQ(after.curves[0].name, "left");
+      EXPECT_EQ(after.curves[1].name, "right 'x'");
+      EXPECT_EQ(difference(after.curves[0].curve, before.curves[0].curve), 0);
+      EXPECT_LE(difference(after.curves[1].curve, deformed), 2e-15);
+      // All lines of the source but those of the exchanged curve are there.
+      std::multiset<std::string> lines;
+      std::istringstream stream(content_of(target));
+      for (std::string line; std::getline(stream, line);) lines.insert(line);
+      std::istringstream old(content_of(source));
+      int missing = 0;
+      for (std::string line; std::getline(old, line);) missing += !lines.contains(line);
+      EXPECT_LE(missing, 8);
+      EXPECT_GE(missing, 1);
+    }
+}
+
+Handle(Geom_BezierCurve) arch(double height) {
+  TColgp_Array1OfPnt poles(1, 4);
+  poles(1) = gp_Pnt(0, 0, 0);
+  poles(2) = gp_Pnt(100, 0, height);
+  poles(3) = gp_Pnt(200, 50, height);
+  poles(4) = gp_Pnt(300, 0, 0);
+  return new Geom_BezierCurve(poles);
+}
+
+/// An assembly of two copies of a part at different places, and of one part of its own; the part is `shape`.
+TopoDS_Compound assembly(const TopoDS_Shape& shape, int copies) {
+  const BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (int i = 0; i < copies; ++i) {
+    gp_Trsf turn, shift;
+    turn.SetRotation(gp_Ax1(gp_Pnt(10, 20, 30), gp_Dir(1, 2, 3)), 0.7 + i);
+    shift.SetTranslation(gp_Vec(1000, -500, 250 * i));
+    builder.Add(all, shape.Moved(TopLoc_Location(shift * turn)));
+  }
+  return all;
+}
+
+void write_assembly(const fs::path& file, const TopoDS_Shape& shape) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("write.step.assembly", "On");
+  Interface_Static::SetCVal("write.step.unit", "INCH");
+  STEPControl_Writer writer;
+  ASSERT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
+  ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
+}
+
+NurbsCurve stretched(const NurbsCurve& curve) {
+  Eigen::Matrix4Xd points = curve.control_points();
+  points.row(2) *= 1.5;
+  return {curve.knots(), points};
+}
+
+TEST(ExportIntoStep, APlacedPartGetsTheCurveInItsOwnFrame) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  const BRep_Builder builder;
+  TopoDS_Compound part;
+  builder.MakeCompound(part);
+  builder.Add(part, BRepBuilderAPI_MakeEdge(arch(50)).Edge());
+  builder.Add(part, BRepBuilderAPI_MakeEdge(arch(80)).Edge());
+  write_assembly(source, assembly(part, 1));
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 2u);
+  const NurbsCurve deformed = stretched(before.curves[0].curve);
+  EXPECT_TRUE(export_into_step(source, target, {{before.curves[0].curve, deformed, "arch"}}).empty());
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 2u);
+  EXPECT_EQ(after.unit, "inch");
+  EXPECT_LE(difference(after.curves[0].curve, deformed), 1e-14);
+  EXPECT_EQ(difference(after.curves[1].curve, before.curves[1].curve), 0);
+}
+
+TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  const BRep_Builder builder;
+  TopoDS_Compound part;
+  builder.MakeCompound(part);
+  builder.Add(part, BRepBuilderAPI_MakeEdge(arch(50)).Edge());
+  write_assembly(source, assembly(part, 2));
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 2u);
+  const NurbsCurve deformed = stretched(before.curves[1].curve);
+  const auto warnings = export_into_step(source, target, {{before.curves[1].curve, deformed, "arch"}});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find("2 places"), std::string::npos) << warnings[0].message;
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 2u);
+  EXPECT_LE(difference(after.curves[1].curve, deformed), 1e-14);
+  EXPECT_GT(difference(after.curves[0].curve, before.curves[0].curve), 1e-3);
+}
+
+TEST(ExportIntoStep, AnEdgeOfASolidStaysAndTheCurveIsAddedBesideIt) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  write_assembly(source, assembly(BRepPrimAPI_MakeBox(100, 50, 20).Shape(), 1));
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 12u);
+  const NurbsCurve deformed = bent(0.3, true);
+  const auto warnings = export_into_step(source, target, {{before.curves[3].curve, deformed, "cable"}});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].severity, Severity::warning);
+  EXPECT_NE(warnings[0].message.find("bounds faces"), std::string::npos) << warnings[0].message;
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 13u);
+  const auto added = std::find_if(after.curves.begin(), after.curves.end(),
+                                  [](const ImportedCurve& curve) { return curve.free; });
+  ASSERT_NE(added, after.curves.end());
+  EXPECT_EQ(added->name, "cable");
+  EXPECT_LE(difference(added->curve, deformed), 1e-14);
+  STEPControl_Reader reader;
+  ASSERT_EQ(reader.ReadFile(target.c_str()), IFSelect_RetDone);
+  reader.TransferRoots();
+  EXPECT_TRUE(BRepCheck_Analyzer(reader.OneShape()).IsValid());
+}
+
+TEST(ExportIntoStep, AChainIsAddedBesideItsFirstCurve) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  export_curves(source, {{"one", bent(0.1, false)}}, LengthUnit::metre);
+  const NurbsCurve drawn = import_curves(source).curves.at(0).curve;
+  const auto warnings = export_into_step(source, target, {{drawn, bent(0.4, false), "one", true}});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find("chain"), std::string::npos) << warnings[0].message;
+  EXPECT_EQ(import_curves(target).curves.size(), 2u);
+}
+
+TEST(ExportIntoStep, ConicsAndLinesOfTheSourceBecomeSplines) {
+  const ScratchDirectory scratch;
+  const fs::path target = scratch.path() / "target.step";
+  const fs::path source = scratch.file("source.step", step_text_of("#100", "#100 = CIRCLE('hoop',#11,2.);"));
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 1u);
+  EXPECT_TRUE(export_into_step(source, target, {{before.curves[0].curve, bent(0.1, true), "hoop"}}).empty());
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 1u);
+  EXPECT_EQ(after.curves[0].name, "hoop");
+  EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
+}
+
+TEST(ExportIntoStep, AFreeEdgeWithVerticesGetsNewOnes) {
+  const ScratchDirectory scratch;
+  std::string text = step_text_of("#100", R"(#100 = CONNECTED_EDGE_SET('',(#101));
+#101 = EDGE_CURVE('brace',#102,#103,#104,.F.);
+#102 = VERTEX_POINT('',#105);
+#103 = VERTEX_POINT('',#106);
+#104 = LINE('',#106,#107);
+#105 = CARTESIAN_POINT('',(3.,0.,0.));
+#106 = CARTESIAN_POINT('',(1.,0.,0.));
+#107 = VECTOR('',#14,1.);)");
+  text = with(text, "GEOMETRIC_CURVE_SET", "EDGE_BASED_WIREFRAME_MODEL");
+  text = with(text, "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE", "EDGE_BASED_WIREFRAME_SHAPE");
+  const fs::path source = scratch.file("source.step", text), target = scratch.path() / "target.step";
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 1u);
+  EXPECT_TRUE(export_into_step(source, target, {{before.curves[0].curve, bent(0.1, true), "brace"}}).empty());
+  EXPECT_NE(content_of(target).find("EDGE_CURVE('brace',#"), std::string::npos);
+  EXPECT_EQ(content_of(target).find("'brace',#102"), std::string::npos);
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 1u);
+  EXPECT_EQ(after.curves[0].name, "brace");
+  EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
+}
+
+TEST(ExportIntoStep, AClosedCurveStaysAClosedEdgeWithOneVertex) {
+  const ScratchDirectory scratch;
+  std::string edge = step_text_of("#100", R"(#100 = CONNECTED_EDGE_SET('',(#101));
+#101 = EDGE_CURVE('hoop',#102,#102,#103,.T.);
+#102 = VERTEX_POINT('',#104);
+#103 = CIRCLE('',#11,200.);
+#104 = CARTESIAN_POINT('',(200.,0.,0.));)");
+  edge = with(edge, "GEOMETRIC_CURVE_SET", "EDGE_BASED_WIREFRAME_MODEL");
+  edge = with(edge, "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE", "EDGE_BASED_WIREFRAME_SHAPE");
+  for (const std::string& text : {edge, step_text_of("#100", "#100 = CIRCLE('hoop',#11,200.);")}) {
+    const fs::path source = scratch.file("source.step", text), target = scratch.path() / "target.step";
+    const NurbsCurve drawn = import_curves(source).curves.at(0).curve;
+    Eigen::Matrix4Xd points = drawn.control_points();
+    points.row(0) *= 0.7;
+    const NurbsCurve oval(drawn.knots(), points);
+    ASSERT_TRUE(export_into_step(source, target, {{drawn, oval, "hoop"}}).empty());
+    STEPControl_Reader reader;
+    ASSERT_EQ(reader.ReadFile(target.c_str()), IFSelect_RetDone);
+    reader.TransferRoots();
+    const TopExp_Explorer edges(reader.OneShape(), TopAbs_EDGE);
+    ASSERT_TRUE(edges.More());
+    const TopoDS_Edge& hoop = TopoDS::Edge(edges.Current());
+    EXPECT_TRUE(BRepCheck_Analyzer(hoop).IsValid());
+    EXPECT_TRUE(TopExp::FirstVertex(hoop).IsSame(TopExp::LastVertex(hoop)));
+    EXPECT_LE(difference(import_curves(target).curves.at(0).curve, oval), 1e-15);
+  }
+}
+
+TEST(ExportIntoStep, EveryFreeCurveOfTheCorpusCanBeExchanged) {
+  const ScratchDirectory scratch;
+  const fs::path target = scratch.path() / "target.step";
+  int exchanged = 0;
+  for (const auto& entry : fs::directory_iterator(corpus_file(""))) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".step" && extension != ".stp") continue;
+    const ImportReport before = import_curves(entry.path());
+    // The first curve, whatever it is: exchanged if free, else a curve more.
+    const NurbsCurve deformed = stretched(before.curves.at(0).curve);
+    const auto diagnostics =
+        export_into_step(entry.path(), target, {{before.curves[0].curve, deformed, "deformed"}});
+    for (const Diagnostic& diagnostic : diagnostics)
+      EXPECT_EQ(diagnostic.severity, Severity::warning) << diagnostic.message;
+    const ImportReport after = import_curves(target);
+    EXPECT_EQ(after.curves.size(), before.curves.size() + (before.curves[0].free ? 0 : 1)) << entry.path();
+    EXPECT_EQ(after.unit, before.unit);
+    EXPECT_TRUE(std::any_of(after.curves.begin(), after.curves.end(), [&](const ImportedCurve& curve) {
+      return difference(curve.curve, deformed) <= 1e-12 * deformed.control_points().cwiseAbs().maxCoeff();
+    })) << entry.path();
+    exchanged += before.curves[0].free;
+  }
+  EXPECT_GE(exchanged, 1);
+}
+
+TEST(ExportIntoStep, SaysWhatItCannotReadOrFindAndWritesNothing) {
+  const ScratchDirectory scratch;
+  const fs::path target = scratch.path() / "target.step";
+  const auto error_of = [&](const fs::path& source, const NurbsCurve& drawn) {
+    const auto diagnostics = export_into_step(source, target, {{drawn, bent(0.2, false), "cable"}});
+    EXPECT_EQ(diagnostics.size(), 1u);
+    EXPECT_EQ(diagnostics.at(0).severity, Severity::error);
+    EXPECT_EQ(diagnostics.at(0).where, source.string());
+    return diagnostics.at(0).message;
+  };
+  const fs::path source = scratch.path() / "source.step";
+  export_curves(source, {{"one", bent(0.1, false)}}, LengthUnit::metre);
+  EXPECT_NE(error_of(source, bent(0.11, false)).find("cable"), std::string::npos);
+  EXPECT_NE(error_of(corpus_file("iges-126-bsplines.igs"), bent(0.1, false)).find("STEP"), std::string::npos);
+  EXPECT_NE(error_of(scratch.path() / "missing.step", bent(0.1, false)).find("STEP"), std::string::npos);
+  EXPECT_FALSE(fs::exists(target));
+}
+
+TEST(StepInstances, AreReadPastStringsAndComments) {
+  const StepInstances step(
+      "HEADER;#1=X();ENDSEC;DATA; /* #9=NO(); */ #12 = A_B('it''s; #7=',#3 , (#4));\n"
+      "#3=C('x');#4=( D() REPRESENTATION_ITEM('n''m') E(#3) );ENDSEC;\n");
+  EXPECT_EQ(step.keyword(12), "A_B");
+  EXPECT_EQ(step.references(12), (std::vector<int>{3, 4}));
+  EXPECT_EQ(step.encoded_name(12), "it''s; #7=");
+  EXPECT_EQ(step.keyword(4), "");
+  EXPECT_EQ(step.encoded_name(4), "n''m");
+  EXPECT_EQ(step.users(3), (std::vector<int>{4, 12}));
+  EXPECT_THROW(step.value(9), std::runtime_error);
+  EXPECT_THROW(StepInstances("DATA;#1=A();#1=B();"), std::runtime_error);
+  EXPECT_THROW(StepInstances("nothing"), std::runtime_error);
+}
+
+TEST(StepInstances, WhatIsNotChangedStays) {
+  const std::string text = "ISO;\nDATA;\n#2=A(#1); /* kept */\n#1 = B('x');\nENDSEC;\nEND;\n";
+  StepInstances step(text);
+  EXPECT_EQ(step.text(), text);
+  step.replace(2, "C()");
+  EXPECT_EQ(step.add("D()"), 3);
+  EXPECT_EQ(step.text(), "ISO;\nDATA;\n#2=C(); /* kept */\n#1 = B('x');\n#3=D();\nENDSEC;\nEND;\n");
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,125 @@
+#include "fem/motion/record_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/motion/simulation.h"
+#include "tests/support/models.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr double radius = 0.02, density = 7200, youngs_modulus = 2e8;
+
+// A quarter circle held at one end, with a body that slides on it.
+BeamModel arc_with_slider(WeightRule weights) {
+  BeamModel model = testing::one_beam(testing::arc_cubics({0, 0, 0}, 1, -M_PI / 2, 0, 2), 2,
+                                      testing::round_bar(radius, density, youngs_modulus), 6, {{0, true}});
+  model.beams[0].weights = weights;
+  testing::add_slider(model, 0.8, 0.7);
+  return model;
+}
+
+// Any motion near the drawing.
+State moved(const BeamSystem<2>& system) {
+  State state = system.drawn_state();
+  for (int i = 0; i < state.q.size(); ++i) {
+    state.q[i] += 0.02 * std::sin(3.0 * i + 1);
+    state.v[i] = std::cos(5.0 * i);
+  }
+  return state;
+}
+
+class RecordedElements : public ::testing::TestWithParam<WeightRule> {};
+
+TEST_P(RecordedElements, HaveTheirSamplesAtThirdsOfTheCubicAndTheVelocityOfTheMaterialThere) {
+  const BeamModel model = arc_with_slider(GetParam());
+  const BeamSystem<2> system(model, initial_plan(model));
+  const State state = moved(system);
+  const BeamRecord beam = record_beams<2>(system, state).at(0);
+  ASSERT_EQ(beam.elements.size(), system.mesh().elements.size());
+  for (std::size_t i = 0; i < beam.elements.size(); ++i) {
+    const MeshElement<2>& e = system.mesh().elements[i];
+    const auto q = gather<2>(e, state.q, state.v, state.v).q;
+    const RationalCubic cubic(beam.elements[i].control_points);
+    for (int k = 0; k < 4; ++k) {
+      const double s = e.element.place(q, k / 3.0), h = 1e-6;
+      const auto position = [&](double after) {
+        return material_point<2>(e, state.q + after * state.v, state.v, s).r;
+      };
+      EXPECT_NEAR((cubic.point(k / 3.0).head<2>() - position(0)).norm(), 0, 1e-13);
+      const Eigen::Vector2d velocity = (position(h) - position(-h)) / (2 * h);
+      EXPECT_NEAR((beam.elements[i].velocity.col(k).head<2>() - velocity).norm(), 0, 1e-8);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryKind, RecordedElements,
+                         ::testing::Values(WeightRule::material, WeightRule::constant, WeightRule::ones));
+
+TEST(RecordedSections, OfADrawnArcCarryItsCurvatureAndNoForce) {
+  const BeamModel model = arc_with_slider(WeightRule::material);
+  const BeamSystem<2> system(model, initial_plan(model));
+  const BeamRecord beam = record_beams<2>(system, system.drawn_state()).at(0);
+  for (const ElementRecord& e : beam.elements) {
+    EXPECT_NEAR((e.curvature.array() - 1).abs().maxCoeff(), 0, 1e-10);
+    EXPECT_NEAR(e.strain.cwiseAbs().maxCoeff(), 0, 1e-12);
+    EXPECT_NEAR(e.axial_force.cwiseAbs().maxCoeff(), 0, 1e-12 * youngs_modulus);
+    EXPECT_NEAR(e.bending_moment.cwiseAbs().maxCoeff(), 0, 1e-9 * youngs_modulus * std::pow(radius, 4));
+    EXPECT_EQ(e.velocity, (Eigen::Matrix<double, 3, 4>::Zero()));
+  }
+}
+
+Frame resting(const BeamModel& model) {
+  Frame last;
+  SimulationObserver observer;
+  observer.frame = [&](const Frame& frame) { last = frame; };
+  observer.progress = [](const StepRecord&) {};
+  observer.interrupted = [] { return false; };
+  SimulationOptions options;
+  options.statics = true;
+  EXPECT_EQ(simulate(model, {}, options, observer).status, SimulationStatus::done);
+  return last;
+}
+
+// Down from its held end; each section carries what hangs below it.
+TEST(RecordedSections, OfAHangingBarCarryTheWeightBelow) {
+  BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {0, -2, 0})}, 2,
+                                      testing::round_bar(radius, density, youngs_modulus), 16, {{0, true}});
+  const double weight_per_length = density * M_PI * radius * radius * 9.81;
+  const BeamRecord beam = resting(model).beams.at(0);
+  for (const ElementRecord& e : beam.elements)
+    for (int k = 0; k < 4; ++k) {
+      const double s = e.s_start + k / 3.0 * (e.s_end - e.s_start);
+      EXPECT_NEAR(e.axial_force[k], weight_per_length * (2 - s), 1e-3 * weight_per_length * 2);
+      EXPECT_NEAR(e.strain[k], e.axial_force[k] / (youngs_modulus * M_PI * radius * radius), 1e-6);
+    }
+}
+
+// Largest relative error of moment and curvature along a cantilever bent to a quarter circle.
+double roll_up_error(int elements) {
+  BeamModel model =
+      testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                        testing::round_bar(radius, density, youngs_modulus), elements, {{0, true}});
+  model.gravity.setZero();
+  const double EI = model.beams[0].properties.bending_stiffness, curvature = M_PI / 2;
+  verification::add_load(model, PointLoad::Kind::moment, {0, 0, EI * curvature}, 1);
+  double error = 0;
+  const BeamRecord beam = resting(model).beams.at(0);
+  for (const ElementRecord& e : beam.elements) {
+    error = std::max(error, (e.bending_moment.array() / (EI * curvature) - 1).abs().maxCoeff());
+    error = std::max(error, (e.curvature.array() / curvature - 1).abs().maxCoeff());
+  }
+  return error;
+}
+
+TEST(RecordedSections, OfACantileverUnderAnEndMomentApproachThatMomentAtSecondOrder) {
+  const double coarse = roll_up_error(8), fine = roll_up_error(16);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+}
+
+}  // namespace
+}  // namespace nurbeam

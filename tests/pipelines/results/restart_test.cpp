@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "fem/motion/simulation.h"
+#include "pipelines/results/restart_file.h"
+#include "tests/pipelines/case_text.h"
+#include "tests/pipelines/frames.h"
+#include "tests/support/models.h"
+
+namespace nurbeam {
+namespace {
+
+using test::expect_equal;
+using test::TemporaryDirectory;
+
+// A bar that is held at one end, with a body that slides off the other.
+BeamModel falling_beam() {
+  BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                                      testing::round_bar(0.02, 7200, 2e6), 6, {{0, true}});
+  testing::add_slider(model, 0.8, 0.2);
+  return model;
+}
+
+SimulationOptions options_with(const decltype(SimulationOptions::integrator)& integrator,
+                               std::optional<double> step) {
+  SimulationOptions options;
+  options.end_time = 0.8;
+  options.step = step;
+  for (int i = 0; i <= 20; ++i) options.output_times.push_back(0.04 * i);
+  options.integrator = integrator;
+  return options;
+}
+
+struct Played {
+  SimulationReport report;
+  std::vector<Frame> frames;
+  std::vector<RestartPoint> points;
+};
+
+// Runs a model, or goes on with it, and keeps every 67th step's restart point.
+Played play(const BeamModel& model, const SimulationOptions& options, const RestartPoint* from = nullptr) {
+  Played played;
+  long steps = 0;
+  SimulationObserver observer;
+  observer.frame = [&](const Frame& frame) { played.frames.push_back(frame); };
+  observer.progress = [](const StepRecord&) {};
+  observer.interrupted = [] { return false; };
+  observer.restart_point_due = [&] { return ++steps % 67 == 0; };
+  observer.restart_point = [&](const RestartPoint& point) { played.points.push_back(point); };
+  played.report = simulate(model, {{0, 0.9}}, options, observer, from);
+  return played;
+}
+
+// What a restart point is after it has been on the disk.
+RestartPoint stored(RestartPoint point) {
+  const TemporaryDirectory directory;
+  point.inputs = "of the test";
+  write_restart_point(directory.path() / "restart.nc", point);
+  const RestartPoint read = read_restart_point(directory.path() / "restart.nc");
+  EXPECT_EQ(read.inputs, "of the test");
+  return read;
+}
+
+void expect_resumes_bit_by_bit(const BeamModel& model, const SimulationOptions& options) {
+  const Played whole = play(model, options);
+  ASSERT_EQ(whole.report.status, SimulationStatus::done) << whole.report.message;
+  ASSERT_EQ(whole.frames.size(), 21u);
+  const std::size_t count = whole.points.size();
+  ASSERT_GE(count, 4u);
+  for (const std::size_t i : {std::size_t{0}, count / 3, 2 * count / 3, count - 1}) {
+    const RestartPoint from = stored(whole.points[i]);
+    const Played rest = play(model, options, &from);
+    ASSERT_EQ(rest.frames.size(), whole.frames.size() - from.frames);
+    for (std::size_t k = 0; k < rest.frames.size(); ++k)
+      expect_equal(rest.frames[k], whole.frames[from.frames + k]);
+    EXPECT_EQ(rest.report.steps, whole.report.steps);
+    EXPECT_EQ(rest.report.rejected_steps, whole.report.rejected_steps);
+    EXPECT_EQ(rest.report.newton_iterations, whole.report.newton_iterations);
+    EXPECT_EQ(rest.report.energy_drift, whole.report.energy_drift);
+    EXPECT_EQ(rest.report.integration_error, whole.report.integration_error);
+    EXPECT_EQ(rest.report.peak_kinetic_energy, whole.report.peak_kinetic_energy);
+    ASSERT_EQ(rest.report.events.size(), whole.report.events.size());
+    for (std::size_t k = 0; k < rest.report.events.size(); ++k) {
+      const RunEvent &a = rest.report.events[k], &b = whole.report.events[k];
+      EXPECT_EQ(a.time, b.time);
+      EXPECT_EQ(a.kind, b.kind);
+      EXPECT_EQ(a.body, b.body);
+      EXPECT_EQ(a.s, b.s);
+      EXPECT_EQ(a.energy_after, b.energy_after);
+      EXPECT_EQ(a.momentum_before, b.momentum_before);
+      EXPECT_EQ(a.support_impulse, b.support_impulse);
+      EXPECT_EQ(a.length_after, b.length_after);
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Restart, WithFixedStepsARunGoesOnBitByBitThroughEventsAndTheEndOfTheBeam) {
+  const BeamModel model = falling_beam();
+  const SimulationOptions options = options_with(GeneralizedAlpha{}, 1e-3);
+  expect_resumes_bit_by_bit(model, options);
+  EXPECT_GE(play(model, options).report.events.size(), 5u);
+}
+
+TEST(Restart, WithErrorControlARunGoesOnBitByBit) {
+  expect_resumes_bit_by_bit(falling_beam(), options_with(GeneralizedAlpha{.tolerance = 1e-3}, {}));
+}
+
+TEST(Restart, WithConstantWeightsARunGoesOnBitByBit) {
+  BeamModel model = falling_beam();
+  model.beams[0].weights = WeightRule::constant;
+  model.beams[0].merge = MergeRule::paper;
+  expect_resumes_bit_by_bit(model, options_with(GeneralizedAlpha{}, 1e-3));
+}
+
+TEST(Restart, WithRungeAndKuttaARunGoesOnBitByBit) {
+  BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                                      testing::round_bar(0.02, 7200, 2e6), 4, {{0, false}});
+  expect_resumes_bit_by_bit(model, options_with(ExplicitRungeKutta{}, 1e-3));
+}
+
+TEST(Restart, WithARigidCornerARunGoesOnBitByBit) {
+  BeamModel model = testing::one_beam(
+      {testing::line_cubic({0, 0, 0}, {0, 1, 0}), testing::line_cubic({0, 1, 0}, {0.7, 1, 0})}, 2,
+      testing::round_bar(0.02, 7200, 2e6), 6, {{0, true}});
+  std::vector<HomeNode>& home = model.beams[0].home;
+  std::find_if(home.begin() + 1, home.end(), [](const HomeNode& node) { return node.late; })->kind =
+      NodeKind::rigid;
+  expect_resumes_bit_by_bit(model, options_with(GeneralizedAlpha{}, 1e-3));
+}
+
+TEST(Restart, WithIdaARunGoesOnWithinItsTolerance) {
+  const BeamModel model = falling_beam();
+  SimulationOptions options = options_with(Ida{.tolerance = 1e-7}, 1e-3);
+  options.end_time = 0.4;
+  options.output_times = {0.2, 0.4};
+  const Played whole = play(model, options);
+  ASSERT_EQ(whole.report.status, SimulationStatus::done) << whole.report.message;
+  const RestartPoint from = stored(whole.points.at(1));
+  const Played rest = play(model, options, &from);
+  ASSERT_FALSE(rest.frames.empty());
+  EXPECT_NEAR(
+      (rest.frames.back().bodies[0].point.position - whole.frames.back().bodies[0].point.position).norm(), 0,
+      1e-5);
+}
+
+TEST(Restart, APointThatIsCutShortOrOfAnotherKindIsNamed) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "restart.nc";
+  const auto expect_named = [&] {
+    try {
+      read_restart_point(file);
+      ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
+    }
+  };
+  expect_named();  // there is none
+  std::ofstream(file) << "not netCDF";
+  expect_named();
+  const Played played = play(falling_beam(), options_with(GeneralizedAlpha{}, 1e-3));
+  RestartPoint point = played.points.front();
+  point.inputs = "x";
+  write_restart_point(file, point);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  expect_named();
+}
+
+}  // namespace
+}  // namespace nurbeam
