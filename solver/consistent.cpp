@@ -8,9 +8,9 @@ namespace nurbeam {
 namespace {
 
 /// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, factorised with the mass divided by its scale.
-class MassMatrix {
+class FactorisedKkt {
  public:
-  MassMatrix(const SecondOrderSystem& system, const State& state, double h = 0)
+  FactorisedKkt(const SecondOrderSystem& system, const State& state, double h = 0)
       : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system.tangent_pattern()) {
     scale_ = mass_scale(system, state, kkt_);
     system.tangent(state, {.mass = 1 / scale_, .damping = h / 2 / scale_, .stiffness = h * h / 4 / scale_},
@@ -61,9 +61,9 @@ bool make_accelerations_smooth(const SecondOrderSystem& system, double h, State&
   State at_rest = state;
   at_rest.a.setZero(system.coordinate_count());
   at_rest.lambda.setZero(system.constraint_count());
-  const MassMatrix mass(system, at_rest, h);
-  if (!mass.regular()) return false;
-  const Eigen::VectorXd solution = mass.solve(force(system, state), -system.constraint_curvature(state));
+  const FactorisedKkt kkt(system, at_rest, h);
+  if (!kkt.regular()) return false;
+  const Eigen::VectorXd solution = kkt.solve(force(system, state), -system.constraint_curvature(state));
   if (!solution.allFinite()) return false;
   state.a = solution.head(system.coordinate_count());
   state.lambda = solution.tail(system.constraint_count());
@@ -74,26 +74,24 @@ bool make_accelerations_consistent(const SecondOrderSystem& system, State& state
   return make_accelerations_smooth(system, 0, state);
 }
 
-bool project_velocities(const SecondOrderSystem& system, State& state, Eigen::VectorXd& impulse) {
-  const MassMatrix mass(system, state);
-  if (!mass.regular()) return false;
-  const Eigen::VectorXd excess = mass.constraint_product(state.v) + system.constraint_rate(state);
-  const Eigen::VectorXd solution = mass.solve(Eigen::VectorXd::Zero(state.v.size()), -excess);
-  if (!solution.allFinite()) return false;
+Projection project_velocities(const SecondOrderSystem& system, State& state) {
+  const FactorisedKkt kkt(system, state);
+  if (!kkt.regular()) return {ProjectionStatus::singular, {}};
+  const Eigen::VectorXd excess = kkt.constraint_product(state.v) + system.constraint_rate(state);
+  const Eigen::VectorXd solution = kkt.solve(Eigen::VectorXd::Zero(state.v.size()), -excess);
+  if (!solution.allFinite()) return {ProjectionStatus::singular, {}};
   state.v += solution.head(system.coordinate_count());
-  impulse = solution.tail(system.constraint_count());
-  return true;
+  return {ProjectionStatus::done, solution.tail(system.constraint_count())};
 }
 
-bool velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum, State& state,
-                              Eigen::VectorXd& impulse) {
-  const MassMatrix mass(system, state);
-  if (!mass.regular()) return false;
-  const Eigen::VectorXd solution = mass.solve(momentum, -system.constraint_rate(state));
-  if (!solution.allFinite()) return false;
+Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
+                                    State& state) {
+  const FactorisedKkt kkt(system, state);
+  if (!kkt.regular()) return {ProjectionStatus::singular, {}};
+  const Eigen::VectorXd solution = kkt.solve(momentum, -system.constraint_rate(state));
+  if (!solution.allFinite()) return {ProjectionStatus::singular, {}};
   state.v = solution.head(system.coordinate_count());
-  impulse = solution.tail(system.constraint_count());
-  return true;
+  return {ProjectionStatus::done, solution.tail(system.constraint_count())};
 }
 
 }  // namespace nurbeam

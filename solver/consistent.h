@@ -13,15 +13,22 @@ namespace nurbeam {
 /// h)^2.
 [[nodiscard]] bool make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state);
 
-/// The velocity nearest to `v` in the mass norm with G v + rate = 0; `impulse` (m) is the constraint impulse
-/// that makes it so: M (v_new - v) + G' impulse = 0 [N s]. Returns false when the matrix is singular (state
-/// unchanged).
-[[nodiscard]] bool project_velocities(const SecondOrderSystem& system, State& state,
-                                      Eigen::VectorXd& impulse);
+enum class ProjectionStatus {
+  done,
+  singular  ///< the matrix is, and the state unchanged
+};
 
-/// The velocity with M v + G' mu = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
-/// Returns false when the matrix is singular (state unchanged).
-[[nodiscard]] bool velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
-                                            State& state, Eigen::VectorXd& impulse);
+struct Projection {
+  ProjectionStatus status;
+  Eigen::VectorXd impulse;  ///< (m) of the constraints [N s]
+};
+
+/// The velocity nearest to `v` in the mass norm with G v + rate = 0; the impulse makes it so: M (v_new - v) +
+/// G' impulse = 0.
+[[nodiscard]] Projection project_velocities(const SecondOrderSystem& system, State& state);
+
+/// The velocity with M v + G' impulse = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
+[[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
+                                                  const Eigen::VectorXd& momentum, State& state);
 
 }  // namespace nurbeam

@@ -6,10 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
+#include "solver/arguments.h"
 #include "solver/kkt_solver.h"
 #include "solver/sundials_border.h"
 
@@ -23,14 +22,7 @@ using ConstVectorRef = Eigen::Ref<const Vector>;
 
 constexpr double shortest_step = 16 * std::numeric_limits<double>::epsilon();  ///< over |t|
 
-void require(bool rule, const std::string& message) {
-  if (!rule) throw std::invalid_argument("explicit Runge-Kutta: " + message);
-}
-
-void check_size(const char* name, Eigen::Index size, Eigen::Index expected) {
-  require(size == expected, std::string(name) + " has " + std::to_string(size) + " entries, the system " +
-                                std::to_string(expected));
-}
+constexpr const char* method = "explicit Runge-Kutta";
 
 /// d/dt of y = (q / s, T v / s), with the coordinate scale s and the time scale T.
 class FirstOrderEquations {
@@ -240,21 +232,29 @@ struct ExplicitIntegrator::Implementation {
 
 ExplicitIntegrator::ExplicitIntegrator(ExplicitRungeKutta settings, const SecondOrderSystem& system,
                                        State start) {
-  require(settings.tolerance >= 0, "tolerance " + std::to_string(settings.tolerance) + " is negative");
-  require(settings.time_scale > 0 && std::isfinite(settings.time_scale),
-          "time_scale " + std::to_string(settings.time_scale) + " is not positive and finite");
-  require(settings.max_halvings >= 0,
-          "max_halvings " + std::to_string(settings.max_halvings) + " is negative");
-  require(settings.max_steps > 0, "max_steps " + std::to_string(settings.max_steps) + " is not positive");
-  check_size("q", start.q.size(), system.coordinate_count());
-  check_size("v", start.v.size(), system.coordinate_count());
-  check_size("lambda", start.lambda.size(), system.constraint_count());
+  require(settings.tolerance >= 0, method, "tolerance ", settings.tolerance, " is negative");
+  require(settings.time_scale > 0 && std::isfinite(settings.time_scale), method, "time_scale ",
+          settings.time_scale, " is not positive and finite");
+  require(settings.max_halvings >= 0, method, "max_halvings ", settings.max_halvings, " is negative");
+  require(settings.max_steps > 0, method, "max_steps ", settings.max_steps, " is not positive");
+  require_size(method, "q", start.q.size(), system.coordinate_count());
+  require_size(method, "v", start.v.size(), system.coordinate_count());
+  require_size(method, "lambda", start.lambda.size(), system.constraint_count());
   implementation_ = std::make_unique<Implementation>(settings, system, std::move(start));
 }
 
 ExplicitIntegrator::~ExplicitIntegrator() = default;
 ExplicitIntegrator::ExplicitIntegrator(ExplicitIntegrator&&) noexcept = default;
 ExplicitIntegrator& ExplicitIntegrator::operator=(ExplicitIntegrator&&) noexcept = default;
+
+void ExplicitIntegrator::restore(State state, const IntegratorHistory&) {
+  *this = ExplicitIntegrator(implementation_->settings, *implementation_->system, std::move(state));
+}
+
+StepReport ExplicitIntegrator::repeat(const State& before, const IntegratorHistory& history, double step) {
+  restore(before, history);
+  return advance(step);
+}
 
 const State& ExplicitIntegrator::state() const { return implementation_->state; }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
+#include "solver/arguments.h"
 #include "solver/mass_scale.h"
 
 namespace nurbeam {
@@ -17,25 +16,17 @@ constexpr double largest_rescaling = 4;  ///< of the step, beyond which the meth
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
-void require(bool rule, const std::string& message) {
-  if (!rule) throw std::invalid_argument("generalized-alpha: " + message);
-}
+constexpr const char* method = "generalized-alpha";
 
 void check(const GeneralizedAlpha& settings) {
-  require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1,
-          "rho_infinity " + std::to_string(settings.rho_infinity) + " is not in [0, 1]");
-  require(settings.newton_tolerance > 0,
-          "newton_tolerance " + std::to_string(settings.newton_tolerance) + " is not positive");
-  require(settings.max_iterations > 0,
-          "max_iterations " + std::to_string(settings.max_iterations) + " is not positive");
-  require(settings.max_halvings >= 0,
-          "max_halvings " + std::to_string(settings.max_halvings) + " is negative");
-  require(settings.tolerance >= 0, "tolerance " + std::to_string(settings.tolerance) + " is negative");
-}
-
-void check_size(const char* name, Eigen::Index size, Eigen::Index expected) {
-  require(size == expected, std::string(name) + " has " + std::to_string(size) + " entries, the system " +
-                                std::to_string(expected));
+  require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1, method, "rho_infinity ",
+          settings.rho_infinity, " is not in [0, 1]");
+  require(settings.newton_tolerance > 0, method, "newton_tolerance ", settings.newton_tolerance,
+          " is not positive");
+  require(settings.max_iterations > 0, method, "max_iterations ", settings.max_iterations,
+          " is not positive");
+  require(settings.max_halvings >= 0, method, "max_halvings ", settings.max_halvings, " is negative");
+  require(settings.tolerance >= 0, method, "tolerance ", settings.tolerance, " is negative");
 }
 
 bool all_finite(const State& state) {
@@ -61,10 +52,7 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   check(settings_);
   const int n = system.coordinate_count();
   const int m = system.constraint_count();
-  check_size("q", state_.q.size(), n);
-  check_size("v", state_.v.size(), n);
-  check_size("a", state_.a.size(), n);
-  check_size("lambda", state_.lambda.size(), m);
+  require_sizes(method, state_, system);
   parameters_ = parameters(settings_.rho_infinity);
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
@@ -76,36 +64,57 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   reference_.resize(n + m);
 }
 
-void GeneralizedAlphaIntegrator::restore(History history) {
-  check_size("algorithmic_acceleration", history.algorithmic_acceleration.size(), state_.q.size());
-  check_size("jerk", history.jerk.size(), state_.q.size());
-  algorithmic_acceleration_ = std::move(history.algorithmic_acceleration);
-  jerk_ = std::move(history.jerk);
-  last_step_ = history.last_step;
-  last_error_ = history.last_error;
-  mass_scale_ = history.mass_scale;
+IntegratorHistory GeneralizedAlphaIntegrator::history() const {
+  return {{last_step_, last_error_, mass_scale_}, {algorithmic_acceleration_, jerk_}};
+}
+
+void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& history) {
+  require_sizes(method, state, *system_);
+  require(history.numbers.size() == 3 && history.vectors.size() == 2, method,
+          "the history is not one of this method");
+  for (const Eigen::VectorXd& vector : history.vectors)
+    require_size(method, "the history", vector.size(), system_->coordinate_count());
+  state_ = std::move(state);
+  algorithmic_acceleration_ = history.vectors[0];
+  jerk_ = history.vectors[1];
+  last_step_ = history.numbers[0];
+  last_error_ = history.numbers[1];
+  mass_scale_ = history.numbers[2];
+}
+
+StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const IntegratorHistory& history,
+                                              double step) {
+  restore(before, history);
+  last_step_ = last_error_ = 0;
+  jerk_.setZero();
+  mass_scale_ = mass_scale(*system_, state_, kkt_);
+  return advance_within(step, 0, 0);
 }
 
 StepReport GeneralizedAlphaIntegrator::advance(double step) {
+  return advance_within(step, settings_.max_halvings, settings_.tolerance);
+}
+
+StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvings, double tolerance) {
   StepReport report{.status = StepStatus::inadmissible, .next_step = step};
   const double limit = system_->step_limit(state_);
   if (!(step > 0) || !(limit > 0)) return report;
   double h = std::min(step, limit);
   scale_ = system_->coordinate_scale();
-  for (int i = 0; i <= settings_.max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
+  for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
     if (report.status == StepStatus::converged) {
       report.local_error = local_error(h);
-      if (settings_.tolerance == 0 || report.local_error <= settings_.tolerance) {
+      if (tolerance == 0 || report.local_error <= tolerance) {
         report.step = h;
-        if (settings_.tolerance > 0) report.next_step = next_step(h, report);
+        if (tolerance > 0) report.next_step = next_step(h, tolerance, report);
         last_error_ = report.local_error;
         accept(h);
         return report;
       }
       report.status = StepStatus::not_converged;
-      shorter = std::max(0.2, safety * std::cbrt(settings_.tolerance / report.local_error));
+      shorter = std::max(0.2, safety * std::cbrt(tolerance / report.local_error));
     }
     ++report.rejected;
     h *= shorter;
@@ -231,10 +240,10 @@ double GeneralizedAlphaIntegrator::local_error(double step) const {
 }
 
 /// A proportional-integral controller for a local error of third degree; no growth right after a rejection.
-double GeneralizedAlphaIntegrator::next_step(double step, const StepReport& report) const {
-  const double smallest = 1e-12 * settings_.tolerance;
-  const double relative = std::max(report.local_error, smallest) / settings_.tolerance;
-  const double last = std::max(last_error_, smallest) / settings_.tolerance;
+double GeneralizedAlphaIntegrator::next_step(double step, double tolerance, const StepReport& report) const {
+  const double smallest = 1e-12 * tolerance;
+  const double relative = std::max(report.local_error, smallest) / tolerance;
+  const double last = std::max(last_error_, smallest) / tolerance;
   const double integral = last_error_ > 0 ? std::pow(last, 0.4 / 3) : 1;
   const double growth = safety * std::pow(relative, -0.7 / 3) * integral;
   return step * std::clamp(growth, 0.2, report.rejected > 0 ? 1.0 : largest_growth);

@@ -1,6 +1,4 @@
 #pragma once
-#include <utility>
-
 #include "solver/integrator.h"
 #include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
@@ -44,19 +42,11 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
 
   const State& state() const override { return state_; }
-  /// The method's own acceleration variable .
-  const Eigen::VectorXd& algorithmic_acceleration() const { return algorithmic_acceleration_; }
-  void set_algorithmic_acceleration(Eigen::VectorXd value) { algorithmic_acceleration_ = std::move(value); }
-  /// What the method keeps between steps besides the state.
-  struct History {
-    Eigen::VectorXd algorithmic_acceleration;  ///< (n) its own acceleration variable
-    Eigen::VectorXd jerk;                      ///< (n) d3q/dt3 over the last step
-    double last_step = 0, last_error = 0, mass_scale = 1;
-  };
-  History history() const { return {algorithmic_acceleration_, jerk_, last_step_, last_error_, mass_scale_}; }
-  /// Goes on as the integrator would that had this history and the same state and settings. Throws
-  /// std::invalid_argument for a history of the wrong size.
-  void restore(History history);
+  /// Its own acceleration variable and jerk (n each), last step, last error and mass scale.
+  IntegratorHistory history() const override;
+  void restore(State state, const IntegratorHistory& history) override;
+  [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
+                                  double step) override;
   /// (n+m) x (n+m) the scaled matrix of the last Newton iteration.
   const Eigen::SparseMatrix<double>& iteration_matrix() const { return kkt_; }
 
@@ -73,6 +63,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   };
   static Parameters parameters(double rho_infinity);
 
+  StepReport advance_within(double step, int max_halvings, double tolerance);
   StepStatus attempt(double step, StepReport& report);
   void predict(double step);
   void evaluate_force_level();
@@ -80,7 +71,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   void measure_reference(double step);
   void correct(double step);
   double local_error(double step) const;
-  double next_step(double step, const StepReport& report) const;
+  double next_step(double step, double tolerance, const StepReport& report) const;
   void accept(double step);
 
   GeneralizedAlpha settings_;

@@ -40,6 +40,9 @@ class IdaIntegrator final : public Integrator {
 
   const State& state() const override;
   [[nodiscard]] StepReport advance(double step) override;
+  void restore(State state, const IntegratorHistory& history) override;
+  [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
+                                  double step) override;
   /// Steps of IDA since its last start.
   long internal_steps() const;
 

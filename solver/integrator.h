@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "solver/state.h"
 
 namespace nurbeam {
@@ -9,10 +11,16 @@ struct StepReport {
   StepStatus status = StepStatus::converged;
   double step = 0;            ///< the step taken [s] (may be shorter than asked)
   double next_step = 0;       ///< what error control would take next [s]; the asked step without it
-  int newton_iterations = 0;  ///< over all attempts
+  int newton_iterations = 0;  ///< over all attempts; of explicit methods 0
   int rejected = 0;           ///< attempts thrown away
-  double residual_norm = 0;   ///< scaled, last attempt
-  double local_error = 0;     ///< estimated, relative
+  double residual_norm = 0;   ///< scaled as the method's tolerance is, last attempt; of explicit methods 0
+  double local_error = 0;     ///< estimated, relative; 0 where the method makes no estimate
+};
+
+/// What a method keeps between steps besides the state; only the same method can read it.
+struct IntegratorHistory {
+  std::vector<double> numbers;
+  std::vector<Eigen::VectorXd> vectors;
 };
 
 /// Advances one state of one SecondOrderSystem. What is kept between steps belongs to that system as it was:
@@ -26,6 +34,16 @@ class Integrator {
   /// not positive or too small to change t, are `inadmissible`. What the system throws arrives unchanged,
   /// with the state as it was.
   [[nodiscard]] virtual StepReport advance(double step) = 0;
+
+  /// Empty for methods that start afresh from any state.
+  virtual IntegratorHistory history() const { return {}; }
+  /// Goes on from `state` as the integrator would that had this history. Throws std::invalid_argument for a
+  /// state or a history of another system or method.
+  virtual void restore(State state, const IntegratorHistory& history) = 0;
+  /// Repeats a step from `before`, which had that history, with another length: one attempt, without error
+  /// control, and as a first step, without what a change of the step length would ask for.
+  [[nodiscard]] virtual StepReport repeat(const State& before, const IntegratorHistory& history,
+                                          double step) = 0;
 };
 
 }  // namespace nurbeam

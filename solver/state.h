@@ -10,6 +10,7 @@ struct State {
   Eigen::VectorXd v;       ///< dq/dt
   Eigen::VectorXd a;       ///< d2q/dt2
   Eigen::VectorXd lambda;  ///< Lagrange multipliers
+  double load = 1;         ///< factor on the loads: below 1 on the way to an equilibrium
 };
 
 }  // namespace nurbeam

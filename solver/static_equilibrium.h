@@ -1,6 +1,4 @@
 #pragma once
-#include <functional>
-
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
@@ -24,21 +22,19 @@ struct StaticReport {
 /// Equilibrium f(q, 0, t) = G'lambda, g(q, t) = 0 by KINSOL (full Newton steps, then line search; KLU), in
 /// place.
 ///
-/// `set_load_factor(f)`, f in [0, 1], scales the system's loads; it must not be empty. The full load is tried
-/// directly. When that does not converge, or moves a coordinate by more than its coordinate_scale(), the load
-/// is applied in adaptive increments under the same bound, so that the branch of equilibria that starts at
-/// `state` is followed. Where no increment does (a straight or slack cable without tension has a singular
-/// tangent, a snap-through no equilibrium nearby) the load is reached by proximal steps M(q)(q - q_k)/tau^2 -
-/// f + G'lambda = 0 with growing tau, which decrease the potential energy.
+/// State::load in [0, 1] scales the system's loads. The full load is tried directly. When that does not
+/// converge, or moves a coordinate by more than its coordinate_scale(), the load is applied in adaptive
+/// increments under the same bound, so that the branch of equilibria that starts at `state` is followed.
+/// Where no increment does (a straight or slack cable without tension has a singular tangent, a snap-through
+/// no equilibrium nearby) the load is reached by proximal steps M(q)(q - q_k)/tau^2 - f + G'lambda = 0 with
+/// growing tau, which decrease the potential energy.
 ///
 /// Converged means: no residual is larger than `tolerance` times the largest force (the load or G'lambda,
 /// compared as work over coordinate_scale()) or, failing that, than its own round-off. v and a are zero on
-/// return. On any status but `converged`, state and load factor are those of the last equilibrium found (the
+/// return. On any status but `converged`, state and its load are those of the last equilibrium found (the
 /// start, when none was). Throws std::invalid_argument for settings out of range and a q of the wrong size;
-/// what the system or `set_load_factor` throws arrives unchanged.
+/// what the system throws arrives unchanged.
 [[nodiscard]] StaticReport find_static_equilibrium(const StaticEquilibrium& settings,
-                                                   const SecondOrderSystem& system,
-                                                   const std::function<void(double)>& set_load_factor,
-                                                   State& state);
+                                                   const SecondOrderSystem& system, State& state);
 
 }  // namespace nurbeam

@@ -8,6 +8,9 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <source_location>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 /// What every use of SUNDIALS needs at the border: owners, views, and no exception in a C frame.
@@ -35,9 +38,11 @@ inline SUNContext new_context() {
   return owned(context);
 }
 
-/// Throws std::bad_alloc unless `flag`, the return value of a setter, is success: arguments are ours.
-inline void check(int flag) {
-  if (flag != 0) throw std::bad_alloc();
+/// Throws std::logic_error unless `flag`, the return value of a setter, is success: its arguments are ours.
+inline void check(int flag, std::source_location where = std::source_location::current()) {
+  if (flag == 0) return;
+  throw std::logic_error("SUNDIALS refuses what " + std::string(where.file_name()) + ":" +
+                         std::to_string(where.line()) + " sets, with flag " + std::to_string(flag));
 }
 
 inline Eigen::Map<Eigen::VectorXd> map(N_Vector vector) { return {NV_DATA_S(vector), NV_LENGTH_S(vector)}; }

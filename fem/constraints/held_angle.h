@@ -29,6 +29,11 @@ class HeldAngle {
     if constexpr (D == 2) sine_ = a.x() * b.y() - a.y() * b.x();
   }
 
+  /// Of two tangents of drawings, 3 each.
+  static HeldAngle drawn(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return {a.head<D>().normalized(), b.head<D>().normalized()};
+  }
+
   /// g for any scalar, as a witness of the derivatives.
   template <class T>
   T value(const std::array<T, D>& a, const std::array<T, D>& b) const {

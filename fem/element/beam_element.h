@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "fem/element/layout.h"
 #include "fem/element/quadrature.h"
 #include "fem/element/rancf_basis.h"
 #include "fem/material/elastic.h"
@@ -10,57 +11,43 @@
 
 namespace nurbeam {
 
-/// Number of generalised coordinates q = (r_A, r_sA, r_B, r_sB, s_A, s_B) of an element (Eq. 11 of Ding &
-/// Ouyang with arc-length gradients and positions instead of r_x and x); D numbers each but the last two.
-template <int D>
-inline constexpr int element_size = 4 * D + 2;
-
-template <int D>
-using ElementVector = Eigen::Matrix<double, element_size<D>, 1>;
-template <int D>
-using ElementMatrix = Eigen::Matrix<double, element_size<D>, element_size<D>>;
-
-/// Coordinates and their rates of one element.
-template <int D>
-struct ElementState {
-  ElementVector<D> q, v, a;
-};
-
-template <int D>
-struct ElementResponse {
-  ElementVector<D> force;    ///< d/dt(dT/dv) - dT/dq + dU/dq + damping - external potential
-  ElementMatrix<D> tangent;  ///< w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq
-};
-
 struct ElementEnergy {
   double kinetic = 0, axial = 0, bending = 0, external = 0;  ///< [J]; external: potential of the dead loads
   double dissipation = 0;                                    ///< [W]
-  double length = 0;                                         ///< deformed [m]
 };
+
+/// Whether the ends of an element move over the material.
+enum class Ends { fixed, moving };
 
 /// What does not change in one element between length-control events.
 ///
 /// All forces are the Euler-Lagrange expressions of one discrete Lagrangian: T - U of the fields of
 /// ElementBasis, summed over Gauss points that sit at fixed fractions of the element's reference arc length
 /// (of each part, where the element spans breaks of the drawing). With moving ends this is form V of
-/// docs/theory.md; Form::virtual_work is form P.
+/// docs/theory.md.
 template <int D>
 class BeamElement {
  public:
-  /// `fixed`: neither end moves over the material; then everything that depends on s_a, s_b is computed here,
-  /// once. `straight`: the stress-free shape has no curvature. Throws std::invalid_argument for an element
-  /// with moving ends on a curve without metric.
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  /// With fixed ends everything that depends on s_a, s_b is computed here, once. `curve` and `properties`
+  /// must outlive the element. Throws std::invalid_argument for moving ends on a curve without metric.
   BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart, double s_a,
-              double s_b, bool fixed, bool straight);
+              double s_b, Ends ends);
 
   const ReferenceCurve& curve() const { return *curve_; }
+  const BeamProperties& properties() const { return *properties_; }
   const Chart& chart() const { return chart_; }
-  bool fixed() const { return fixed_; }
+  bool fixed() const { return ends_ == Ends::fixed; }
 
-  /// Force and tangent; `load`: dead load per reference length [N/m], rho A g included.
-  void respond(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load,
-               const TangentWeights* weights, ElementResponse<D>& response) const;
-  ElementEnergy energy(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load) const;
+  /// d/dt(dT/dv) - dT/dq + dU/dq + damping - external potential; `load`: dead load per reference length
+  /// [N/m], rho A g included.
+  ElementVector<D> force(const ElementState<D>& x, const Vector& load) const;
+  /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
+  ElementMatrix<D> tangent(const ElementState<D>& x, const Vector& load, const TangentWeights& w) const;
+  ElementEnergy energy(const ElementState<D>& x, const Vector& load) const;
+  /// Deformed [m].
+  double length(const ElementVector<D>& q) const;
 
   /// Shape functions at material point s for the end positions in q.
   ShapeFunctions<double> shape(const ElementVector<D>& q, double s) const;
@@ -73,30 +60,52 @@ class BeamElement {
   /// Length of the chart parameter over the element and stretch J at both ends: r_u = J r_s.
   std::array<double, 3> chart_lengths(const ElementVector<D>& q) const;
 
+  /// Calls visit(shape, s, weight) at every Gauss point between the ends s_a and s_b (double, or Jet: series
+  /// in both); a part between two breaks of the drawing has its own points.
+  template <class T, class Visit>
+  void for_each_point(const T& s_a, const T& s_b, Visit&& visit) const;
+  /// The same between the ends in q, as series in both.
+  template <class Visit>
+  void for_each_point(const ElementVector<D>& q, Visit&& visit) const {
+    using Layout = ElementLayout<D>;
+    for_each_point(Jet::variable(q[Layout::place(0)], 0), Jet::variable(q[Layout::place(1)], 1), visit);
+  }
+
  private:
   struct FixedPoint {
     Eigen::Vector4d S, S1, S2;
     double weight, kappa0, eps0;
   };
-  // Calls visit(shape, s, weight) at every Gauss point; a part between two breaks of the drawing has its own
-  // points.
-  template <class T, class Visit>
-  void for_each_point(const T& s_a, const T& s_b, Visit&& visit) const;
-  void respond_fixed(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load,
-                     const TangentWeights* weights, ElementResponse<D>& response) const;
-  void respond_moving(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load,
-                      const TangentWeights* weights, ElementResponse<D>& response) const;
-  void respond_virtual_work(const ElementState<D>& x, const Eigen::Matrix<double, D, 1>& load,
-                            const TangentWeights* weights, ElementResponse<D>& response) const;
+  ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
+  ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
 
   const ReferenceCurve* curve_;
   const BeamProperties* properties_;
   Chart chart_;
-  bool fixed_, straight_;
+  Ends ends_;
   std::vector<FixedPoint> points_;  // fixed elements only
   Eigen::Matrix4d mass_;            // fixed elements only: rho A int S_k S_l ds
   Eigen::Vector4d load_factor_;     // fixed elements only: int S_k ds
 };
+
+template <int D>
+template <class T, class Visit>
+void BeamElement<D>::for_each_point(const T& s_a, const T& s_b, Visit&& visit) const {
+  const ElementBasis<T> basis(*curve_, chart_, s_a, s_b);
+  const auto visit_part = [&](const T& lo, const T& hi) {
+    for (int g = 0; g < GaussRule::size; ++g) {
+      const T s = lo + (hi - lo) * GaussRule::points[g];
+      visit(basis.at(s), s, (hi - lo) * GaussRule::weights[g]);
+    }
+  };
+  T lo = s_a;
+  if (chart_.segment < 0)
+    for (double s = curve_->next_break(value(s_a)); s < value(s_b); s = curve_->next_break(s)) {
+      visit_part(lo, T(s));
+      lo = T(s);
+    }
+  visit_part(lo, s_b);
+}
 
 extern template class BeamElement<2>;
 extern template class BeamElement<3>;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "fem/element/jet.h"
+#include "fem/element/layout.h"
 #include "fem/element/rancf_basis.h"
 #include "solver/second_order_system.h"
 
@@ -31,14 +32,15 @@ struct RowSeries {
 template <int D>
 class PointField {
  public:
-  static constexpr int n = 4 * D + 2;
+  using Layout = ElementLayout<D>;
+  static constexpr int n = Layout::size;
   using Vector = Eigen::Matrix<double, D, 1>;
   using Gradient = Eigen::Matrix<double, D, n>;
   using Nodes = Eigen::Matrix<double, D, 4>;
 
   PointField(const std::array<Jet, 4>& row, const Nodes& e) : row_(row), value(e * row_.value) {
     for (int k = 0; k < 4; ++k) gradient.template middleCols<D>(k * D).setIdentity() *= row_.value[k];
-    for (int i = 0; i < 2; ++i) gradient.col(4 * D + i) = e * row_.first[i];
+    for (int i = 0; i < 2; ++i) gradient.col(Layout::place(i)) = e * row_.first[i];
   }
 
   const RowSeries& row() const { return row_; }
@@ -57,7 +59,8 @@ class PointField {
     const RowSeries::Row c = row_rate(w);
     for (int k = 0; k < 4; ++k) g.template middleCols<D>(k * D).setIdentity() *= c[k];
     for (int i = 0; i < 2; ++i)
-      g.col(4 * D + i) = e_rate * row_.first[i] + e * (row_.second[i][0] * w[0] + row_.second[i][1] * w[1]);
+      g.col(Layout::place(i)) =
+          e_rate * row_.first[i] + e * (row_.second[i][0] * w[0] + row_.second[i][1] * w[1]);
     return g;
   }
   /// K += factor y . d2x/dq2.
@@ -67,10 +70,10 @@ class PointField {
     for (int i = 0; i < 2; ++i) {
       for (int k = 0; k < 4; ++k) {
         const Vector block = f * row_.first[i][k];
-        K.template block<D, 1>(k * D, 4 * D + i) += block;
-        K.template block<1, D>(4 * D + i, k * D) += block.transpose();
+        K.template block<D, 1>(k * D, Layout::place(i)) += block;
+        K.template block<1, D>(Layout::place(i), k * D) += block.transpose();
       }
-      for (int j = 0; j < 2; ++j) K(4 * D + i, 4 * D + j) += f.dot(e * row_.second[i][j]);
+      for (int j = 0; j < 2; ++j) K(Layout::place(i), Layout::place(j)) += f.dot(e * row_.second[i][j]);
     }
   }
 
@@ -86,7 +89,7 @@ class PointField {
 template <int D>
 struct SecondRate {
   Eigen::Matrix<double, D, 1> value;
-  Eigen::Matrix<double, D, 4 * D + 2> gradient;
+  Eigen::Matrix<double, D, element_size<D>> gradient;
 
   SecondRate(const std::array<Jet, 4>& row, const PointField<D>& field,
              const typename PointField<D>::Nodes& e, const typename PointField<D>::Nodes& e_rate,
@@ -107,7 +110,7 @@ struct SecondRate {
     value = e_second * r.value + 2 * e_rate * c1 + e * c2;
     for (int k = 0; k < 4; ++k) gradient.template middleCols<D>(k * D).setIdentity() *= c2[k];
     for (int i = 0; i < 2; ++i)
-      gradient.col(4 * D + i) = e_second * r.first[i] + 2 * e_rate * c1_i[i] + e * c2_i[i];
+      gradient.col(ElementLayout<D>::place(i)) = e_second * r.first[i] + 2 * e_rate * c1_i[i] + e * c2_i[i];
   }
 };
 
@@ -120,7 +123,8 @@ struct SecondRate {
 template <int D>
 class PointInertia {
  public:
-  static constexpr int n = 4 * D + 2;
+  using Layout = ElementLayout<D>;
+  static constexpr int n = Layout::size;
   using Vector = Eigen::Matrix<double, D, 1>;
   using Nodes = Eigen::Matrix<double, D, 4>;
   using Gradient = Eigen::Matrix<double, D, n>;
@@ -142,8 +146,8 @@ class PointInertia {
     s_q_.setZero();
     weight_q_.setZero();
     for (int i = 0; i < 2; ++i) {
-      s_q_[4 * D + i] = s.d(i);
-      weight_q_[4 * D + i] = weight.d(i);
+      s_q_[Layout::place(i)] = s.d(i);
+      weight_q_[Layout::place(i)] = weight.d(i);
       s_rate_ += s.d(i) * x.w[i];
       s_second_ += s.d(i) * x.w_rate[i];
       weight_rate_ += weight.d(i) * x.w[i];

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "nurbs/number_text.h"
+
 namespace nurbeam {
 
 namespace {
@@ -42,7 +44,7 @@ ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimensio
   const double gap = (segments_.front().point(0) - segments_.back().point(1)).norm();
   if (gap > 1e-9 * length())
     throw std::invalid_argument("a closed reference curve ends where it starts; there is a gap of " +
-                                std::to_string(gap) + " m");
+                                text_of(gap) + " m");
 }
 
 double ReferenceCurve::wrapped(double s) const {
@@ -70,6 +72,12 @@ int ReferenceCurve::segment_at(double s, bool from_left) const {
 }
 
 ChartGeometry ReferenceCurve::geometry(int j, double u) const {
+  ChartGeometry g = drawn_geometry(j, u);
+  if (straight_) g.curvature = {};
+  return g;
+}
+
+ChartGeometry ReferenceCurve::drawn_geometry(int j, double u) const {
   const Eigen::Matrix<double, 3, 6> r = segments_[j].derivatives(u);
   const double a0 = r.col(1).squaredNorm();
   const double a1 = 2 * r.col(1).dot(r.col(2));
@@ -109,7 +117,7 @@ double ReferenceCurve::largest_curvature() const {
   double largest = 0;
   for (int j = 0; j < segment_count(); ++j)
     for (int i = 0; i < samples; ++i)
-      largest = std::max(largest, std::abs(geometry(j, i / (samples - 1.0)).curvature[0]));
+      largest = std::max(largest, std::abs(drawn_geometry(j, i / (samples - 1.0)).curvature[0]));
   return largest;
 }
 

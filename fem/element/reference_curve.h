@@ -14,7 +14,8 @@ namespace nurbeam {
 struct ChartGeometry {
   std::array<double, 4> stretch;    ///< J0 = |r_u| and its first three u-derivatives
   std::array<double, 4> weight;     ///< W and its first three u-derivatives
-  std::array<double, 4> curvature;  ///< kappa_0 and its first two u-derivatives (the fourth entry is 0)
+  std::array<double, 4> curvature;  ///< of the stress-free shape, kappa_0, and its first two u-derivatives
+                                    ///< (the fourth entry is 0)
 };
 
 /// What the material coordinate s of a reference curve measures.
@@ -41,7 +42,16 @@ class ReferenceCurve {
   ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric = Metric::arc_length,
                  bool closed = false);
 
+  /// The same curve, of a beam whose stress-free shape has this length but no curvature.
+  ReferenceCurve straightened() const {
+    ReferenceCurve curve = *this;
+    curve.straight_ = true;
+    return curve;
+  }
+
   Metric metric() const { return metric_; }
+  /// Whether the stress-free shape has no curvature.
+  bool straight() const { return straight_; }
   bool closed() const { return closed_; }
   int dimension() const { return dimension_; }
   int segment_count() const { return static_cast<int>(segments_.size()); }
@@ -78,10 +88,11 @@ class ReferenceCurve {
   Eigen::Vector3d tangent(double s, bool from_left = false) const;
   /// Green's strain (|dr/ds|^2 - 1)/2 of the drawing: 0 but with Metric::label.
   double strain(double s) const;
-  /// Largest |kappa_0| over the sampled curve [1/m].
+  /// Largest curvature of the drawing, sampled [1/m].
   double largest_curvature() const;
 
  private:
+  ChartGeometry drawn_geometry(int j, double u) const;
   double segment_length(int j) const { return breaks_[j + 1] - breaks_[j]; }
 
   std::vector<RationalCubic> segments_;
@@ -90,6 +101,7 @@ class ReferenceCurve {
   int dimension_;
   Metric metric_;
   bool closed_;
+  bool straight_ = false;
 };
 
 }  // namespace nurbeam

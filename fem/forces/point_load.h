@@ -1,58 +1,71 @@
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <cmath>
-
-#include "fem/model/beam_model.h"
+#include "fem/forces/turned_vector.h"
+#include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
 
-/// A vector that turns with the tangent of the beam, and its derivative in r_s.
-struct TurnedVector {
-  Eigen::Vector3d value;
-  Eigen::Matrix3d gradient;
+/// A vector at one place of a beam, which may move along it: what a force and a moment have in common.
+struct LoadAtPlace {
+  int beam = 0;
+  double s = 0;                                     ///< place at t = 0 [m]
+  double speed = 0;                                 ///< ds/dt of the place [m/s]
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N] or [N m]
+  bool follower = false;                            ///< turns with the tangent
+  TimeTable time = {};                              ///< factor
 };
 
-/// The load vector for the slope r_s: fixed in space, or turned by the smallest rotation that takes the drawn
-/// tangent to r_s / |r_s|. Undefined where the two are opposite in space.
-inline TurnedVector load_vector(const PointLoad& load, const Eigen::Vector3d& drawn_tangent,
-                                const Eigen::Vector3d& rs) {
-  if (!load.follower) return {load.value, Eigen::Matrix3d::Zero()};
-  const double norm = rs.norm();
-  const Eigen::Vector3d t = rs / norm, &t0 = drawn_tangent, &p = load.value;
-  const Eigen::Matrix3d dt = (Eigen::Matrix3d::Identity() - t * t.transpose()) / norm;
-  const bool planar = rs.z() == 0 && t0.z() == 0;
-  if (planar) {
-    // R(theta) p with cos = t0.t, sin = t0 x t: linear in t, regular for every angle.
-    const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
-    const Eigen::Vector3d flat(p.x(), p.y(), 0), across = z.cross(flat);
-    const Eigen::Vector3d z_t0 = z.cross(t0);
-    Eigen::Vector3d value = t0.dot(t) * flat + z_t0.dot(t) * across;
-    const Eigen::Matrix3d by_t = flat * t0.transpose() + across * z_t0.transpose();
-    value.z() = p.z();
-    return {value, by_t * dt};
-  }
-  // Rodrigues with w = t0 x t, |w| = sin: R p = p + w x p + w x (w x p)/(1 + cos).
-  const double c = 1 + t0.dot(t);
-  const Eigen::Vector3d w = t0.cross(t), wp = w.cross(p), wwp = w.cross(wp);
-  Eigen::Matrix3d by_t;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d d = Eigen::Vector3d::Unit(i), dw = t0.cross(d);
-    by_t.col(i) = dw.cross(p) + (dw.cross(wp) + w.cross(dw.cross(p))) / c - wwp * (t0.dot(d) / (c * c));
-  }
-  return {p + wp + wwp / c, by_t * dt};
-}
+/// Where such a load is at a moment: nothing is there when it has left the beam.
+template <int D>
+struct LoadedPoint {
+  int element;
+  PointShape<D> shape;
+  PointField<D> rs;
+  TurnedVector vector;  ///< without its factor
+  double factor;        ///< of time and of State::load
 
-/// Force conjugate to r_s of a moment m: m x r_s / |r_s|^2 (virtual work m . (r_s x d r_s)/|r_s|^2), and its
-/// derivative in r_s.
-inline TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs) {
-  const double A = rs.squaredNorm();
-  const Eigen::Vector3d f = m.value.cross(rs) / A;
-  Eigen::Matrix3d gradient;
-  for (int i = 0; i < 3; ++i)
-    gradient.col(i) =
-        (m.value.cross(Eigen::Vector3d::Unit(i)) + m.gradient.col(i).cross(rs)) / A - f * (2 * rs[i] / A);
-  return {f, gradient};
-}
+  static std::optional<LoadedPoint> of(const LoadAtPlace& load, const MeshedBeams<D>& at,
+                                       const State& state) {
+    const Beam& beam = at.structure.beams[load.beam];
+    const double s = load.s + load.speed * state.t;
+    if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) return std::nullopt;
+    const int index = find_span(at.structure, at.mesh, state.q, load.beam, s);
+    const PointShape<D> shape = point_shape<D>(at.elements[index], state.q, s);
+    const PointField<D> rs = shape.slope();
+    TurnedVector vector{load.value, Eigen::Matrix3d::Zero()};
+    if (load.follower) vector = turned_with_tangent(load.value, beam.curve.tangent(s), widened<D>(rs.value));
+    return LoadedPoint{index, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
+  }
+
+  /// The force f conjugate to the field `loaded` on the dynamics: less loaded_q' f.
+  void add_force(const MeshedBeams<D>& at, const PointField<D>& loaded, const TurnedVector& f,
+                 Eigen::Ref<Eigen::VectorXd> dynamics) const {
+    const Eigen::Matrix<double, D, 1> value = factor * f.value.template head<D>();
+    const auto& dofs = at.elements[element].dofs;
+    for (int k = 0; k < element_size<D>; ++k)
+      if (dofs[k] >= 0) dynamics[dofs[k]] -= loaded.gradient.col(k).dot(value);
+  }
+  ElementMatrix<D> stiffness(const PointField<D>& loaded, const TurnedVector& f, double weight) const {
+    const Eigen::Matrix<double, D, 1> value = factor * f.value.template head<D>();
+    const Eigen::Matrix<double, D, D> gradient = factor * f.gradient.template topLeftCorner<D, D>();
+    ElementMatrix<D> K = -weight * loaded.gradient.transpose() * gradient * rs.gradient;
+    loaded.add_hessian(value, -weight, shape.nodes, K);
+    return K;
+  }
+};
+
+/// A force on a material point [N].
+struct PointLoad : LoadAtPlace {
+  template <int D>
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
+    if (const auto p = LoadedPoint<D>::of(*this, at, state))
+      p->add_force(at, p->shape.position(), p->vector, dynamics);
+  }
+  template <int D, class Sink>
+  void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    if (w.stiffness == 0) return;
+    if (const auto p = LoadedPoint<D>::of(*this, at, state))
+      sink.element(p->element, p->stiffness(p->shape.position(), p->vector, w.stiffness));
+  }
+};
 
 }  // namespace nurbeam

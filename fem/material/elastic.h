@@ -19,6 +19,7 @@ struct ElasticResponse {
   Eigen::Matrix<double, 2 * D, 2 * D> hessian;      ///< d2(psi)/dz2
   double moment;                                    ///< EI (K - kappa_0) = -d(psi)/d(kappa_0) [N m]
   Eigen::Matrix<double, 2 * D, 1> moment_gradient;  ///< d(moment)/dz
+  double bending_stiffness;                         ///< -d(moment)/d(kappa_0) [N m^2]
 };
 
 /// The constitutive law: the only place that multiplies strain by stiffness.
@@ -36,6 +37,7 @@ ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Mat
     if (kappa0 == 0) e.energy.bending -= EI * curvature_rounding * curvature_rounding / 2;
   e.moment = EI * bend;
   e.moment_gradient = EI * K.gradient;
+  e.bending_stiffness = EI;
   e.gradient = EA * stretch * eps.gradient + e.moment * K.gradient;
   e.hessian = EA * (eps.gradient * eps.gradient.transpose() + stretch * eps.hessian) +
               e.moment_gradient * K.gradient.transpose() + e.moment * K.hessian;

@@ -1,17 +1,27 @@
 #pragma once
+#include <optional>
+
+#include "fem/material/curvature_measure.h"
 
 namespace nurbeam {
 
-enum class CurvatureMeasure {
-  material,  ///< |r_s x r_ss| / |r_s|^2: rotation per unit reference length, conjugate to the bending moment
-  spatial    ///< |r_s x r_ss| / |r_s|^3: the papers' measure
+/// The numbers of a cross section; its bending stiffness is the same in all directions, or bending is in one
+/// plane.
+struct Section {
+  double area = 0;                               ///< A [m^2]
+  double second_moment = 0;                      ///< I [m^4]
+  std::optional<double> torsion_constant = {};   ///< J [m^4], where it is known
+  std::optional<double> radius = {}, bore = {};  ///< of a disk or a pipe, outer and inner [m]
+
+  /// A disk, or with a bore a pipe. Throws std::invalid_argument unless 0 <= bore < radius.
+  static Section round(double radius, double bore = 0);
 };
 
-/// How the forces on moving elements follow from the fields (theory.md: forms V and P).
-enum class Form {
-  variational,  ///< Euler-Lagrange expressions of T - U with moving limits: conserves energy
-  virtual_work  ///< virtual work at fixed material points inside moving limits, Eqs. 18-19 of Ding & Ouyang,
-                ///< for comparison: drifts
+struct Material {
+  double youngs_modulus = 0;                 ///< E [Pa]
+  double density = 0;                        ///< rho [kg/m^3]
+  double damping = 0;                        ///< c [s]: stress = E (strain + c d(strain)/dt)
+  std::optional<double> shear_modulus = {};  ///< G [Pa], where it is known
 };
 
 /// Plain numbers in SI: what the constitutive law needs of a cross section and its material.
@@ -19,9 +29,18 @@ struct BeamProperties {
   double axial_stiffness = 0;    ///< EA [N]
   double bending_stiffness = 0;  ///< EI [N m^2]
   double mass_per_length = 0;    ///< rho A [kg/m]
-  double damping = 0;            ///< c [s]: stress = E (strain + c d(strain)/dt)
+  double damping = 0;            ///< c [s]
   CurvatureMeasure curvature = CurvatureMeasure::material;
-  Form form = Form::variational;
+
+  BeamProperties() = default;
+  BeamProperties(double EA, double EI, double rho_A, double c = 0,
+                 CurvatureMeasure measure = CurvatureMeasure::material)
+      : axial_stiffness(EA), bending_stiffness(EI), mass_per_length(rho_A), damping(c), curvature(measure) {}
+  BeamProperties(const Section& section, const Material& material,
+                 CurvatureMeasure measure = CurvatureMeasure::material)
+      : BeamProperties(material.youngs_modulus * section.area,
+                       material.youngs_modulus * section.second_moment, material.density * section.area,
+                       material.damping, measure) {}
 };
 
 }  // namespace nurbeam

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "fem/material/section.h"
+#include "fem/material/curvature_measure.h"
 
 namespace nurbeam {
 

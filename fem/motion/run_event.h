@@ -5,11 +5,20 @@
 
 namespace nurbeam {
 
+enum class EventKind {
+  split,          ///< nodes were inserted
+  merge,          ///< a node was removed
+  becomes_point,  ///< a body is carried as a point of the mesh
+  becomes_node,   ///< a body is carried as a node
+  left_beam,      ///< a body has left the beam
+  stopped_at_end  ///< a body has stopped at the end
+};
+
 /// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...
 struct RunEvent {
-  double time = 0;   ///< [s]
-  std::string kind;  ///< "split", "merge", "left the beam", ...
-  std::string beam, body;
+  double time = 0;  ///< [s]
+  EventKind kind = EventKind::split;
+  int beam = -1, body = -1;                    ///< of the model
   std::optional<double> s;                     ///< reference arc length of the body [m]
   double energy_before = 0, energy_after = 0;  ///< [J]
   Eigen::Vector3d momentum_before = Eigen::Vector3d::Zero(),

@@ -7,11 +7,11 @@
 
 #include "fem/motion/crossing.h"
 #include "fem/motion/meshed_state.h"
-#include "fem/motion/record_frame.h"
 #include "fem/motion/resting_place.h"
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
-#include "nurbs/number_text.h"
+#include "fem/system/initial_state.h"
+#include "fem/system/observables.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
@@ -24,46 +24,20 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-const char* reason_of(StepStatus status) {
-  switch (status) {
-    case StepStatus::not_converged:
-      return "Newton's iteration does not converge";
-    case StepStatus::singular_matrix:
-      return "the iteration matrix is singular";
-    case StepStatus::inadmissible:
-      return "an element would turn inside out";
-    case StepStatus::converged:
-      break;
-  }
-  return "converged";
-}
-
-// Whether a beam's end is held, by a support or by another beam.
-bool is_held(const BeamModel& model, const Crossing& end) {
-  const int beam = model.joints[end.joint].beam;
-  return std::any_of(model.supports.begin(), model.supports.end(),
-                     [&](const Support& support) { return support.beam == beam && support.s == end.s; }) ||
-         std::any_of(model.beam_joints.begin(), model.beam_joints.end(), [&](const BeamJoint& other) {
-           return (other.beam_a == beam && other.s_a == end.s) ||
-                  (other.beam_b == beam && other.s_b == end.s);
-         });
-}
-
-template <int D>
 class Simulation {
  public:
-  Simulation(const BeamModel& model, const std::vector<ProbePlace>& probes, const SimulationOptions& options,
-             const SimulationObserver& observer)
-      : model_(model), probes_(probes), options_(options), observer_(observer) {}
+  Simulation(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
+             const SimulationOptions& options, const SimulationObserver& observer)
+      : model_(std::move(model)), probes_(probes), options_(options), observer_(observer) {}
 
-  SimulationReport resume(const RestartPoint& from) {
+  SimulationReport resume(const Checkpoint& from) {
     go_on_from(from);
-    move(from.frames);
+    move(from.snapshots);
     return report_up_to_now();
   }
 
   SimulationReport run() {
-    at_ = as_drawn<D>(model_);
+    at_ = MeshedState::drawn(model_);
     step_ = options_.step.value_or(step_);
     if (options_.statics)
       rest();
@@ -81,61 +55,60 @@ class Simulation {
   }
 
   void rest() {
-    find_rest(at_, options_.length_control, observer_.interrupted, report_);
-    if (report_.status == SimulationStatus::done) write_frame();
+    find_rest(
+        at_, options_.length_control, [this] { return interrupted(); }, report_);
+    if (report_.status == SimulationStatus::done) take_snapshot();
   }
 
+  bool fail(Failure::Kind kind) {
+    report_.fail({.kind = kind, .time = at_.state.t});
+    return false;
+  }
+  bool interrupted() const { return observer_.interrupted && observer_.interrupted(); }
+
   // --- Motion
-  // --------------------------------------------------------------------------------------------------
 
   bool start_motion() {
-    if (!check_bodies_apart(*at_.system, at_.state, report_)) return false;
+    if (!check_bodies_apart(at_, report_)) return false;
     if (options_.start_from_equilibrium) {
       if (!find_held_equilibrium(at_, report_)) return false;
-      at_.system = std::make_unique<BeamSystem<D>>(model_, at_.system->mesh().plan);
+      at_.system = std::make_unique<BeamSystem>(model_, at_.system->mesh().plan);
       at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
     }
-    at_.system->start_joints(at_.state);
-    Eigen::VectorXd impulse;
-    if (!project_velocities(*at_.system, at_.state, impulse)) {
-      report_.fail(SimulationStatus::not_converged,
-                   "the initial velocities cannot be made consistent with the supports");
-      return false;
-    }
+    start_moving(*at_.system, at_.state);
+    if (project_velocities(*at_.system, at_.state).status != ProjectionStatus::done)
+      return fail(Failure::Kind::initial_velocities);
     return restart();
   }
 
-  // --- Restart points
-  // -----------------------------------------------------------------------------------------------
+  // --- Checkpoints
 
-  void hand_over(std::size_t frames) const {
-    if (!observer_.restart_point) return;
-    RestartPoint point;
-    point.frames = frames;
+  void hand_over(std::size_t snapshots) const {
+    if (!observer_.checkpoint) return;
+    Checkpoint point;
+    point.snapshots = snapshots;
     point.plan = at_.system->mesh().plan;
     point.state = at_.state;
-    if (const auto* method = dynamic_cast<const GeneralizedAlphaIntegrator*>(integrator_.get()))
-      point.history = method->history();
+    point.history = integrator_->history();
     point.next_step = step_;
     point.last_step = last_step_;
     point.dissipated = dissipated_;
     point.start_energy = start_energy_;
-    point.iterations_in_frames = iterations_written_;
+    point.iterations_in_snapshots = iterations_written_;
     point.steps = steps_;
     point.report = report_up_to_now();
-    observer_.restart_point(point);
+    observer_.checkpoint(point);
   }
 
-  void go_on_from(const RestartPoint& point) {
-    at_ = {std::make_unique<BeamSystem<D>>(model_, point.plan), point.state};
+  void go_on_from(const Checkpoint& point) {
+    at_ = {std::make_unique<BeamSystem>(model_, point.plan), point.state};
     integrator_ = start_integrator(options_.integrator, *at_.system, at_.state);
-    if (auto* method = dynamic_cast<GeneralizedAlphaIntegrator*>(integrator_.get()))
-      method->restore(point.history);
+    integrator_->restore(point.state, point.history);
     step_ = point.next_step;
     last_step_ = point.last_step;
     dissipated_ = point.dissipated;
     start_energy_ = point.start_energy;
-    iterations_written_ = point.iterations_in_frames;
+    iterations_written_ = point.iterations_in_snapshots;
     steps_ = point.steps;
     report_ = point.report;
     seconds_before_ = report_.motion_seconds + report_.length_control_seconds;
@@ -145,19 +118,13 @@ class Simulation {
   bool restart() {
     const bool stiff = std::holds_alternative<GeneralizedAlpha>(options_.integrator);
     if (!(stiff ? make_accelerations_smooth(*at_.system, step_, at_.state)
-                : make_accelerations_consistent(*at_.system, at_.state))) {
-      report_.fail(SimulationStatus::not_converged,
-                   "the mass matrix is singular at t = " + text_of(at_.state.t, 8) + " s");
-      return false;
-    }
+                : make_accelerations_consistent(*at_.system, at_.state)))
+      return fail(Failure::Kind::mass_matrix);
     integrator_ = start_integrator(options_.integrator, *at_.system, at_.state);
     return true;
   }
 
-  double total_energy() const {
-    const SystemEnergy e = at_.system->energy(at_.state);
-    return e.mechanical() + dissipated_;
-  }
+  double total_energy() const { return energy(*at_.system, at_.state).mechanical() + dissipated_; }
 
   void begin_motion() {
     start_energy_ = total_energy();
@@ -171,16 +138,16 @@ class Simulation {
     const double resolution = 1e-12 * std::max(1.0, options_.end_time);
     const auto write_due = [&] {
       while (next_output < times.size() && times[next_output] <= at_.state.t + resolution) {
-        write_frame();
+        take_snapshot();
         ++next_output;
       }
     };
     write_due();
     bool complete = true;
     while (at_.state.t < options_.end_time - resolution) {
-      if (observer_.interrupted()) {
+      if (interrupted()) {
         hand_over(next_output);
-        report_.fail(SimulationStatus::interrupted, "interrupted at t = " + text_of(at_.state.t, 8) + " s");
+        report_.status = SimulationStatus::interrupted;
         complete = false;
         break;
       }
@@ -193,51 +160,51 @@ class Simulation {
       }
       if (std::abs(at_.state.t - target) < resolution) at_.state.t = target;
       write_due();
-      observer_.progress(last_record_);
-      if (observer_.restart_point_due && observer_.restart_point_due()) hand_over(next_output);
+      if (observer_.progress) observer_.progress(last_record_);
+      if (observer_.checkpoint_due && observer_.checkpoint_due()) hand_over(next_output);
     }
     if (complete) hand_over(next_output);
-    if (!complete && (times.empty() || at_.state.t > last_written_)) write_frame();
+    if (!complete && (times.empty() || at_.state.t > last_written_)) take_snapshot();
   }
 
   // One accepted step and what follows from it. Returns false when the run cannot go on.
   bool advance(double step) {
     const State before = at_.state;
-    const Eigen::VectorXd algorithmic = algorithmic_acceleration(*integrator_);
+    const IntegratorHistory history = integrator_->history();
     const StepReport taken = integrator_->advance(step);
     report_.newton_iterations += taken.newton_iterations;
     report_.rejected_steps += taken.rejected;
     if (taken.status != StepStatus::converged) {
-      report_.fail(SimulationStatus::not_converged,
-                   "the step from t = " + text_of(at_.state.t, 8) + " s failed, and shorter ones too: " +
-                       reason_of(taken.status) + places_text(*at_.system, at_.state) +
-                       "; a shorter \"step\" from the start, or a \"tolerance\", may help");
+      report_.fail(
+          {.kind = Failure::Kind::step, .time = at_.state.t, .places = places_of(at_), .step = taken.status});
       return false;
     }
     if (!options_.step) step_ = taken.next_step;
     ++report_.steps;
     last_step_ = taken.step;
-    last_record_ = {at_.state.t + taken.step, taken.step, taken.newton_iterations, taken.rejected};
-    steps_.push_back(last_record_);
     at_.state = integrator_->state();
     const std::optional<Crossing> crossing = first_crossing(*at_.system, before, at_.state);
     if (crossing) {
-      land(before, algorithmic, taken.step, *crossing);
+      land({before, history, at_.state, taken.step}, *crossing);
       at_.state = carried_over(*at_.system, std::move(at_.state), taken.step, *crossing);
     }
     const std::optional<Crossing> ending = end_passed(*at_.system, at_.state);
-    if (ending) land(before, algorithmic, at_.state.t - before.t, *ending);
+    if (ending) land({before, history, at_.state, at_.state.t - before.t}, *ending);
+    const double length = crossing || ending ? at_.state.t - before.t : taken.step;
+    last_record_ = {at_.state.t, length, taken.newton_iterations, taken.rejected};
+    steps_.push_back(last_record_);
     if (damped()) dissipated_ += dissipated_between(before, at_.state);
     if (ending && !end_sliding(*ending)) return false;
     if (crossing && !ending && !step_over(*crossing)) return false;
-    if (!check_bodies_apart(*at_.system, at_.state, report_)) return false;
+    if (!check_bodies_apart(at_, report_)) return false;
     settle_mesh();
     return report_.status == SimulationStatus::done;
   }
 
-  // Repeats the last step so that it ends just before a place.
-  void land(const State& before, const Eigen::VectorXd& algorithmic, double step, const Crossing& crossing) {
-    at_.state = landed(*at_.system, options_.integrator, before, algorithmic, at_.state, step, crossing);
+  // Repeats the step that was taken so that it ends just before a place.
+  void land(const StepTaken& taken, const Crossing& crossing) {
+    State landing = landed(*at_.system, *integrator_, taken, crossing);
+    at_.state = std::move(landing);
   }
 
   // Midpoint rule with the mean rates of the step: what a transient shorter than the step does not falsify.
@@ -246,42 +213,40 @@ class Simulation {
     const double h = to.t - from.t;
     middle.q = (from.q + to.q) / 2;
     middle.v = (to.q - from.q) / h;
-    return h * at_.system->energy(middle).dissipation;
+    return h * energy(*at_.system, middle).dissipation;
   }
 
   bool damped() const {
-    return std::any_of(model_.beams.begin(), model_.beams.end(),
+    return std::any_of(model_->beams.begin(), model_->beams.end(),
                        [](const Beam& beam) { return beam.properties.damping > 0; });
   }
 
   // Goes on beyond a place that a joint has landed at: a point in the next element.
   bool step_over(const Crossing& crossing) {
-    const double beyond = landing_tolerance(model_, crossing.joint);
+    const double beyond = landing_tolerance(*model_, crossing.joint);
     at_.state.q[at_.system->mesh().joints[crossing.joint].place] =
         crossing.s + (crossing.forward ? beyond : -beyond);
-    at_.system = std::make_unique<BeamSystem<D>>(model_, present_plan<D>(*at_.system, at_.state));
+    at_.system = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
     return restart();
   }
 
   bool end_sliding(const Crossing& ending) {
     const int joint = ending.joint;
-    const bool leaves = model_.joints[joint].leave_at_end && !is_held(model_, ending);
-    RunEvent event = event_before(at_, leaves ? "left the beam" : "stopped at the end", joint);
-    MeshPlan plan = present_plan<D>(*at_.system, at_.state);
+    const bool leaves = model_->joints[joint].leave_at_end && !is_held(*model_, ending);
+    RunEvent event = event_before(at_, leaves ? EventKind::left_beam : EventKind::stopped_at_end, joint);
+    MeshPlan plan = present_plan(*at_.system, at_.state);
     plan.places[joint] = ending.s;
     plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
-    auto next = std::make_unique<BeamSystem<D>>(model_, std::move(plan));
-    std::optional<State> moved = transfer<D>(*at_.system, at_.state, *next, true);
+    auto next = std::make_unique<BeamSystem>(model_, std::move(plan));
+    State moved = interpolated(*at_.system, at_.state, *next);
     if (!leaves) {
-      moved->q[next->mesh().joints[joint].place] = ending.s;
-      Eigen::VectorXd impulse;
-      if (!project_velocities(*next, *moved, impulse)) {
-        report_.fail(SimulationStatus::not_converged,
-                     "the impact of \"" + body_name(model_, joint) + "\" at the end is singular");
+      moved.q[next->mesh().joints[joint].place] = ending.s;
+      if (project_velocities(*next, moved).status != ProjectionStatus::done) {
+        report_.fail({.kind = Failure::Kind::impact, .time = at_.state.t, .joint = joint});
         return false;
       }
     }
-    at_ = {std::move(next), std::move(*moved)};
+    at_ = {std::move(next), std::move(moved)};
     if (!restart()) return false;
     finish_event(at_, event);
     report_.events.push_back(std::move(event));
@@ -289,7 +254,6 @@ class Simulation {
   }
 
   // --- Length control
-  // ------------------------------------------------------------------------------------------
 
   // Applies the changes of the mesh that are due.
   void settle_mesh() {
@@ -300,54 +264,52 @@ class Simulation {
   // Applies one change of the mesh if one is due; the integrator is restarted and the event recorded.
   bool change_due_mesh() {
     const auto start = Clock::now();
-    const NextPlan next = next_plan<D>(*at_.system, at_.state, options_.length_control);
+    const NextPlan next = next_plan(*at_.system, at_.state, options_.length_control);
     if (next.change == MeshChange::none) return false;
     RunEvent event = event_before(at_, kind_of(next.change), next.joint);
     const bool observed = static_cast<bool>(observer_.mesh_changed);
     const std::vector<BeamRecord> before =
-        observed ? record_beams<D>(*at_.system, at_.state) : std::vector<BeamRecord>{};
+        observed ? record_beams(*at_.system, at_.state) : std::vector<BeamRecord>{};
     Eigen::VectorXd impulse;
     if (!change_mesh(at_, next, false, impulse, report_) || !restart()) return false;
     at_.state = integrator_->state();
-    event.support_impulse = support_impulse<D>(model_, impulse);
+    event.support_impulse = support_impulse(*at_.system, impulse);
     finish_event(at_, event);
     report_.events.push_back(std::move(event));
-    if (observed)
-      observer_.mesh_changed(report_.events.back(), before, record_beams<D>(*at_.system, at_.state));
+    if (observed) observer_.mesh_changed(report_.events.back(), before, record_beams(*at_.system, at_.state));
     report_.length_control_seconds += seconds_since(start);
     return true;
   }
 
   // --- Output
-  // --------------------------------------------------------------------------------------------------
 
-  void write_frame() {
-    Frame frame = record_frame<D>(*at_.system, at_.state, probes_);
-    frame.steps = std::exchange(steps_, {});
-    frame.energy.dissipated = dissipated_;
-    frame.energy.total += dissipated_;
-    frame.step = last_step_;
-    frame.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
+  void take_snapshot() {
+    Snapshot snapshot = record_snapshot(*at_.system, at_.state, probes_);
+    snapshot.steps = std::exchange(steps_, {});
+    snapshot.energy.dissipated = dissipated_;
+    snapshot.energy.total += dissipated_;
+    snapshot.step = last_step_;
+    snapshot.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
     iterations_written_ = report_.newton_iterations;
     if (!options_.statics) {
-      double drift = frame.energy.total - start_energy_;
+      double drift = snapshot.energy.total - start_energy_;
       report_.energy_drift = std::max(report_.energy_drift, std::abs(drift));
       for (const RunEvent& event : report_.events) drift -= event.energy_after - event.energy_before;
       report_.integration_error = std::max(report_.integration_error, std::abs(drift));
-      report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, frame.energy.kinetic);
+      report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, snapshot.energy.kinetic);
     }
     last_written_ = at_.state.t;
-    observer_.frame(frame);
+    if (observer_.snapshot) observer_.snapshot(snapshot);
   }
 
-  const BeamModel& model_;
+  std::shared_ptr<const BeamModel> model_;
   const std::vector<ProbePlace>& probes_;
   const SimulationOptions& options_;
   const SimulationObserver& observer_;
   const Clock::time_point start_ = Clock::now();
   double seconds_before_ = 0;  // of the run that was interrupted
   SimulationReport report_;
-  MeshedState<D> at_;
+  MeshedState at_;
   std::unique_ptr<Integrator> integrator_;
   double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
   StepRecord last_record_;
@@ -358,12 +320,17 @@ class Simulation {
 
 }  // namespace
 
+SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
+                          const SimulationOptions& options, const SimulationObserver& observer,
+                          const Checkpoint* from) {
+  Simulation simulation(std::move(model), probes, options, observer);
+  return from ? simulation.resume(*from) : simulation.run();
+}
+
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
-                          const RestartPoint* from) {
-  const auto play = [&](auto simulation) { return from ? simulation.resume(*from) : simulation.run(); };
-  if (model.dimension == 2) return play(Simulation<2>(model, probes, options, observer));
-  return play(Simulation<3>(model, probes, options, observer));
+                          const Checkpoint* from) {
+  return simulate(std::make_shared<const BeamModel>(model), probes, options, observer, from);
 }
 
 }  // namespace nurbeam

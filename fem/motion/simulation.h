@@ -1,14 +1,14 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "fem/motion/checkpoint.h"
 #include "fem/motion/integrators.h"
-#include "fem/motion/length_control.h"
-#include "fem/motion/record_frame.h"
+#include "fem/motion/mesh_rules.h"
 #include "fem/motion/simulation_report.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
@@ -23,27 +23,30 @@ struct SimulationOptions {
   LengthControl length_control;
 };
 
-/// What happens on the way.
+/// What happens on the way; what is empty is not told.
 struct SimulationObserver {
-  std::function<void(const Frame&)> frame;          ///< at every output time, in the model's own coordinates
-  std::function<void(const StepRecord&)> progress;  ///< after every step
-  std::function<bool()> interrupted;                ///< true asks to end after the current step
-  /// If set: every change of the mesh, with the beams before and after it.
+  std::function<void(const Snapshot&)> snapshot = nullptr;    ///< at every output time
+  std::function<void(const StepRecord&)> progress = nullptr;  ///< after every step
+  std::function<bool()> interrupted = nullptr;                ///< true asks to end after the current step
+  /// Every change of the mesh, with the beams before and after it.
   std::function<void(const RunEvent&, const std::vector<BeamRecord>&, const std::vector<BeamRecord>&)>
       mesh_changed = nullptr;
-  /// If set: asked after every step whether a restart point is wanted.
-  std::function<bool()> restart_point_due = nullptr;
-  /// If set: takes restart points (`inputs` left empty): those asked for, and the last one.
-  std::function<void(const RestartPoint&)> restart_point = nullptr;
+  std::function<bool()> checkpoint_due = nullptr;  ///< asked after every step
+  /// Takes checkpoints (`inputs` left empty): those asked for, and the last one.
+  std::function<void(const Checkpoint&)> checkpoint = nullptr;
 };
 
 /// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies
-/// that leave or stop at a beam's end. A static analysis ends with one frame at time 0; sliding bodies come
-/// to rest. With `from`, which must belong to the same model and options, a motion goes on from there: with
-/// generalized-alpha and the explicit methods bit by bit as if it had never been interrupted; IDA starts
-/// afresh with a short step.
+/// that leave or stop at a beam's end. A static analysis ends with one snapshot at time 0; sliding bodies
+/// come to rest. With `from`, which must belong to the same model and options, a motion goes on from there:
+/// with generalized-alpha and the explicit methods bit by bit as if it had never been interrupted; IDA starts
+/// afresh with a short step. All is in the model's own coordinates.
+SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
+                          const SimulationOptions& options, const SimulationObserver& observer,
+                          const Checkpoint* from = nullptr);
+/// The same of a copy of the model.
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
-                          const RestartPoint* from = nullptr);
+                          const Checkpoint* from = nullptr);
 
 }  // namespace nurbeam

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cad_import/report/import_report.h"
-#include "fem/model/beam_model.h"
+#include "fem/structure/structure.h"
 #include "nurbs/smooth/smooth_nurbs.h"
 
 namespace nurbeam {
@@ -52,7 +52,8 @@ struct CaseProfile {
 struct CaseSection {
   double area = 0;                          ///< [m^2]
   double second_moment = 0;                 ///< [m^4]
-  std::optional<double> radius = {};        ///< of a disk [m]
+  std::optional<double> radius = {};        ///< of a disk or a pipe [m]
+  std::optional<double> bore = {};          ///< inner radius of a pipe [m]
   std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
   bool from_cad = false;                    ///< all are those of the pipe whose centre line the axis is
 };

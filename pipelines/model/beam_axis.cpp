@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
+#include "nurbs/primitives.h"
 #include "nurbs/smooth/smooth_corners.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/model/axis_selection.h"
@@ -17,39 +18,6 @@ namespace {
 
 // A closed axis has its end on its start, to this part of its length.
 constexpr double closed_gap = 1e-6;
-
-RationalCubic straight_cubic(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  Eigen::Matrix4d points;
-  for (int i = 0; i < 4; ++i) points.col(i) << a + (b - a) * (i / 3.0), 1;
-  return RationalCubic(points);
-}
-
-// Circular arc about `normal` from start to end in pieces of at most 90 degrees (Eq. 43 of Ding & Ouyang).
-std::vector<RationalCubic> arc_cubics(const CaseAxis::Arc& arc) {
-  const Eigen::Vector3d n = arc.normal.normalized(), a = arc.start - arc.center, b = arc.end - arc.center;
-  double angle = std::atan2(n.dot(a.cross(b)), a.dot(b));
-  if (angle <= 1e-12) angle += 2 * M_PI;
-  const int pieces = static_cast<int>(std::ceil(angle / (M_PI / 2) - 1e-9));
-  const double step = angle / pieces, w1 = (1 + 2 * std::cos(step / 2)) / 3;
-  const auto at = [&](double theta) -> Eigen::Vector3d {
-    return a * std::cos(theta) + n.cross(a) * std::sin(theta);
-  };
-  std::vector<RationalCubic> cubics;
-  for (int i = 0; i < pieces; ++i) {
-    const double theta = i * step;
-    const Eigen::Vector3d p0 = at(theta), p3 = i + 1 == pieces ? Eigen::Vector3d(b) : at(theta + step);
-    // Control points of the elevated quadratic: w1 P1 = (P0 + 2 w C)/3 with the tangents' intersection C.
-    const Eigen::Vector3d tip = at(theta + step / 2) / std::cos(step / 2);
-    const double wc = std::cos(step / 2);
-    Eigen::Matrix4d points;
-    points.col(0) << p0 + arc.center, 1;
-    points.col(1) << (p0 + 2 * wc * tip) / 3 + w1 * arc.center, w1;
-    points.col(2) << (p3 + 2 * wc * tip) / 3 + w1 * arc.center, w1;
-    points.col(3) << p3 + arc.center, 1;
-    cubics.emplace_back(points);
-  }
-  return cubics;
-}
 
 BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain& chain, CadFiles& files,
                         Findings& findings) {
@@ -63,7 +31,10 @@ BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain&
   if (approximated)
     findings.warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
                                            text_of(path.deviation) + " m");
-  return {name.empty() ? beam.name : name, path.segments, {}};
+  const int first = chain.curves.front();
+  return {.curve_name = name.empty() ? beam.name : name,
+          .segments = path.segments,
+          .source = AxisSource{axis.path, chain.curves, curves[first], chain.reversed.front()}};
 }
 
 // As it is drawn. Throws std::invalid_argument where a curve cannot be an axis.
@@ -74,13 +45,14 @@ BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, F
         if constexpr (std::is_same_v<Source, AxisFile>)
           return axis_from_file(beam, source, chain, files, findings);
         if constexpr (std::is_same_v<Source, NurbsCurve>)
-          return {beam.name, BezierPath::from_nurbs(source, beam.approximation_tolerance).segments, {}};
-        if constexpr (std::is_same_v<Source, CaseAxis::Arc>) return {beam.name, arc_cubics(source), {}};
+          return {beam.name, BezierPath::from_nurbs(source, beam.approximation_tolerance).segments};
+        if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
+          return {beam.name, arc_cubics(source.center, source.start, source.end, source.normal)};
         if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
           std::vector<RationalCubic> cubics;
           for (std::size_t i = 0; i + 1 < source.size(); ++i)
-            cubics.push_back(straight_cubic(source[i], source[i + 1]));
-          return {beam.name, std::move(cubics), {}};
+            cubics.push_back(line_cubic(source[i], source[i + 1]));
+          return {beam.name, std::move(cubics)};
         }
       },
       beam.axis.source);

@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +14,20 @@ namespace nurbeam {
 /// What a beam's axis may measure [m].
 constexpr double shortest_beam = 1e-6, longest_beam = 1e7;
 
+/// The curves of a CAD file that an axis was made of.
+struct AxisSource {
+  std::filesystem::path file;
+  std::vector<int> curves;  ///< their numbers in the file, from 0, in running order
+  NurbsCurve first;         ///< the first of them as imported
+  bool reversed;            ///< whether the axis runs against that one
+};
+
 /// The axis of one beam in the coordinates of the case.
 struct BeamAxis {
   std::string curve_name;               ///< in its file, or else the beam's name
   std::vector<RationalCubic> segments;  ///< smooth where they meet, but for the corners [m]
-  std::vector<int> corners;             ///< the breaks between segments that stay corners, ascending
+  std::vector<int> corners = {};        ///< the breaks between segments that stay corners, ascending
+  std::optional<AxisSource> source = {};
 };
 
 /// The axis that the case describes, of a beam whose curves are the chain (empty for an axis that is in no

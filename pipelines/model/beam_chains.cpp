@@ -82,7 +82,8 @@ CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& fil
   const double outer = first.pipe_radius, inner = first.bore_radius;
   return {.area = M_PI * (outer * outer - inner * inner),
           .second_moment = M_PI / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
-          .radius = outer};
+          .radius = outer,
+          .bore = inner};
 }
 
 // Whether the name stands for beams; else an error.

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "fem/model/build.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/beam_axis.h"
@@ -71,17 +72,18 @@ void check_without_metric(const CaseBeam& beam, const std::vector<CaseSlidingJoi
 // A beam without elements yet.
 Beam beam_of(const CaseFile& case_file, const CaseBeam& from, const ReferenceCurve& curve,
              const CaseSection& section, Findings& findings) {
-  Beam beam{from.name, curve, {}, false, from.weights, from.merge, {}};
-  if (from.element == ElementKind::ale_ancf) beam.weights = WeightRule::ones;
-  beam.properties.axial_stiffness = from.material.youngs_modulus * section.area;
-  beam.properties.bending_stiffness = from.material.youngs_modulus * section.second_moment;
-  beam.properties.mass_per_length = from.material.density * section.area;
-  beam.properties.damping = from.material.damping;
-  beam.properties.curvature = from.curvature;
-  beam.properties.form = from.form;
   if (from.metric == Metric::label) check_without_metric(from, case_file.sliding_joints, findings);
-  beam.straight = is_straight(from, curve, findings);
-  return beam;
+  const Section sizes{section.area, section.second_moment, {}, section.radius, section.bore};
+  const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
+  return {.name = from.name,
+          .curve = is_straight(from, curve, findings) ? curve.straightened() : curve,
+          .properties = BeamProperties(sizes, material, from.curvature),
+          .section = sizes,
+          .material = material,
+          .weights = from.element == ElementKind::ale_ancf ? WeightRule::ones : from.weights,
+          .merge = from.merge,
+          .form = from.form,
+          .home = {}};
 }
 
 // Adds the supports of one beam; returns their places in reference arc length [m].
@@ -100,7 +102,8 @@ std::vector<double> add_supports(const CaseFile& case_file, int b, const DrawnBe
                            " already holds it; keep one of them (\"clamped\" holds what \"pinned\" holds)");
     places.push_back(s);
     paths.push_back(support.path);
-    model.supports.push_back({b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped});
+    model.constraints.push_back(
+        Support{b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped});
   }
   return places;
 }
@@ -113,7 +116,7 @@ void add_loads(const CaseFile& case_file, const std::vector<DrawnBeam>& beams, c
     const Eigen::Vector3d value =
         is_moment ? frame.moment_to_local(load.value) : frame.direction_to_local(load.value);
     if (load.kind == CaseLoad::Kind::force_per_length) {
-      model.line_loads.push_back({b, value, load.time});
+      model.forces.push_back(LineLoad{b, value, load.time});
       continue;
     }
     const double s = beams[b].material_coordinate(place_on(beams[b], load.at, load.path, findings));
@@ -130,8 +133,8 @@ void add_loads(const CaseFile& case_file, const std::vector<DrawnBeam>& beams, c
       findings.error(load.path + ".moment",
                      "the moment has a component of " + text_of(value.dot(along)) +
                          " N m along the beam, which has no torsion; leave only the part across it");
-    model.point_loads.push_back({is_moment ? PointLoad::Kind::moment : PointLoad::Kind::force, b, s, speed,
-                                 value, load.follower, load.time});
+    const LoadAtPlace added{b, s, speed, value, load.follower, load.time};
+    model.forces.push_back(is_moment ? Force(Moment{added}) : Force(PointLoad{added}));
   }
 }
 
@@ -152,10 +155,8 @@ std::vector<DrawnBeam> add_beams(const CaseFile& case_file, const std::vector<Be
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!drawn || !section) break;
     built.model.beams.push_back(beam_of(case_file, from, drawn->curve, section->section, findings));
-    built.radii.push_back(section->section.radius);
-    built.curve_names.push_back(axes[b].curve_name);
-    if (section->profile)
-      built.profiles.push_back({static_cast<int>(b), from.section.profile->path, *section->profile});
+    built.sources.push_back({axes[b].curve_name, axes[b].source});
+    if (section->profile) built.sources.back().profile = {from.section.profile->path, *section->profile};
     beams.push_back(*drawn);
   }
   return beams;
@@ -189,11 +190,12 @@ std::optional<BuiltModel> built_model(const CaseFile& as_read, Findings& finding
   if (findings.has_errors()) return {};
 
   const JoinedBeams joined = join_beams(case_file, beams, built.frame, findings);
-  built.model.beam_joints = joined.joints;
   divide_beams(case_file, beams, joined, built.frame, built.model, findings);
   if (findings.has_errors()) return {};
   check_joined_supports(case_file, beams, joined, findings);
   if (findings.has_errors()) return {};
+  built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
+  mark_held_nodes(built.model);
 
   add_loads(case_file, beams, built.frame, built.model, findings);
   add_sliding_joints(case_file, beams, joined, built.model, findings);

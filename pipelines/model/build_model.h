@@ -6,6 +6,7 @@
 
 #include "fem/model/beam_model.h"
 #include "pipelines/case/case_file.h"
+#include "pipelines/model/beam_axis.h"
 #include "pipelines/model/model_frame.h"
 #include "pipelines/section/section_profile.h"
 
@@ -20,19 +21,23 @@ struct Probe {
 
 /// A section that was drawn.
 struct BeamProfile {
-  int beam;
   std::filesystem::path file;
   SectionProfile profile;
+};
+
+/// Where a beam of the model comes from.
+struct BeamSource {
+  std::string curve_name;               ///< for export
+  std::optional<AxisSource> axis = {};  ///< empty where the axis is in no file
+  std::optional<BeamProfile> profile = {};
 };
 
 /// A case as a model: everything resolved and in place.
 struct BuiltModel {
   BeamModel model;
   ModelFrame frame;
-  std::vector<std::string> curve_names;      ///< per beam, for export
-  std::vector<std::optional<double>> radii;  ///< per beam: of its section, where that is a disk or a pipe [m]
+  std::vector<BeamSource> sources;  ///< per beam
   std::vector<Probe> probes;
-  std::vector<BeamProfile> profiles;
   std::vector<std::filesystem::path> inputs;  ///< CAD files read
   double import_seconds = 0;
 };

@@ -117,7 +117,7 @@ std::vector<HomeNode> divide_beam(const CaseBeam& from, const DrawnBeam& drawn,
         text_of(from.elements.grading) + " m has no effect with one element per segment; take 2 or more");
   for (HomeNode& node : home) node.s = drawn.material_coordinate(node.s);
   if (from.ring) {
-    home.front().late = home.back().late = true;  // the seam is a break of the drawing
+    home.front().permanent = home.back().permanent = true;  // the seam is a break of the drawing
     check_ring_elements(from, static_cast<int>(home.size()) - 1, sliding_bodies, findings);
   }
   const bool is_rigid = from.corners == Corners::rigid;

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/model/beam_model.h"
+#include "fem/structure/structure.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/drawn_beam.h"

@@ -30,7 +30,7 @@ Json to_json(const Beam& beam) {
           {"elements", beam.home.size() - 1},
           {"CAD segments", beam.curve.segment_count()},
           {"element", name_of(beam.weights)},
-          {"stress-free", beam.straight ? "straight" : "as drawn"},
+          {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
           {"EA [N]", p.axial_stiffness},
           {"EI [N m^2]", p.bending_stiffness},
           {"damping [s]", p.damping}};
@@ -99,9 +99,9 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   for (const Body& body : model.bodies) {
     json["bodies"].push_back({{"name", body.name}, {"mass [kg]", body.mass}});
   }
-  for (const Support& support : model.supports) {
-    json["supports"].push_back(to_json(support, built));
-  }
+  for (const Constraint& constraint : model.constraints)
+    if (const auto* support = std::get_if<Support>(&constraint))
+      json["supports"].push_back(to_json(*support, built));
   for (const SlidingJoint& joint : model.joints) {
     json["joints"].push_back(to_json(joint, model));
   }

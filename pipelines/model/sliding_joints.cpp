@@ -36,13 +36,14 @@ TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, dou
 }
 
 void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurve& curve,
-                       const std::vector<Support>& supports, const std::vector<double>& joint_places,
-                       Findings& findings) {
+                       const BeamModel& model, const std::vector<double>& joint_places, Findings& findings) {
   if (curve.closed()) return;
   bool start = false, end = false;
-  for (const Support& support : supports) {
-    start = start || (support.beam == b && support.s == 0);
-    end = end || (support.beam == b && support.s == curve.length());
+  for (const Constraint& constraint : model.constraints) {
+    const auto* support = std::get_if<Support>(&constraint);
+    if (!support || support->beam != b) continue;
+    start = start || support->s == 0;
+    end = end || support->s == curve.length();
   }
   for (const double s : joint_places) {
     start = start || s == 0;
@@ -66,7 +67,7 @@ void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>&
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
   for (const CaseBody& body : case_file.bodies) {
-    model.bodies.push_back({body.name, body.mass});
+    model.bodies.push_back({.name = body.name, .mass = body.mass});
     const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };
     const auto count =
         std::count_if(case_file.sliding_joints.begin(), case_file.sliding_joints.end(), carries);
@@ -94,7 +95,7 @@ void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>&
     if (joint.motion_speed)
       added.motion = steady_motion(added.s, *joint.motion_speed, curve, case_file.analysis.end_time);
     if (joint.leave_at_end && case_file.analysis.type != CaseAnalysis::Type::statics)
-      warn_of_held_ends(joint, b, curve, model.supports, joined.places[b], findings);
+      warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     model.joints.push_back(std::move(added));
   }
 }

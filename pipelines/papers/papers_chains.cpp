@@ -4,15 +4,13 @@
 #include <numbers>
 #include <utility>
 
-#include "pipelines/verification/verify_models.h"
+#include "pipelines/verification/models.h"
 
 namespace nurbeam::papers {
 
 namespace {
 
 using verification::add_slider;
-using verification::arc_cubics;
-using verification::line_cubic;
 
 BeamModel hung(std::vector<RationalCubic> axis, int elements, double start) {
   BeamModel model = verification::one_beam(

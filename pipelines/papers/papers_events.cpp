@@ -4,13 +4,16 @@
 #include <cmath>
 #include <ostream>
 
+#include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/papers/papers.h"
 
 namespace nurbeam::papers {
 
 namespace {
 
-bool is_exact(const RunEvent& event) { return event.kind == "split" || event.kind == "carried as a node"; }
+bool is_exact(const RunEvent& event) {
+  return event.kind == EventKind::split || event.kind == EventKind::becomes_node;
+}
 
 constexpr double step = 4e-4;
 const std::vector<int> meshes{3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40};
@@ -44,9 +47,10 @@ void write_single_events(Page& page, const Example& example, int elements, const
     for (const MeshChangeRecord& change : runs[way].changes) {
       const RunEvent& event = change.event;
       const Eigen::Vector3d p = momentum_jump(event);
-      rows.push_back({ways[way].name, number(event.time, 4), event.kind, number(event.s.value_or(NAN), 4),
-                      number(energy_jump(event)), number(event.length_after - event.length_before),
-                      number(p.x()), number(p.y()), number((p - event.support_impulse).norm(), 2)});
+      rows.push_back({ways[way].name, number(event.time, 4), name_of(event.kind),
+                      number(event.s.value_or(NAN), 4), number(energy_jump(event)),
+                      number(event.length_after - event.length_before), number(p.x()), number(p.y()),
+                      number((p - event.support_impulse).norm(), 2)});
     }
   page.heading("Events of " + example.name + " with " + std::to_string(elements) + " elements", 3);
   page.table(statement(example, ways, {example.end, step, 0.01}),

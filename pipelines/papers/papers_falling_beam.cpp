@@ -40,7 +40,7 @@ struct MethodRuns {
   std::vector<Run> runs;
 };
 
-double end_y(const Frame& frame) { return frame.probes[0].position.y(); }
+double end_y(const Snapshot& frame) { return frame.probes[0].position.y(); }
 
 void write_trajectories(Page& page, const std::vector<MethodRuns>& all) {
   page.heading("Figures 10 and 11: the beam's end and the sliding mass", 3);
@@ -90,7 +90,7 @@ void write_trajectories(Page& page, const std::vector<MethodRuns>& all) {
 
 long event_count(const Run& run) {
   return std::count_if(run.changes.begin(), run.changes.end(), [](const MeshChangeRecord& change) {
-    return change.event.kind == "merge" || change.event.kind == "split";
+    return change.event.kind == EventKind::merge || change.event.kind == EventKind::split;
   });
 }
 
@@ -137,7 +137,7 @@ void write_times(Page& page, const std::vector<MethodRuns>& all) {
 std::vector<double> merged_weights_of(const Run& run) {
   std::vector<double> weights;
   for (const MeshChangeRecord& change : run.changes) {
-    if (change.event.kind != "merge") continue;
+    if (change.event.kind != EventKind::merge) continue;
     for (const ElementRecord& element : change.after.elements) {
       const double margin = 1e-9 * (element.s_end - element.s_start);
       const auto inside = [&](double s) {
@@ -196,7 +196,7 @@ void write_event_shapes(Page& page, const std::vector<MethodRuns>& all) {
     double largest = 0;
     for (const MeshChangeRecord& change : one.runs[0].changes) {
       // With 5 elements the mass starts on the paper's threshold: an event at once, before anything moves.
-      if (change.event.kind != "merge" || change.event.time < 0.01 || ++shown > 2) continue;
+      if (change.event.kind != EventKind::merge || change.event.time < 0.01 || ++shown > 2) continue;
       const std::string when = number(change.event.time, 4) + " s";
       plot.lines.push_back(shape_of("before, " + when, change.before));
       plot.lines.back().style = PlotLine::Style::dashed;

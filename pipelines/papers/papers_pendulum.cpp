@@ -8,9 +8,9 @@
 
 #include "fem/element/rancf_basis.h"
 #include "fem/element/subdivision.h"
+#include "fem/model/build.h"
 #include "pipelines/papers/papers.h"
 #include "pipelines/papers/plot.h"
-
 namespace nurbeam {
 
 namespace {
@@ -53,24 +53,17 @@ BeamModel pendulum_model(const PendulumMesh& mesh) {
                    area = M_PI * section_radius * section_radius;
   const RationalCubic axis = pendulum_axis(mesh.arc);
   const ReferenceCurve drawn({axis}, 2);
-  Beam beam{"arc",
-            ReferenceCurve({axis}, 2, mesh.metric ? Metric::arc_length : Metric::label),
-            {},
-            false,
-            mesh.ancf ? WeightRule::ones : WeightRule::material,
-            MergeRule::standard,
-            {}};
-  beam.properties = {E * area, E * area * section_radius * section_radius / 4, density * area, 0,
-                     mesh.curvature};
-  beam.home = home_nodes({0, drawn.length()}, {mesh.elements}, mesh.grading);
+  Beam beam{.name = "arc",
+            .curve = ReferenceCurve({axis}, 2, mesh.metric ? Metric::arc_length : Metric::label),
+            .properties = {E * area, E * area * section_radius * section_radius / 4, density * area, 0,
+                           mesh.curvature},
+            .weights = mesh.ancf ? WeightRule::ones : WeightRule::material,
+            .home = home_nodes({0, drawn.length()}, {mesh.elements}, mesh.grading)};
   for (HomeNode& node : beam.home) node.s = beam.curve.arc_length(0, drawn.parameter(0, node.s));
   beam.home.back().s = beam.curve.length();
-  BeamModel model;
-  model.dimension = 2;
-  model.gravity = {0, -9.81, 0};
-  model.supports.push_back({0, 0, false});
-  model.beams.push_back(std::move(beam));
-  return model;
+  ModelBuilder builder(2, {0, -9.81, 0});
+  builder.pin(builder.add_beam(std::move(beam)), 0);
+  return builder.build();
 }
 
 PendulumMotion pendulum_motion(const PendulumMesh& mesh, const IntegratorSettings& integrator, double step,
@@ -83,7 +76,7 @@ PendulumMotion pendulum_motion(const PendulumMesh& mesh, const IntegratorSetting
   for (int i = 0; i <= intervals; ++i) options.output_times.push_back(static_cast<double>(i) / intervals);
   PendulumMotion motion;
   SimulationObserver observer;
-  observer.frame = [&](const Frame& frame) {
+  observer.snapshot = [&](const Snapshot& frame) {
     const Vector3d b = frame.probes[0].position;
     motion.t.push_back(frame.time);
     motion.AB.push_back(b.norm());
@@ -91,8 +84,6 @@ PendulumMotion pendulum_motion(const PendulumMesh& mesh, const IntegratorSetting
     motion.length.push_back(frame.beams[0].length);
     motion.beam.push_back(frame.beams[0]);
   };
-  observer.progress = [](const StepRecord&) {};
-  observer.interrupted = [] { return false; };
   motion.report = simulate(model, {{0, model.beams[0].curve.length()}}, options, observer);
   return motion;
 }

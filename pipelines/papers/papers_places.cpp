@@ -30,7 +30,7 @@ std::vector<ReferencePlace> semicircle_places(bool straight) {
 double largest_distance(const Run& run, const std::vector<ReferencePlace>& places) {
   double largest = 0;
   for (const ReferencePlace& place : places) {
-    const auto at = std::find_if(run.frames.begin(), run.frames.end(), [&](const Frame& frame) {
+    const auto at = std::find_if(run.frames.begin(), run.frames.end(), [&](const Snapshot& frame) {
       return std::abs(frame.time - place.time) < 1e-9;
     });
     if (at == run.frames.end()) return std::numeric_limits<double>::quiet_NaN();

@@ -41,7 +41,7 @@ PlotLine marks(const std::vector<ReferencePlace>& places, X x, Y y) {
 template <class X, class Y>
 PlotLine line_of(const std::string& label, const Run& run, X x, Y y) {
   PlotLine line{label, {}, {}};
-  for (const Frame& frame : run.frames) {
+  for (const Snapshot& frame : run.frames) {
     line.x.push_back(x(frame));
     line.y.push_back(y(frame));
   }
@@ -52,8 +52,8 @@ PlotLine shape_of(const std::string& label, const BeamRecord& beam);
 /// Its nodes.
 PlotLine nodes_of(const std::string& label, const BeamRecord& beam);
 
-inline double time_of(const Frame& frame) { return frame.time; }
-inline double body_x(const Frame& frame) { return frame.bodies[0].point.position.x(); }
-inline double body_y(const Frame& frame) { return frame.bodies[0].point.position.y(); }
+inline double time_of(const Snapshot& frame) { return frame.time; }
+inline double body_x(const Snapshot& frame) { return frame.bodies[0].point.position.x(); }
+inline double body_y(const Snapshot& frame) { return frame.bodies[0].point.position.y(); }
 
 }  // namespace nurbeam::papers

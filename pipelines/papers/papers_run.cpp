@@ -56,7 +56,7 @@ Example semicircle_example(bool straight) {
 
 double Run::leave_time() const {
   for (const RunEvent& event : report.events)
-    if (event.kind == "left the beam") return event.time;
+    if (event.kind == EventKind::left_beam) return event.time;
   return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -64,7 +64,7 @@ Run run(BeamModel model, const Method& method, const Pace& pace) {
   for (Beam& beam : model.beams) {
     beam.weights = method.weights;
     beam.merge = method.merge;
-    beam.properties.form = method.form;
+    beam.form = method.form;
   }
   SimulationOptions options;
   options.end_time = pace.end;
@@ -77,9 +77,7 @@ Run run(BeamModel model, const Method& method, const Pace& pace) {
 
   Run result;
   SimulationObserver observer;
-  observer.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
-  observer.progress = [](const StepRecord&) {};
-  observer.interrupted = [] { return false; };
+  observer.snapshot = [&](const Snapshot& frame) { result.frames.push_back(frame); };
   observer.mesh_changed = [&](const RunEvent& event, const std::vector<BeamRecord>& before,
                               const std::vector<BeamRecord>& after) {
     result.changes.push_back({event, before[0], after[0]});

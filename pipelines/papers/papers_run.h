@@ -51,7 +51,7 @@ struct MeshChangeRecord {
 /// A run, complete or not.
 struct Run {
   SimulationReport report;
-  std::vector<Frame> frames;
+  std::vector<Snapshot> frames;
   std::vector<MeshChangeRecord> changes;
 
   bool complete() const { return report.status == SimulationStatus::done; }

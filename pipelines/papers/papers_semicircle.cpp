@@ -26,7 +26,7 @@ void write_state(Page& page, bool straight) {
   Plot shapes{"Figure 16 (a): configurations, 16 elements, ours", "x [m]", "y [m]", {}};
   shapes.equal_axes = true;
   for (const double time : {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5})
-    for (const Frame& frame : runs[1].frames)
+    for (const Snapshot& frame : runs[1].frames)
       if (std::abs(frame.time - time) < 1e-9)
         shapes.lines.push_back(shape_of(number(time, 3) + " s", frame.beams[0]));
   page.figure("figure-16a" + suffix, shapes, statement(example, {ours()}, pace));
@@ -39,22 +39,22 @@ void write_state(Page& page, bool straight) {
     const std::string label = i == counts.size() ? std::to_string(counts.back()) + ", paper's rule"
                                                  : std::to_string(counts[i]) + ", ours";
     length.lines.push_back(
-        line_of(label, runs[i], time_of, [](const Frame& frame) { return frame.beams[0].length; }));
+        line_of(label, runs[i], time_of, [](const Snapshot& frame) { return frame.beams[0].length; }));
     path.lines.push_back(line_of(label, runs[i], body_x, body_y));
   }
   path.lines.push_back(marks(
       places, [](const auto& p) { return p.x; }, [](const auto& p) { return p.y; }));
   const Run& fine = runs[counts.size() - 1];
   energy.lines.push_back(
-      line_of("kinetic", fine, time_of, [](const Frame& frame) { return frame.energy.kinetic; }));
-  energy.lines.push_back(line_of("elastic", fine, time_of, [](const Frame& frame) {
+      line_of("kinetic", fine, time_of, [](const Snapshot& frame) { return frame.energy.kinetic; }));
+  energy.lines.push_back(line_of("elastic", fine, time_of, [](const Snapshot& frame) {
     return frame.energy.axial + frame.energy.bending;
   }));
-  energy.lines.push_back(line_of("gravity", fine, time_of, [&](const Frame& frame) {
+  energy.lines.push_back(line_of("gravity", fine, time_of, [&](const Snapshot& frame) {
     return frame.energy.gravity - fine.frames[0].energy.gravity;
   }));
   energy.lines.back().label = "gravity, from its start";
-  energy.lines.push_back(line_of("total, from its start", fine, time_of, [&](const Frame& frame) {
+  energy.lines.push_back(line_of("total, from its start", fine, time_of, [&](const Snapshot& frame) {
     return frame.energy.total - fine.frames[0].energy.total;
   }));
   page.figure("figure-16b" + suffix, length, how);

@@ -14,7 +14,7 @@ namespace {
 constexpr int elements = 3, fine_elements = 48;
 constexpr Pace pace{.end = 1.0, .step = 2e-4, .every = 0.002};
 
-double length_of(const Frame& frame) { return frame.beams[0].length; }
+double length_of(const Snapshot& frame) { return frame.beams[0].length; }
 
 // Central differences of a line.
 PlotLine rate_of(PlotLine line) {
@@ -31,7 +31,7 @@ void write_shapes(Page& page, const std::vector<Method>& methods, const std::vec
     Plot plot{"Figure 14 (a), " + methods[i].name + ": around the events", "x [m]", "y [m]", {}};
     int shown = 0;
     for (const MeshChangeRecord& change : runs[i].changes) {
-      if (change.event.kind == "split" || ++shown > 2) continue;
+      if (change.event.kind == EventKind::split || ++shown > 2) continue;
       const std::string when = number(change.event.time, 3) + " s";
       plot.lines.push_back(shape_of("before, " + when, change.before));
       plot.lines.back().style = PlotLine::Style::dashed;
@@ -48,7 +48,7 @@ void write_energies(Page& page, const std::vector<Method>& methods, const std::v
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const double start = runs[i].frames[0].energy.total;
     total.lines.push_back(line_of(methods[i].name, runs[i], time_of,
-                                  [start](const Frame& frame) { return frame.energy.total - start; }));
+                                  [start](const Snapshot& frame) { return frame.energy.total - start; }));
   }
   page.figure("figure-14d-total", total, statement(suspended_beam_example(), methods, pace));
   Plot parts{"Figure 14 (d): parts of the energy", "t [s]", "E [J]", {}};
@@ -57,9 +57,9 @@ void write_energies(Page& page, const std::vector<Method>& methods, const std::v
     if (i > 0) parts.lines.back().style = PlotLine::Style::dashed;
   };
   for (const std::size_t i : {0U, 2U}) {
-    add(i, "kinetic", [](const Frame& frame) { return frame.energy.kinetic; });
-    add(i, "gravity", [](const Frame& frame) { return frame.energy.gravity; });
-    add(i, "elastic", [](const Frame& frame) { return frame.energy.axial + frame.energy.bending; });
+    add(i, "kinetic", [](const Snapshot& frame) { return frame.energy.kinetic; });
+    add(i, "gravity", [](const Snapshot& frame) { return frame.energy.gravity; });
+    add(i, "elastic", [](const Snapshot& frame) { return frame.energy.axial + frame.energy.bending; });
   }
   page.figure("figure-14d-parts", parts, statement(suspended_beam_example(), {methods[0], methods[2]}, pace));
 }

@@ -73,7 +73,7 @@ struct Column {
 constexpr std::array point_parts = {std::pair{"x", "m"},    std::pair{"y", "m"},    std::pair{"z", "m"},
                                     std::pair{"vx", "m/s"}, std::pair{"vy", "m/s"}, std::pair{"vz", "m/s"}};
 
-std::vector<Column> empty_columns(const FrameNames& names) {
+std::vector<Column> empty_columns(const SnapshotNames& names) {
   std::vector<Column> columns = {{"run", 0, "time", "s", {}}, {"run", 0, "step", "s", {}}};
   const auto add_point = [&](const char* of, std::size_t index) {
     for (const auto& [name, unit] : point_parts) {
@@ -100,7 +100,7 @@ std::vector<Column> empty_columns(const FrameNames& names) {
 }
 
 /// Appends one value of the frame to each column, in the order of empty_columns().
-void append_values(const Frame& frame, std::vector<Column>& columns) {
+void append_values(const Snapshot& frame, std::vector<Column>& columns) {
   auto column = columns.begin();
   const auto add = [&](double value) { (column++)->values.push_back(value); };
   const auto add_vector = [&](const Eigen::Vector3d& v) { std::for_each(v.begin(), v.end(), add); };
@@ -157,7 +157,7 @@ struct Survey {
   std::vector<std::vector<std::uint32_t>> element_counts;  ///< per frame, per beam
   std::vector<Column> columns;
 
-  void add(const Frame& frame) {
+  void add(const Snapshot& frame) {
     append_values(frame, columns);
     std::vector<std::uint32_t>& counts = element_counts.emplace_back();
     for (const BeamRecord& beam : frame.beams) {
@@ -197,7 +197,7 @@ struct Survey {
 };
 
 /// The beams of one frame; the layout stands in report/src/data.js.
-Bytes shape_bytes(const Frame& frame, const Survey& survey) {
+Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
   Bytes bytes;
   const auto add_point = [&](const ElementRecord& element, int i) {
     const Eigen::Vector4d p = element.control_points.col(i);
@@ -236,7 +236,7 @@ void for_each_frame(const ReportFrames& frames, Use use) {
   constexpr std::size_t at_once = 16;
   for (std::size_t first = 0; first < frames.times.size(); first += at_once) {
     const std::size_t count = std::min(at_once, frames.times.size() - first);
-    const std::vector<Frame> piece = frames.read(first, count);
+    const std::vector<Snapshot> piece = frames.read(first, count);
     for (std::size_t i = 0; i < count; ++i) {
       use(piece[i], first + i);
     }
@@ -349,7 +349,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   }
   Survey survey;
   survey.columns = empty_columns(frames.names);
-  for_each_frame(frames, [&](const Frame& frame, std::size_t) { survey.add(frame); });
+  for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);
   data["run"] = run;
@@ -359,7 +359,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   stream << head << html_text(frames.title) << body << R"(<script type="application/json" id="data">)"
          << script_text(data) << "</script>\n"
          << R"(<script type="text/plain" id="shapes">)";
-  for_each_frame(frames, [&](const Frame& frame, std::size_t index) {
+  for_each_frame(frames, [&](const Snapshot& frame, std::size_t index) {
     if (std::binary_search(kept.begin(), kept.end(), index)) {
       stream << base64(shape_bytes(frame, survey));
     }

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
 /// The frames that a report shows.
 struct ReportFrames {
   std::string title;
-  FrameNames names;
+  SnapshotNames names;
   std::vector<double> times;  ///< at least one [s]
-  std::function<std::vector<Frame>(std::size_t first, std::size_t count)> read;
+  std::function<std::vector<Snapshot>(std::size_t first, std::size_t count)> read;
 };
 
 /// Writes the page (HTML) with the frames and run.json in it; it needs nothing else, no network either.

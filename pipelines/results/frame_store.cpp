@@ -43,15 +43,15 @@ void append(Doubles& values, const Array& array) {
 }
 
 template <class Visit>
-void for_each_element(std::span<const Frame> frames, Visit visit) {
-  for (const Frame& frame : frames)
+void for_each_element(std::span<const Snapshot> frames, Visit visit) {
+  for (const Snapshot& frame : frames)
     for (const BeamRecord& beam : frame.beams)
       for (const ElementRecord& element : beam.elements) visit(element);
 }
 
 template <class Visit>
-void for_each_element(std::vector<Frame>& frames, Visit visit) {
-  for (Frame& frame : frames)
+void for_each_element(std::vector<Snapshot>& frames, Visit visit) {
+  for (Snapshot& frame : frames)
     for (BeamRecord& beam : frame.beams)
       for (ElementRecord& element : beam.elements) visit(element);
 }
@@ -65,7 +65,8 @@ std::size_t sum(Integers::const_iterator first, Integers::const_iterator last) {
 // --- Writing
 // -----------------------------------------------------------------------------------------------------
 
-FrameStore::FrameStore(const std::filesystem::path& file, const FrameNames& names, const std::string& title)
+FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& names,
+                       const std::string& title)
     : file_(NetcdfFile::create(file)),
       probe_count_(names.probes.size()),
       body_count_(names.bodies.size()),
@@ -155,7 +156,7 @@ void FrameStore::define_steps() {
   define("solver_step_rejected", Type::integer, "1", "attempts at the step that were thrown away");
 }
 
-void FrameStore::write(std::span<const Frame> frames) {
+void FrameStore::write(std::span<const Snapshot> frames) {
   const std::size_t n = frames.size();
   if (n == 0) return;
   const auto put = [&](const std::string& name, NetcdfFile::Sizes shape, const auto& values) {
@@ -166,44 +167,44 @@ void FrameStore::write(std::span<const Frame> frames) {
   };
   const auto reals = [&](auto value) {
     Doubles values;
-    for (const Frame& frame : frames) value(frame, values);
+    for (const Snapshot& frame : frames) value(frame, values);
     return values;
   };
-  put("time", {}, reals([](const Frame& f, Doubles& x) { x.push_back(f.time); }));
-  put("step", {}, reals([](const Frame& f, Doubles& x) { x.push_back(f.step); }));
+  put("time", {}, reals([](const Snapshot& f, Doubles& x) { x.push_back(f.time); }));
+  put("step", {}, reals([](const Snapshot& f, Doubles& x) { x.push_back(f.step); }));
   for (const EnergyPart& part : energy_parts)
     put(std::string("energy_") + part.name, {},
-        reals([&](const Frame& f, Doubles& x) { x.push_back(f.energy.*part.value); }));
+        reals([&](const Snapshot& f, Doubles& x) { x.push_back(f.energy.*part.value); }));
   Integers iterations;
-  for (const Frame& frame : frames) iterations.push_back(frame.newton_iterations);
+  for (const Snapshot& frame : frames) iterations.push_back(frame.newton_iterations);
   put("newton_iterations", {}, iterations);
   if (probe_count_ > 0) {
-    put("probe_position", {probe_count_, 3}, reals([](const Frame& f, Doubles& x) {
+    put("probe_position", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const PointRecord& probe : f.probes) append(x, probe.position);
         }));
-    put("probe_velocity", {probe_count_, 3}, reals([](const Frame& f, Doubles& x) {
+    put("probe_velocity", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const PointRecord& probe : f.probes) append(x, probe.velocity);
         }));
   }
   if (body_count_ > 0) {
-    put("body_position", {body_count_, 3}, reals([](const Frame& f, Doubles& x) {
+    put("body_position", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const BodyRecord& body : f.bodies) append(x, body.point.position);
         }));
-    put("body_velocity", {body_count_, 3}, reals([](const Frame& f, Doubles& x) {
+    put("body_velocity", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const BodyRecord& body : f.bodies) append(x, body.point.velocity);
         }));
-    put("body_joint_force", {body_count_, 3}, reals([](const Frame& f, Doubles& x) {
+    put("body_joint_force", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const BodyRecord& body : f.bodies) append(x, body.joint_force);
         }));
-    put("body_s", {body_count_}, reals([](const Frame& f, Doubles& x) {
+    put("body_s", {body_count_}, reals([](const Snapshot& f, Doubles& x) {
           for (const BodyRecord& body : f.bodies) x.push_back(body.s.value_or(NetcdfFile::fill));
         }));
   }
-  put("beam_length", {beam_count_}, reals([](const Frame& f, Doubles& x) {
+  put("beam_length", {beam_count_}, reals([](const Snapshot& f, Doubles& x) {
         for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
       }));
   Integers element_counts, node_counts;
-  for (const Frame& frame : frames)
+  for (const Snapshot& frame : frames)
     for (const BeamRecord& beam : frame.beams) {
       element_counts.push_back(static_cast<int>(beam.elements.size()));
       node_counts.push_back(static_cast<int>(beam.node_s.size()));
@@ -216,7 +217,7 @@ void FrameStore::write(std::span<const Frame> frames) {
   frames_ += n;
 }
 
-void FrameStore::write_elements(std::span<const Frame> frames) {
+void FrameStore::write_elements(std::span<const Snapshot> frames) {
   std::size_t count = 0;
   Doubles points, start, end, velocity;
   std::vector<Doubles> fields(std::size(sampled_fields));
@@ -239,9 +240,9 @@ void FrameStore::write_elements(std::span<const Frame> frames) {
   elements_ += count;
 }
 
-void FrameStore::write_nodes(std::span<const Frame> frames) {
+void FrameStore::write_nodes(std::span<const Snapshot> frames) {
   Doubles position, slope, s;
-  for (const Frame& frame : frames)
+  for (const Snapshot& frame : frames)
     for (const BeamRecord& beam : frame.beams) {
       for (const Eigen::Vector3d& r : beam.node_positions) append(position, r);
       for (const Eigen::Vector3d& r_s : beam.node_slopes) append(slope, r_s);
@@ -254,10 +255,10 @@ void FrameStore::write_nodes(std::span<const Frame> frames) {
   nodes_ += s.size();
 }
 
-void FrameStore::write_steps(std::span<const Frame> frames) {
+void FrameStore::write_steps(std::span<const Snapshot> frames) {
   Integers counts, iterations, rejected;
   Doubles time, size;
-  for (const Frame& frame : frames) {
+  for (const Snapshot& frame : frames) {
     counts.push_back(static_cast<int>(frame.steps.size()));
     for (const StepRecord& step : frame.steps) {
       time.push_back(step.time);
@@ -292,11 +293,11 @@ FrameReader::FrameReader(const std::filesystem::path& file)
   step_counts_ = file_.integers("solver_step_count", {0}, {n});
 }
 
-std::vector<Frame> FrameReader::read(std::size_t first, std::size_t count) const {
+std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) const {
   if (first + count > times_.size()) throw std::out_of_range("FrameReader::read: no such frame");
-  std::vector<Frame> frames(count);
+  std::vector<Snapshot> frames(count);
   if (count == 0) return frames;
-  for (Frame& frame : frames) {
+  for (Snapshot& frame : frames) {
     frame.probes.resize(names_.probes.size());
     frame.bodies.resize(names_.bodies.size());
     frame.beams.resize(names_.beams.size());
@@ -309,7 +310,7 @@ std::vector<Frame> FrameReader::read(std::size_t first, std::size_t count) const
   return frames;
 }
 
-void FrameReader::read_scalars(std::size_t first, std::vector<Frame>& frames) const {
+void FrameReader::read_scalars(std::size_t first, std::vector<Snapshot>& frames) const {
   const std::size_t n = frames.size();
   const Doubles step = file_.doubles("step", {first}, {n});
   const Integers iterations = file_.integers("newton_iterations", {first}, {n});
@@ -328,7 +329,7 @@ void FrameReader::read_scalars(std::size_t first, std::vector<Frame>& frames) co
     for (std::size_t b = 0; b < beams; ++b) frames[i].beams[b].length = length[i * beams + b];
 }
 
-void FrameReader::read_points(std::size_t first, std::vector<Frame>& frames) const {
+void FrameReader::read_points(std::size_t first, std::vector<Snapshot>& frames) const {
   const std::size_t n = frames.size();
   const auto vectors = [&](const std::string& name, std::size_t points, auto target) {
     if (points == 0) return;
@@ -339,15 +340,18 @@ void FrameReader::read_points(std::size_t first, std::vector<Frame>& frames) con
   };
   const std::size_t probes = names_.probes.size(), bodies = names_.bodies.size();
   vectors(
-      "probe_position", probes, [](Frame & f, std::size_t j) -> auto& { return f.probes[j].position; });
+      "probe_position", probes, [](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].position; });
   vectors(
-      "probe_velocity", probes, [](Frame & f, std::size_t j) -> auto& { return f.probes[j].velocity; });
+      "probe_velocity", probes, [](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].velocity; });
   vectors(
-      "body_position", bodies, [](Frame & f, std::size_t j) -> auto& { return f.bodies[j].point.position; });
+      "body_position", bodies,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].point.position; });
   vectors(
-      "body_velocity", bodies, [](Frame & f, std::size_t j) -> auto& { return f.bodies[j].point.velocity; });
+      "body_velocity", bodies,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].point.velocity; });
   vectors(
-      "body_joint_force", bodies, [](Frame & f, std::size_t j) -> auto& { return f.bodies[j].joint_force; });
+      "body_joint_force", bodies,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].joint_force; });
   if (bodies == 0) return;
   const Doubles s = file_.doubles("body_s", {first, 0}, {n, bodies});
   for (std::size_t i = 0; i < n; ++i)
@@ -355,7 +359,7 @@ void FrameReader::read_points(std::size_t first, std::vector<Frame>& frames) con
       if (s[i * bodies + j] != NetcdfFile::fill) frames[i].bodies[j].s = s[i * bodies + j];
 }
 
-void FrameReader::read_elements(std::size_t first, std::vector<Frame>& frames) const {
+void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames) const {
   const std::size_t beams = names_.beams.size();
   const auto counts = element_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
   const std::size_t start = sum(element_counts_.begin(), counts);
@@ -383,7 +387,7 @@ void FrameReader::read_elements(std::size_t first, std::vector<Frame>& frames) c
   });
 }
 
-void FrameReader::read_nodes(std::size_t first, std::vector<Frame>& frames) const {
+void FrameReader::read_nodes(std::size_t first, std::vector<Snapshot>& frames) const {
   const std::size_t beams = names_.beams.size();
   const auto counts = node_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
   const std::size_t start = sum(node_counts_.begin(), counts);
@@ -403,7 +407,7 @@ void FrameReader::read_nodes(std::size_t first, std::vector<Frame>& frames) cons
   }
 }
 
-void FrameReader::read_steps(std::size_t first, std::vector<Frame>& frames) const {
+void FrameReader::read_steps(std::size_t first, std::vector<Snapshot>& frames) const {
   const auto counts = step_counts_.begin() + static_cast<std::ptrdiff_t>(first);
   const std::size_t start = sum(step_counts_.begin(), counts);
   const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size()));

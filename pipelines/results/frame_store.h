@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 #include "pipelines/results/netcdf_file.h"
 
 namespace nurbeam {
@@ -25,9 +25,9 @@ namespace nurbeam {
 class FrameStore {
  public:
   /// Makes the file, without frames. This and the others throw std::runtime_error (file and reason).
-  FrameStore(const std::filesystem::path& file, const FrameNames& names, const std::string& title);
+  FrameStore(const std::filesystem::path& file, const SnapshotNames& names, const std::string& title);
   /// Appends frames whose vectors fit the names.
-  void write(std::span<const Frame> frames);
+  void write(std::span<const Snapshot> frames);
   void close() { file_.close(); }
 
  private:
@@ -37,9 +37,9 @@ class FrameStore {
   void define_points(const std::string& kind, const std::vector<std::string>& names);
   void define_beams(const std::vector<std::string>& names);
   void define_steps();
-  void write_elements(std::span<const Frame> frames);
-  void write_nodes(std::span<const Frame> frames);
-  void write_steps(std::span<const Frame> frames);
+  void write_elements(std::span<const Snapshot> frames);
+  void write_nodes(std::span<const Snapshot> frames);
+  void write_steps(std::span<const Snapshot> frames);
 
   NetcdfFile file_;
   std::size_t probe_count_, body_count_, beam_count_;
@@ -53,21 +53,21 @@ class FrameReader {
   explicit FrameReader(const std::filesystem::path& file);
 
   const std::string& title() const { return title_; }
-  const FrameNames& names() const { return names_; }
+  const SnapshotNames& names() const { return names_; }
   const std::vector<double>& times() const { return times_; }
   /// Frames first, first + 1, ..., first + count - 1. Throws std::runtime_error (file and reason).
-  std::vector<Frame> read(std::size_t first, std::size_t count) const;
+  std::vector<Snapshot> read(std::size_t first, std::size_t count) const;
 
  private:
-  void read_scalars(std::size_t first, std::vector<Frame>& frames) const;
-  void read_points(std::size_t first, std::vector<Frame>& frames) const;
-  void read_elements(std::size_t first, std::vector<Frame>& frames) const;
-  void read_nodes(std::size_t first, std::vector<Frame>& frames) const;
-  void read_steps(std::size_t first, std::vector<Frame>& frames) const;
+  void read_scalars(std::size_t first, std::vector<Snapshot>& frames) const;
+  void read_points(std::size_t first, std::vector<Snapshot>& frames) const;
+  void read_elements(std::size_t first, std::vector<Snapshot>& frames) const;
+  void read_nodes(std::size_t first, std::vector<Snapshot>& frames) const;
+  void read_steps(std::size_t first, std::vector<Snapshot>& frames) const;
 
   NetcdfFile file_;
   std::string title_;
-  FrameNames names_;
+  SnapshotNames names_;
   std::vector<double> times_;
   std::vector<int> element_counts_, node_counts_, step_counts_;  // (time, beam), (time, beam), (time)
 };

@@ -7,7 +7,7 @@
 
 namespace nurbeam {
 
-HistoryTable::HistoryTable(const std::filesystem::path& file, const FrameNames& names)
+HistoryTable::HistoryTable(const std::filesystem::path& file, const SnapshotNames& names)
     : file_(file), stream_(file) {
   row_ = "time [s]";
   for (const std::string& name : names.probes) add_point_columns(name);
@@ -21,7 +21,7 @@ HistoryTable::HistoryTable(const std::filesystem::path& file, const FrameNames& 
   write_row();
 }
 
-void HistoryTable::write(const Frame& frame) {
+void HistoryTable::write(const Snapshot& frame) {
   add_number(frame.time);
   for (const PointRecord& probe : frame.probes) add_point(probe);
   for (const BodyRecord& body : frame.bodies) {

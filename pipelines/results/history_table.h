@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
@@ -13,8 +13,8 @@ class HistoryTable {
  public:
   /// Begins the table in `file`, which is overwritten. This and the others throw std::runtime_error (file and
   /// reason).
-  HistoryTable(const std::filesystem::path& file, const FrameNames& names);
-  void write(const Frame& frame);
+  HistoryTable(const std::filesystem::path& file, const SnapshotNames& names);
+  void write(const Snapshot& frame);
   void close();
 
  private:

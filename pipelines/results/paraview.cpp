@@ -179,7 +179,7 @@ Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eige
   return (inverse * samples.cwiseProduct(bernstein * weights)).cwiseQuotient(weights);
 }
 
-ParaviewSeries::ParaviewSeries(fs::path directory, FrameNames names, std::vector<double> times)
+ParaviewSeries::ParaviewSeries(fs::path directory, SnapshotNames names, std::vector<double> times)
     : directory_(std::move(directory)), names_(std::move(names)), times_(std::move(times)) {
   std::error_code error;
   fs::create_directory(directory_ / "frames", error);
@@ -187,7 +187,7 @@ ParaviewSeries::ParaviewSeries(fs::path directory, FrameNames names, std::vector
     throw std::runtime_error((directory_ / "frames").string() + ": cannot be made: " + error.message());
 }
 
-void ParaviewSeries::write(const Frame& frame) {
+void ParaviewSeries::write(const Snapshot& frame) {
   const std::size_t i = times_.size();
   write_grid(directory_ / frame_file("beams", i), frame.time, beam_grid(frame.beams));
   if (!names_.bodies.empty())

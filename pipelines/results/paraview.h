@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
@@ -17,15 +17,15 @@ namespace nurbeam {
 class ParaviewSeries {
  public:
   /// `directory` exists. The first frames of an earlier run, with these times, are kept.
-  ParaviewSeries(std::filesystem::path directory, FrameNames names, std::vector<double> times = {});
+  ParaviewSeries(std::filesystem::path directory, SnapshotNames names, std::vector<double> times = {});
   /// Writes one frame. This and the other throw std::runtime_error (file and reason).
-  void write(const Frame& frame);
+  void write(const Snapshot& frame);
   /// Writes frames.pvd for the frames so far.
   void write_index() const;
 
  private:
   std::filesystem::path directory_;
-  FrameNames names_;
+  SnapshotNames names_;
   std::vector<double> times_;
 };
 

@@ -128,20 +128,20 @@ struct PresentNode {
   bool present = false;
 };
 
-std::vector<PresentNode> flattened(const std::vector<std::vector<bool>>& present) {
+std::vector<PresentNode> flattened(const std::vector<BeamPlan>& beams) {
   std::vector<PresentNode> nodes;
-  for (std::size_t b = 0; b < present.size(); ++b)
-    for (const bool node : present[b]) nodes.push_back({static_cast<int>(b), node});
+  for (std::size_t b = 0; b < beams.size(); ++b)
+    for (const bool node : beams[b].present) nodes.push_back({static_cast<int>(b), node});
   return nodes;
 }
 
-std::vector<std::vector<bool>> by_beam(const std::vector<PresentNode>& nodes) {
-  std::vector<std::vector<bool>> present;
+std::vector<BeamPlan> by_beam(const std::vector<PresentNode>& nodes) {
+  std::vector<BeamPlan> beams;
   for (const PresentNode& node : nodes) {
-    present.resize(std::max<std::size_t>(present.size(), node.beam + 1));
-    present[node.beam].push_back(node.present);
+    beams.resize(std::max<std::size_t>(beams.size(), node.beam + 1));
+    beams[node.beam].present.push_back(node.present);
   }
-  return present;
+  return beams;
 }
 
 template <class Slot>
@@ -151,9 +151,13 @@ void visit_vector(Eigen::Vector3d& x, Slot& slot) {
 
 template <class Archive>
 void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
-  exchange_rows(archive, "events", "time, s, energies, momenta, impulse and lengths of each event", events,
+  exchange_rows(archive, "events",
+                "time, kind, beam, body, s, energies, momenta, impulse and lengths of each event", events,
                 [](RunEvent& event, auto& slot) {
                   slot(event.time);
+                  slot(event.kind);
+                  slot(event.beam);
+                  slot(event.body);
                   slot(event.s);
                   slot(event.energy_before);
                   slot(event.energy_after);
@@ -163,38 +167,38 @@ void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
                   slot(event.length_before);
                   slot(event.length_after);
                 });
-  const auto texts = [&](const char* name, std::string RunEvent::*member) {
-    std::vector<std::string> values;
-    for (const RunEvent& event : events) values.push_back(event.*member);
-    archive.texts(name, values);
-    for (std::size_t i = 0; i < events.size(); ++i) events[i].*member = values.at(i);
-  };
-  texts("event_kind", &RunEvent::kind);
-  texts("event_beam", &RunEvent::beam);
-  texts("event_body", &RunEvent::body);
+}
+
+template <class Archive>
+void exchange_history(Archive& archive, IntegratorHistory& history) {
+  const auto copy = [](double& x, auto& slot) { slot(x); };
+  exchange_rows(archive, "method_numbers", "what the method keeps between steps", history.numbers, copy);
+  std::vector<double> count{static_cast<double>(history.vectors.size())};
+  exchange_rows(archive, "method_vector_count", "number of vectors that the method keeps", count, copy);
+  history.vectors.resize(static_cast<std::size_t>(count.at(0)));
+  for (std::size_t i = 0; i < history.vectors.size(); ++i)
+    exchange_vector(archive, "method_vector_" + std::to_string(i), "what the method keeps between steps",
+                    history.vectors[i]);
 }
 
 /// The one list of what a restart point holds: it writes and reads.
 template <class Archive>
-void exchange(Archive& archive, RestartPoint& p) {
+void exchange(Archive& archive, Checkpoint& p) {
   std::vector<std::string> inputs{p.inputs};
   archive.texts("inputs", inputs);
 
   // One row, of all that is a single number.
-  std::vector<RestartPoint> row{p};
+  std::vector<Checkpoint> row{p};
   exchange_rows(archive, "scalars", "time, frames, and what the run has counted", row,
-                [](RestartPoint& point, auto& slot) {
+                [](Checkpoint& point, auto& slot) {
                   SimulationReport& r = point.report;
                   slot(point.state.t);
-                  slot(point.frames);
+                  slot(point.snapshots);
                   slot(point.next_step);
                   slot(point.last_step);
                   slot(point.dissipated);
                   slot(point.start_energy);
-                  slot(point.iterations_in_frames);
-                  slot(point.history.last_step);
-                  slot(point.history.last_error);
-                  slot(point.history.mass_scale);
+                  slot(point.iterations_in_snapshots);
                   slot(r.time);
                   slot(r.steps);
                   slot(r.rejected_steps);
@@ -213,17 +217,15 @@ void exchange(Archive& archive, RestartPoint& p) {
   exchange_vector(archive, "v", "generalised velocities", p.state.v);
   exchange_vector(archive, "a", "generalised accelerations", p.state.a);
   exchange_vector(archive, "lambda", "Lagrange multipliers", p.state.lambda);
-  exchange_vector(archive, "algorithmic_acceleration", "of generalized-alpha",
-                  p.history.algorithmic_acceleration);
-  exchange_vector(archive, "jerk", "third derivatives over the last step", p.history.jerk);
+  exchange_history(archive, p.history);
 
-  std::vector<PresentNode> nodes = flattened(p.plan.present);
+  std::vector<PresentNode> nodes = flattened(p.plan.beams);
   exchange_rows(archive, "home_nodes", "beam, and whether the node is in the mesh", nodes,
                 [](PresentNode& node, auto& slot) {
                   slot(node.beam);
                   slot(node.present);
                 });
-  p.plan.present = by_beam(nodes);
+  p.plan.beams = by_beam(nodes);
   exchange_rows(archive, "joint_places", "s of the sliding joints when the mesh was made", p.plan.places,
                 [](double& place, auto& slot) { slot(place); });
   exchange_rows(archive, "joint_modes", "node, point, stopped, free", p.plan.modes,
@@ -248,10 +250,10 @@ void exchange(Archive& archive, RestartPoint& p) {
 
 }  // namespace
 
-void write_restart_point(const std::filesystem::path& file, const RestartPoint& point) {
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& point) {
   try {
     Writer archive(temporary_name(file));
-    RestartPoint copy = point;
+    Checkpoint copy = point;
     exchange(archive, copy);
     archive.close();
   } catch (const std::runtime_error&) {
@@ -262,8 +264,8 @@ void write_restart_point(const std::filesystem::path& file, const RestartPoint& 
   publish_durably(file);
 }
 
-RestartPoint read_restart_point(const std::filesystem::path& file) {
-  RestartPoint point;
+Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  Checkpoint point;
   Reader archive(file);
   try {
     exchange(archive, point);

@@ -7,8 +7,8 @@ namespace nurbeam {
 
 /// Writes a restart point as netCDF, to a temporary name that is renamed. Throws std::runtime_error (file and
 /// reason).
-void write_restart_point(const std::filesystem::path& file, const RestartPoint& point);
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& point);
 /// Throws std::runtime_error (file and reason).
-RestartPoint read_restart_point(const std::filesystem::path& file);
+Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace nurbeam

@@ -58,7 +58,7 @@ std::vector<fs::path> chunks_in(const fs::path& directory) {
 
 /// Removes its file's temporary name, unless it has been published, when writing fails.
 template <class Write>
-void write_file(const fs::path& file, const FrameNames& names, const std::string& title, Write write) {
+void write_file(const fs::path& file, const SnapshotNames& names, const std::string& title, Write write) {
   try {
     FrameStore store(temporary_name(file), names, title);
     write(store);
@@ -85,14 +85,14 @@ void for_each_batch(const Reader& reader, std::size_t count, Visit visit) {
 
 struct ResultsWriter::Implementation {
   fs::path directory;
-  FrameNames names;
+  SnapshotNames names;
   std::string title;
   HistoryTable histories;
   std::size_t chunk_count = 0;
-  std::vector<Frame> open;
+  std::vector<Snapshot> open;
   std::size_t open_elements = 0;
 
-  Implementation(fs::path where, FrameNames of, std::string name)
+  Implementation(fs::path where, SnapshotNames of, std::string name)
       : directory(created(where)),
         names(std::move(of)),
         title(std::move(name)),
@@ -150,7 +150,7 @@ struct ResultsWriter::Implementation {
     for (const fs::path& file : chunks()) {
       const FrameReader chunk(file);
       for_each_batch(chunk, chunk.times().size(), [&](const auto& stored) {
-        for (const Frame& frame : stored) histories.write(frame);
+        for (const Snapshot& frame : stored) histories.write(frame);
       });
     }
   }
@@ -167,7 +167,7 @@ struct ResultsWriter::Implementation {
   }
 };
 
-ResultsWriter::ResultsWriter(fs::path directory, FrameNames names, std::string title)
+ResultsWriter::ResultsWriter(fs::path directory, SnapshotNames names, std::string title)
     : implementation_(
           std::make_unique<Implementation>(std::move(directory), std::move(names), std::move(title))) {}
 
@@ -176,14 +176,14 @@ ResultsWriter::ResultsWriter(std::unique_ptr<Implementation> implementation)
 ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
 ResultsWriter::~ResultsWriter() = default;
 
-ResultsWriter ResultsWriter::resume(fs::path directory, FrameNames names, std::string title,
+ResultsWriter ResultsWriter::resume(fs::path directory, SnapshotNames names, std::string title,
                                     std::size_t frames) {
   auto files = std::make_unique<Implementation>(std::move(directory), std::move(names), std::move(title));
   files->take_over(frames);
   return ResultsWriter(std::move(files));
 }
 
-void ResultsWriter::write(const Frame& frame) {
+void ResultsWriter::write(const Snapshot& frame) {
   Implementation& files = *implementation_;
   check_count("probes", frame.probes.size(), files.names.probes.size());
   check_count("bodies", frame.bodies.size(), files.names.bodies.size());
@@ -230,14 +230,14 @@ StoredFrames::StoredFrames(StoredFrames&&) noexcept = default;
 StoredFrames::~StoredFrames() = default;
 
 const std::string& StoredFrames::title() const { return implementation_->files.front().title(); }
-const FrameNames& StoredFrames::names() const { return implementation_->files.front().names(); }
+const SnapshotNames& StoredFrames::names() const { return implementation_->files.front().names(); }
 
-std::vector<Frame> StoredFrames::read(std::size_t first, std::size_t count) const {
-  std::vector<Frame> frames;
+std::vector<Snapshot> StoredFrames::read(std::size_t first, std::size_t count) const {
+  std::vector<Snapshot> frames;
   for (const FrameReader& reader : implementation_->files) {
     const std::size_t there = reader.times().size();
     if (first < there && count > 0) {
-      std::vector<Frame> part = reader.read(first, std::min(count, there - first));
+      std::vector<Snapshot> part = reader.read(first, std::min(count, there - first));
       count -= part.size();
       std::move(part.begin(), part.end(), std::back_inserter(frames));
       first = 0;
@@ -270,7 +270,7 @@ StoredResults read_results(const fs::path& directory) {
 
 std::pair<double, std::vector<StoredBeam>> read_stored_beams(const fs::path& directory, double time) {
   const StoredFrames stored(directory);
-  const Frame frame = stored.read(stored.nearest(time), 1).front();
+  const Snapshot frame = stored.read(stored.nearest(time), 1).front();
   std::vector<StoredBeam> beams;
   for (std::size_t b = 0; b < frame.beams.size(); ++b)
     beams.push_back({stored.names().beams[b], frame.beams[b].elements});

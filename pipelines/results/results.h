@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
@@ -18,16 +18,16 @@ namespace nurbeam {
 class ResultsWriter {
  public:
   /// Throws std::runtime_error (file and reason) when a file cannot be written.
-  ResultsWriter(std::filesystem::path directory, FrameNames names, std::string title);
+  ResultsWriter(std::filesystem::path directory, SnapshotNames names, std::string title);
   /// Goes on after the first `frames` frames that an earlier run, finished or killed, has left in the
   /// directory; later ones are dropped. Throws std::runtime_error (file and reason) when there are fewer.
-  static ResultsWriter resume(std::filesystem::path directory, FrameNames names, std::string title,
+  static ResultsWriter resume(std::filesystem::path directory, SnapshotNames names, std::string title,
                               std::size_t frames);
   ResultsWriter(ResultsWriter&&) noexcept;
   ~ResultsWriter();
   /// Throws std::invalid_argument unless the frame has as many probes, bodies and beams as there are names,
   /// and std::runtime_error (file and reason) when it cannot be written.
-  void write(const Frame& frame);
+  void write(const Snapshot& frame);
   /// Puts all frames so far on the disk. Throws std::runtime_error (file and reason).
   void close_chunk();
   /// Gives the files their names; nothing may be written after it. Throws std::runtime_error.
@@ -48,10 +48,10 @@ class StoredFrames {
   ~StoredFrames();
 
   const std::string& title() const;
-  const FrameNames& names() const;
+  const SnapshotNames& names() const;
   const std::vector<double>& times() const { return times_; }
   /// Frames first, first + 1, ..., first + count - 1 < times().size(). Throws std::runtime_error.
-  std::vector<Frame> read(std::size_t first, std::size_t count) const;
+  std::vector<Snapshot> read(std::size_t first, std::size_t count) const;
   /// Index of the frame nearest to `time` [s]. Throws std::runtime_error (file, and the range) for a time
   /// outside the stored range.
   std::size_t nearest(double time) const;
@@ -65,8 +65,8 @@ class StoredFrames {
 /// Everything in a results directory, in memory.
 struct StoredResults {
   std::string title;
-  FrameNames names;
-  std::vector<Frame> frames;
+  SnapshotNames names;
+  std::vector<Snapshot> frames;
 };
 /// Throws std::runtime_error (file and reason).
 StoredResults read_results(const std::filesystem::path& directory);

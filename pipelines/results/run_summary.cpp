@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/results/atomic_file.h"
 
 namespace nurbeam {
@@ -17,11 +18,12 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-Json to_json(const RunEvent& event) {
+Json to_json(const RunEvent& event, const RunSummary& summary) {
+  const auto name = [](const std::vector<std::string>& names, int i) { return i < 0 ? "" : names.at(i); };
   return {{"time [s]", event.time},
-          {"kind", event.kind},
-          {"beam", event.beam},
-          {"body", event.body},
+          {"kind", name_of(event.kind)},
+          {"beam", name(summary.beams, event.beam)},
+          {"body", name(summary.bodies, event.body)},
           {"s [m]", event.s ? Json(*event.s) : Json()},
           {"energy_before [J]", event.energy_before},
           {"energy_after [J]", event.energy_after},
@@ -49,6 +51,8 @@ Json list(const std::vector<Item>& items) {
 
 Json to_json(const RunSummary& summary) {
   const PhaseTimes& wall = summary.wall_times;
+  Json events = Json::array();
+  for (const RunEvent& event : summary.events) events.push_back(to_json(event, summary));
   return {{"nurbeam", summary.version},
           {"case", summary.case_name},
           {"status", summary.status},
@@ -66,7 +70,7 @@ Json to_json(const RunSummary& summary) {
             {"output", wall.output}}},
           {"inputs", list(summary.inputs)},
           {"model", summary.model.empty() ? Json() : Json::parse(summary.model)},
-          {"events", list(summary.events)},
+          {"events", events},
           {"diagnostics", list(summary.diagnostics)},
           {"files", list(summary.files)}};
 }

@@ -36,6 +36,7 @@ struct RunSummary {
   double end_time = 0;  ///< simulated time reached [s]
   long steps = 0, rejected_steps = 0, newton_iterations = 0;
   std::vector<RunEvent> events;
+  std::vector<std::string> beams, bodies;  ///< names of the model's, for the events
   double energy_drift =
       0;  ///< largest departure of the total energy, with the dissipated, from its start [J]
   std::vector<Diagnostic> diagnostics;

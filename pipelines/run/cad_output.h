@@ -4,18 +4,11 @@
 #include <vector>
 
 #include "cad_import/export_curves.h"
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
 
 namespace nurbeam {
-
-/// The curve of a CAD file that is the axis of a beam.
-struct DrawnAxis {
-  NurbsCurve curve;  ///< as imported
-  bool reversed;     ///< whether the beam runs against it
-  bool whole;        ///< false: the beam is more than this curve, as in a chain
-};
 
 /// Writes the deformed curves of a run, at the times the case asks for, into its results directory.
 class CadOutput {
@@ -29,21 +22,20 @@ class CadOutput {
   /// "deformed_0035.step", when all frames are wanted; without a time for a static case. What keeps a shape
   /// out of a file is a warning among the diagnostics, once. Throws std::runtime_error when a file cannot be
   /// written.
-  void write(const Frame& frame, std::vector<Diagnostic>& diagnostics);
+  void write(const Snapshot& frame, std::vector<Diagnostic>& diagnostics);
 
  private:
-  bool is_wanted(const Frame& frame) const;
-  std::string stem(const Frame& frame) const;
-  std::vector<NamedCurve> curves(const Frame& frame, CurveParameter parameter) const;
-  std::vector<Diagnostic> write_solids(const Frame& frame, const std::filesystem::path& file) const;
-  std::vector<Diagnostic> write_into_source(const Frame& frame, const std::filesystem::path& file) const;
-  void write(const Frame& frame, const std::string& format, std::vector<Diagnostic>& diagnostics) const;
+  bool is_wanted(const Snapshot& frame) const;
+  std::string stem(const Snapshot& frame) const;
+  std::vector<NamedCurve> curves(const Snapshot& frame, CurveParameter parameter) const;
+  std::vector<Diagnostic> write_solids(const Snapshot& frame, const std::filesystem::path& file) const;
+  std::vector<Diagnostic> write_into_source(const Snapshot& frame, const std::filesystem::path& file) const;
+  void write(const Snapshot& frame, const std::string& format, std::vector<Diagnostic>& diagnostics) const;
 
   const CaseFile& case_;
   const BuiltModel& built_;
   std::filesystem::path directory_;
-  std::vector<DrawnAxis> drawn_;  // per beam, when they are to be written into their source
-  std::size_t frame_;             // the number of the next one
+  std::size_t frame_;  // the number of the next one
 };
 
 }  // namespace nurbeam

@@ -3,7 +3,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 

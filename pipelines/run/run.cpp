@@ -11,6 +11,7 @@
 
 #include "fem/motion/simulation.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/model/model_summary.h"
 #include "pipelines/report/report.h"
@@ -72,8 +73,9 @@ std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationRepo
                       std::any_of(c.sliding_joints.begin(), c.sliding_joints.end(), [](const auto& joint) {
                         return joint.motion_speed || !joint.motion_table.empty();
                       });
-  const bool stopped = std::any_of(run.events.begin(), run.events.end(),
-                                   [](const RunEvent& event) { return event.kind == "stopped at the end"; });
+  const bool stopped = std::any_of(run.events.begin(), run.events.end(), [](const RunEvent& event) {
+    return event.kind == EventKind::stopped_at_end;
+  });
   const bool between_events = run.integration_error > noticed * run.peak_kinetic_energy;
   const bool over_events = !stopped && run.energy_drift > noticed * run.peak_kinetic_energy;
   if (driven || !(between_events || over_events)) return {};
@@ -88,10 +90,6 @@ std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationRepo
                "hardly resists "
                "bending, \"slope\": \"discontinuous\"";
   return Diagnostic{Severity::warning, c.path.string() + ": analysis", message.str()};
-}
-
-std::string status_text(SimulationStatus status, const std::string& message) {
-  return status == SimulationStatus::done ? "done" : message;
 }
 
 ExitCode exit_code(SimulationStatus status) {
@@ -118,24 +116,23 @@ std::filesystem::path restart_file(const std::filesystem::path& directory) {
 }
 
 // A restart point that cannot be used.
-struct UnusableRestartPoint : std::runtime_error {
+struct UnusableCheckpoint : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The restart point of a directory, if it belongs to these inputs. Throws UnusableRestartPoint.
-RestartPoint find_restart_point(const std::filesystem::path& directory, const std::string& inputs) {
+// The restart point of a directory, if it belongs to these inputs. Throws UnusableCheckpoint.
+Checkpoint find_checkpoint(const std::filesystem::path& directory, const std::string& inputs) {
   const std::filesystem::path file = restart_file(directory);
-  RestartPoint point;
+  Checkpoint point;
   try {
-    point = read_restart_point(file);
+    point = read_checkpoint(file);
   } catch (const std::runtime_error& problem) {
-    throw UnusableRestartPoint(std::string(problem.what()) + "; run without --resume");
+    throw UnusableCheckpoint(std::string(problem.what()) + "; run without --resume");
   }
   if (point.inputs != inputs)
-    throw UnusableRestartPoint(
-        file.string() +
-        ": belongs to another case: the case file, its overrides (--set), a CAD file or "
-        "nurbeam have changed since; run without --resume");
+    throw UnusableCheckpoint(file.string() +
+                             ": belongs to another case: the case file, its overrides (--set), a CAD file or "
+                             "nurbeam have changed since; run without --resume");
   return point;
 }
 
@@ -150,7 +147,7 @@ class Run {
         inputs_(digest_of_inputs(c, built_)),
         summary_(std::move(summary)) {
     if (options.resume)
-      from_ = find_restart_point(options.out, inputs_);
+      from_ = find_checkpoint(options.out, inputs_);
     else
       directory_.clear();
     log_.emplace(options.out / "run.log", options.resume ? std::ios::app : std::ios::trunc);
@@ -167,7 +164,7 @@ class Run {
     write_run_summary(options_.out / "run.json", summary_);
     if (with_report) write_report(options_.out);
     if (simulated.status != SimulationStatus::done)
-      tell(case_.path.string() + ": error: " + simulated.message);
+      tell(case_.path.string() + ": error: " + outcome_text(simulated, built_.model));
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
     return exit_code(simulated.status);
   }
@@ -199,9 +196,9 @@ class Run {
       shown.update(step);
       logged.update(step);
     };
-    observer.frame = [&](const Frame& frame) { outputs.write(frame); };
-    observer.restart_point_due = [&] { return outputs.restart_point_due(); };
-    observer.restart_point = [&](const RestartPoint& point) { outputs.write(point); };
+    observer.snapshot = [&](const Snapshot& snapshot) { outputs.write(snapshot); };
+    observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
+    observer.checkpoint = [&](const Checkpoint& point) { outputs.write(point); };
     SimulationReport simulated =
         simulate(built_.model, probes, simulation_options(case_), observer, from_ ? &*from_ : nullptr);
     shown.finish();
@@ -209,7 +206,7 @@ class Run {
   }
 
   void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
-    summary_.status = status_text(simulated.status, simulated.message);
+    summary_.status = outcome_text(simulated, built_.model);
     summary_.wall_times.output = outputs.seconds();
     summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
@@ -223,6 +220,9 @@ class Run {
     summary_.newton_iterations = simulated.newton_iterations;
     summary_.energy_drift = simulated.energy_drift;
     summary_.events = simulated.events;
+    const SnapshotNames names = snapshot_names(built_);
+    summary_.beams = names.beams;
+    summary_.bodies = names.bodies;
     for (RunEvent& event : summary_.events) {
       event.energy_before += built_.frame.gravity_energy;
       event.energy_after += built_.frame.gravity_energy;
@@ -247,7 +247,7 @@ class Run {
   ResultsDirectory directory_;
   std::string inputs_;
   RunSummary summary_;
-  std::optional<RestartPoint> from_;
+  std::optional<Checkpoint> from_;
   std::optional<std::ofstream> log_;
 };
 
@@ -275,7 +275,7 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
   try {
     return Run(c, report, options, std::move(summary)).play();
-  } catch (const UnusableRestartPoint& problem) {
+  } catch (const UnusableCheckpoint& problem) {
     std::cerr << "error: " << problem.what() << "\n";
     return bad_input;
   } catch (const std::runtime_error& problem) {
@@ -289,9 +289,7 @@ int check_case(const CaseFile& c) {
   print_diagnostics(std::cerr, report.diagnostics);
   if (!report.value) return bad_input;
   const BeamModel& model = report.value->model;
-  const MeshPlan plan = initial_plan(model);
-  const int dofs = model.dimension == 2 ? make_mesh<2>(model, plan).coordinate_count
-                                        : make_mesh<3>(model, plan).coordinate_count;
+  const int dofs = make_mesh(model, initial_plan(model)).coordinate_count;
   std::printf("case      %s\n", c.name.c_str());
   std::printf("model     %s, %d coordinates\n", model.dimension == 2 ? "planar" : "spatial", dofs);
   for (const Beam& beam : model.beams) {
@@ -307,26 +305,32 @@ int check_case(const CaseFile& c) {
         "EA %.6g N, EI %.6g N m^2, stress-free %s\n",
         beam.name.c_str(), beam.is_ring() ? "a ring, " : "", L, L * beam.properties.mass_per_length,
         beam.curve.segment_count(), beam.home.size() - 1, shortest, longest, beam.properties.axial_stiffness,
-        beam.properties.bending_stiffness, beam.straight ? "straight" : "as drawn");
+        beam.properties.bending_stiffness, beam.curve.straight() ? "straight" : "as drawn");
   }
   for (const Beam& beam : model.beams)
     for (const HomeNode& node : beam.home)
       if (node.kind != NodeKind::smooth)
         std::printf("corner    of %s at s = %.9g m, %s\n", beam.name.c_str(), node.s,
                     node.kind == NodeKind::rigid ? "rigid" : "a hinge");
-  for (const BeamProfile& drawn : report.value->profiles) {
-    std::cout << "section   of " << model.beams[drawn.beam].name << ": " << drawn.file.string() << '\n';
-    print_profile(std::cout, drawn.profile);
-  }
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+    if (const auto& drawn = report.value->sources[b].profile) {
+      std::cout << "section   of " << model.beams[b].name << ": " << drawn->file.string() << '\n';
+      print_profile(std::cout, drawn->profile);
+    }
   for (const SlidingJoint& joint : model.joints)
     std::printf("joint     %s (%.6g kg) on %s at s = %.9g m\n", model.bodies[joint.body].name.c_str(),
                 model.bodies[joint.body].mass, model.beams[joint.beam].name.c_str(), joint.s);
-  for (const BeamJoint& joint : model.beam_joints)
-    std::printf("joint     %s at s = %.9g m and %s at s = %.9g m, %s\n",
-                model.beams[joint.beam_a].name.c_str(), joint.s_a, model.beams[joint.beam_b].name.c_str(),
-                joint.s_b, joint.rigid ? "rigid" : "hinged");
-  std::printf("supports  %zu, point loads %zu, distributed loads %zu\n", model.supports.size(),
-              model.point_loads.size(), model.line_loads.size());
+  for (const Constraint& constraint : model.constraints)
+    if (const auto* joint = std::get_if<BeamJoint>(&constraint))
+      std::printf("joint     %s at s = %.9g m and %s at s = %.9g m, %s\n",
+                  model.beams[joint->beam_a].name.c_str(), joint->s_a,
+                  model.beams[joint->beam_b].name.c_str(), joint->s_b, joint->rigid ? "rigid" : "hinged");
+  const auto is_support = [](const Constraint& held) { return std::holds_alternative<Support>(held); };
+  const auto is_line_load = [](const Force& f) { return std::holds_alternative<LineLoad>(f); };
+  const auto line_loads = std::count_if(model.forces.begin(), model.forces.end(), is_line_load);
+  std::printf("supports  %td, point loads %td, distributed loads %td\n",
+              std::count_if(model.constraints.begin(), model.constraints.end(), is_support),
+              std::ssize(model.forces) - line_loads, line_loads);
   return done;
 }
 

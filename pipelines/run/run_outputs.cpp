@@ -12,7 +12,7 @@ void to_world(const ModelFrame& f, PointRecord& p) {
   p.velocity = f.direction_to_world(p.velocity);
 }
 
-Frame to_world(const ModelFrame& f, Frame frame) {
+Snapshot to_world(const ModelFrame& f, Snapshot frame) {
   for (PointRecord& p : frame.probes) to_world(f, p);
   for (BodyRecord& body : frame.bodies) {
     to_world(f, body.point);
@@ -35,19 +35,19 @@ Frame to_world(const ModelFrame& f, Frame frame) {
 }
 
 ResultsWriter results_writer(const std::string& title, const BuiltModel& built,
-                             const std::filesystem::path& directory, const RestartPoint* from) {
-  if (from) return ResultsWriter::resume(directory, frame_names(built), title, from->frames);
-  return ResultsWriter(directory, frame_names(built), title);
+                             const std::filesystem::path& directory, const Checkpoint* from) {
+  if (from) return ResultsWriter::resume(directory, snapshot_names(built), title, from->snapshots);
+  return ResultsWriter(directory, snapshot_names(built), title);
 }
 
-std::vector<double> times_before(const std::filesystem::path& directory, const RestartPoint* from) {
-  return from && from->frames > 0 ? StoredFrames(directory).times() : std::vector<double>{};
+std::vector<double> times_before(const std::filesystem::path& directory, const Checkpoint* from) {
+  return from && from->snapshots > 0 ? StoredFrames(directory).times() : std::vector<double>{};
 }
 
 }  // namespace
 
-FrameNames frame_names(const BuiltModel& built) {
-  FrameNames names;
+SnapshotNames snapshot_names(const BuiltModel& built) {
+  SnapshotNames names;
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
   for (const Beam& beam : built.model.beams) names.beams.push_back(beam.name);
@@ -55,14 +55,14 @@ FrameNames frame_names(const BuiltModel& built) {
 }
 
 RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
-                       const std::filesystem::path& directory, std::string inputs, const RestartPoint* from)
+                       const std::filesystem::path& directory, std::string inputs, const Checkpoint* from)
     : built_(built),
       directory_(directory),
       inputs_(std::move(inputs)),
       results_(results_writer(case_file.name, built, directory, from)),
-      cad_(case_file, built, directory, from ? from->frames : 0) {
+      cad_(case_file, built, directory, from ? from->snapshots : 0) {
   if (case_file.output.paraview)
-    paraview_.emplace(directory_, frame_names(built), times_before(directory_, from));
+    paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
 }
 
 template <class Work>
@@ -72,24 +72,24 @@ void RunOutputs::timed(Work work) {
   seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void RunOutputs::write(const Frame& local) {
+void RunOutputs::write(const Snapshot& local) {
   timed([&] {
-    const Frame frame = to_world(built_.frame, local);
+    const Snapshot frame = to_world(built_.frame, local);
     results_.write(frame);
     if (paraview_) paraview_->write(frame);
     cad_.write(frame, diagnostics_);
   });
 }
 
-bool RunOutputs::restart_point_due() const { return Clock::now() - last_restart_ >= restart_interval; }
+bool RunOutputs::checkpoint_due() const { return Clock::now() - last_restart_ >= restart_interval; }
 
-void RunOutputs::write(const RestartPoint& point) {
+void RunOutputs::write(const Checkpoint& point) {
   timed([&] {
     results_.close_chunk();
     if (paraview_) paraview_->write_index();
-    RestartPoint mine = point;
+    Checkpoint mine = point;
     mine.inputs = inputs_;
-    write_restart_point(directory_ / "restart.nc", mine);
+    write_checkpoint(directory_ / "restart.nc", mine);
     last_restart_ = Clock::now();
   });
 }

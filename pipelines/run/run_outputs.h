@@ -12,8 +12,8 @@
 
 namespace nurbeam {
 
-/// Names in the order of the vectors of a Frame.
-FrameNames frame_names(const BuiltModel& built);
+/// Names in the order of the vectors of a Snapshot.
+SnapshotNames snapshot_names(const BuiltModel& built);
 
 /// All that a run writes frame by frame: stored frames, CAD files, ParaView files, restart points.
 class RunOutputs {
@@ -21,14 +21,14 @@ class RunOutputs {
   /// With `from`, goes on after the frames that lie before that restart point. This and the others throw
   /// std::runtime_error (file and reason).
   RunOutputs(const CaseFile& case_file, const BuiltModel& built, const std::filesystem::path& directory,
-             std::string inputs, const RestartPoint* from);
+             std::string inputs, const Checkpoint* from);
 
   /// Writes one frame, in the model's own coordinates.
-  void write(const Frame& local);
+  void write(const Snapshot& local);
   /// Whether the last restart point is old enough for another.
-  bool restart_point_due() const;
+  bool checkpoint_due() const;
   /// Puts all frames so far, and the point, on the disk.
-  void write(const RestartPoint& point);
+  void write(const Checkpoint& point);
   void finish();
   /// What could not be written into a CAD file; the run goes on.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }

@@ -8,8 +8,11 @@
 #include <stdexcept>
 
 #include "fem/system/beam_system.h"
+#include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"
-#include "pipelines/verification/verify_models.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "pipelines/verification/verify_run.h"
 #include "solver/consistent.h"
@@ -25,7 +28,7 @@ using std::numbers::pi;
 
 /// Angular frequencies of small vibrations about a state [rad/s], increasing; |omega^2| where round-off makes
 /// it negative.
-Eigen::VectorXd frequencies(const BeamSystem<2>& system, const State& state) {
+Eigen::VectorXd frequencies(const BeamSystem& system, const State& state) {
   const int n = system.coordinate_count();
   const auto tangent = [&](const TangentWeights& w) {
     Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
@@ -43,8 +46,8 @@ Eigen::VectorXd frequencies(const BeamSystem<2>& system, const State& state) {
 /// The same about the drawn shape stretched by a factor.
 Eigen::VectorXd frequencies(BeamModel model, double stretch = 1) {
   model.gravity.setZero();
-  const BeamSystem<2> system(model, initial_plan(model));
-  State state = system.drawn_state();
+  const BeamSystem system(model, initial_plan(model));
+  State state = drawn_state(system);
   state.q *= stretch;
   return frequencies(system, state);
 }
@@ -118,8 +121,8 @@ Spin steady_spin(double a) {
   BeamModel model = bar_of_one_metre(bar, 8, {{0, false}});
   model.gravity.setZero();
   const double wave_speed = std::sqrt(bar.axial_stiffness / bar.mass_per_length);
-  const BeamSystem<2> system(model, initial_plan(model));
-  State state = system.drawn_state();
+  const BeamSystem system(model, initial_plan(model));
+  State state = drawn_state(system);
   for (const MeshNode& node : system.mesh().nodes[0])
     for (const int place : {node.r, node.slope_left})
       state.v.segment<2>(place) = a * wave_speed * Eigen::Vector2d(-state.q[place + 1], state.q[place]);
@@ -167,7 +170,7 @@ RunRecord swing(CurvatureMeasure curvature, int elements, const std::vector<doub
   return run_model(model, times, step, 0.9, {{0, 0}, {0, model.beams[0].curve.length()}});
 }
 
-void add_swing(VerifyResult& result, const Frame& frame, const Swing& reference, const std::string& mesh) {
+void add_swing(VerifyResult& result, const Snapshot& frame, const Swing& reference, const std::string& mesh) {
   const Eigen::Vector3d a = frame.probes[0].position, b = frame.probes[1].position;
   const std::string when = " [m], t = 0." + std::to_string(std::lround(10 * frame.time)) + " s, " + mesh;
   const std::string source = "two reference runs, 4e-6 m";
@@ -223,7 +226,7 @@ VerifyResult moving_force() {
     BeamModel model = bar_of_one_metre(bar, 16, {{0, false}, {L, false}});
     model.gravity.setZero();
     const double speed = alpha * pi / L * std::sqrt(bar.bending_stiffness / bar.mass_per_length);
-    add_load(model, PointLoad::Kind::force, {0, -P, 0}, 0, speed);
+    add_force(model, {0, -P, 0}, 0, speed);
     const RunRecord run =
         run_model(model, even_times(L / speed, steps), L / speed / steps, 0.9, {{0, L / 2}});
     double deepest = 0, farthest = 0;

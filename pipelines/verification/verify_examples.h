@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "pipelines/verification/verify_models.h"
+#include "pipelines/verification/models.h"
 
 /// The sliding examples of Ding & Ouyang 2022, with their curvature measure; g = 9.81 m/s^2.
 namespace nurbeam::verification {
@@ -29,7 +29,7 @@ inline BeamModel semicircle(int elements, bool straight) {
   BeamModel model =
       one_beam(arc_cubics({0, 0, 0}, 2, M_PI, 2 * M_PI, 2), 2,
                round_bar(0.02, 7200, 200e6, CurvatureMeasure::spatial), elements, {{0, false}, {10, false}});
-  model.beams[0].straight = straight;
+  if (straight) model.beams[0].curve = model.beams[0].curve.straightened();
   add_slider(model, 0.8, 2 * M_PI / 16);
   return model;
 }

@@ -8,7 +8,10 @@
 #include <stdexcept>
 
 #include "fem/element/quadrature.h"
-#include "fem/motion/length_control.h"
+#include "fem/motion/transfer.h"
+#include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
+#include "fem/system/observables.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_examples.h"
 #include "pipelines/verification/verify_run.h"
@@ -30,9 +33,9 @@ double relative_drift(const BeamModel& model, double end, double step) {
   step = end / static_cast<double>(count);
   const RunRecord run = run_model(model, even_times(end, count), step, 1);
   for (const RunEvent& event : run.report.events)
-    if (event.kind != "split") end = std::min(end, event.time - step / 2);
+    if (event.kind != EventKind::split) end = std::min(end, event.time - step / 2);
   double drift = 0, kinetic = 0;
-  for (const Frame& frame : run.frames) {
+  for (const Snapshot& frame : run.frames) {
     if (frame.time > end) break;
     drift = std::max(drift, std::abs(frame.energy.total - run.frames[0].energy.total));
     kinetic = std::max(kinetic, frame.energy.kinetic);
@@ -127,7 +130,7 @@ VerifyResult merge_momentum() {
   double jump = 0;
   int merges = 0;
   for (const RunEvent& event : run.report.events) {
-    if (event.kind != "merge") continue;
+    if (event.kind != EventKind::merge) continue;
     ++merges;
     jump = std::max(jump, (event.momentum_after - event.momentum_before).norm());
   }
@@ -143,17 +146,16 @@ VerifyResult merge_momentum() {
 
 /// Fields of a state at a place, and integrals over the beam by a rule fine enough not to show.
 struct Fields {
-  MaterialPoint<2> at;
+  MaterialPoint<3> at;
   double kinetic, axial, bending, length;  // per length [J/m], [-]
 };
 
-Fields fields(const BeamSystem<2>& system, const State& state, double s) {
+Fields fields(const BeamSystem& system, const State& state, double s) {
   const Beam& beam = system.model().beams[0];
-  const auto& e = system.mesh().elements[find_element<2>(system.model(), system.mesh(), state.q, 0, s)];
-  Fields f{material_point<2>(e, state.q, state.v, s), 0, 0, 0, 0};
+  Fields f{material_point(system, state, 0, s), 0, 0, 0, 0};
   const int segment = beam.curve.segment_at(s);
   const double kappa_0 = beam.curve.geometry(segment, beam.curve.parameter(segment, s)).curvature[0];
-  const Eigen::Vector2d &rs = f.at.rs, &rss = f.at.rss;
+  const Eigen::Vector3d &rs = f.at.rs, &rss = f.at.rss;
   const double A = rs.squaredNorm(), strain = (A - 1) / 2;
   const double bending = (rs.x() * rss.y() - rs.y() * rss.x()) / A - kappa_0;
   f.kinetic = beam.properties.mass_per_length * f.at.velocity.squaredNorm() / 2;
@@ -171,21 +173,20 @@ VerifyResult split() {
   add_slider(model, 1, (home[3].s + home[4].s) / 2);
   model.joints[0].speed = 0.5;
   MeshPlan full = initial_plan(model);
-  full.present[0].assign(home.size(), true);
+  full.beams[0].present.assign(home.size(), true);
   MeshPlan coarse = full;
-  coarse.present[0][4] = coarse.present[0][7] = false;
-  const BeamSystem<2> from(model, coarse), to(model, full);
-  State state = from.drawn_state();
-  from.start_joints(state);
+  coarse.beams[0].present[4] = coarse.beams[0].present[7] = false;
+  const BeamSystem from(model, coarse), to(model, full);
+  State state = drawn_state(from);
+  start_moving(from, state);
   if (!make_accelerations_smooth(from, 2e-4, state)) throw std::runtime_error("singular mass");
   GeneralizedAlphaIntegrator integrator({}, from, state);
   for (int i = 0; i < 250; ++i)
     if (integrator.advance(2e-4).status != StepStatus::converged) throw std::runtime_error("a step failed");
   const State& before = integrator.state();
-  const std::optional<State> after = transfer<2>(from, before, to, true);
-  if (!after) throw std::runtime_error("the split failed");
+  const State after = interpolated(from, before, to);
 
-  std::vector<double> cuts{*from.place(before, 0)};
+  std::vector<double> cuts{*place(from, before, 0)};
   for (const HomeNode& node : home) cuts.push_back(node.s);
   std::sort(cuts.begin(), cuts.end());
   double position = 0, slope = 0, curve = 0, velocity = 0;
@@ -196,7 +197,7 @@ VerifyResult split() {
       for (int g = 0; g < GaussRule::size; ++g) {
         const double width = (cuts[c + 1] - cuts[c]) / parts;
         const double s = cuts[c] + width * (i + GaussRule::points[g]), w = width * GaussRule::weights[g];
-        const Fields a = fields(from, before, s), b = fields(to, *after, s);
+        const Fields a = fields(from, before, s), b = fields(to, after, s);
         position = std::max(position, (b.at.r - a.at.r).norm());
         slope = std::max(slope, (b.at.rs - a.at.rs).norm());
         curve = std::max(curve, (b.at.rss - a.at.rss).norm());

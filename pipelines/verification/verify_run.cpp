@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "pipelines/diagnostics/simulation_text.h"
+
 namespace nurbeam::verification {
 
 RunRecord run_model(const BeamModel& model, const std::vector<double>& times, double step,
@@ -14,11 +16,10 @@ RunRecord run_model(const BeamModel& model, const std::vector<double>& times, do
   options.output_times = times;
   options.integrator = integrator;
   SimulationObserver observer;
-  observer.frame = [&](const Frame& frame) { record.frames.push_back(frame); };
-  observer.progress = [](const StepRecord&) {};
-  observer.interrupted = [] { return false; };
+  observer.snapshot = [&](const Snapshot& frame) { record.frames.push_back(frame); };
   record.report = simulate(model, probes, options, observer);
-  if (record.report.status != SimulationStatus::done) throw std::runtime_error(record.report.message);
+  if (record.report.status != SimulationStatus::done)
+    throw std::runtime_error(outcome_text(record.report, model));
   return record;
 }
 

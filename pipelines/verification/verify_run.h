@@ -8,7 +8,7 @@ namespace nurbeam::verification {
 /// What a run did and the frames asked for.
 struct RunRecord {
   SimulationReport report;
-  std::vector<Frame> frames;
+  std::vector<Snapshot> frames;
 
   const Eigen::Vector3d& body(std::size_t i) const { return frames.at(i).bodies.at(0).point.position; }
   double place(std::size_t i) const { return frames.at(i).bodies.at(0).s.value(); }

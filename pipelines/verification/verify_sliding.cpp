@@ -91,11 +91,11 @@ VerifyResult example_1() {
   }
   double leaves = std::nan("");
   for (const RunEvent& event : fine.report.events)
-    if (event.kind == "left the beam") leaves = event.time;
+    if (event.kind == EventKind::left_beam) leaves = event.time;
   const std::string source = "two reference runs, 5e-5 s";
   result.add("time of leaving [s]", 0.71356, source, leaves, 5e-5);
   // Back along the free flight from the last frame.
-  const Frame& last = fine.frames.back();
+  const Snapshot& last = fine.frames.back();
   const double flight = last.time - leaves;
   Eigen::Vector3d r = last.bodies[0].point.position, v = last.bodies[0].point.velocity;
   v.y() += 9.81 * flight;

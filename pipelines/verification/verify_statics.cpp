@@ -5,8 +5,11 @@
 #include <stdexcept>
 
 #include "fem/system/beam_system.h"
+#include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"
-#include "pipelines/verification/verify_models.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "solver/static_equilibrium.h"
 
@@ -20,26 +23,21 @@ using std::numbers::pi;
 /// A planar model without sliding joints in equilibrium, found from its drawn shape.
 class Rest {
  public:
-  explicit Rest(BeamModel model) : model_(std::move(model)), system_(model_, initial_plan(model_)) {
-    state_ = system_.drawn_state();
-    const StaticReport found = find_static_equilibrium(
-        StaticEquilibrium{}, system_, [this](double factor) { system_.set_load_factor(factor); }, state_);
+  explicit Rest(const BeamModel& model) : system_(model) {
+    state_ = drawn_state(system_);
+    const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system_, state_);
     if (found.status != StaticStatus::converged) throw std::runtime_error("no static equilibrium was found");
   }
   Rest(const Rest&) = delete;
   Rest& operator=(const Rest&) = delete;
 
-  Eigen::Vector2d position(double s) const {
-    const auto& e = system_.mesh().elements[find_element<2>(model_, system_.mesh(), state_.q, 0, s)];
-    return material_point<2>(e, state_.q, state_.v, s).r;
-  }
-  double beam_length() const { return system_.beam_length(state_, 0); }
+  Eigen::Vector2d position(double s) const { return material_point(system_, state_, 0, s).r.head<2>(); }
+  double length() const { return beam_length(system_, state_, 0); }
   /// Pull of the first support on the beam, along the first axis, outwards [N].
-  double pull() const { return state_.lambda[0]; }
+  double pull() const { return -support_force(system_, state_.lambda, 0).x(); }
 
  private:
-  BeamModel model_;
-  BeamSystem<2> system_;
+  BeamSystem system_;
   State state_;
 };
 
@@ -53,7 +51,7 @@ BeamModel cantilever(double EA, int elements) {
 
 BeamModel rolled_up(double moment, int elements) {
   BeamModel model = cantilever(1e3, elements);
-  add_load(model, PointLoad::Kind::moment, {0, 0, moment}, 1);
+  add_moment(model, {0, 0, moment}, 1);
   return model;
 }
 
@@ -66,7 +64,7 @@ VerifyResult roll_up() {
     const std::string load = std::string(" [m], ") + name + ", 200 elements";
     result.add("tip x" + load, exact.x, source, rest.position(1).x(), 1e-8);
     result.add("tip y" + load, exact.y, source, rest.position(1).y(), 1e-8);
-    result.add("length" + load, 1, "no axial strain", rest.beam_length(), 1e-8);
+    result.add("length" + load, 1, "no axial strain", rest.length(), 1e-8);
   }
   ConvergenceTable table{"the tip [m] where M = 2 pi EI/L", "elements", {}};
   for (const int elements : {16, 32, 64})
@@ -79,7 +77,7 @@ VerifyResult elastica() {
   VerifyResult result;
   for (const int q : {1, 2, 5, 10}) {
     BeamModel model = cantilever(1e7, 64);
-    add_load(model, PointLoad::Kind::force, {0, -double(q), 0}, 1);
+    add_force(model, {0, -double(q), 0}, 1);
     const Rest rest(std::move(model));
     const Tip exact = elastica_tip(q);
     const std::string load = ", q = " + std::to_string(q) + ", EA = 1e7 EI/L^2";
@@ -95,7 +93,7 @@ VerifyResult small_deflection() {
   ConvergenceTable loads{"the tip over PL^3/3EI, 1 element", "P [N]", {}};
   for (const double P : {0.004, 0.002, 0.001}) {
     BeamModel model = cantilever(1e3, 1);
-    add_load(model, PointLoad::Kind::force, {0, -P, 0}, 1);
+    add_force(model, {0, -P, 0}, 1);
     const double ratio = -Rest(std::move(model)).position(1).y() / (P / 3);
     loads.rows.emplace_back(P, std::abs(ratio - 1));
     if (P == 0.001)

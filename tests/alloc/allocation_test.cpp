@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "fem/system/assembly.h"
 #include "tests/fem/random_models.h"
 
 namespace {
@@ -41,17 +42,16 @@ void check() {
 #endif
   std::mt19937 random(1);
   const BeamModel model = model_with_everything(random, D);
-  const BeamSystem<D> system(model, initial_plan(model));
+  const BeamSystem system(model, initial_plan(model));
   const State state = disturbed_state(system, random);
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
   Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
   const TangentWeights all{1, 1, 1};
-  for (const MeshElement<D>& e : system.mesh().elements) {
-    const ElementState<D> x = gather<D>(e, state.q, state.v, state.a);
-    ElementResponse<D> response;
-    EXPECT_EQ(
-        allocations_in([&] { e.element.respond(x, Eigen::Matrix<double, D, 1>::Ones(), &all, response); }),
-        0);
+  for (const MeshElement<D>& e : system.assembly<D>()->elements()) {
+    const ElementState<D> x = gather<D>(e, state);
+    const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::Ones();
+    EXPECT_EQ(allocations_in([&] { e.element.force(x, load); }), 0);
+    EXPECT_EQ(allocations_in([&] { e.element.tangent(x, load, all); }), 0);
   }
   EXPECT_EQ(allocations_in([&] { system.residual(state, dynamics, constraints); }), 0);
   EXPECT_EQ(allocations_in([&] { system.tangent(state, all, kkt); }), 0);

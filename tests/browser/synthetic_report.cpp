@@ -14,12 +14,12 @@ namespace {
 
 using nurbeam::BeamRecord;
 using nurbeam::ElementRecord;
-using nurbeam::Frame;
 using nurbeam::ReportFrames;
+using nurbeam::Snapshot;
 
 // Every frame and element here has all its numbers.
-Frame frame_of(double time, std::vector<ElementRecord> elements) {
-  Frame frame;
+Snapshot frame_of(double time, std::vector<ElementRecord> elements) {
+  Snapshot frame;
   frame.time = time;
   frame.step = 1e-3;
   frame.beams.push_back({});
@@ -66,7 +66,7 @@ ElementRecord wave_element(double time, int i, int count) {
 
 ReportFrames arc() {
   return {"arc", {{}, {}, {"arc"}}, {0}, [](std::size_t, std::size_t) {
-            return std::vector<Frame>{frame_of(0, {quarter_circle()})};
+            return std::vector<Snapshot>{frame_of(0, {quarter_circle()})};
           }};
 }
 
@@ -77,7 +77,7 @@ ReportFrames large() {
     frames.times.push_back(0.01 * i);
   }
   frames.read = [](std::size_t first, std::size_t count) {
-    std::vector<Frame> piece;
+    std::vector<Snapshot> piece;
     for (std::size_t i = first; i < first + count; ++i) {
       std::vector<ElementRecord> elements;
       for (int e = 0; e < element_count; ++e) {

@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <numbers>
 
-#include "fem/system/beam_system.h"
+#include "fem/model/build.h"
+#include "fem/system/initial_state.h"
+#include "fem/system/observables.h"
 #include "nurbs/rational_cubic.h"
 
 // The energy of a straight steel wire bent to a quarter circle of radius 1 m: EI/2 times the angle.
@@ -15,15 +17,11 @@ int main() {
   points.col(3) << 0, 1, 0, 1;
   const nurbeam::ReferenceCurve quarter({nurbeam::RationalCubic(points)}, 2);
 
-  nurbeam::BeamModel model;
-  model.dimension = 2;
-  model.beams.push_back({.name = "wire",
-                         .curve = quarter,
-                         .properties = {.axial_stiffness = 1e5, .bending_stiffness = 2, .mass_per_length = 1},
-                         .straight = true,
-                         .home = nurbeam::home_nodes({0, quarter.length()}, {4})});
-  const nurbeam::BeamSystem<2> system(model, nurbeam::initial_plan(model));
-  const double energy = system.energy(system.drawn_state()).bending, expected = std::numbers::pi / 2;
-  std::printf("length %.12f m, energy %.12f J\n", quarter.length(), energy);
-  return std::abs(energy - expected) < 1e-6 ? 0 : 1;
+  nurbeam::ModelBuilder builder(2);
+  builder.add_beam(quarter.straightened(), nurbeam::BeamProperties(1e5, 2, 1), {.elements = 4});
+  const nurbeam::BeamSystem system(builder.build());
+  const double bent = nurbeam::energy(system, nurbeam::drawn_state(system)).bending,
+               expected = std::numbers::pi / 2;
+  std::printf("length %.12f m, energy %.12f J\n", quarter.length(), bent);
+  return std::abs(bent - expected) < 1e-6 ? 0 : 1;
 }

@@ -24,7 +24,7 @@ double drift(const BeamModel& model, double end, double h, double rho_infinity) 
   EXPECT_FALSE(events.empty());
   double jumps = 0, sum = 0;
   std::size_t next = 0;
-  for (const Frame& frame : run.frames) {
+  for (const Snapshot& frame : run.frames) {
     for (; next < events.size() && events[next].time <= frame.time + 1e-12; ++next)
       jumps += events[next].energy_after - events[next].energy_before;
     const double error = frame.energy.total - run.frames[0].energy.total - jumps;
@@ -86,7 +86,7 @@ TEST(EnergyDrift, FallsWithTheSquareOfTheStepAcrossTheBreaksOfALineArcSplineChai
   EXPECT_GT(run.place(0), model.beams[0].curve.breaks()[2]);
   int crossings = 0;
   for (const RunEvent& event : run.report.events) {
-    if (event.kind != "carried as a point" && event.kind != "carried as a node") continue;
+    if (event.kind != EventKind::becomes_point && event.kind != EventKind::becomes_node) continue;
     ++crossings;
     EXPECT_NEAR(event.energy_after, event.energy_before, 1e-5 * run.report.peak_kinetic_energy) << event.time;
   }

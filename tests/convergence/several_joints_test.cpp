@@ -37,7 +37,7 @@ std::vector<Slider> chase() { return {{1, 0.15, 1.4}, {2, 0.3, 1}}; }
 
 double smallest_distance(const RunRecord& run) {
   double distance = 1;
-  for (const Frame& frame : run.frames)
+  for (const Snapshot& frame : run.frames)
     distance = std::min(distance, std::abs(*frame.bodies[0].s - *frame.bodies[1].s));
   return distance;
 }
@@ -70,7 +70,7 @@ TEST(TwoSliders, MoveAsInAMirrorInTheReflectedModel) {
   const RunRecord run = run_model(suspended_beam(16, chase()), times, 5e-4);
   RunRecord mirror = run_model(suspended_beam(16, reflected), times, 5e-4);
   EXPECT_GT(run.report.events.size(), 10U);
-  for (Frame& frame : mirror.frames)
+  for (Snapshot& frame : mirror.frames)
     for (BodyRecord& body : frame.bodies) body.point.position.x() = 1 - body.point.position.x();
   EXPECT_LT(largest_difference(run, mirror), 1e-9);
 }
@@ -83,9 +83,9 @@ TEST(TwoBeams, MoveEachAsAlone) {
   both.beams[1].name = "other";
   both.joints[1].beam = 1;
   for (int i : {0, 1}) {
-    Support support = both.supports[i];
+    Support support = std::get<Support>(both.constraints[i]);
     support.beam = 1;
-    both.supports.push_back(support);
+    both.constraints.push_back(support);
   }
   const RunRecord run = run_model(both, times, 5e-4);
   for (std::size_t i = 0; i < times.size(); ++i)

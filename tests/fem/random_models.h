@@ -2,7 +2,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "fem/system/beam_system.h"
+#include "fem/system/initial_state.h"
+#include "fem/system/observables.h"
 #include "tests/support/models.h"
 
 namespace nurbeam::testing {
@@ -29,10 +30,9 @@ inline std::vector<RationalCubic> uneven_axis(std::mt19937& random, int dimensio
 }
 
 /// A state near the drawn shape with random displacements, rates and multipliers; places of joints stay.
-template <int D>
-State disturbed_state(const BeamSystem<D>& system, std::mt19937& random, double amount = 0.05) {
+inline State disturbed_state(const BeamSystem& system, std::mt19937& random, double amount = 0.05) {
   std::uniform_real_distribution<double> unit(-1, 1);
-  State state = system.drawn_state();
+  State state = drawn_state(system);
   for (Eigen::Index i = 0; i < state.q.size(); ++i) {
     state.q[i] += amount * unit(random);
     state.v[i] = unit(random);
@@ -40,7 +40,7 @@ State disturbed_state(const BeamSystem<D>& system, std::mt19937& random, double 
   }
   for (Eigen::Index i = 0; i < state.lambda.size(); ++i) state.lambda[i] = unit(random);
   for (const MeshJoint& joint : system.mesh().joints)
-    if (joint.place >= 0) state.q[joint.place] = system.drawn_state().q[joint.place];
+    if (joint.place >= 0) state.q[joint.place] = drawn_state(system).q[joint.place];
   return state;
 }
 
@@ -56,12 +56,10 @@ inline BeamModel model_with_everything(std::mt19937& random, int dimension) {
   model.joints[0].continuous_slope = false;
   model.joints[2].motion = TimeTable{{0, 0.55 * L}, {1, 0.55 * L + 0.3}};
   const Eigen::Vector3d force = dimension == 3 ? Eigen::Vector3d(1, -2, 0.7) : Eigen::Vector3d(1, -2, 0);
-  using Kind = PointLoad::Kind;
   const TimeTable ramp{{0, 0.5}, {1, 2}};
-  model.point_loads = {{Kind::force, 0, 0.9 * L, 0, force, false, ramp},
-                       {Kind::force, 0, 0.3 * L, 0, force, true, {}},
-                       {Kind::force, 0, 0.1 * L, 0.8, force, false, {}},
-                       {Kind::force, 0, 0.2 * L, 0.8, force, true, {}}};
+  model.forces = {PointLoad{{0, 0.9 * L, 0, force, false, ramp}}, PointLoad{{0, 0.3 * L, 0, force, true, {}}},
+                  PointLoad{{0, 0.1 * L, 0.8, force, false, {}}},
+                  PointLoad{{0, 0.2 * L, 0.8, force, true, {}}}};
   for (double s : {0.35 * L, L}) {
     Eigen::Vector3d moment(0, 0, 1.3);
     if (dimension == 3) {
@@ -69,10 +67,9 @@ inline BeamModel model_with_everything(std::mt19937& random, int dimension) {
       moment = Eigen::Vector3d(0.4, 1, -0.6);
       moment -= along.dot(moment) * along;
     }
-    for (bool follower : {false, true})
-      model.point_loads.push_back({Kind::moment, 0, s, 0, moment, follower, {}});
+    for (bool follower : {false, true}) model.forces.push_back(Moment{{0, s, 0, moment, follower, {}}});
   }
-  model.line_loads = {{0, force, ramp}};
+  model.forces.push_back(LineLoad{0, force, ramp});
   return model;
 }
 
@@ -90,7 +87,8 @@ inline BeamModel joined_model(std::mt19937& random, int dimension) {
   const BeamModel other = one_beam(turned, dimension, properties, 6, {});
   model.beams.push_back(other.beams[0]);
   const double L = model.beams[0].curve.length(), M = model.beams[1].curve.length();
-  model.beam_joints = {{0, L, 1, 0.4 * M, true}, {1, 0, 0, 0, false}};
+  model.constraints.push_back(BeamJoint{0, L, 1, 0.4 * M, true});
+  model.constraints.push_back(BeamJoint{1, 0, 0, 0, false});
   add_slider(model, 0.8, 0.33 * L);
   return model;
 }

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/motion/length_control.h"
+#include "fem/motion/transfer.h"
+#include "fem/system/material_points.h"
 #include "solver/consistent.h"
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
@@ -24,11 +25,8 @@ using Axis = std::vector<RationalCubic>;
 constexpr double turn = 1.2;
 
 Beam beam_on(const Axis& axis, int dimension, const BeamProperties& properties) {
-  Beam beam{.name = "beam",
-            .curve = ReferenceCurve(axis, dimension),
-            .properties = properties,
-            .straight = dimension == 3,
-            .home = {}};
+  Beam beam{.name = "beam", .curve = ReferenceCurve(axis, dimension), .properties = properties, .home = {}};
+  if (dimension == 3) beam.curve = beam.curve.straightened();
   const std::vector<double> places = fixed_places(beam.curve, {});
   beam.home = home_nodes(places, std::vector<int>(places.size() - 1, 2));
   return beam;
@@ -51,26 +49,25 @@ struct Frame {
     const auto corner = static_cast<Axis::difference_type>(column_axis.size());
     cornered.dimension = joined.dimension = dimension;
     cornered.gravity = joined.gravity = gravity;
-    cornered.supports = joined.supports = {{0, 0, true}};
+    cornered.constraints = joined.constraints = {Support{0, 0, true}};
     cornered.beams = {beam_on(whole, dimension, properties)};
     make_corner(cornered.beams[0], static_cast<int>(corner));
     joined.beams = {beam_on(column_axis, dimension, properties),
                     beam_on({whole.begin() + corner, whole.end()}, dimension, properties)};
     column = joined.beams[0].curve.length();
-    joined.beam_joints = {{0, column, 1, 0, true}};
+    joined.constraints.push_back(BeamJoint{0, column, 1, 0, true});
   }
 };
 
 template <int D>
-Eigen::Matrix<double, D, 1> position(const BeamSystem<D>& system, const State& state, int beam, double s) {
-  const auto& e = system.mesh().elements[find_element<D>(system.model(), system.mesh(), state.q, beam, s)];
-  return material_point<D>(e, state.q, state.v, s).r;
+Eigen::Matrix<double, D, 1> position(const BeamSystem& system, const State& state, int beam, double s) {
+  return material_point(system, state, beam, s).r.head<D>();
 }
 
 // Largest distance between the material points of both frames, and how far they have moved [m].
 template <int D>
-std::pair<double, double> compare(const Frame& frame, const BeamSystem<D>& cornered, const State& one,
-                                  const BeamSystem<D>& joined, const State& two) {
+std::pair<double, double> compare(const Frame& frame, const BeamSystem& cornered, const State& one,
+                                  const BeamSystem& joined, const State& two) {
   double apart = 0, moved = 0;
   const ReferenceCurve& curve = frame.cornered.beams[0].curve;
   for (int i = 0; i <= 40; ++i) {
@@ -83,18 +80,15 @@ std::pair<double, double> compare(const Frame& frame, const BeamSystem<D>& corne
   return {apart, moved};
 }
 
-template <int D>
-State equilibrium(BeamSystem<D>& system) {
-  State state = system.drawn_state();
-  const StaticReport found = find_static_equilibrium(
-      {.tolerance = 1e-12}, system, [&](double factor) { system.set_load_factor(factor); }, state);
+State equilibrium(const BeamSystem& system) {
+  State state = drawn_state(system);
+  const StaticReport found = find_static_equilibrium({.tolerance = 1e-12}, system, state);
   EXPECT_EQ(found.status, StaticStatus::converged);
   return state;
 }
 
-template <int D>
-State moved_on(const BeamSystem<D>& system, double end, int steps) {
-  State start = system.drawn_state();
+State moved_on(const BeamSystem& system, double end, int steps) {
+  State start = drawn_state(system);
   EXPECT_TRUE(make_accelerations_consistent(system, start));
   GeneralizedAlphaIntegrator integrator({.rho_infinity = 0.9, .newton_tolerance = 1e-12}, system, start);
   for (int i = 0; i < steps; ++i) EXPECT_EQ(integrator.advance(end / steps).status, StepStatus::converged);
@@ -106,7 +100,7 @@ const BeamProperties soft{300, 2, 0.7, 0.02, {}}, undamped{300, 2, 0.7, 0, {}};
 template <int D>
 void check_statics(const Axis& column, const Axis& arm, const Eigen::Vector3d& gravity) {
   const Frame frame(column, arm, D, soft, gravity);
-  BeamSystem<D> cornered(frame.cornered, initial_plan(frame.cornered)),
+  BeamSystem cornered(frame.cornered, initial_plan(frame.cornered)),
       joined(frame.joined, initial_plan(frame.joined));
   const auto [apart, moved] = compare<D>(frame, cornered, equilibrium(cornered), joined, equilibrium(joined));
   EXPECT_LT(apart, 1e-9);
@@ -129,7 +123,7 @@ void check_motion(int seed) {
   std::mt19937 random(seed);
   const Axis column = uneven_axis(random, D), arm = uneven_axis(random, D);
   const Frame frame(column, arm, D, soft, {2, -5, D == 3 ? 3 : 0});
-  const BeamSystem<D> cornered(frame.cornered, initial_plan(frame.cornered)),
+  const BeamSystem cornered(frame.cornered, initial_plan(frame.cornered)),
       joined(frame.joined, initial_plan(frame.joined));
   const auto [apart, moved] =
       compare<D>(frame, cornered, moved_on(cornered, 0.3, 300), joined, moved_on(joined, 0.3, 300));
@@ -145,11 +139,11 @@ TEST(RigidCorner, IsKeptByRungeAndKuttaToTheOrderOfTheirMethod) {
   std::mt19937 random(5);
   const Axis column = uneven_axis(random, 3), arm = uneven_axis(random, 3);
   const Frame frame(column, arm, 3, undamped, {2, -5, 3});
-  const BeamSystem<3> system(frame.cornered, initial_plan(frame.cornered));
+  const BeamSystem system(frame.cornered, initial_plan(frame.cornered));
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
   std::vector<double> drift;
   for (const int steps : {500, 1000, 2000}) {
-    ExplicitIntegrator integrator({}, system, system.drawn_state());
+    ExplicitIntegrator integrator({}, system, drawn_state(system));
     for (int i = 0; i < steps; ++i) ASSERT_EQ(integrator.advance(0.5 / steps).status, StepStatus::converged);
     system.residual(integrator.state(), dynamics, constraints);
     drift.push_back(constraints.norm());
@@ -168,12 +162,11 @@ TEST(RigidCorner, BendsAFrameAsTheTheoryOfFramesSaysForASmallLoad) {
   model.beams = {
       beam_on({line_cubic({0, 0, 0}, {0, h, 0}), line_cubic({0, h, 0}, {L, h, 0})}, 2, {EA, EI, 0.7, 0, {}})};
   make_corner(model.beams[0], 1);
-  model.supports = {{0, 0, true}};
+  model.constraints = {Support{0, 0, true}};
   std::vector<double> errors;
   for (const double P : {1e-3, 5e-4, 2.5e-4}) {
-    model.point_loads.clear();
-    verification::add_load(model, PointLoad::Kind::force, {0, -P, 0}, h + L);
-    BeamSystem<2> system(model, initial_plan(model));
+    model.forces = {PointLoad{{.s = model.beams[0].curve.length(), .value = {0, -P, 0}}}};
+    BeamSystem system(model, initial_plan(model));
     const State state = equilibrium(system);
     const double turned = P * L * h / EI;
     const Eigen::Vector2d corner(turned * h / 2, h - P * h / EA),
@@ -196,9 +189,9 @@ TEST(RigidCorner, IsFreeOfStressAsDrawnAlsoWithoutMetric) {
       for (int j = 0; j < beam.curve.segment_count(); ++j) axis.push_back(beam.curve.segment(j));
       beam.curve = ReferenceCurve(axis, 3, Metric::label);
     }
-    const BeamSystem<3> system(*model, initial_plan(*model));
+    const BeamSystem system(*model, initial_plan(*model));
     Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
-    system.residual(system.drawn_state(), dynamics, constraints);
+    system.residual(drawn_state(system), dynamics, constraints);
     EXPECT_LT(constraints.norm(), 1e-13);
   }
 }
@@ -213,11 +206,11 @@ bool stays(NodeKind kind, double distance, bool continuous_slope = false) {
   testing::add_slider(model, 0.8, 1 - 0.2 * distance);
   model.joints[0].speed = 1;
   model.joints[0].continuous_slope = continuous_slope;
-  const BeamSystem<2> system(model, initial_plan(model));
-  State state = system.drawn_state();
-  system.start_joints(state);
-  return system.mesh().plan.present[0][corner] &&
-         next_plan<2>(system, state, LengthControl{}).plan.present[0][corner];
+  const BeamSystem system(model, initial_plan(model));
+  State state = drawn_state(system);
+  start_moving(system, state);
+  return system.mesh().plan.beams[0].present[corner] &&
+         next_plan(system, state, LengthControl{}).plan.beams[0].present[corner];
 }
 
 TEST(RigidCorner, IsNeverRemovedWhereASmoothBreakWouldBe) {

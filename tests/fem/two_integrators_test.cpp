@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fem/system/beam_system.h"
+#include "fem/system/initial_state.h"
 #include "solver/consistent.h"
 #include "solver/generalized_alpha.h"
 #include "solver/ida_integrator.h"
@@ -17,9 +17,9 @@ TEST(TwoIntegrators, ApproachEachOtherOnABeamWithASlidingMassAsGeneralizedAlphaI
       testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {60, 0.5, 2, 0, {}}, 4, {{0, true}});
   testing::add_slider(model, 0.8, 0.4);
   model.joints[0].speed = 0.2;
-  const BeamSystem<2> system(model, initial_plan(model));
-  State start = system.drawn_state();
-  system.start_joints(start);
+  const BeamSystem system(model, initial_plan(model));
+  State start = drawn_state(system);
+  start_moving(system, start);
   ASSERT_TRUE(make_accelerations_consistent(system, start));
   const double end = 0.1;
   IdaIntegrator ida({.tolerance = 1e-9}, system, start);

@@ -1,12 +1,12 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "fem/motion/frame.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam::test {
 
 /// Expects two frames to hold the same numbers, bit by bit.
-inline void expect_equal(const Frame& a, const Frame& b) {
+inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   const auto equal = [](const PointRecord& x, const PointRecord& y) {
     return x.position == y.position && x.velocity == y.velocity;
   };

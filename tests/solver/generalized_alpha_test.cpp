@@ -271,7 +271,7 @@ TEST(GeneralizedAlpha, ContinuesFromARestartPointAsIfItHadNotStopped) {
   GeneralizedAlphaIntegrator whole({}, pendulum, pendulum.at_angle(0, 1.2, 0));
   for (int i = 0; i < 10; ++i) ASSERT_EQ(whole.advance(0.01).status, StepStatus::converged);
   GeneralizedAlphaIntegrator restarted({}, pendulum, whole.state());
-  restarted.set_algorithmic_acceleration(whole.algorithmic_acceleration());
+  restarted.restore(whole.state(), whole.history());
   for (int i = 0; i < 10; ++i) {
     ASSERT_EQ(whole.advance(0.01).status, StepStatus::converged);
     ASSERT_EQ(restarted.advance(0.01).status, StepStatus::converged);

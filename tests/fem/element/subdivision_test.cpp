@@ -284,7 +284,7 @@ TEST(Subdivision, HomeNodesStandAtTheGradedPlacesOfEachInterval) {
   ASSERT_EQ(home.size(), expected.size());
   for (std::size_t i = 0; i < home.size(); ++i) {
     EXPECT_NEAR(home[i].s, expected[i], 1e-15);
-    EXPECT_EQ(home[i].late, i == 4);
+    EXPECT_EQ(home[i].permanent, i == 4);
   }
 }
 

@@ -157,7 +157,7 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
   ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "title");
   const NurbsCurve arc = quarter_circle();
   const BezierPath path = BezierPath::from_nurbs(arc, 1e-9);
-  Frame frame{};
+  Snapshot frame{};
   frame.beams.resize(1);
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     frame.beams[0].elements.push_back({path.segments[i].points(), path.breaks[i], path.breaks[i + 1]});
@@ -180,7 +180,7 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
 TEST(CommandLine, ExportTellsBadInputFromWhatCannotBeWritten) {
   const test::TemporaryDirectory directory;
   ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "title");
-  Frame frame{};
+  Snapshot frame{};
   frame.beams.resize(1);
   frame.beams[0].elements = {{BezierPath::from_nurbs(quarter_circle(), 1e-9).segments[0].points(), 0, 1}};
   writer.write(frame);

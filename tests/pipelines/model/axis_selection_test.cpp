@@ -182,9 +182,11 @@ TEST(AxisSelection, EveryChainOfAFileBecomesABeamAndIsSupportedAsTheWhole) {
   EXPECT_EQ(model.beams[0].name, "net 1");
   EXPECT_EQ(model.beams[3].name, "net 4");
   EXPECT_NEAR(model.beams[3].curve.length(), 3, 1e-12);
-  EXPECT_EQ(report.value->curve_names, (std::vector<std::string>{"a", "b", "c", "d"}));
-  ASSERT_EQ(model.supports.size(), 4U);
-  EXPECT_EQ(model.supports[2].beam, 2);
+  std::vector<std::string> names;
+  for (const BeamSource& source : report.value->sources) names.push_back(source.curve_name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c", "d"}));
+  ASSERT_EQ(model.constraints.size(), 4U);
+  EXPECT_EQ(std::get<Support>(model.constraints[2]).beam, 2);
   EXPECT_TRUE(says(report, Severity::note, "curves 1 \"a\", 2 \"b\", 3 \"c\" of")) << "the junction";
 }
 
@@ -194,8 +196,8 @@ TEST(AxisSelection, OneOfSeveralChainsIsNamedByItsNumber) {
   const BuildReport report =
       build(directory, {R"(loads=[{"beam": "net 4", "at": "end", "force": [0, 1, 0]}])"});
   ASSERT_TRUE(report.value);
-  ASSERT_EQ(report.value->model.point_loads.size(), 1U);
-  EXPECT_EQ(report.value->model.point_loads[0].beam, 3);
+  ASSERT_EQ(report.value->model.forces.size(), 1U);
+  EXPECT_EQ(std::get<PointLoad>(report.value->model.forces[0]).beam, 3);
   const BuildReport wrong =
       build(directory, {R"(loads=[{"beam": "net 5", "at": "end", "force": [0, 1, 0]}])"});
   EXPECT_FALSE(wrong.value);
@@ -293,7 +295,7 @@ TEST(Corners, AboveThoseThatAreSmoothedAreWhatTheCaseSays) {
     if (!report.value) return found;
     const Beam& beam = report.value->model.beams[0];
     for (const HomeNode& node : beam.home)
-      if (node.late) found.push_back(node.kind);
+      if (node.permanent) found.push_back(node.kind);
     return found;
   };
   using enum NodeKind;

@@ -65,9 +65,9 @@ struct Page {
   }
 };
 
-/// Frame i of a beam of i + 1 elements about (1e6, 0, 0) and a body that has left it in the last frame.
-Frame frame_of(std::size_t i, std::size_t count) {
-  Frame frame;
+/// Snapshot i of a beam of i + 1 elements about (1e6, 0, 0) and a body that has left it in the last frame.
+Snapshot frame_of(std::size_t i, std::size_t count) {
+  Snapshot frame;
   frame.time = 0.1 * static_cast<double>(i);
   frame.energy.total = 1.0 / 3 + frame.time;
   frame.bodies = {{{Eigen::Vector3d(1e6, frame.time, 0), Eigen::Vector3d::Zero()},
@@ -93,7 +93,7 @@ ReportFrames frames_of(std::size_t count, const std::string& title = "title") {
   ReportFrames frames{title, {{}, {"bead"}, {"beam"}}, {}, {}};
   for (std::size_t i = 0; i < count; ++i) frames.times.push_back(0.1 * static_cast<double>(i));
   frames.read = [count](std::size_t first, std::size_t piece) {
-    std::vector<Frame> read;
+    std::vector<Snapshot> read;
     for (std::size_t i = first; i < first + piece; ++i) read.push_back(frame_of(i, count));
     return read;
   };
@@ -164,9 +164,9 @@ TEST(Report, HoldsFewerFramesWhereTheyWouldBeTooMuchAndAlwaysTheLast) {
 TEST(Report, KeepsTheWeightsOfRationalSegments) {
   ReportFrames frames = frames_of(1);
   frames.read = [](std::size_t, std::size_t) {
-    Frame frame = frame_of(0, 2);
+    Snapshot frame = frame_of(0, 2);
     frame.beams[0].elements[0].control_points.col(1) *= 0.5;  // the same points
-    return std::vector<Frame>{frame};
+    return std::vector<Snapshot>{frame};
   };
   const Page page = page_of(frames);
   EXPECT_TRUE(page.data()["shapes"]["rational"]);

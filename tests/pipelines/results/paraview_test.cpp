@@ -25,7 +25,7 @@ TEST(Paraview, AConstantFieldHasConstantCoefficients) {
 // VTK itself reads the series in tests/paraview; here is what does not need it.
 TEST(Paraview, AResumedSeriesKeepsTheFramesBeforeIt) {
   const test::TemporaryDirectory directory;
-  Frame frame;
+  Snapshot frame;
   frame.beams.resize(1);
   const auto index = [&] {
     std::ifstream stream(directory.path() / "frames.pvd");

@@ -36,46 +36,44 @@ SimulationOptions options_with(const decltype(SimulationOptions::integrator)& in
 
 struct Played {
   SimulationReport report;
-  std::vector<Frame> frames;
-  std::vector<RestartPoint> points;
+  std::vector<Snapshot> frames;
+  std::vector<Checkpoint> points;
 };
 
 // Runs a model, or goes on with it, and keeps every 67th step's restart point.
-Played play(const BeamModel& model, const SimulationOptions& options, const RestartPoint* from = nullptr) {
+Played play(const BeamModel& model, const SimulationOptions& options, const Checkpoint* from = nullptr) {
   Played played;
   long steps = 0;
   SimulationObserver observer;
-  observer.frame = [&](const Frame& frame) { played.frames.push_back(frame); };
-  observer.progress = [](const StepRecord&) {};
-  observer.interrupted = [] { return false; };
-  observer.restart_point_due = [&] { return ++steps % 67 == 0; };
-  observer.restart_point = [&](const RestartPoint& point) { played.points.push_back(point); };
+  observer.snapshot = [&](const Snapshot& frame) { played.frames.push_back(frame); };
+  observer.checkpoint_due = [&] { return ++steps % 67 == 0; };
+  observer.checkpoint = [&](const Checkpoint& point) { played.points.push_back(point); };
   played.report = simulate(model, {{0, 0.9}}, options, observer, from);
   return played;
 }
 
 // What a restart point is after it has been on the disk.
-RestartPoint stored(RestartPoint point) {
+Checkpoint stored(Checkpoint point) {
   const TemporaryDirectory directory;
   point.inputs = "of the test";
-  write_restart_point(directory.path() / "restart.nc", point);
-  const RestartPoint read = read_restart_point(directory.path() / "restart.nc");
+  write_checkpoint(directory.path() / "restart.nc", point);
+  const Checkpoint read = read_checkpoint(directory.path() / "restart.nc");
   EXPECT_EQ(read.inputs, "of the test");
   return read;
 }
 
 void expect_resumes_bit_by_bit(const BeamModel& model, const SimulationOptions& options) {
   const Played whole = play(model, options);
-  ASSERT_EQ(whole.report.status, SimulationStatus::done) << whole.report.message;
+  ASSERT_EQ(whole.report.status, SimulationStatus::done);
   ASSERT_EQ(whole.frames.size(), 21u);
   const std::size_t count = whole.points.size();
   ASSERT_GE(count, 4u);
   for (const std::size_t i : {std::size_t{0}, count / 3, 2 * count / 3, count - 1}) {
-    const RestartPoint from = stored(whole.points[i]);
+    const Checkpoint from = stored(whole.points[i]);
     const Played rest = play(model, options, &from);
-    ASSERT_EQ(rest.frames.size(), whole.frames.size() - from.frames);
+    ASSERT_EQ(rest.frames.size(), whole.frames.size() - from.snapshots);
     for (std::size_t k = 0; k < rest.frames.size(); ++k)
-      expect_equal(rest.frames[k], whole.frames[from.frames + k]);
+      expect_equal(rest.frames[k], whole.frames[from.snapshots + k]);
     EXPECT_EQ(rest.report.steps, whole.report.steps);
     EXPECT_EQ(rest.report.rejected_steps, whole.report.rejected_steps);
     EXPECT_EQ(rest.report.newton_iterations, whole.report.newton_iterations);
@@ -127,7 +125,7 @@ TEST(Restart, WithARigidCornerARunGoesOnBitByBit) {
       {testing::line_cubic({0, 0, 0}, {0, 1, 0}), testing::line_cubic({0, 1, 0}, {0.7, 1, 0})}, 2,
       testing::round_bar(0.02, 7200, 2e6), 6, {{0, true}});
   std::vector<HomeNode>& home = model.beams[0].home;
-  std::find_if(home.begin() + 1, home.end(), [](const HomeNode& node) { return node.late; })->kind =
+  std::find_if(home.begin() + 1, home.end(), [](const HomeNode& node) { return node.permanent; })->kind =
       NodeKind::rigid;
   expect_resumes_bit_by_bit(model, options_with(GeneralizedAlpha{}, 1e-3));
 }
@@ -138,8 +136,8 @@ TEST(Restart, WithIdaARunGoesOnWithinItsTolerance) {
   options.end_time = 0.4;
   options.output_times = {0.2, 0.4};
   const Played whole = play(model, options);
-  ASSERT_EQ(whole.report.status, SimulationStatus::done) << whole.report.message;
-  const RestartPoint from = stored(whole.points.at(1));
+  ASSERT_EQ(whole.report.status, SimulationStatus::done);
+  const Checkpoint from = stored(whole.points.at(1));
   const Played rest = play(model, options, &from);
   ASSERT_FALSE(rest.frames.empty());
   EXPECT_NEAR(
@@ -152,7 +150,7 @@ TEST(Restart, APointThatIsCutShortOrOfAnotherKindIsNamed) {
   const auto file = directory.path() / "restart.nc";
   const auto expect_named = [&] {
     try {
-      read_restart_point(file);
+      read_checkpoint(file);
       ADD_FAILURE();
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
@@ -162,9 +160,9 @@ TEST(Restart, APointThatIsCutShortOrOfAnotherKindIsNamed) {
   std::ofstream(file) << "not netCDF";
   expect_named();
   const Played played = play(falling_beam(), options_with(GeneralizedAlpha{}, 1e-3));
-  RestartPoint point = played.points.front();
+  Checkpoint point = played.points.front();
   point.inputs = "x";
-  write_restart_point(file, point);
+  write_checkpoint(file, point);
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   expect_named();
 }

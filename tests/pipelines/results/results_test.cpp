@@ -15,7 +15,7 @@ using test::expect_equal;
 using test::TemporaryDirectory;
 
 /// A frame of two beams, one probe and one body; all numbers differ and depend on `time`.
-Frame make_frame(double time, int elements, bool body_has_left = false) {
+Snapshot make_frame(double time, int elements, bool body_has_left = false) {
   double next = time + 1.0 / 3;
   const auto number = [&] { return next += 0.1; };
   const auto vector = [&] { return Eigen::Vector3d(number(), number(), number()); };
@@ -43,7 +43,7 @@ Frame make_frame(double time, int elements, bool body_has_left = false) {
     record.length = number();
     return record;
   };
-  Frame frame{};
+  Snapshot frame{};
   frame.time = time;
   frame.step = 1e-3;
   frame.newton_iterations = 7;
@@ -58,7 +58,7 @@ Frame make_frame(double time, int elements, bool body_has_left = false) {
   return frame;
 }
 
-const FrameNames names = {.probes = {"tip"}, .bodies = {"trolley"}, .beams = {"cable", "arch"}};
+const SnapshotNames names = {.probes = {"tip"}, .bodies = {"trolley"}, .beams = {"cable", "arch"}};
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -94,7 +94,7 @@ TEST(Results, HistoriesHaveTheColumnsOfTheContract) {
 TEST(Results, HistoriesGiveEveryNumberBackExactly) {
   const TemporaryDirectory directory;
   ResultsWriter writer(directory.path(), names, "title");
-  const Frame held = make_frame(0, 3), left = make_frame(0.1, 3, true);
+  const Snapshot held = make_frame(0, 3), left = make_frame(0.1, 3, true);
   writer.write(held);
   writer.write(left);
   writer.finish();
@@ -115,12 +115,12 @@ TEST(Results, HistoriesGiveEveryNumberBackExactly) {
 TEST(Results, StoredBeamsComeBackExactlyWhileTheirElementsChangeInNumber) {
   const TemporaryDirectory directory;
   ResultsWriter writer(directory.path() / "new" / "directory", names, "title");
-  const std::vector<Frame> frames = {make_frame(0, 3), make_frame(0.5, 5), make_frame(1, 1)};
-  for (const Frame& frame : frames) {
+  const std::vector<Snapshot> frames = {make_frame(0, 3), make_frame(0.5, 5), make_frame(1, 1)};
+  for (const Snapshot& frame : frames) {
     writer.write(frame);
   }
   writer.finish();
-  for (const Frame& frame : frames) {
+  for (const Snapshot& frame : frames) {
     const auto [time, beams] =
         read_stored_beams(directory.path() / "new" / "directory", frame.time + 0.1 * (1 - frame.time));
     EXPECT_EQ(time, frame.time);
@@ -154,8 +154,8 @@ TEST(Results, ATimeOutsideTheStoredRangeNamesTheRange) {
   }
 }
 
-const std::vector<Frame> five_frames = {make_frame(0, 3), make_frame(0.25, 5), make_frame(0.5, 1),
-                                        make_frame(0.75, 0, true), make_frame(1, 2, true)};
+const std::vector<Snapshot> five_frames = {make_frame(0, 3), make_frame(0.25, 5), make_frame(0.5, 1),
+                                           make_frame(0.75, 0, true), make_frame(1, 2, true)};
 
 std::vector<std::string> files_in(const std::filesystem::path& directory) {
   std::vector<std::string> files;
@@ -216,7 +216,7 @@ TEST_P(ResumedResults, AreThoseOfARunWithoutABreakWhereverItWasCut) {
   const bool finished = GetParam();
   const TemporaryDirectory whole;
   ResultsWriter uninterrupted(whole.path(), names, "title");
-  for (const Frame& frame : five_frames) uninterrupted.write(frame);
+  for (const Snapshot& frame : five_frames) uninterrupted.write(frame);
   uninterrupted.finish();
   for (std::size_t kept = 0; kept <= 4; ++kept) {
     const TemporaryDirectory directory;
@@ -277,7 +277,7 @@ TEST(Results, EveryNumericVariableHasAUnitAndALongName) {
 TEST(Results, ProbesAndBodiesMayBeMissing) {
   const TemporaryDirectory directory;
   ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "");
-  Frame frame = make_frame(0, 1);
+  Snapshot frame = make_frame(0, 1);
   frame.probes.clear();
   frame.bodies.clear();
   frame.beams.resize(1);
@@ -289,7 +289,7 @@ TEST(Results, ProbesAndBodiesMayBeMissing) {
 TEST(Results, AFrameThatDoesNotFitTheNamesIsRefused) {
   const TemporaryDirectory directory;
   ResultsWriter writer(directory.path(), names, "title");
-  Frame frame = make_frame(0, 1);
+  Snapshot frame = make_frame(0, 1);
   frame.probes.clear();
   EXPECT_THROW(writer.write(frame), std::invalid_argument);
 }

@@ -36,7 +36,7 @@ TEST(RunSummary, IsWrittenAsJsonWithUnits) {
   summary.energy_drift = std::numeric_limits<double>::quiet_NaN();
   RunEvent event;
   event.time = 0.5;
-  event.kind = "merge";
+  event.kind = EventKind::merge;
   event.energy_after = 2;
   event.momentum_before = {1, 2, 3};
   summary.events = {event};

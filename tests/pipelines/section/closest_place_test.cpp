@@ -85,7 +85,7 @@ TEST_F(NearPlace, OfASupportAndAProbeIsTheFootOfThePoint) {
       build(R"([{"beam": "cable", "type": "pinned", "at": {"near": [1, 1, 0], "within": "50 cm"}}])",
             R"([{"name": "p", "beam": "cable", "at": {"near": ["86.7 cm", 0.5, 0.001]}}])");
   ASSERT_TRUE(report.value);
-  EXPECT_NEAR(report.value->model.supports.at(0).s, pi / 4, 1e-14);
+  EXPECT_NEAR(std::get<Support>(report.value->model.constraints.at(0)).s, pi / 4, 1e-14);
   EXPECT_NEAR(report.value->probes.at(0).s, std::atan2(0.5, 0.867), 1e-14);
 }
 

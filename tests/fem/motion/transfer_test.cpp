@@ -1,10 +1,11 @@
-#include "fem/motion/length_control.h"
+#include "fem/motion/transfer.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "fem/system/material_points.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {
@@ -24,10 +25,9 @@ struct Integrals {
 };
 
 template <int D>
-Integrals integrate(const BeamSystem<D>& system, const State& state, std::vector<double> cuts) {
+Integrals integrate(const BeamSystem& system, const State& state, std::vector<double> cuts) {
   constexpr int parts = 60;
   const Beam& beam = system.model().beams[0];
-  const Mesh<D>& mesh = system.mesh();
   Integrals sum;
   for (std::size_t c = 0; c + 1 < cuts.size(); ++c)
     for (int i = 0; i < parts; ++i)
@@ -35,15 +35,10 @@ Integrals integrate(const BeamSystem<D>& system, const State& state, std::vector
         const double width = (cuts[c + 1] - cuts[c]) / parts,
                      s = cuts[c] + width * (i + GaussRule::points[g]);
         const double w = width * GaussRule::weights[g];
-        const auto& e = mesh.elements[find_element<D>(system.model(), mesh, state.q, 0, s)];
-        const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+        const MaterialPoint<3> p = material_point(system, state, 0, s);
         const int segment = beam.curve.segment_at(s);
-        const double kappa0 =
-            beam.straight ? 0 : beam.curve.geometry(segment, beam.curve.parameter(segment, s)).curvature[0];
-        Eigen::Vector3d rs = Eigen::Vector3d::Zero(), rss = rs, v = rs;
-        rs.head<D>() = p.rs;
-        rss.head<D>() = p.rss;
-        v.head<D>() = p.velocity;
+        const double kappa0 = beam.curve.geometry(segment, beam.curve.parameter(segment, s)).curvature[0];
+        const Eigen::Vector3d &rs = p.rs, &rss = p.rss, &v = p.velocity;
         const Eigen::Vector3d cross = rs.cross(rss);
         const double K = (D == 2 ? cross.z() : cross.norm()) / rs.squaredNorm();
         const double strain = (rs.squaredNorm() - 1) / 2;
@@ -59,12 +54,11 @@ Integrals integrate(const BeamSystem<D>& system, const State& state, std::vector
 }
 
 // Every place where a field or the drawing has a joint.
-template <int D>
-std::vector<double> all_cuts(const BeamSystem<D>& system, const State& state) {
+std::vector<double> all_cuts(const BeamSystem& system, const State& state) {
   const Beam& beam = system.model().beams[0];
   std::vector<double> cuts = beam.curve.breaks();
   for (const HomeNode& node : beam.home) cuts.push_back(node.s);
-  cuts.push_back(*system.place(state, 0));
+  cuts.push_back(*place(system, state, 0));
   std::sort(cuts.begin(), cuts.end());
   cuts.erase(std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < 1e-9; }),
              cuts.end());
@@ -79,14 +73,14 @@ struct SplitModel {
 
   SplitModel(std::mt19937& random, bool moving, bool straight) {
     model = one_beam(uneven_axis(random, D), D, {300, 2, 0.7, 0, {}}, 8, {});
-    model.beams[0].straight = straight;
+    if (straight) model.beams[0].curve = model.beams[0].curve.straightened();
     const auto& home = model.beams[0].home;
     testing::add_slider(model, 0.8, home[2].s + 0.3 * (home[3].s - home[2].s));
     full = initial_plan(model);
-    full.present[0].assign(home.size(), true);
+    full.beams[0].present.assign(home.size(), true);
     coarse = full;
     // Node 3 is beside the joint; node 6 lies between fixed ends of the second segment.
-    coarse.present[0][moving ? 3 : 6] = false;
+    coarse.beams[0].present[moving ? 3 : 6] = false;
   }
 };
 
@@ -94,23 +88,17 @@ template <int D>
 void check_split(bool moving, int seed) {
   std::mt19937 random(seed);
   const SplitModel<D> split(random, moving, D == 3);
-  const BeamSystem<D> from(split.model, split.coarse), to(split.model, split.full);
+  const BeamSystem from(split.model, split.coarse), to(split.model, split.full);
   const State before = disturbed_state(from, random);
-  const std::optional<State> after = transfer<D>(from, before, to, true);
-  ASSERT_TRUE(after);
+  const State after = interpolated(from, before, to);
   const std::vector<double> cuts = all_cuts(from, before);
   for (int i = 0; i < 200; ++i) {
     const double s = split.model.beams[0].curve.length() * (i + 0.5) / 200;
-    const auto at = [&](const BeamSystem<D>& system, const State& state) {
-      return material_point<D>(
-          system.mesh().elements[find_element<D>(split.model, system.mesh(), state.q, 0, s)], state.q,
-          state.v, s);
-    };
-    const MaterialPoint<D> p = at(from, before), q = at(to, *after);
+    const MaterialPoint<3> p = material_point(from, before, 0, s), q = material_point(to, after, 0, s);
     EXPECT_LT((p.r - q.r).norm(), 1e-12);
     EXPECT_LT((p.velocity - q.velocity).norm(), 1e-12 * std::max(1.0, p.velocity.norm()));
   }
-  const Integrals a = integrate(from, before, cuts), b = integrate(to, *after, cuts);
+  const Integrals a = integrate<D>(from, before, cuts), b = integrate<D>(to, after, cuts);
   EXPECT_NEAR(b.mass, a.mass, 1e-12 * a.mass);
   EXPECT_NEAR(b.kinetic, a.kinetic, 1e-12 * a.kinetic);
   EXPECT_NEAR(b.axial, a.axial, 1e-12 * a.axial);
@@ -129,15 +117,15 @@ template <int D>
 void check_merge(bool moving, int seed) {
   std::mt19937 random(seed);
   const SplitModel<D> split(random, moving, D == 3);
-  const BeamSystem<D> from(split.model, split.full), to(split.model, split.coarse);
+  const BeamSystem from(split.model, split.full), to(split.model, split.coarse);
   const State before = disturbed_state(from, random, 0.02);
-  const std::optional<State> after = transfer<D>(from, before, to, false);
+  const std::optional<Transferred> after = projected(from, before, to);
   ASSERT_TRUE(after);
-  const Integrals a = integrate(from, before, all_cuts(from, before));
-  const Integrals b = integrate(to, *after, all_cuts(from, before));
+  const Integrals a = integrate<D>(from, before, all_cuts(from, before));
+  const Integrals b = integrate<D>(to, after->state, all_cuts(from, before));
   Eigen::Vector3d body_change = Eigen::Vector3d::Zero();
-  body_change.head<D>() = 0.8 * (after->v.template segment<D>(to.mesh().joints[0].r) -
-                                 before.v.template segment<D>(from.mesh().joints[0].r));
+  body_change.head<D>() =
+      0.8 * (after->state.v.segment<D>(to.mesh().bodies[0]) - before.v.segment<D>(from.mesh().bodies[0]));
   // What is left is the quadrature of the mass.
   EXPECT_LT((b.momentum - a.momentum + body_change).norm(), 2e-6 * a.scale);
   EXPECT_GT((b.momentum - a.momentum).norm() + std::abs(b.kinetic - a.kinetic), 1e-6);  // something happened
@@ -164,16 +152,16 @@ NextPlan settled(const BeamModel& model, MeshPlan plan, double s, double speed) 
   NextPlan last;
   last.plan = std::move(plan);
   while (true) {
-    const BeamSystem<2> system(model, last.plan);
-    State state = system.drawn_state();
+    const BeamSystem system(model, last.plan);
+    State state = drawn_state(system);
     state.v[system.mesh().joints[0].place] = speed;
-    const NextPlan next = next_plan<2>(system, state, LengthControl{});
+    const NextPlan next = next_plan(system, state, LengthControl{});
     if (next.change == MeshChange::none) return last;
     last = next;
   }
 }
 
-TEST(LateNode, IsPassedAsAPointAndNeverRemoved) {
+TEST(PermanentNode, IsPassedAsAPointAndNeverRemoved) {
   BeamModel model = two_lines();
   for (const double speed : {1.0, -1.0}) {
     model.joints.clear();
@@ -181,7 +169,7 @@ TEST(LateNode, IsPassedAsAPointAndNeverRemoved) {
     MeshPlan plan = initial_plan(model);
     const auto mode_at = [&](double ahead) {
       plan = settled(model, plan, 0.5 + speed * ahead, speed).plan;
-      EXPECT_TRUE(plan.present[0][5]) << ahead;
+      EXPECT_TRUE(plan.beams[0].present[5]) << ahead;
       return plan.modes[0];
     };
     EXPECT_EQ(mode_at(-0.0055), JointMode::node);
@@ -193,14 +181,14 @@ TEST(LateNode, IsPassedAsAPointAndNeverRemoved) {
   }
 }
 
-TEST(LateNode, MakesAPointOfAJointThatStartsOnIt) {
+TEST(PermanentNode, MakesAPointOfAJointThatStartsOnIt) {
   BeamModel model = two_lines();
   testing::add_slider(model, 0.8, 0.5);
   EXPECT_EQ(initial_plan(model).modes[0], JointMode::point);
-  EXPECT_TRUE(initial_plan(model).present[0][5]);
+  EXPECT_TRUE(initial_plan(model).beams[0].present[5]);
 }
 
-TEST(LateNode, GivesWayToAJointWhoseSlopeMayBeDiscontinuous) {
+TEST(PermanentNode, GivesWayToAJointWhoseSlopeMayBeDiscontinuous) {
   BeamModel model = two_lines();
   testing::add_slider(model, 0.8, 0.35);
   model.joints[0].continuous_slope = false;
@@ -208,39 +196,8 @@ TEST(LateNode, GivesWayToAJointWhoseSlopeMayBeDiscontinuous) {
   for (const auto& [s, present] : {std::pair{0.4955, true}, {0.4961, false}, {0.504, false}, {0.506, true}}) {
     plan = settled(model, plan, s, 1).plan;
     EXPECT_EQ(plan.modes[0], JointMode::node) << s;
-    EXPECT_EQ(plan.present[0][5], present) << s;
+    EXPECT_EQ(plan.beams[0].present[5], present) << s;
   }
-}
-
-TEST(MergedWeights, LeadTheCurveThroughTheRemovedNode) {
-  const Eigen::Vector3d a(0, 0, 0), slope_a(1.2, 0.3, 0.1), b(1, 0.4, 0.2), slope_b(0.9, 0.5, -0.1);
-  const double u = 0.45;
-  // A cubic with equal weights passes here; the wanted point is beside it in all directions.
-  const auto curve = [&](const std::array<double, 4>& w) {
-    Eigen::Matrix4d points;
-    points.col(0) << w[0] * a, w[0];
-    points.col(1) << w[1] * a + w[0] * slope_a / 3, w[1];
-    points.col(2) << w[2] * b - w[3] * slope_b / 3, w[2];
-    points.col(3) << w[3] * b, w[3];
-    return RationalCubic(points).point(u);
-  };
-  const Eigen::Vector3d plain = curve({1, 1, 1, 1});
-  // Reachable points are those of some admissible weights.
-  const Eigen::Vector3d wanted = curve({1.05, 0.97, 1.04, 1});
-  const std::array<double, 4> w = merged_weights<3>(a, slope_a, b, slope_b, wanted, u);
-  EXPECT_LT((curve(w) - wanted).norm(), 0.02 * (plain - wanted).norm());
-  EXPECT_EQ(w[3], 1);
-
-  const Eigen::Vector2d wanted2 = wanted.head<2>();
-  const std::array<double, 4> planar =
-      merged_weights<2>(a.head<2>(), slope_a.head<2>(), b.head<2>(), slope_b.head<2>(), wanted2, u);
-  EXPECT_LT((curve(planar).head<2>() - wanted2).norm(), 1e-12);
-}
-
-TEST(MergedWeights, AreOnesWhereTheRuleGivesNoneThatArePositive) {
-  const Eigen::Vector2d a(0, 0), slope(1, 0), b(1, 0);
-  const std::array<double, 4> w = merged_weights<2>(a, slope, b, slope, {0.2, 30}, 0.5);
-  EXPECT_EQ(w, (std::array<double, 4>{1, 1, 1, 1}));
 }
 
 }  // namespace

@@ -4,19 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace nurbeam {
+#include "fem/system/material_points.h"
 
-/// One stored element of one beam: everything needed to rebuild its exact curve, and what it carries at the
-/// parameters u = 0, 1/3, 2/3, 1 of that cubic (`sample`).
-struct ElementRecord {
-  Eigen::Matrix4d control_points;        ///< homogeneous, deformed, world [m]
-  double s_start = 0, s_end = 0;         ///< reference arc length [m]
-  Eigen::Vector4d strain;                ///< Green's axial strain [-]
-  Eigen::Vector4d curvature;             ///< [1/m], by the model's measure; signed in a planar model
-  Eigen::Vector4d axial_force;           ///< elastic, tension positive [N]
-  Eigen::Vector4d bending_moment;        ///< elastic [N m]; signed in a planar model
-  Eigen::Matrix<double, 3, 4> velocity;  ///< of the material, world [m/s]
-};
+namespace nurbeam {
 
 struct BeamRecord {
   std::vector<ElementRecord> elements;
@@ -47,8 +37,8 @@ struct StepRecord {
   int rejected = 0;           ///< attempts thrown away
 };
 
-/// Everything that is stored at one output time.
-struct Frame {
+/// Everything that is stored at one output time, in the model's own coordinates or in those of the world.
+struct Snapshot {
   double time = 0;
   std::vector<PointRecord> probes;
   std::vector<BodyRecord> bodies;
@@ -59,9 +49,22 @@ struct Frame {
   int newton_iterations = 0;      ///< since the previous frame
 };
 
-/// Names in the order of the vectors of a Frame.
-struct FrameNames {
+/// A place where a snapshot records position and velocity.
+struct ProbePlace {
+  int beam;
+  double s;  ///< [m]
+};
+
+/// Names in the order of the vectors of a Snapshot.
+struct SnapshotNames {
   std::vector<std::string> probes, bodies, beams;
 };
+
+/// The beams of a state.
+std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state);
+
+/// A state with its beams, bodies, probes and energies (dissipated: none), in the model's own coordinates;
+/// what is known of steps is left empty.
+Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes);
 
 }  // namespace nurbeam

@@ -1,35 +1,13 @@
-#include "fem/model/beam_model.h"
+#include "fem/structure/home_nodes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "fem/element/subdivision.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
-
-namespace {
-
-/// floor(h / n) for n > 0.
-int turns_of(int h, int n) { return (h >= 0 ? h : h - n + 1) / n; }
-
-}  // namespace
-
-int Beam::home_index(int h) const {
-  return is_ring() ? h - home_intervals() * turns_of(h, home_intervals()) : h;
-}
-
-double Beam::home_place(int h) const {
-  return home[home_index(h)].s + (is_ring() ? curve.length() * turns_of(h, home_intervals()) : 0);
-}
-
-int Beam::home_interval(double s) const {
-  const double at = curve.wrapped(s);
-  int h = 0;
-  while (h + 1 < home_intervals() && home[h + 1].s <= at) ++h;
-  return h + home_intervals() * static_cast<int>(std::round((s - at) / curve.length()));
-}
 
 std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places) {
   const double near = 1e-9 * curve.length();
@@ -67,18 +45,15 @@ std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::v
   try {
     graded_places(length(tightest), parts[tightest], grading);
   } catch (const std::invalid_argument& refusal) {
-    std::ostringstream message;
-    message.precision(10);
-    message << "between s = " << places[tightest] << " m and s = " << places[tightest + 1]
-            << " m: " << refusal.what();
-    throw std::invalid_argument(message.str());
+    throw std::invalid_argument("between s = " + text_of(places[tightest]) +
+                                " m and s = " + text_of(places[tightest + 1]) + " m: " + refusal.what());
   }
   std::vector<HomeNode> home;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    home.push_back({places[i], i > 0});
-    for (const double x : graded_places(length(i), parts[i], grading)) home.push_back({places[i] + x, false});
+    home.push_back({.s = places[i], .permanent = i > 0});
+    for (const double x : graded_places(length(i), parts[i], grading)) home.push_back({.s = places[i] + x});
   }
-  home.push_back({places.back(), false});
+  home.push_back({.s = places.back()});
   return home;
 }
 

@@ -1,4 +1,4 @@
-#include "fem/motion/record_frame.h"
+#include "fem/motion/snapshot.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "fem/motion/simulation.h"
+#include "fem/system/assembly.h"
+#include "fem/system/initial_state.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {
@@ -23,8 +25,8 @@ BeamModel arc_with_slider(WeightRule weights) {
 }
 
 // Any motion near the drawing.
-State moved(const BeamSystem<2>& system) {
-  State state = system.drawn_state();
+State moved(const BeamSystem& system) {
+  State state = drawn_state(system);
   for (int i = 0; i < state.q.size(); ++i) {
     state.q[i] += 0.02 * std::sin(3.0 * i + 1);
     state.v[i] = std::cos(5.0 * i);
@@ -36,13 +38,13 @@ class RecordedElements : public ::testing::TestWithParam<WeightRule> {};
 
 TEST_P(RecordedElements, HaveTheirSamplesAtThirdsOfTheCubicAndTheVelocityOfTheMaterialThere) {
   const BeamModel model = arc_with_slider(GetParam());
-  const BeamSystem<2> system(model, initial_plan(model));
+  const BeamSystem system(model, initial_plan(model));
   const State state = moved(system);
-  const BeamRecord beam = record_beams<2>(system, state).at(0);
-  ASSERT_EQ(beam.elements.size(), system.mesh().elements.size());
+  const BeamRecord beam = record_beams(system, state).at(0);
+  ASSERT_EQ(beam.elements.size(), system.mesh().spans.size());
   for (std::size_t i = 0; i < beam.elements.size(); ++i) {
-    const MeshElement<2>& e = system.mesh().elements[i];
-    const auto q = gather<2>(e, state.q, state.v, state.v).q;
+    const MeshElement<2>& e = system.assembly<2>()->elements()[i];
+    const auto q = gather<2>(e, state.q);
     const RationalCubic cubic(beam.elements[i].control_points);
     for (int k = 0; k < 4; ++k) {
       const double s = e.element.place(q, k / 3.0), h = 1e-6;
@@ -61,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(OfEveryKind, RecordedElements,
 
 TEST(RecordedSections, OfADrawnArcCarryItsCurvatureAndNoForce) {
   const BeamModel model = arc_with_slider(WeightRule::material);
-  const BeamSystem<2> system(model, initial_plan(model));
-  const BeamRecord beam = record_beams<2>(system, system.drawn_state()).at(0);
+  const BeamSystem system(model, initial_plan(model));
+  const BeamRecord beam = record_beams(system, drawn_state(system)).at(0);
   for (const ElementRecord& e : beam.elements) {
     EXPECT_NEAR((e.curvature.array() - 1).abs().maxCoeff(), 0, 1e-10);
     EXPECT_NEAR(e.strain.cwiseAbs().maxCoeff(), 0, 1e-12);
@@ -72,12 +74,10 @@ TEST(RecordedSections, OfADrawnArcCarryItsCurvatureAndNoForce) {
   }
 }
 
-Frame resting(const BeamModel& model) {
-  Frame last;
+Snapshot resting(const BeamModel& model) {
+  Snapshot last;
   SimulationObserver observer;
-  observer.frame = [&](const Frame& frame) { last = frame; };
-  observer.progress = [](const StepRecord&) {};
-  observer.interrupted = [] { return false; };
+  observer.snapshot = [&](const Snapshot& frame) { last = frame; };
   SimulationOptions options;
   options.statics = true;
   EXPECT_EQ(simulate(model, {}, options, observer).status, SimulationStatus::done);
@@ -105,7 +105,7 @@ double roll_up_error(int elements) {
                         testing::round_bar(radius, density, youngs_modulus), elements, {{0, true}});
   model.gravity.setZero();
   const double EI = model.beams[0].properties.bending_stiffness, curvature = M_PI / 2;
-  verification::add_load(model, PointLoad::Kind::moment, {0, 0, EI * curvature}, 1);
+  model.forces.push_back(Moment{{.s = model.beams[0].curve.length(), .value = {0, 0, EI * curvature}}});
   double error = 0;
   const BeamRecord beam = resting(model).beams.at(0);
   for (const ElementRecord& e : beam.elements) {

@@ -1,0 +1,65 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_place.h"
+#include "fem/mesh/point_on_beam.h"
+
+namespace nurbeam {
+
+/// A body on a point of the mesh that moves over the material, r(sigma) = r_body: D rows; coordinates of the
+/// element, then of the body, then sigma.
+template <int D>
+class BodyOnPoint {
+ public:
+  BodyOnPoint(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int joint)
+      : element_(find_span(at.structure, at.mesh, drawn, at.structure.joints[joint].beam,
+                           at.mesh.plan.places[joint])) {
+    const auto& dofs = at.elements[element_].dofs;
+    dofs_.assign(dofs.begin(), dofs.end());
+    const int r = at.mesh.bodies[at.structure.joints[joint].body];
+    for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
+    dofs_.push_back(at.mesh.joints[joint].place);
+  }
+
+  static constexpr int rows = D;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers* y) const {
+    constexpr int n = element_size<D>, place = n + D;
+    ConstraintTerms<D> terms(rows, y != nullptr);
+    const PointShape<D> shape = point_shape<D>(at.elements[element_], state.q, state.q[dofs_[place]]);
+    const PointField<D> r = shape.position(), rs = shape.slope(), rss = shape.slope_s();
+    terms.value = r.value - state.q.segment<D>(dofs_[n]);
+    terms.gradient.template leftCols<n>() = r.gradient;
+    terms.gradient.template middleCols<D>(n).diagonal().setConstant(-1);
+    terms.gradient.col(place) = rs.value;
+    if (!y) return terms;
+    r.add_hessian(*y, 1, shape.nodes, terms.hessian);
+    const Eigen::Matrix<double, n, 1> mixed = rs.gradient.transpose() * *y;
+    terms.hessian.template block<n, 1>(0, place) += mixed;
+    terms.hessian.template block<1, n>(place, 0) += mixed.transpose();
+    terms.hessian(place, place) += y->dot(rss.value);
+    return terms;
+  }
+
+ private:
+  int element_;
+  std::vector<int> dofs_;
+};
+
+/// What a sliding joint asks for as it is carried in this mesh. `held`: its place is held where the plan has
+/// it.
+template <int D, class Add>
+void bind_joint(int j, bool held, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  const JointMode mode = at.mesh.plan.modes[j];
+  if (mode == JointMode::free) return;
+  if (mode != JointMode::node) add(BodyOnPoint<D>(at, drawn, j));
+  const SlidingJoint& joint = at.structure.joints[j];
+  const int place = at.mesh.joints[j].place;
+  if (mode == JointMode::stopped || held)
+    add(HeldPlace<D>(place, at.mesh.plan.places[j]));
+  else if (joint.motion)
+    add(HeldPlace<D>(place, *joint.motion));
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,53 @@
+#pragma once
+#include <Eigen/Geometry>
+
+#include "fem/constraints/constraint_terms.h"
+#include "fem/mesh/point_on_beam.h"
+
+namespace nurbeam {
+
+/// The slope keeps the drawn direction at a place of a beam, n . r_s(s) = 0 for the D - 1 directions n across
+/// the drawing; its magnitude stays free.
+template <int D>
+class HeldDirection {
+ public:
+  HeldDirection(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s)
+      : point_(at, drawn, beam, s),
+        dofs_(point_.dofs(at)),
+        across_(directions_across(at.structure.beams[beam].curve.tangent(s))) {}
+
+  static constexpr int rows = D - 1;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers* y) const {
+    ConstraintTerms<D> terms(rows, y != nullptr);
+    const PointShape<D> shape = point_.shape(at, state.q);
+    const PointField<D> rs = shape.slope();
+    terms.value = across_ * rs.value;
+    terms.gradient.template leftCols<element_size<D>>() = across_ * rs.gradient;
+    if (y) rs.add_hessian(across_.transpose() * y->template head<rows>(), 1, shape.nodes, terms.hessian);
+    return terms;
+  }
+
+ private:
+  static Eigen::Matrix<double, D - 1, D> directions_across(const Eigen::Vector3d& t) {
+    Eigen::Matrix<double, D - 1, D> n;
+    if constexpr (D == 2) {
+      n << -t.y(), t.x();
+    } else {
+      int smallest;
+      t.cwiseAbs().minCoeff(&smallest);
+      const Eigen::Vector3d first = t.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+      n.row(0) = first;
+      n.row(1) = t.cross(first);
+    }
+    return n;
+  }
+
+  PointOnBeam<D> point_;
+  std::vector<int> dofs_;
+  Eigen::Matrix<double, D - 1, D> across_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,25 @@
+#pragma once
+#include <variant>
+
+#include "fem/constraints/body_on_point.h"
+#include "fem/constraints/corner_angle.h"
+#include "fem/constraints/held_place.h"
+#include "fem/constraints/joined_points.h"
+#include "fem/constraints/joined_slopes.h"
+#include "fem/constraints/support.h"
+
+/// The lists of constraints: all that has to be said of a new one outside its own file.
+///
+/// A description (Support, ...) offers bind<D>(description, at, drawn, add), which adds the constraints that
+/// it means in a mesh. Such a constraint offers `rows` (at most D), dofs() (global coordinates, -1 for none,
+/// at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the Hessian contracted with y
+/// where that is not null, and, if it has them, rate(t) (1 row: dg/dt at fixed q) and `linear` (no Hessian).
+namespace nurbeam {
+
+using Constraint = std::variant<Support, BeamJoint>;
+
+template <int D>
+using BoundConstraint = std::variant<HeldPosition<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
+                                     JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>>;
+
+}  // namespace nurbeam

@@ -1,0 +1,47 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_angle.h"
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// The two slopes of a node at a rigid corner keep the drawn angle: 1 row; coordinates of both slopes.
+template <int D>
+class CornerAngle {
+ public:
+  CornerAngle(const ReferenceCurve& curve, const MeshNode& node)
+      : angle_(HeldAngle<D>::drawn(curve.tangent(node.s, true), curve.tangent(node.s))) {
+    for (const int slope : {node.slope_left, node.slope_right})
+      for (int d = 0; d < D; ++d) dofs_.push_back(slope + d);
+  }
+
+  static constexpr int rows = 1;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<D> terms(const MeshedBeams<D>&, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers* y) const {
+    ConstraintTerms<D> terms(rows, y != nullptr);
+    const typename HeldAngle<D>::Terms held =
+        angle_.terms(state.q.segment<D>(dofs_[0]), state.q.segment<D>(dofs_[D]));
+    terms.value[0] = held.value;
+    terms.gradient.template leftCols<2 * D>() = held.gradient.transpose();
+    if (y) terms.hessian.template topLeftCorner<2 * D, 2 * D>() = (*y)[0] * held.hessian;
+    return terms;
+  }
+
+ private:
+  HeldAngle<D> angle_;
+  std::vector<int> dofs_;
+};
+
+template <int D, class Add>
+void bind_corners(const MeshedBeams<D>& at, Add&& add) {
+  for (std::size_t b = 0; b < at.mesh.nodes.size(); ++b) {
+    const Beam& beam = at.structure.beams[b];
+    for (const MeshNode& node : at.mesh.nodes[b])
+      if (node.home >= 0 && beam.home[node.home].kind == NodeKind::rigid)
+        add(CornerAngle<D>(beam.curve, node));
+  }
+}
+
+}  // namespace nurbeam

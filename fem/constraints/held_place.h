@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "fem/constraints/constraint_terms.h"
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// The place of a sliding joint is a given one, s = s(t): 1 row.
+template <int D>
+class HeldPlace {
+ public:
+  HeldPlace(int dof, double s) : dofs_{dof}, s_(s) {}
+  /// `motion` must outlive the constraint.
+  HeldPlace(int dof, const TimeTable& motion) : dofs_{dof}, motion_(&motion) {}
+
+  static constexpr int rows = 1;
+  static constexpr bool linear = true;  ///< no Hessian
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<D> terms(const MeshedBeams<D>&, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers*) const {
+    ConstraintTerms<D> terms(rows, false);
+    terms.value[0] = state.q[dofs_[0]] - (motion_ ? value_and_slope(*motion_, state.t).first : s_);
+    terms.gradient(0, 0) = 1;
+    return terms;
+  }
+  /// dg/dt at fixed q [m/s].
+  double rate(double t) const { return motion_ ? -value_and_slope(*motion_, t).second : 0; }
+
+ private:
+  std::vector<int> dofs_;
+  double s_ = 0;
+  const TimeTable* motion_ = nullptr;
+};
+
+}  // namespace nurbeam

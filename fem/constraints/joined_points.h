@@ -1,0 +1,64 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/joined_slopes.h"
+#include "fem/mesh/point_on_beam.h"
+
+namespace nurbeam {
+
+/// Joins two beams at a place of each, which no body slides over: their material points there stay together
+/// (at the distance they have in the drawing).
+struct BeamJoint {
+  int beam_a;
+  double s_a;  ///< [m]
+  int beam_b;
+  double s_b;          ///< [m]
+  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle); else a hinge
+};
+
+/// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.
+template <int D>
+class JoinedPoints {
+ public:
+  JoinedPoints(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, const BeamJoint& joint)
+      : points_(at, drawn, joint.beam_a, joint.s_a, joint.beam_b, joint.s_b) {
+    const auto& beams = at.structure.beams;
+    const Eigen::Vector3d distance =
+        beams[joint.beam_a].curve.position(joint.s_a) - beams[joint.beam_b].curve.position(joint.s_b);
+    distance_ = distance.head<D>();
+  }
+
+  static constexpr int rows = D;
+  const std::vector<int>& dofs() const { return points_.dofs; }
+
+  ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers* y) const {
+    constexpr int n = element_size<D>;
+    ConstraintTerms<D> terms(rows, y != nullptr);
+    const PointShape<D> at_a = points_.a.shape(at, state.q), at_b = points_.b.shape(at, state.q);
+    const PointField<D> a = at_a.position(), b = at_b.position();
+    terms.value = a.value - b.value - distance_;
+    terms.gradient.template leftCols<n>() = a.gradient;
+    terms.gradient.template rightCols<n>() = -b.gradient;
+    if (!y) return terms;
+    auto hessian_b = terms.hessian.template bottomRightCorner<n, n>();
+    a.add_hessian(*y, 1, at_a.nodes, terms.hessian);
+    b.add_hessian(*y, -1, at_b.nodes, hessian_b);
+    return terms;
+  }
+
+ private:
+  PointPair<D> points_;
+  Eigen::Matrix<double, D, 1> distance_;
+};
+
+template <int D, class Add>
+void bind(const BeamJoint& joint, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  add(JoinedPoints<D>(at, drawn, joint));
+  if (!joint.rigid) return;
+  const auto& beams = at.structure.beams;
+  add(JoinedSlopes<D>(PointPair<D>(at, drawn, joint.beam_a, joint.s_a, joint.beam_b, joint.s_b),
+                      HeldAngle<D>::drawn(beams[joint.beam_a].curve.tangent(joint.s_a),
+                                          beams[joint.beam_b].curve.tangent(joint.s_b))));
+}
+
+}  // namespace nurbeam

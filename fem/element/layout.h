@@ -1,0 +1,41 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace nurbeam {
+
+/// Where the generalised coordinates of an element stand: q = (r_A, r_sA, r_B, r_sB, s_A, s_B), Eq. 11 of
+/// Ding & Ouyang with arc-length gradients and positions instead of r_x and x. Ends are 0 (A) and 1 (B).
+template <int D>
+struct ElementLayout {
+  static constexpr int nodal = 4 * D;                              ///< of positions and slopes together
+  static constexpr int size = nodal + 2;                           ///< all
+  static constexpr int r(int end) { return 2 * D * end; }          ///< first of D
+  static constexpr int slope(int end) { return 2 * D * end + D; }  ///< first of D
+  static constexpr int place(int end) { return nodal + end; }
+
+  using Nodes = Eigen::Matrix<double, D, 4>;  ///< columns r_A, r_sA, r_B, r_sB
+  using Coordinates = Eigen::Matrix<double, size, 1>;
+  using Matrix = Eigen::Matrix<double, size, size>;
+
+  static Nodes nodes(const Coordinates& q) { return Eigen::Map<const Nodes>(q.data()); }
+};
+
+template <int D>
+inline constexpr int element_size = ElementLayout<D>::size;
+template <int D>
+using ElementVector = typename ElementLayout<D>::Coordinates;
+template <int D>
+using ElementMatrix = typename ElementLayout<D>::Matrix;
+template <int D>
+using ElementNodes = typename ElementLayout<D>::Nodes;
+
+/// Coordinates and their rates of one element.
+template <int D>
+struct ElementState {
+  ElementVector<D> q, v, a;
+
+  ElementNodes<D> nodes() const { return ElementLayout<D>::nodes(q); }
+  ElementNodes<D> node_rates() const { return ElementLayout<D>::nodes(v); }
+};
+
+}  // namespace nurbeam

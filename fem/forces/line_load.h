@@ -1,0 +1,21 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "fem/structure/time_table.h"
+
+namespace nurbeam {
+
+/// A dead load along a whole beam.
+struct LineLoad {
+  int beam = 0;
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N/m] of reference arc length
+  TimeTable time = {};                              ///< factor
+
+  /// On a beam at time t, for a full load [N/m]: elements carry it.
+  Eigen::Vector3d per_length(int on_beam, double t) const {
+    if (on_beam != beam) return Eigen::Vector3d::Zero();
+    return value_and_slope(time, t).first * value;
+  }
+};
+
+}  // namespace nurbeam

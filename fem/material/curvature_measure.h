@@ -1,0 +1,10 @@
+#pragma once
+
+namespace nurbeam {
+
+enum class CurvatureMeasure {
+  material,  ///< |r_s x r_ss| / |r_s|^2: rotation per unit reference length, conjugate to the bending moment
+  spatial    ///< |r_s x r_ss| / |r_s|^3: the papers' measure
+};
+
+}  // namespace nurbeam

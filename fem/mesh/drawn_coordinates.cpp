@@ -1,0 +1,28 @@
+#include "fem/mesh/drawn_coordinates.h"
+
+namespace nurbeam {
+
+Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) {
+  const int D = mesh.dimension;
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(mesh.coordinate_count);
+  for (std::size_t body = 0; body < structure.bodies.size(); ++body)
+    q.segment(mesh.bodies[body], D) = structure.bodies[body].position.head(D);
+  for (std::size_t b = 0; b < mesh.nodes.size(); ++b)
+    for (const MeshNode& node : mesh.nodes[b]) {
+      const ReferenceCurve& curve = structure.beams[b].curve;
+      q.segment(node.r, D) = curve.position(node.s).head(D);
+      q.segment(node.slope_left, D) = curve.tangent(node.s, true).head(D);
+      q.segment(node.slope_right, D) = curve.tangent(node.s).head(D);
+      if (node.place >= 0) q[node.place] = node.s;
+    }
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    if (mesh.plan.modes[j] == JointMode::free) continue;
+    const SlidingJoint& joint = structure.joints[j];
+    const double s = mesh.plan.places[j];
+    q.segment(mesh.bodies[joint.body], D) = structure.beam_of(joint).curve.position(s).head(D);
+    q[mesh.joints[j].place] = s;
+  }
+  return q;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,120 @@
+#include "fem/mesh/mesh_elements.h"
+
+#include <algorithm>
+
+namespace nurbeam {
+
+namespace {
+
+std::array<double, 4> drawn_weights(const ReferenceCurve& curve, int segment, double s_a, double s_b) {
+  const Eigen::Matrix4d points =
+      curve.segment(segment)
+          .piece(std::max(0.0, curve.parameter(segment, s_a)), std::min(1.0, curve.parameter(segment, s_b)))
+          .points();
+  return {points(3, 0), points(3, 1), points(3, 2), points(3, 3)};
+}
+
+Chart choose_chart(const Beam& beam, const MeshPlan& plan, const MeshSpan& span, bool arc_length) {
+  Chart chart;
+  if (beam.weights == WeightRule::ones) return chart;
+  if (!arc_length) chart.segment = beam.curve.segment_at((span.s_a + span.s_b) / 2);
+  if (beam.weights == WeightRule::material) return chart;
+  for (const MeshPlan::Weights& w : plan.weights)
+    if (w.beam == span.beam && w.s_a == span.s_a && w.s_b == span.s_b) chart.constant_weights = w.w;
+  if (!chart.constant_weights && !arc_length)
+    chart.constant_weights = drawn_weights(beam.curve, chart.segment, span.s_a, span.s_b);
+  return chart;
+}
+
+// The drawn slope before a node minus that after it, for the element before it.
+template <int D>
+Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& node) {
+  if (node.joint >= 0 || node.slope_left != node.slope_right) return Eigen::Matrix<double, D, 1>::Zero();
+  return (beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s)).template head<D>();
+}
+
+template <int D>
+std::array<int, element_size<D>> dofs_of(const Mesh& mesh, const MeshSpan& span) {
+  using Layout = ElementLayout<D>;
+  const MeshNode &a = mesh.node_a(span), &b = mesh.node_b(span);
+  std::array<int, element_size<D>> dofs;
+  for (int d = 0; d < D; ++d) {
+    dofs[Layout::r(0) + d] = a.r + d;
+    dofs[Layout::slope(0) + d] = a.slope_right + d;
+    dofs[Layout::r(1) + d] = b.r + d;
+    dofs[Layout::slope(1) + d] = b.slope_left + d;
+  }
+  dofs[Layout::place(0)] = span.place_a;
+  dofs[Layout::place(1)] = span.place_b;
+  return dofs;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh) {
+  std::vector<MeshElement<D>> elements;
+  elements.reserve(mesh.spans.size());
+  for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
+    const MeshSpan& span = mesh.spans[i];
+    const Beam& beam = structure.beams[span.beam];
+    const Ends ends = span.place_a < 0 && span.place_b < 0 ? Ends::fixed : Ends::moving;
+    Chart chart = choose_chart(beam, mesh.plan, span, is_arc_length_span(structure, mesh, i));
+    elements.push_back(
+        {span, dofs_of<D>(mesh, span), drawn_slope_jump<D>(beam, mesh.node_b(span)),
+         BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
+  }
+  return elements;
+}
+
+template <int D>
+ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q) {
+  using Layout = ElementLayout<D>;
+  ElementVector<D> x;
+  for (int i = 0; i < Layout::nodal; ++i) x[i] = q[e.dofs[i]];
+  x[Layout::place(0)] = e.start(q);
+  x[Layout::place(1)] = e.end(q);
+  x.template segment<D>(Layout::slope(1)) += e.slope_offset;
+  return x;
+}
+
+template <int D>
+ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                       const Eigen::VectorXd& a) {
+  ElementState<D> x;
+  x.q = gather<D>(e, q);
+  for (int i = 0; i < element_size<D>; ++i) {
+    const int dof = e.dofs[i];
+    x.v[i] = dof >= 0 ? v[dof] : 0;
+    x.a[i] = dof >= 0 ? a[dof] : 0;
+  }
+  return x;
+}
+
+template <int D>
+MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                double s) {
+  using Layout = ElementLayout<D>;
+  const ElementState<D> x = gather<D>(e, q, v, v);
+  const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, e.local(x.q, s));
+  const ElementNodes<D> nodes = x.nodes(), rates = x.node_rates();
+  const std::array<double, 2> w{x.v[Layout::place(0)], x.v[Layout::place(1)]};
+  const PointField<D> r(shape.value, nodes), rs(shape.d1, nodes), rss(shape.d2, nodes);
+  return {
+      r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w), shape.kappa0.value()};
+}
+
+template std::vector<MeshElement<2>> make_elements<2>(const Structure&, const Mesh&);
+template std::vector<MeshElement<3>> make_elements<3>(const Structure&, const Mesh&);
+template ElementVector<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&);
+template ElementVector<3> gather<3>(const MeshElement<3>&, const Eigen::VectorXd&);
+template ElementState<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&, const Eigen::VectorXd&,
+                                   const Eigen::VectorXd&);
+template ElementState<3> gather<3>(const MeshElement<3>&, const Eigen::VectorXd&, const Eigen::VectorXd&,
+                                   const Eigen::VectorXd&);
+template MaterialPoint<2> material_point<2>(const MeshElement<2>&, const Eigen::VectorXd&,
+                                            const Eigen::VectorXd&, double);
+template MaterialPoint<3> material_point<3>(const MeshElement<3>&, const Eigen::VectorXd&,
+                                            const Eigen::VectorXd&, double);
+
+}  // namespace nurbeam

@@ -1,0 +1,68 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "fem/element/beam_element.h"
+#include "fem/element/inertia.h"
+#include "fem/mesh/mesh.h"
+#include "solver/state.h"
+
+namespace nurbeam {
+
+/// A span of the mesh with its element.
+template <int D>
+struct MeshElement : MeshSpan {
+  std::array<int, element_size<D>> dofs;  ///< global coordinates; -1 where a fixed end has none
+  /// Of the slope at the right end from the node's, which is the one of the element after it: the small angle
+  /// of the drawing there, kept so that the drawn shape is exact. Fixed in space, so only to first order of
+  /// the angle under rotation.
+  Eigen::Matrix<double, D, 1> slope_offset;
+  BeamElement<D> element;
+
+  /// s as the element counts it: on a ring without the turns by which it is away.
+  double local(const ElementVector<D>& q_element, double s) const {
+    using Layout = ElementLayout<D>;
+    return element.curve().unrolled(s, (q_element[Layout::place(0)] + q_element[Layout::place(1)]) / 2);
+  }
+};
+
+/// The elements of a mesh, in the order of its spans. The structure must outlive them.
+template <int D>
+std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh);
+
+/// Coordinates and rates of one element.
+template <int D>
+ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                       const Eigen::VectorXd& a);
+template <int D>
+ElementState<D> gather(const MeshElement<D>& e, const State& state) {
+  return gather(e, state.q, state.v, state.a);
+}
+/// Without rates.
+template <int D>
+ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q);
+
+/// What constraints and forces see of a structure: its mesh and its elements.
+template <int D>
+struct MeshedBeams {
+  const Structure& structure;
+  const Mesh& mesh;
+  const std::vector<MeshElement<D>>& elements;
+
+  const MeshElement<D>& element_at(const Eigen::VectorXd& q, int beam, double s) const {
+    return elements[find_span(structure, mesh, q, beam, s)];
+  }
+};
+
+/// Position and material velocity fields at one material point; on a ring s may be any full turns away.
+template <int D>
+struct MaterialPoint {
+  Eigen::Matrix<double, D, 1> r, rs, rss;            ///< [m], [-], [1/m]
+  Eigen::Matrix<double, D, 1> velocity, velocity_s;  ///< material velocity and its s-derivative [m/s], [1/s]
+  double kappa0;                                     ///< curvature of the stress-free shape [1/m]
+};
+template <int D>
+MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                double s);
+
+}  // namespace nurbeam

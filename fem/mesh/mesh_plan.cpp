@@ -1,0 +1,62 @@
+#include "fem/mesh/mesh_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbeam {
+
+namespace {
+
+// Home node, but none at an end, that gives way to a moving node at s, or -1.
+int node_to_replace(const Beam& beam, double s) {
+  const int h = beam.home_interval(s);
+  const auto at = [&](int i) { return beam.home_place(i); };
+  const auto can_go = [&](int i) {
+    if (!beam.is_ring() && (i <= 0 || i >= beam.home_intervals())) return false;
+    return beam.home_node(i).kind == NodeKind::smooth;
+  };
+  const bool first = can_go(h) && (!can_go(h + 1) || s - at(h) <= at(h + 1) - s);
+  const int nearest = first ? h : h + 1;
+  if (!can_go(nearest)) return -1;
+  const double gap = at(nearest) < s ? at(nearest + 1) - at(nearest) : at(nearest) - at(nearest - 1);
+  const double reach = beam.home_node(nearest).permanent ? passing_zone : 0.5;
+  return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
+}
+
+}  // namespace
+
+Passing passing(const SlidingJoint& joint, const HomeNode& node) {
+  if (!node.permanent) return Passing::as_node;
+  return joint.continuous_slope || node.hold != Hold::nothing ? Passing::as_point : Passing::gives_way;
+}
+
+bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach) {
+  const Beam& beam = structure.beam_of(joint);
+  const int before = beam.home_interval(s);
+  const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));
+  const auto near = [&](int h) {
+    const HomeNode& node = beam.home_node(h);
+    return std::abs(beam.home_place(h) - s) <= distance && node.kind == NodeKind::smooth &&
+           passing(joint, node) == Passing::as_point;
+  };
+  return near(before) || near(before + 1);
+}
+
+MeshPlan initial_plan(const Structure& structure) {
+  MeshPlan plan;
+  for (const Beam& beam : structure.beams) plan.beams.push_back({std::vector<bool>(beam.home.size(), true)});
+  for (const SlidingJoint& joint : structure.joints) {
+    const Beam& beam = structure.beam_of(joint);
+    const double from_end = std::min(joint.s, beam.curve.length() - joint.s);
+    const bool on_point = (!beam.is_ring() && from_end < end_zone * beam.home_spacing(joint.s)) ||
+                          near_as_point(structure, joint, joint.s, passing_zone);
+    plan.modes.push_back(on_point ? JointMode::point : JointMode::node);
+    plan.places.push_back(joint.s);
+    if (on_point) continue;
+    const int replaced = node_to_replace(beam, joint.s);
+    if (replaced >= 0) plan.beams[joint.beam].present[replaced] = false;
+  }
+  return plan;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "fem/structure/structure.h"
+
+namespace nurbeam {
+
+/// How a sliding joint is carried at present.
+enum class JointMode {
+  node,     ///< a moving node of the beam: the elements on both sides change length
+  point,    ///< a point sigma of the mesh, r_body = r(sigma): near an end of the beam or a permanent node
+  stopped,  ///< as point, held at the end
+  free      ///< the body has left the beam
+};
+
+/// Which home nodes of a beam are there.
+struct BeamPlan {
+  std::vector<bool> present;
+};
+
+/// Which nodes are there, between two length-control events.
+struct MeshPlan {
+  std::vector<BeamPlan> beams;
+  std::vector<JointMode> modes;  ///< per sliding joint
+  std::vector<double> places;    ///< s of each sliding joint when the plan is made [m]
+  /// Constant weights by beam and (s_a, s_b), for elements whose weights a merge or split has set.
+  struct Weights {
+    int beam;
+    double s_a, s_b;
+    std::array<double, 4> w;
+  };
+  std::vector<Weights> weights;
+};
+
+/// What becomes of a home node when a joint comes to it.
+enum class Passing {
+  as_node,   ///< it is removed before the joint, and returns behind it
+  as_point,  ///< it stays: the joint passes it as a point of the mesh
+  gives_way  ///< it stays as long as it can: a point cannot carry the kink of a discontinuous slope
+};
+/// Of a home node that is no hinge and no corner.
+Passing passing(const SlidingJoint& joint, const HomeNode& node);
+
+/// Nearness to a beam end, in home element lengths, at which a joint is carried as a point; it becomes a node
+/// again at twice this distance.
+inline constexpr double end_zone = 0.2;
+/// Distance of two joints on a beam, in home element lengths, at which they count as having met.
+inline constexpr double meeting_distance = 0.05;
+/// Nearness to a permanent node at which a joint becomes a point (or that node gives way) and, larger, a node
+/// again, in home element lengths.
+inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
+
+/// Whether a node that the joint passes as a point is within `reach` home element lengths of s.
+bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach);
+
+/// The drawn mesh with every sliding joint at its start: the home node nearest to it gives way to the moving
+/// node; near an end or a permanent node the joint is a point.
+MeshPlan initial_plan(const Structure& structure);
+
+}  // namespace nurbeam

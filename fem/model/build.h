@@ -1,0 +1,74 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "fem/model/beam_model.h"
+
+namespace nurbeam {
+
+/// How a beam is cut into elements, between breaks of the drawing, supports and joints: `elements` in all,
+/// spread in proportion to length.
+struct Division {
+  int elements = 20;
+};
+
+/// Makes a model part by part, whose parts fit: nodes where breaks, supports and joints are, indices that
+/// exist, places on their beams. Places are reference arc lengths [m]; one beyond a beam's end is at the end.
+///
+/// All functions throw std::invalid_argument, with the value and the rule, for what cannot be.
+class ModelBuilder {
+ public:
+  /// In the plane (2) or in space (3), with gravity [m/s^2].
+  explicit ModelBuilder(int dimension, const Eigen::Vector3d& gravity = {0, 0, 0});
+
+  /// Each returns the number of the beam in the model.
+  int add_beam(ReferenceCurve curve, const Section& section, const Material& material,
+               Division division = {});
+  int add_beam(ReferenceCurve curve, const BeamProperties& properties, Division division = {});
+  /// As it is, with its home nodes.
+  int add_beam(Beam beam);
+  /// To change a beam's name and rules before build().
+  Beam& beam(int i);
+
+  /// Holds the position.
+  ModelBuilder& pin(int beam, double s);
+  /// Holds position and direction.
+  ModelBuilder& clamp(int beam, double s);
+  /// Joins two beams; a rigid joint keeps their angle.
+  ModelBuilder& join(int beam_a, double s_a, int beam_b, double s_b, bool rigid = false);
+
+  /// Return the number of the body.
+  int add_body(std::string name, double mass);
+  /// One that no joint places.
+  int add_body(std::string name, double mass, const Eigen::Vector3d& position,
+               const Eigen::Vector3d& velocity = {0, 0, 0});
+  /// Puts a body on a beam, to slide along it; returns the joint, to change how.
+  SlidingJoint& slide(int body, int beam, double s, double speed = 0);
+
+  /// A dead force [N] or moment [N m] at a place.
+  ModelBuilder& force(int beam, double s, const Eigen::Vector3d& value);
+  ModelBuilder& moment(int beam, double s, const Eigen::Vector3d& value);
+  ModelBuilder& add(Force force);
+  ModelBuilder& add(Constraint constraint);
+
+  /// The model so far.
+  BeamModel build() const;
+
+ private:
+  struct Part {
+    bool divided;  // has its home nodes
+    Division division;
+  };
+  double place(int beam, double s) const;
+  const Beam& checked_beam(int i) const;
+  int add_beam(Beam beam, Part part);
+
+  BeamModel model_;
+  std::vector<Part> parts_;
+};
+
+/// Says at the home nodes of a model what its supports and joints hold there, as build() does. Throws
+/// std::invalid_argument where one has no node.
+void mark_held_nodes(BeamModel& model);
+
+}  // namespace nurbeam

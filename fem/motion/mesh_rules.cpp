@@ -1,0 +1,234 @@
+#include "fem/motion/mesh_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/motion/carried_weights.h"
+#include "fem/system/observables.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The rules of length control for one joint, seen from its two neighbours. Home nodes and places of a ring go
+// on over the seam (Beam::home_place), as seen from the joint.
+class JointRules {
+ public:
+  JointRules(const BeamSystem& system, const State& state, const LengthControl& control, int joint,
+             NextPlan& next)
+      : model_(system.model()),
+        mesh_(system.mesh()),
+        control_(control),
+        joint_(joint),
+        index_(model_.joints[joint].beam),
+        beam_(model_.beams[index_]),
+        next_(next),
+        rate_(place_rate(system, state, joint)) {
+    const auto s = place(system, state, joint);
+    if (s) s_ = *s;
+    if (mesh_.plan.modes[joint_] == JointMode::node) look_around(state.q);
+  }
+
+  bool apply() {
+    if (mesh_.plan.modes[joint_] == JointMode::point) return leave_point();
+    if (mesh_.plan.modes[joint_] != JointMode::node) return false;
+    if (near_end() || near_as_point(model_, model_.joints[joint_], s_, passing_zone)) return become_point();
+    return move_breaks() || exchange_nodes();
+  }
+
+ private:
+  // The nodes of the beam where they are now, those of a ring three times around.
+  void look_around(const Eigen::VectorXd& q) {
+    const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
+    const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
+    const int first = mesh_.first_span[index_], around = beam_.is_ring() ? 1 : 0;
+    const double L = beam_.curve.length();
+    const auto now = [&](int i) {
+      return i + 1 < count || beam_.is_ring() ? mesh_.spans[first + i].start(q)
+                                              : mesh_.spans[first + i - 1].end(q);
+    };
+    const int turns = beam_.is_ring() ? static_cast<int>(std::round((s_ - now(own)) / L)) : 0;
+    for (int turn = turns - around; turn <= turns + around; ++turn)
+      for (int i = 0; i < count; ++i) {
+        nodes_.push_back(nodes[i]);
+        nodes_.back().s = now(i) + turn * L;
+        if (nodes[i].home >= 0) nodes_.back().home += turn * beam_.home_intervals();
+      }
+    left_ = around * count + own - 1;
+    right_ = around * count + own + 1;
+  }
+
+  double at(int h) const { return beam_.home_place(h); }
+  const HomeNode& home(int h) const { return beam_.home_node(h); }
+  int last() const { return beam_.home_intervals(); }
+  bool is_end(int h) const { return !beam_.is_ring() && (h == 0 || h == last()); }
+  // The home nodes that can come and go: all but the ends, or those of one turn around the joint.
+  int lowest() const { return beam_.is_ring() ? beam_.home_interval(s_) - last() / 2 + 1 : 1; }
+  int highest() const { return beam_.is_ring() ? lowest() + last() - 1 : last() - 1; }
+  bool present(int h) const { return next_.plan.beams[index_].present[beam_.home_index(h)]; }
+  // Length of the home interval that holds s.
+  double spacing(double s) const { return beam_.home_spacing(s); }
+  bool change(MeshChange kind) {
+    next_.change = kind;
+    next_.joint = joint_;
+    return true;
+  }
+  void insert(int h) { next_.plan.beams[index_].present[beam_.home_index(h)] = true; }
+  void remove(int h) { next_.plan.beams[index_].present[beam_.home_index(h)] = false; }
+
+  bool leave_point() {
+    const double from_end = std::min(s_, at(last()) - s_);
+    if (!beam_.is_ring() && from_end < 2 * end_zone * spacing(s_)) return false;
+    if (near_as_point(model_, model_.joints[joint_], s_, passing_zone_left)) return false;
+    next_.plan.modes[joint_] = JointMode::node;
+    return change(MeshChange::becomes_node);
+  }
+
+  bool near_end() const {
+    const auto near = [&](int neighbour) {
+      const MeshNode& node = nodes_[neighbour];
+      const bool approaching = (neighbour == right_) == (rate_ > 0);
+      return node.joint < 0 && is_end(node.home) && approaching &&
+             std::abs(node.s - s_) <= end_zone * spacing(s_);
+    };
+    return near(left_) || near(right_);
+  }
+
+  // All hidden nodes around it return, but for those that another joint hides.
+  bool become_point() {
+    next_.plan.modes[joint_] = JointMode::point;
+    for (int h = lowest(); h <= highest(); ++h)
+      if (hidden(h) && !another_joint_near(h, passing_zone_left)) insert(h);
+    return change(MeshChange::becomes_point);
+  }
+
+  bool hidden(int h) const { return !present(h) && at(h) > nodes_[left_].s && at(h) < nodes_[right_].s; }
+
+  // Whether a neighbour that is itself a moving node is within some home intervals of a home node.
+  bool another_joint_near(int h, double reach) const {
+    for (const int neighbour : {left_, right_}) {
+      const MeshNode& node = nodes_[neighbour];
+      if (node.joint < 0) continue;
+      const double gap = at(h) < node.s ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      if (std::abs(at(h) - node.s) <= reach * gap) return true;
+    }
+    return false;
+  }
+
+  // A break before a joint with a discontinuous slope.
+  bool gives_way(int h) const {
+    return home(h).kind == NodeKind::smooth && passing(model_.joints[joint_], home(h)) == Passing::gives_way;
+  }
+
+  bool move_breaks() {
+    for (int h = lowest(); h <= highest(); ++h) {
+      if (!gives_way(h)) continue;
+      const double distance = std::abs(at(h) - s_);
+      const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      if (hidden(h) && distance > passing_zone_left * gap && !another_joint_near(h, passing_zone_left)) {
+        insert(h);
+        return change(MeshChange::merge);  // charts change too: velocities are projected
+      }
+      const auto is_here = [&](int neighbour) {
+        return nodes_[neighbour].joint < 0 && nodes_[neighbour].home == h;
+      };
+      const bool approaching = (at(h) > s_) == (rate_ > 0);
+      if ((is_here(left_) || is_here(right_)) && approaching && distance < passing_zone * gap) {
+        remove(h);
+        return change(MeshChange::merge);
+      }
+    }
+    return false;
+  }
+
+  // Returns whether a hidden home node comes back in the element towards `far`.
+  bool insert_towards(int neighbour) {
+    const MeshNode& far = nodes_[neighbour];
+    if (far.joint >= 0) return insert_between_joints(far);
+    for (int h = lowest(); h <= highest(); ++h) {
+      if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
+      if (std::abs(far.s - s_) <= control_.max * std::abs(far.s - at(h))) continue;
+      insert(h);
+      return true;
+    }
+    return false;
+  }
+
+  // The far end is another moving node: a hidden node returns when it is half a standard length from both.
+  bool insert_between_joints(const MeshNode& far) {
+    for (int h = lowest(); h <= highest(); ++h) {
+      if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
+      const double margin = (control_.max - 1) * spacing(at(h));
+      if (std::abs(at(h) - s_) <= margin || std::abs(at(h) - far.s) <= margin) continue;
+      insert(h);
+      return true;
+    }
+    return false;
+  }
+
+  bool remove_at(int neighbour) {
+    const MeshNode& near = nodes_[neighbour];
+    const int h = near.home;
+    if (near.joint >= 0 || is_end(h) || home(h).permanent) return false;
+    // The next node may be another moving one: then a home node beyond it is hidden by that one.
+    const MeshNode& beyond = nodes_[neighbour + (neighbour == left_ ? -1 : 1)];
+    if (beyond.joint < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
+    const double distance = std::abs(near.s - s_);
+    const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
+                 behind = std::abs(at(near.s < s_ ? h - 1 : h + 1) - at(h));
+    if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
+    // Another hidden node comes back first, unless it is too near to a second joint and this one too near
+    // here.
+    constexpr double last_moment = 0.1;
+    for (int k = lowest(); k <= highest() && distance > last_moment * here; ++k)
+      if (hidden(k) && !home(k).permanent) return false;
+    remove(h);
+    return true;
+  }
+
+  bool exchange_nodes() {
+    const bool inserted = insert_towards(left_) || insert_towards(right_);
+    const bool removed = remove_at(left_) || remove_at(right_);
+    if (removed) return change(MeshChange::merge);
+    return inserted && change(MeshChange::split);
+  }
+
+  const BeamModel& model_;
+  const Mesh& mesh_;
+  const LengthControl& control_;
+  int joint_, index_;
+  const Beam& beam_;
+  NextPlan& next_;
+  double s_ = 0, rate_;
+  std::vector<MeshNode> nodes_;
+  int left_ = -1, right_ = -1;  // of nodes_
+};
+
+// The present plan but for constant weights, which still belong to the places of the old one.
+MeshPlan plan_at(const BeamSystem& system, const State& state) {
+  MeshPlan plan = system.mesh().plan;
+  for (int j = 0; j < static_cast<int>(plan.places.size()); ++j)
+    if (const auto s = place(system, state, j)) plan.places[j] = *s;
+  return plan;
+}
+
+}  // namespace
+
+MeshPlan present_plan(const BeamSystem& system, const State& state) {
+  MeshPlan plan = plan_at(system, state);
+  carry_weights(system, state, plan);
+  return plan;
+}
+
+NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control) {
+  NextPlan next;
+  next.plan = plan_at(system, state);
+  for (std::size_t j = 0; j < next.plan.places.size(); ++j)
+    if (JointRules(system, state, control, static_cast<int>(j), next).apply()) {
+      carry_weights(system, state, next.plan);
+      return next;
+    }
+  return next;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,38 @@
+#pragma once
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// Thresholds in standard (home) element lengths. Figure 7 of Ding & Ouyang has 0.5 and 1.5; a node that is
+/// removed late leaves less of the shape behind.
+struct LengthControl {
+  double min = 0.1;
+  double max = 1.15;
+};
+
+enum class MeshChange {
+  none,
+  split,          ///< nodes inserted only: exact in position and velocity
+  merge,          ///< at least one node removed: velocities by L2 projection
+  becomes_point,  ///< a joint near a beam end or a permanent node: its node goes, it is carried as a point
+  becomes_node    ///< a joint has come away from there
+};
+
+/// What the mesh should be now; `change` is none when it may stay.
+struct NextPlan {
+  MeshChange change = MeshChange::none;
+  int joint = -1;
+  MeshPlan plan;
+};
+
+/// The plan of the present mesh with the joints where they are now.
+MeshPlan present_plan(const BeamSystem& system, const State& state);
+
+/// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
+/// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
+/// (unless it is a beam end, a hinge or a corner, or permanent). Permanent nodes stay: the joint passes them,
+/// and comes to a beam end, as a point of the mesh; but breaks before a joint whose slope may be
+/// discontinuous go when it is very near (Passing).
+NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control);
+
+}  // namespace nurbeam

@@ -1,0 +1,245 @@
+#include "fem/motion/transfer.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "solver/consistent.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The node for the same home node or the same joint; -1 where there is none.
+int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].home == wanted.home && nodes[i].joint == wanted.joint) return static_cast<int>(i);
+  return -1;
+}
+
+// A motion on a new mesh whose elements cannot hold it exactly.
+class Remap {
+ public:
+  Remap(const BeamSystem& from, const State& state, const BeamSystem& to)
+      : from_(from), state_(state), to_(to) {}
+
+  // The velocities for the places next.q, by L2 projection: nothing when that is singular.
+  std::optional<Transferred> with_velocities(State next) const {
+    const BeamModel& model = to_.model();
+    const Mesh& mesh = to_.mesh();
+    // A body on a point must lie on the curve, which the removal of its node has moved a little.
+    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+      if (mesh.plan.modes[j] != JointMode::point) continue;
+      const double s = next.q[mesh.joints[j].place];
+      next.q.segment(mesh.bodies[model.joints[j].body], mesh.dimension) =
+          material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
+    }
+    const Projection projection = velocities_from_momentum(to_, momentum_on(next), next);
+    if (projection.status != ProjectionStatus::done) return std::nullopt;
+    return Transferred{std::move(next), projection.impulse};
+  }
+
+  // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
+  // axial strain that the old ones had not, and where these cannot bring it, their neighbours too.
+  void keep_energy(Transferred& next) const {
+    const SystemEnergy old = energy(from_, state_);
+    const double enough =
+        1e-10 * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
+    const auto excess = [&](const State& x) { return energy(to_, x).mechanical() - old.mechanical(); };
+    double e = excess(next.state);
+    for (const bool with_neighbours : {false, true}) {
+      const std::vector<int> free = free_coordinates(with_neighbours);
+      constexpr int most_moves = 10;
+      for (int i = 0; i < most_moves && std::abs(e) > enough && !free.empty(); ++i) {
+        const double before = std::abs(e);
+        if (!move_towards(next, free, excess, e)) break;
+        if (std::abs(e) > 0.99 * before) break;
+      }
+    }
+  }
+
+ private:
+  // int rho A N' v_old ds over the new elements, N = dr/dq at fixed material, plus the bodies' momenta.
+  Eigen::VectorXd momentum_on(const State& next) const {
+    const Mesh& old = from_.mesh();
+    const int D = old.dimension;
+    const auto velocity = [&](int beam, double s) { return material_point(from_, state_, beam, s).velocity; };
+    const auto breaks = [&](int beam) {
+      std::vector<double> places;
+      for (const MeshNode& node : old.nodes[beam])
+        places.push_back(node.place >= 0 ? state_.q[node.place] : node.s);
+      for (double s : to_.model().beams[beam].curve.breaks()) places.push_back(s);
+      return places;
+    };
+    std::vector<Eigen::Vector3d> bodies;
+    for (const int r : old.bodies) {
+      bodies.emplace_back(Eigen::Vector3d::Zero());
+      bodies.back().head(D) = state_.v.segment(r, D);
+    }
+    return generalised_momentum(to_, next, velocity, breaks, bodies);
+  }
+
+  // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
+  // of the potential energy, or to its lowest. Returns whether |e| has fallen; else nothing changes.
+  template <class Excess>
+  bool move_towards(Transferred& next, const std::vector<int>& free, const Excess& excess, double& e) const {
+    Eigen::VectorXd move = least_move(next.state, free, e);
+    for (int attempt = 0; attempt < 4; ++attempt, move /= 2) {
+      State moved = next.state;
+      for (std::size_t i = 0; i < free.size(); ++i) moved.q[free[i]] += move[static_cast<long>(i)];
+      if (!to_.admissible(moved)) continue;
+      std::optional<Transferred> trial = with_velocities(std::move(moved));
+      if (!trial) continue;
+      const double left = excess(trial->state);
+      if (!(std::abs(left) < std::abs(e))) continue;
+      next = std::move(*trial);
+      e = left;
+      return true;
+    }
+    return false;
+  }
+
+  // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy: d = -(K + mu M)^-1 g.
+  Eigen::VectorXd least_move(const State& next, const std::vector<int>& free, double e) const {
+    const long n = static_cast<long>(free.size());
+    State still = next;
+    still.v.setZero();
+    still.a.setZero();
+    still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
+    Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
+    to_.residual(still, force, constraints);
+    const auto part = [&](const TangentWeights& weights) {
+      Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
+      to_.tangent(still, weights, kkt);
+      Eigen::MatrixXd block(n, n);
+      for (long i = 0; i < n; ++i)
+        for (long k = 0; k < n; ++k) block(i, k) = kkt.coeff(free[i], free[k]);
+      return Eigen::MatrixXd((block + block.transpose()) / 2);
+    };
+    Eigen::VectorXd g(n);
+    for (long i = 0; i < n; ++i) g[i] = force[free[i]];
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(part({.stiffness = 1}),
+                                                                          part({.mass = 1}));
+    const Eigen::ArrayXd K = modes.eigenvalues().array();
+    const Eigen::ArrayXd g_modes = (modes.eigenvectors().transpose() * g).array();
+    const double largest = K.abs().maxCoeff();
+    // From mu's ends, where K + mu M loses its sign, outwards the change of the energy falls to zero.
+    const double end = e > 0 ? std::max(0.0, -K.minCoeff()) : -std::max(0.0, K.maxCoeff());
+    const auto mu = [&](double exponent) {
+      return end + (e > 0 ? 1 : -1) * largest * std::pow(10, exponent);
+    };
+    const auto change = [&](double exponent) {
+      const Eigen::ArrayXd stiff = K + mu(exponent);
+      return (g_modes.square() * (0.5 * K / stiff - 1) / stiff).sum();
+    };
+    double low = -12, high = 6;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
+    }
+    return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
+  }
+
+  // Positions and slopes of the nodes of new elements, and with_neighbours of the elements next to these: but
+  // for supported positions, clamped slopes and positions of bodies.
+  std::vector<int> free_coordinates(bool with_neighbours) const {
+    const Mesh& mesh = to_.mesh();
+    std::set<std::pair<int, int>> nodes;  // beam, node
+    for (const MeshSpan& span : mesh.spans)
+      if (!was_there(span)) nodes.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
+    if (with_neighbours)
+      for (const std::set<std::pair<int, int>> inner = nodes; const MeshSpan& span : mesh.spans)
+        if (inner.contains({span.beam, span.node_a}) || inner.contains({span.beam, span.node_b}))
+          nodes.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
+    std::set<int> free;
+    for (const auto& [beam, i] : nodes) {
+      const MeshNode& node = mesh.nodes[beam][i];
+      const Hold hold = node.home >= 0 ? to_.model().beams[beam].home[node.home].hold : Hold::nothing;
+      for (int k = 0; k < mesh.dimension; ++k) {
+        if (node.joint < 0 && hold == Hold::nothing) free.insert(node.r + k);
+        if (hold != Hold::clamp) free.insert({node.slope_left + k, node.slope_right + k});
+      }
+    }
+    return {free.begin(), free.end()};
+  }
+
+  // Whether the old mesh has an element between the same nodes.
+  bool was_there(const MeshSpan& span) const {
+    const std::vector<MeshNode>& old = from_.mesh().nodes[span.beam];
+    const int a = same_node(old, to_.mesh().node_a(span)), b = same_node(old, to_.mesh().node_b(span));
+    const int count = static_cast<int>(old.size());
+    const bool ring = to_.model().beams[span.beam].is_ring();
+    return a >= 0 && b >= 0 && (b - a == 1 || (ring && b - a == 1 - count));
+  }
+
+  const BeamSystem& from_;
+  const State& state_;
+  const BeamSystem& to_;
+};
+
+// Position, slopes and place of a node that the old mesh had too.
+void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, int D, State& next) {
+  const auto copy = [&](int target, int source, int n) {
+    next.q.segment(target, n) = state.q.segment(source, n);
+    next.v.segment(target, n) = state.v.segment(source, n);
+  };
+  copy(node.r, kept.r, D);
+  copy(node.slope_left, kept.slope_left, D);
+  copy(node.slope_right, kept.slope_right, D);
+  if (node.place >= 0) copy(node.place, kept.place, 1);
+}
+
+void place_node(const BeamSystem& from, const State& state, int beam, const MeshNode& node, State& next) {
+  const int D = from.dimension();
+  const MaterialPoint<3> p = material_point(from, state, beam, node.s);
+  const double rate = node.joint >= 0 ? place_rate(from, state, node.joint) : 0;
+  next.q.segment(node.r, D) = p.r.head(D);
+  next.v.segment(node.r, D) = (p.velocity + rate * p.rs).head(D);
+  for (int slope : {node.slope_left, node.slope_right}) {
+    next.q.segment(slope, D) = p.rs.head(D);
+    next.v.segment(slope, D) = (p.velocity_s + rate * p.rss).head(D);
+  }
+  if (node.place < 0) return;
+  next.q[node.place] = node.s;
+  next.v[node.place] = rate;
+}
+
+}  // namespace
+
+State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to) {
+  State next = drawn_state(to);
+  next.t = state.t;
+  const int D = to.dimension();
+  const Mesh &old = from.mesh(), &mesh = to.mesh();
+  for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
+    for (const MeshNode& node : mesh.nodes[b]) {
+      const int kept = same_node(old.nodes[b], node);
+      if (kept >= 0)
+        keep_node(old.nodes[b][kept], state, node, D, next);
+      else
+        place_node(from, state, b, node, next);
+    }
+  for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
+    next.q.segment(mesh.bodies[body], D) = state.q.segment(old.bodies[body], D);
+    next.v.segment(mesh.bodies[body], D) = state.v.segment(old.bodies[body], D);
+  }
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    if (mesh.joints[j].place < 0 || old.joints[j].place < 0) continue;
+    next.q[mesh.joints[j].place] = state.q[old.joints[j].place];
+    next.v[mesh.joints[j].place] = state.v[old.joints[j].place];
+  }
+  return next;
+}
+
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to) {
+  const Remap remap(from, state, to);
+  std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
+  if (next) remap.keep_energy(*next);
+  return next;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+
+#include "fem/motion/mesh_rules.h"
+
+namespace nurbeam {
+
+/// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them and their rates from the
+/// old curve. Exact where nodes were only inserted (a split). t, q and v are set; a and lambda are zero.
+State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to);
+
+/// A motion on another mesh, and what carrying it over took.
+struct Transferred {
+  State state;
+  /// Constraint impulse of the projection of velocities [N s]: the momentum on the new mesh changes by -G'
+  /// impulse.
+  Eigen::VectorXd impulse;
+};
+
+/// The same for a mesh that cannot hold the motion exactly: velocities are the L2 projection of the material
+/// velocity field, and the nodes of new elements, if need be their neighbours too, move so that the total
+/// energy is kept: by the least displacements, in the mass norm, that bring it back. As interpolated, a
+/// merged element carries axial strain that the two had not (Ding & Ouyang choose weights instead, Eqs.
+/// 31-38). Where the energy cannot be reached it comes as near as such moves bring it. Returns nullopt when
+/// the projection is singular.
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);
+
+}  // namespace nurbeam

@@ -1,0 +1,56 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "fem/element/reference_curve.h"
+#include "fem/material/section.h"
+#include "fem/structure/home_nodes.h"
+
+namespace nurbeam {
+
+enum class WeightRule {
+  material,  ///< ALE-RANCF, weights follow the material: one chart and one W per CAD segment
+  constant,  ///< ALE-RANCF, the paper's: four weights that stay with the element
+  ones       ///< ALE-ANCF: plain cubics in reference arc length
+};
+/// Velocities after a merge: the mass-weighted L2 projection with `standard`, the kept nodes' own else.
+enum class MergeRule {
+  standard,  ///< material weights: none to choose; constant weights: the paper's rule
+  paper,     ///< Eqs. 31-38 of Ding & Ouyang, for comparison
+  ones       ///< all ones, for comparison
+};
+/// How the forces on moving elements follow from the fields (theory.md: forms V and P).
+enum class Form {
+  variational,  ///< Euler-Lagrange expressions of T - U with moving limits: conserves energy
+  virtual_work  ///< the papers', for comparison: fem/comparison/virtual_work.h
+};
+
+struct Beam {
+  std::string name;
+  ReferenceCurve curve;
+  BeamProperties properties;
+  Section section = {};    ///< what `properties` was derived from, where they were
+  Material material = {};  ///< likewise
+  WeightRule weights = WeightRule::material;
+  MergeRule merge = MergeRule::standard;
+  Form form = Form::variational;
+  std::vector<HomeNode> home;  ///< s increasing, from 0 to the length; of a ring the last is the first again
+
+  /// A ring: a closed curve, and no ends.
+  bool is_ring() const { return curve.closed(); }
+  int home_intervals() const { return static_cast<int>(home.size()) - 1; }
+  /// Number in `home` of home node h; on a ring h goes on over the seam, both ways.
+  int home_index(int h) const;
+  /// s of home node h; on a ring beyond [0, length) for h over the seam [m].
+  double home_place(int h) const;
+  /// Home node h; on a ring h goes on over the seam.
+  const HomeNode& home_node(int h) const { return home[home_index(h)]; }
+  /// The home interval [h, h + 1] that holds s; over the seam on a ring.
+  int home_interval(double s) const;
+  /// Length of the home interval that holds s [m].
+  double home_spacing(double s) const;
+  /// The home node at s, within 1e-9 of the length; -1 where there is none.
+  int home_at(double s) const;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,43 @@
+#pragma once
+#include <vector>
+
+#include "fem/element/reference_curve.h"
+
+namespace nurbeam {
+
+/// What the slopes on both sides of a home node have to do with each other.
+enum class NodeKind {
+  smooth,  ///< they are one
+  hinge,   ///< they are free of each other
+  rigid    ///< a corner: the angle between them stays that of the drawing (HeldAngle)
+};
+
+/// What a support holds at a node.
+enum class Hold {
+  nothing,
+  position,
+  clamp  ///< position and direction of the slope; its magnitude stays free
+};
+
+/// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.
+struct HomeNode {
+  double s;                ///< reference arc length [m]
+  bool permanent = false;  ///< a break of the drawing, a support or a joint inside the beam: see Passing
+  NodeKind kind = NodeKind::smooth;  ///< a hinge or a corner is never removed: no body slides over it
+  Hold hold = Hold::nothing;
+  bool joined = false;  ///< another beam is joined here
+};
+
+/// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and
+/// supports.
+std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places);
+/// How many elements each interval gets when `count` are spread in proportion to length. Throws
+/// std::invalid_argument, naming the smallest count, when there are more intervals than elements.
+std::vector<int> spread_elements(const std::vector<double>& places, int count);
+/// Home nodes: each interval divided in arc length into its number of parts, each part longer than the one
+/// before it by `grading` [m] (graded_places); interior places are permanent nodes. Throws
+/// std::invalid_argument, naming the range of the increment in the interval that bounds it most.
+std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts,
+                                 double grading = 0);
+
+}  // namespace nurbeam

@@ -1,0 +1,348 @@
+#include "fem/system/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "fem/comparison/virtual_work.h"
+#include "fem/mesh/drawn_coordinates.h"
+
+namespace nurbeam {
+
+namespace {
+
+int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
+  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
+}
+
+template <class Matrix>
+void scatter(const std::vector<int>& positions, std::size_t n, const Matrix& matrix, double* values) {
+  for (std::size_t j = 0, k = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i, ++k)
+      if (positions[k] >= 0)
+        values[positions[k]] += matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
+// The coordinates of a bound force in its own block, where it has one.
+template <class Force>
+std::vector<int> own_dofs(const Force& force) {
+  if constexpr (requires { force.dofs(); })
+    return force.dofs();
+  else
+    return {};
+}
+
+template <class Constraint>
+constexpr bool is_linear() {
+  return requires { requires Constraint::linear; };
+}
+
+template <int D>
+bool is_form_p(const Structure& structure, const MeshElement<D>& e) {
+  return !e.element.fixed() && structure.beams[e.beam].form == Form::virtual_work;
+}
+
+}  // namespace
+
+// Takes the tangent matrices of one force.
+template <int D>
+struct Assembly<D>::Sink {
+  const std::vector<Block>& element_blocks;
+  const Block& own_block;
+  double* values;
+
+  void element(int index, const ElementMatrix<D>& K) const {
+    scatter(element_blocks[index].values, element_size<D>, K, values);
+  }
+  template <class Matrix>
+  void own(const Matrix& K) const {
+    scatter(own_block.values, own_block.dofs.size(), K, values);
+  }
+};
+
+template <int D>
+Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held)
+    : model_(std::move(model)),
+      mesh_(make_mesh(*model_, std::move(plan))),
+      elements_(make_elements<D>(*model_, mesh_)) {
+  bind_constraints(held);
+  bind_forces();
+  build_pattern();
+}
+
+template <int D>
+void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
+  const MeshedBeams<D> at = beams();
+  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
+  const auto add = [&](auto&& constraint) {
+    constraint_blocks_.push_back({constraint_count_, {constraint.dofs(), {}}, {}, {}});
+    constraint_count_ += constraint.rows;
+    constraints_.emplace_back(std::move(constraint));
+  };
+  for (const Constraint& constraint : model_->constraints) {
+    const int first = constraint_count_;
+    std::visit([&](const auto& description) { bind<D>(description, at, drawn, add); }, constraint);
+    constraint_rows_.push_back({first, constraint_count_ - first});
+  }
+  place_rows_.resize(model_->joints.size());
+  for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
+    const bool is_held = j < static_cast<int>(held.size()) && held[j];
+    bind_joint<D>(j, is_held, at, drawn, [&](auto&& constraint) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(constraint)>, HeldPlace<D>>)
+        place_rows_[j] = {constraint_count_, constraint.rows};
+      add(std::move(constraint));
+    });
+  }
+  bind_corners<D>(at, add);
+}
+
+template <int D>
+void Assembly<D>::bind_forces() {
+  const MeshedBeams<D> at = beams();
+  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
+  for (int body = 0; body < static_cast<int>(model_->bodies.size()); ++body)
+    forces_.emplace_back(PointMass<D>(at, body));
+  for (const Force& force : model_->forces)
+    forces_.push_back(std::visit(
+        [&](const auto& description) -> BoundForce<D> { return bind_force<D>(description, at, drawn); },
+        force));
+}
+
+template <int D>
+void Assembly<D>::build_pattern() {
+  const int n = mesh_.coordinate_count, size = n + constraint_count_;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add_pairs = [&](const std::vector<int>& dofs) {
+    for (int i : dofs)
+      for (int j : dofs)
+        if (i >= 0 && j >= 0) entries.emplace_back(i, j, 0.0);
+  };
+  for (const MeshElement<D>& e : elements_) {
+    element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
+    add_pairs(element_blocks_.back().dofs);
+  }
+  for (const BoundForce<D>& force : forces_) {
+    force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
+    add_pairs(force_blocks_.back().dofs);
+  }
+  const auto rows_of = [&](std::size_t c) {
+    return std::visit([](const auto& constraint) { return static_cast<int>(constraint.rows); },
+                      constraints_[c]);
+  };
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    const ConstraintBlock& block = constraint_blocks_[c];
+    add_pairs(block.block.dofs);
+    for (int r = block.row; r < block.row + rows_of(c); ++r)
+      for (int dof : block.block.dofs) {
+        if (dof < 0) continue;
+        entries.emplace_back(n + r, dof, 0.0);
+        entries.emplace_back(dof, n + r, 0.0);
+      }
+  }
+  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 0.0);
+  pattern_.resize(size, size);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+  pattern_.makeCompressed();
+
+  const auto locate = [&](Block& block) {
+    for (int j : block.dofs)
+      for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? value_index(pattern_, i, j) : -1);
+  };
+  for (Block& block : element_blocks_) locate(block);
+  for (Block& block : force_blocks_) locate(block);
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    ConstraintBlock& block = constraint_blocks_[c];
+    locate(block.block);
+    for (int dof : block.block.dofs)
+      for (int r = block.row; r < block.row + rows_of(c); ++r) {
+        block.gradient_values.push_back(dof >= 0 ? value_index(pattern_, n + r, dof) : -1);
+        block.transposed_values.push_back(dof >= 0 ? value_index(pattern_, dof, n + r) : -1);
+      }
+  }
+}
+
+template <int D>
+typename Assembly<D>::Vector Assembly<D>::line_load(int beam, const State& state) const {
+  const Vector gravity = state.load * model_->gravity.head<D>();
+  Vector load = model_->beams[beam].properties.mass_per_length * gravity;
+  for (const BoundForce<D>& force : forces_)
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.per_length(beam, state.t); })
+            load += state.load * f.per_length(beam, state.t).template head<D>();
+        },
+        force);
+  return load;
+}
+
+template <int D>
+void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                           Eigen::Ref<Eigen::VectorXd> constraints) const {
+  const MeshedBeams<D> at = beams();
+  dynamics.setZero();
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    const Vector load = line_load(b, state);
+    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
+      const MeshElement<D>& e = elements_[i];
+      const ElementState<D> x = gather<D>(e, state);
+      const ElementVector<D> f =
+          is_form_p<D>(*model_, e) ? virtual_work::force<D>(e.element, x, load) : e.element.force(x, load);
+      for (int k = 0; k < element_size<D>; ++k)
+        if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
+    }
+  }
+  for (const BoundForce<D>& force : forces_)
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.template add_force<D>(at, state, dynamics); })
+            f.template add_force<D>(at, state, dynamics);
+          else if constexpr (requires { f.add_force(at, state, dynamics); })
+            f.add_force(at, state, dynamics);
+        },
+        force);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const ConstraintBlock& block = constraint_blocks_[i];
+    const ConstraintTerms<D> terms =
+        std::visit([&](const auto& c) { return c.terms(at, state, nullptr); }, constraints_[i]);
+    const auto rows = terms.value.size();
+    constraints.segment(block.row, rows) = terms.value;
+    for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
+      if (block.block.dofs[k] >= 0)
+        dynamics[block.block.dofs[k]] +=
+            terms.gradient.col(static_cast<Eigen::Index>(k)).dot(state.lambda.segment(block.row, rows));
+  }
+}
+
+template <int D>
+void Assembly<D>::tangent(const State& state, const TangentWeights& w,
+                          Eigen::SparseMatrix<double>& kkt) const {
+  const MeshedBeams<D> at = beams();
+  double* values = kkt.valuePtr();
+  std::fill(values, values + kkt.nonZeros(), 0.0);
+  const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
+  for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
+    const Vector load = line_load(b, state);
+    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
+      const MeshElement<D>& e = elements_[i];
+      const ElementState<D> x = gather<D>(e, state);
+      scatter(element_blocks_[i].values, element_size<D>,
+              is_form_p<D>(*model_, e) ? virtual_work::tangent<D>(e.element, x, load, w)
+                                       : e.element.tangent(x, load, w),
+              values);
+    }
+  }
+  for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
+    const Sink sink{element_blocks_, force_blocks_[i], values};
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
+            f.template add_tangent<D>(at, state, w, sink);
+          else if constexpr (requires { f.add_tangent(at, state, w, sink); })
+            f.add_tangent(at, state, w, sink);
+        },
+        forces_[i]);
+  }
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const ConstraintBlock& block = constraint_blocks_[i];
+    std::visit(
+        [&](const auto& c) {
+          typename ConstraintTerms<D>::Multipliers y = ConstraintTerms<D>::Multipliers::Zero();
+          y.head(c.rows) = state.lambda.segment(block.row, c.rows);
+          const ConstraintTerms<D> terms = c.terms(at, state, &y);
+          if constexpr (!is_linear<std::decay_t<decltype(c)>>())
+            if (w.stiffness != 0)
+              scatter(block.block.values, block.block.dofs.size(), w.stiffness * terms.hessian, values);
+          for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
+            for (int r = 0; r < c.rows; ++r, ++v)
+              if (block.gradient_values[v] >= 0) {
+                const double g = terms.gradient(r, static_cast<Eigen::Index>(k));
+                values[block.gradient_values[v]] += g;
+                values[block.transposed_values[v]] += g;
+              }
+        },
+        constraints_[i]);
+  }
+}
+
+template <int D>
+Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(constraint_count_);
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { c.rate(state.t); }) rate[constraint_blocks_[i].row] = c.rate(state.t);
+        },
+        constraints_[i]);
+  return rate;
+}
+
+template <int D>
+Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
+  const MeshedBeams<D> at = beams();
+  Eigen::VectorXd curvature = Eigen::VectorXd::Zero(constraint_count_);
+  const auto add = [&](const ConstraintBlock& block, const auto& c) {
+    if constexpr (!is_linear<std::decay_t<decltype(c)>>()) {
+      Eigen::Matrix<double, ConstraintTerms<D>::size, 1> v =
+          Eigen::Matrix<double, ConstraintTerms<D>::size, 1>::Zero();
+      for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
+        if (block.block.dofs[k] >= 0) v[static_cast<Eigen::Index>(k)] = state.v[block.block.dofs[k]];
+      for (int r = 0; r < c.rows; ++r) {
+        const typename ConstraintTerms<D>::Multipliers unit = ConstraintTerms<D>::Multipliers::Unit(r);
+        curvature[block.row + r] = v.dot(c.terms(at, state, &unit).hessian * v);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    std::visit([&](const auto& c) { add(constraint_blocks_[i], c); }, constraints_[i]);
+  return curvature;
+}
+
+template <int D>
+double Assembly<D>::step_limit(const State& state) const {
+  constexpr double largest_slide = 0.2;  // of the shorter neighbour
+  double limit = std::numeric_limits<double>::infinity();
+  const auto speed = [&](int place) { return place >= 0 ? std::abs(state.v[place]) : 0; };
+  for (const MeshSpan& span : mesh_.spans) {
+    const double closing = std::max(speed(span.place_a), speed(span.place_b));
+    if (closing > 0)
+      limit = std::min(limit, largest_slide * (span.end(state.q) - span.start(state.q)) / closing);
+  }
+  return limit;
+}
+
+template <int D>
+bool Assembly<D>::admissible(const State& state) const {
+  constexpr double shortest = 1e-3;  // of the element's length when the mesh was made
+  return std::all_of(mesh_.spans.begin(), mesh_.spans.end(), [&](const MeshSpan& span) {
+    return span.end(state.q) - span.start(state.q) > shortest * (span.s_b - span.s_a);
+  });
+}
+
+template <int D>
+Eigen::VectorXd Assembly<D>::coordinate_scale() const {
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(mesh_.coordinate_count);
+  double longest = 0;
+  for (const Beam& beam : model_->beams) longest = std::max(longest, beam.curve.length());
+  for (const int r : mesh_.bodies) scale.segment<D>(r).setConstant(longest > 0 ? longest : 1);
+  for (std::size_t b = 0; b < mesh_.nodes.size(); ++b) {
+    const double length = model_->beams[b].curve.length();
+    for (const MeshNode& node : mesh_.nodes[b]) {
+      scale.segment<D>(node.r).setConstant(length);
+      if (node.place >= 0) scale[node.place] = length;
+    }
+  }
+  for (std::size_t j = 0; j < mesh_.joints.size(); ++j) {
+    const double length = model_->beam_of(model_->joints[j]).curve.length();
+    scale.segment<D>(mesh_.bodies[model_->joints[j].body]).setConstant(length);
+    if (mesh_.joints[j].place >= 0) scale[mesh_.joints[j].place] = length;
+  }
+  return scale;
+}
+
+template class Assembly<2>;
+template class Assembly<3>;
+
+}  // namespace nurbeam

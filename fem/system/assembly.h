@@ -1,0 +1,86 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+#include "fem/model/beam_model.h"
+#include "solver/second_order_system.h"
+
+namespace nurbeam {
+
+/// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
+/// elements.
+///
+/// Multipliers: of the model's constraints in order, then of its sliding joints, then of its rigid corners.
+template <int D>
+class Assembly final : public SecondOrderSystem {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  /// `held`: joints whose place is held at its value in the plan.
+  Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held);
+  // Constraints and elements look at this mesh.
+  Assembly(const Assembly&) = delete;
+  Assembly& operator=(const Assembly&) = delete;
+
+  const std::shared_ptr<const BeamModel>& model() const { return model_; }
+  const Mesh& mesh() const { return mesh_; }
+  const std::vector<MeshElement<D>>& elements() const { return elements_; }
+  const std::vector<BoundForce<D>>& forces() const { return forces_; }
+  MeshedBeams<D> beams() const { return {*model_, mesh_, elements_}; }
+
+  /// First multiplier and number of multipliers of constraint i of the model; of the place of joint j (none:
+  /// 0).
+  struct Rows {
+    int first = 0, count = 0;
+  };
+  Rows rows_of_constraint(int i) const { return constraint_rows_[i]; }
+  Rows rows_of_place(int j) const { return place_rows_[j]; }
+
+  int coordinate_count() const override { return mesh_.coordinate_count; }
+  int constraint_count() const override { return constraint_count_; }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const override;
+  Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
+  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  Eigen::VectorXd constraint_rate(const State& state) const override;
+  Eigen::VectorXd constraint_curvature(const State& state) const override;
+  double step_limit(const State& state) const override;
+  bool admissible(const State& state) const override;
+  Eigen::VectorXd coordinate_scale() const override;
+
+ private:
+  // Row and column blocks of one contribution in the value array of the iteration matrix.
+  struct Block {
+    std::vector<int> dofs;
+    std::vector<int> values;  // dofs.size()^2, column by column; -1 where a dof is -1
+  };
+  struct ConstraintBlock {
+    int row;
+    Block block;
+    std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
+  };
+  struct Sink;
+
+  void bind_constraints(const std::vector<bool>& held);
+  void bind_forces();
+  void build_pattern();
+  Vector line_load(int beam, const State& state) const;
+
+  std::shared_ptr<const BeamModel> model_;
+  Mesh mesh_;
+  std::vector<MeshElement<D>> elements_;
+  std::vector<BoundConstraint<D>> constraints_;
+  std::vector<BoundForce<D>> forces_;
+
+  int constraint_count_ = 0;
+  std::vector<Rows> constraint_rows_, place_rows_;
+  std::vector<Block> element_blocks_, force_blocks_;
+  std::vector<ConstraintBlock> constraint_blocks_;
+  Eigen::SparseMatrix<double> pattern_;
+};
+
+extern template class Assembly<2>;
+extern template class Assembly<3>;
+
+}  // namespace nurbeam

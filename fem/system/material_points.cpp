@@ -1,0 +1,116 @@
+#include "fem/system/material_points.h"
+
+#include <algorithm>
+
+#include "fem/mesh/widened.h"
+#include "fem/system/with_assembly.h"
+
+namespace nurbeam {
+
+namespace {
+
+template <int D>
+MaterialPoint<3> widened_point(const MaterialPoint<D>& p) {
+  return {widened<D>(p.r),        widened<D>(p.rs),         widened<D>(p.rss),
+          widened<D>(p.velocity), widened<D>(p.velocity_s), p.kappa0};
+}
+
+template <int D>
+Eigen::Matrix4d control_points(const MeshElement<D>& e, const ElementVector<D>& q) {
+  const auto [l, J_a, J_b] = e.element.chart_lengths(q);
+  NodalCoordinates nodal = NodalCoordinates::Zero();
+  nodal.topRows<D>() = ElementLayout<D>::nodes(q);
+  nodal.col(1) *= J_a;
+  nodal.col(3) *= J_b;
+  return to_bezier(nodal, e.element.bezier_weights(q), l).points();
+}
+
+template <int D>
+ElementRecord record(const MeshElement<D>& e, const State& state) {
+  using Layout = ElementLayout<D>;
+  const ElementVector<D> q = gather<D>(e, state.q);
+  ElementRecord record;
+  record.control_points = control_points<D>(e, q);
+  record.s_start = q[Layout::place(0)];
+  record.s_end = q[Layout::place(1)];
+  for (int i = 0; i < 4; ++i) {
+    const double s = e.element.place(q, i / 3.0);
+    const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+    const SectionForces carried =
+        section_forces<D>(e.element.properties(), p.rs, p.rss, p.kappa0, e.element.curve().strain(s));
+    record.strain[i] = carried.strain;
+    record.curvature[i] = carried.curvature;
+    record.axial_force[i] = carried.axial_force;
+    record.bending_moment[i] = carried.bending_moment;
+    record.velocity.col(i) = widened<D>(p.velocity);
+  }
+  return record;
+}
+
+// That of one element.
+template <int D>
+void add_momentum(const MeshElement<D>& e, const State& state,
+                  const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                  const std::vector<double>& breaks, Eigen::VectorXd& p) {
+  const ReferenceCurve& curve = e.element.curve();
+  std::vector<double> parts{e.s_a, e.s_b};
+  for (const double place : breaks) {
+    const double s = curve.unrolled(place, (e.s_a + e.s_b) / 2);
+    if (s > e.s_a && s < e.s_b) parts.push_back(s);
+  }
+  std::sort(parts.begin(), parts.end());
+  const ElementVector<D> x = gather<D>(e, state.q);
+  const ElementNodes<D> nodes = ElementLayout<D>::nodes(x);
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+    for (int g = 0; g < GaussRule::size; ++g) {
+      const double length = parts[i + 1] - parts[i], s = parts[i] + length * GaussRule::points[g];
+      const Eigen::Matrix<double, D, 1> velocity = field(e.beam, s).template head<D>();
+      const PointField<D> r(e.element.shape_series(x, s).value, nodes);
+      const double mass = e.element.properties().mass_per_length * length * GaussRule::weights[g];
+      for (int k = 0; k < element_size<D>; ++k)
+        if (e.dofs[k] >= 0) p[e.dofs[k]] += mass * r.gradient.col(k).dot(velocity);
+    }
+}
+
+}  // namespace
+
+MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s) {
+  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
+    return widened_point<D>(material_point<D>(a.elements()[span], state.q, state.v, s));
+  });
+}
+
+MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s) {
+  return material_point_in(system, state, find_span(system.model(), system.mesh(), state.q, beam, s), s);
+}
+
+ElementRecord record_element(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(system,
+                       [&]<int D>(const Assembly<D>& a) { return record<D>(a.elements()[span], state); });
+}
+
+Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
+    const MeshElement<D>& e = a.elements()[span];
+    return e.element.bezier_weights(gather<D>(e, state.q));
+  });
+}
+
+Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
+                                     const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                                     const std::function<std::vector<double>(int beam)>& breaks,
+                                     const std::vector<Eigen::Vector3d>& body_velocities) {
+  const int D = system.dimension();
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(system.coordinate_count());
+  std::vector<std::vector<double>> places;
+  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b) places.push_back(breaks(b));
+  with_assembly(system, [&](const auto& assembly) {
+    for (const auto& e : assembly.elements()) add_momentum(e, state, field, places[e.beam], p);
+  });
+  for (std::size_t body = 0; body < body_velocities.size(); ++body)
+    p.segment(system.mesh().bodies[body], D) +=
+        system.model().bodies[body].mass * body_velocities[body].head(D);
+  return p;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,38 @@
+#pragma once
+#include <functional>
+
+#include "fem/mesh/mesh_elements.h"
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// Position and velocity fields at material point s [m] of a beam; on a ring s may be any full turns away.
+MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s);
+/// The same, as the element in span `span` has it: at a node, from its side.
+MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s);
+
+/// The element in a span as a rational cubic, and what it carries at the parameters u = 0, 1/3, 2/3, 1
+/// (`sample`).
+struct ElementRecord {
+  Eigen::Matrix4d control_points;        ///< homogeneous, deformed [m]
+  double s_start = 0, s_end = 0;         ///< reference arc length [m]
+  Eigen::Vector4d strain;                ///< Green's axial strain [-]
+  Eigen::Vector4d curvature;             ///< [1/m], by the model's measure; signed in a planar model
+  Eigen::Vector4d axial_force;           ///< elastic, tension positive [N]
+  Eigen::Vector4d bending_moment;        ///< elastic [N m]; signed in a planar model
+  Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
+};
+ElementRecord record_element(const BeamSystem& system, const State& state, int span);
+
+/// The weights w_0..w_3 of the element in a span.
+Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span);
+
+/// int rho A N' v ds over all elements, N = dr/dq at fixed material, plus the bodies' momenta m v: what the
+/// velocity `field`(beam, s) [m/s] and the bodies' velocities (3 each) mean for the coordinates of `state`.
+/// Elements are integrated in parts between the places that `breaks`(beam) lists [m].
+Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
+                                     const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                                     const std::function<std::vector<double>(int beam)>& breaks,
+                                     const std::vector<Eigen::Vector3d>& body_velocities);
+
+}  // namespace nurbeam

@@ -1,0 +1,110 @@
+#include "fem/system/observables.h"
+
+#include <stdexcept>
+
+#include "fem/mesh/widened.h"
+#include "fem/system/with_assembly.h"
+
+namespace nurbeam {
+
+namespace {
+
+template <int D>
+SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
+  SystemEnergy sum;
+  const MeshedBeams<D> at = a.beams();
+  const Eigen::Matrix<double, D, 1> g = a.model()->gravity.template head<D>();
+  for (const MeshElement<D>& e : a.elements()) {
+    const Eigen::Matrix<double, D, 1> weight = e.element.properties().mass_per_length * g;
+    const ElementEnergy part = e.element.energy(gather<D>(e, state), weight);
+    sum.kinetic += part.kinetic;
+    sum.axial += part.axial;
+    sum.bending += part.bending;
+    sum.gravity += part.external;
+    sum.dissipation += part.dissipation;
+  }
+  for (const BoundForce<D>& force : a.forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.add_energy(at, state, sum); }) f.add_energy(at, state, sum);
+        },
+        force);
+  return sum;
+}
+
+template <int D>
+Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
+  using Layout = ElementLayout<D>;
+  Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
+  for (const MeshElement<D>& e : a.elements()) {
+    const ElementVector<D> q = gather<D>(e, state.q);
+    const double rho = e.element.properties().mass_per_length;
+    e.element.for_each_point(q[Layout::place(0)], q[Layout::place(1)],
+                             [&](const ShapeFunctions<double>&, double s, double weight) {
+                               sum += rho * weight * material_point<D>(e, state.q, state.v, s).velocity;
+                             });
+  }
+  for (const BoundForce<D>& force : a.forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.momentum(state); }) sum += f.momentum(state);
+        },
+        force);
+  return widened<D>(sum);
+}
+
+}  // namespace
+
+SystemEnergy energy(const BeamSystem& system, const State& state) {
+  return with_assembly(system, [&](const auto& a) { return energy_of(a, state); });
+}
+
+Eigen::Vector3d momentum(const BeamSystem& system, const State& state) {
+  return with_assembly(system, [&](const auto& a) { return momentum_of(a, state); });
+}
+
+double beam_length(const BeamSystem& system, const State& state, int beam) {
+  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
+    double sum = 0;
+    for (int i = a.mesh().first_span[beam]; i < a.mesh().first_span[beam + 1]; ++i)
+      sum += a.elements()[i].element.length(gather<D>(a.elements()[i], state.q));
+    return sum;
+  });
+}
+
+Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint) {
+  const Mesh& mesh = system.mesh();
+  if (mesh.plan.modes[joint] == JointMode::free) return Eigen::Vector3d::Zero();
+  const int body = system.model().joints[joint].body, D = system.dimension();
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+  acceleration.head(D) = state.a.segment(mesh.bodies[body], D);
+  return system.model().bodies[body].mass * (acceleration - system.model().gravity);
+}
+
+double holding_force(const BeamSystem& system, const State& state, int joint) {
+  return with_assembly(system, [&](const auto& a) {
+    const auto rows = a.rows_of_place(joint);
+    return rows.count > 0 ? -state.lambda[rows.first] : 0;
+  });
+}
+
+std::optional<double> place(const BeamSystem& system, const State& state, int joint) {
+  const int dof = system.mesh().joints[joint].place;
+  return dof >= 0 ? std::optional<double>(state.q[dof]) : std::nullopt;
+}
+
+double place_rate(const BeamSystem& system, const State& state, int joint) {
+  const int dof = system.mesh().joints[joint].place;
+  return dof >= 0 ? state.v[dof] : 0;
+}
+
+Eigen::Vector3d support_force(const BeamSystem& system, const Eigen::VectorXd& multipliers, int constraint) {
+  if (!std::holds_alternative<Support>(system.model().constraints.at(constraint)))
+    throw std::invalid_argument("constraint " + std::to_string(constraint) + " of the model is no support");
+  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
+    const int first = a.rows_of_constraint(constraint).first;
+    return Eigen::Vector3d(-widened<D>(multipliers.segment<D>(first)));
+  });
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+
+#include "fem/forces/energy.h"
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+SystemEnergy energy(const BeamSystem& system, const State& state);
+/// Linear momentum [N s] of beams and bodies.
+Eigen::Vector3d momentum(const BeamSystem& system, const State& state);
+/// Deformed length of a beam [m].
+double beam_length(const BeamSystem& system, const State& state, int beam);
+
+/// Force of the beam on the body of a joint, m (a - g) [N].
+Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint);
+/// Multiplier of a held or prescribed joint: the force along the beam [N] that keeps it there.
+double holding_force(const BeamSystem& system, const State& state, int joint);
+/// s of a joint's body [m], on a ring with the turns since the start; empty when it flies free.
+std::optional<double> place(const BeamSystem& system, const State& state, int joint);
+double place_rate(const BeamSystem& system, const State& state, int joint);
+
+/// Force of constraint i of the model, a Support, on the beam [N], or its impulse [N s] where `multipliers`
+/// (those of the state or of a projection) are impulses. Throws std::invalid_argument when constraint i is no
+/// support.
+Eigen::Vector3d support_force(const BeamSystem& system, const Eigen::VectorXd& multipliers, int constraint);
+
+}  // namespace nurbeam

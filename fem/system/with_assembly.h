@@ -1,0 +1,14 @@
+#pragma once
+#include "fem/system/assembly.h"
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// visit(assembly) with the Assembly<2> or the Assembly<3> of a system; what it returns is of one type.
+template <class Visit>
+auto with_assembly(const BeamSystem& system, Visit&& visit) {
+  if (const Assembly<2>* planar = system.assembly<2>()) return visit(*planar);
+  return visit(*system.assembly<3>());
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,92 @@
+#include "pipelines/diagnostics/simulation_text.h"
+
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+const char* reason_of(StepStatus status) {
+  switch (status) {
+    case StepStatus::not_converged:
+      return "Newton's iteration does not converge";
+    case StepStatus::singular_matrix:
+      return "the iteration matrix is singular";
+    case StepStatus::inadmissible:
+      return "an element would turn inside out";
+    case StepStatus::converged:
+      break;
+  }
+  return "converged";
+}
+
+// Where each body is and how fast it slides, each after a semicolon.
+std::string places_text(const std::vector<BodyPlace>& bodies, const BeamModel& model) {
+  std::string text;
+  for (const BodyPlace& body : bodies) {
+    const SlidingJoint& joint = model.joints[body.joint];
+    text += "; \"" + model.body_of(joint).name + "\" is at s = " + text_of(body.s, 8) + " m of beam \"" +
+            model.beam_of(joint).name + "\" with ds/dt = " + text_of(body.rate, 8) + " m/s";
+  }
+  return text;
+}
+
+std::string failure_text(const Failure& failure, const BeamModel& model) {
+  const std::string time = text_of(failure.time, 8) + " s", places = places_text(failure.places, model);
+  switch (failure.kind) {
+    case Failure::Kind::initial_velocities:
+      return "the initial velocities cannot be made consistent with the supports";
+    case Failure::Kind::mass_matrix:
+      return "the mass matrix is singular at t = " + time;
+    case Failure::Kind::step:
+      return "the step from t = " + time + " failed, and shorter ones too: " + reason_of(failure.step) +
+             places + "; a shorter \"step\" from the start, or a \"tolerance\", may help";
+    case Failure::Kind::impact:
+      return "the impact of \"" + model.body_of(model.joints[failure.joint]).name +
+             "\" at the end is singular";
+    case Failure::Kind::projection:
+      return "velocities cannot be projected at t = " + time + places;
+    case Failure::Kind::mesh:
+      return "length control finds no mesh at t = " + time + places;
+    case Failure::Kind::bodies_meet:
+      return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;
+    case Failure::Kind::equilibrium:
+      return std::string("no static equilibrium was found: ") +
+             (failure.equilibrium.status == StaticStatus::singular_matrix
+                  ? "the tangent is singular (is the model held everywhere?)"
+                  : "the solver does not converge") +
+             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8);
+    case Failure::Kind::resting_place:
+      break;
+  }
+  return "a sliding body finds no resting place";
+}
+
+}  // namespace
+
+std::string name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::split:
+      return "split";
+    case EventKind::merge:
+      return "merge";
+    case EventKind::becomes_point:
+      return "carried as a point";
+    case EventKind::becomes_node:
+      return "carried as a node";
+    case EventKind::left_beam:
+      return "left the beam";
+    case EventKind::stopped_at_end:
+      break;
+  }
+  return "stopped at the end";
+}
+
+std::string outcome_text(const SimulationReport& report, const BeamModel& model) {
+  if (report.status == SimulationStatus::interrupted)
+    return report.steps > 0 || report.time > 0 ? "interrupted at t = " + text_of(report.time, 8) + " s"
+                                               : "interrupted";
+  return report.failure ? failure_text(*report.failure, model) : "done";
+}
+
+}  // namespace nurbeam

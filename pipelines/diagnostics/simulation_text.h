@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "fem/model/beam_model.h"
+#include "fem/motion/simulation_report.h"
+
+namespace nurbeam {
+
+/// "split", "merge", "left the beam", ...
+std::string name_of(EventKind kind);
+
+/// Why a simulation of the model ended before its end, and what may help; "done" when it did not.
+std::string outcome_text(const SimulationReport& report, const BeamModel& model);
+
+}  // namespace nurbeam

@@ -1,0 +1,31 @@
+#include "solver/event.h"
+
+#include <algorithm>
+
+namespace nurbeam {
+
+State land_before(Integrator& integrator, const StepTaken& taken,
+                  const std::function<double(const State&)>& g, double near) {
+  constexpr double shortest = 1e-7;  // of the step, that the search may still change it by
+  const double step = taken.length;
+  const auto missed = [&](const State& state) { return g(state) + near / 2; };
+  double lo = 0, f_lo = missed(taken.before), hi = step, f_hi = missed(taken.after);
+  State landed = taken.before;
+  while (f_lo < -near / 2 && hi - lo > shortest * step) {
+    // Regula falsi, kept off the ends.
+    const double fraction = f_hi > 0 ? std::clamp(-f_lo / (f_hi - f_lo), 0.02, 0.98) : 0.5;
+    const double trial = lo + fraction * (hi - lo);
+    if (integrator.repeat(taken.before, taken.history, trial).status != StepStatus::converged) {
+      hi = trial;
+      f_hi = 0;
+      continue;
+    }
+    const double f = missed(integrator.state());
+    (f < near / 2 ? lo : hi) = trial;
+    (f < near / 2 ? f_lo : f_hi) = f;
+    if (f < near / 2) landed = integrator.state();
+  }
+  return landed;
+}
+
+}  // namespace nurbeam
