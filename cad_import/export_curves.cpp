@@ -4,13 +4,11 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <stdexcept>
 
-#include "cad_import/files/child_process.h"
+#include "cad_import/files/ask_program.h"
 #include "cad_import/files/write_file.h"
-#include "cad_import/iges/iges_text.h"
-#include "cad_import/step/step_text.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -38,22 +36,24 @@ void check_name(const std::string& name) {
   }
 }
 
-// OpenCASCADE's translators share global state.
-std::string cad_text(bool step, const std::vector<NamedCurve>& curves, LengthUnit unit) {
-  static std::mutex opencascade;
-  const std::lock_guard lock(opencascade);
-  return step ? step_text(curves, unit) : iges_text(curves, unit);
+constexpr std::chrono::seconds patience{120};
+
+// The text, or why there is none.
+std::string reason_of(const ChildResult& result, const char* work) {
+  if (result.status == ChildResult::Status::timed_out)
+    return std::string(work) + " takes longer than " + std::to_string(patience.count()) + " s";
+  return result.complaint;
 }
 
 void check_pipe(const NamedPipe& pipe) {
   check_name(pipe.axis.name);
   if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
-    throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + std::to_string(pipe.radius) +
+    throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + text_of(pipe.radius) +
                                 " m; it must be positive");
   if (!(pipe.bore >= 0 && pipe.bore < pipe.radius))
     throw std::invalid_argument(
-        "the bore of '" + pipe.axis.name + "' has the radius " + std::to_string(pipe.bore) +
-        " m; it must be from 0 to below that of the pipe, " + std::to_string(pipe.radius) + " m");
+        "the bore of '" + pipe.axis.name + "' has the radius " + text_of(pipe.bore) +
+        " m; it must be from 0 to below that of the pipe, " + text_of(pipe.radius) + " m");
 }
 
 }  // namespace
@@ -63,7 +63,10 @@ void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, 
   if (curves.empty())
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
   for (const NamedCurve& curve : curves) check_name(curve.name);
-  write_at_once(file, cad_text(step, curves, unit));
+  const ChildResult result = asked(WriteCurvesRequest{step, curves, unit}, {patience});
+  if (result.status != ChildResult::Status::finished)
+    throw std::runtime_error(file.string() + ": not written: " + reason_of(result, "writing"));
+  write_at_once(file, result.output);
 }
 
 std::optional<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
@@ -73,17 +76,13 @@ std::optional<Diagnostic> export_solids(const fs::path& file, const std::vector<
   if (pipes.empty())
     throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
   for (const NamedPipe& pipe : pipes) check_pipe(pipe);
-  constexpr std::chrono::seconds patience{120};
-  const ChildResult result = run_in_child([&] { return step_solid_text(pipes, unit); }, {patience});
+  const ChildResult result = asked(WriteSolidsRequest{pipes, unit}, {patience});
   if (result.status == ChildResult::Status::finished) {
     write_at_once(file, result.output);
     return std::nullopt;
   }
-  const std::string reason = result.status == ChildResult::Status::timed_out
-                                 ? "sweeping takes longer than " + std::to_string(patience.count()) + " s"
-                                 : result.complaint;
   return Diagnostic{Severity::error, file.string(),
-                    "not written: " + reason + "; write the curves, which have every shape"};
+                    "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"};
 }
 
 }  // namespace nurbeam

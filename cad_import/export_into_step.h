@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "cad_import/report/import_report.h"
+#include "cad_import/report/request.h"
 
 namespace nurbeam {
-
-/// A curve of a STEP file and the shape it has taken.
-struct DeformedCurve {
-  NurbsCurve drawn;     ///< as import_curves() gives it from that file
-  NurbsCurve deformed;  ///< [m], world coordinates
-  std::string name;     ///< for messages, and for a curve that is added
-  bool beside = false;  ///< leave the drawn curve and add the deformed one (it stands for a chain of several)
-};
 
 /// Writes `source`, a STEP file, to `file` with its curves in their deformed shape: assembly, names, colours
 /// and all else stay as they are, in the source's own unit and text.

@@ -1,14 +1,12 @@
 #include "cad_import/import_curves.h"
 
 #include <cstdint>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
-#include "cad_import/files/child_process.h"
-#include "cad_import/read_cad_file.h"
+#include "cad_import/files/ask_program.h"
 #include "cad_import/report/report_bytes.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -41,24 +39,6 @@ std::string unusable(const fs::path& file, std::size_t size_limit) {
   return "";
 }
 
-ImportReport read_in_child(const fs::path& file, double tolerance) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream stream;
-  stream << in.rdbuf();
-  if (!in || !stream) return error_report(file, "the file cannot be read; check its permissions");
-  const std::string content = stream.str();
-  const std::optional<CadFormat> format = format_of(content);
-  if (!format) {
-    return error_report(
-        file,
-        "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
-        "first line); export the curves as STEP AP214 or IGES");
-  }
-  const std::string missing = incompleteness(content, *format);
-  if (!missing.empty()) return error_report(file, missing);
-  return read_cad_file(file, content, *format, tolerance);
-}
-
 ImportReport report_of(const ChildResult& result, const fs::path& file, const ImportOptions& options) {
   switch (result.status) {
     case ChildResult::Status::finished:
@@ -86,15 +66,14 @@ ImportReport report_of(const ChildResult& result, const fs::path& file, const Im
 
 ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
   if (!(options.tolerance > 0)) {
-    throw std::invalid_argument("tolerance is " + std::to_string(options.tolerance) +
+    throw std::invalid_argument("tolerance is " + text_of(options.tolerance) +
                                 " m; it must be positive");
   }
   const std::string reason = unusable(file, options.size_limit_bytes);
   if (!reason.empty()) return error_report(file, reason);
-  const ChildResult result = run_in_child([&] { return to_bytes(read_in_child(file, options.tolerance)); },
-                                          {options.time_limit, options.memory_limit_bytes});
   try {
-    return report_of(result, file, options);
+    return report_of(asked(ReadRequest{file, options.tolerance}, {options.time_limit, options.memory_limit_bytes}),
+                     file, options);
   } catch (const std::exception& e) {
     return error_report(file,
                         std::string("the reader was damaged by it and sent no valid report: ") + e.what());

@@ -2,6 +2,8 @@
 # and .h in it and its sub-folders (main.cpp, and what the regex matches, apart). Includes go from the root
 # ("nurbs/knot_vector.h"). Each public header must compile alone (target all_verify_interface_header_sets); PRIVATE
 # headers, which show a library that the room hides, are not installed.
+set(nurbeam_warnings -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+
 function(nurbeam_room name)
   cmake_parse_arguments(PARSE_ARGV 1 room "" EXCEPT PRIVATE)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -19,7 +21,7 @@ function(nurbeam_room name)
   add_library(nurbeam::${name} ALIAS nurbeam_${name})
   set_target_properties(nurbeam_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_features(nurbeam_${name} PUBLIC cxx_std_20)
-  target_compile_options(nurbeam_${name} PRIVATE -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_compile_options(nurbeam_${name} PRIVATE ${nurbeam_warnings})
   target_sources(nurbeam_${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
   install(TARGETS nurbeam_${name} EXPORT nurbeam-targets

@@ -3,18 +3,16 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
+#include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <exception>
-#include <new>
+
+#include "cad_import/files/child_message.h"
 
 namespace nurbeam {
 namespace {
@@ -22,78 +20,22 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Status = ChildResult::Status;
 
-// What the child sends: a status byte, the size of the text, the text.
-constexpr char message_done = 'D';
-constexpr char message_failed = 'F';
-constexpr char message_out_of_memory = 'M';
-constexpr std::size_t header_size = 1 + sizeof(std::uint64_t);
-
-void limit(decltype(RLIMIT_CPU) resource, rlim_t soft, rlim_t hard) {
-  const rlimit value{soft, hard};
-  setrlimit(resource, &value);
-}
-
-void apply(const ChildLimits& limits) {
-  const auto seconds = static_cast<rlim_t>(std::max<std::chrono::seconds::rep>(limits.time.count(), 1));
-  limit(RLIMIT_CPU, seconds, seconds + 1);
-  limit(RLIMIT_CORE, 0, 0);
-  if (limits.memory_bytes > 0 && can_limit_memory())
-    limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
-}
-
-void silence_standard_streams() {
-  const int null = open("/dev/null", O_RDWR);
-  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
-}
-
-void close_all_but_standard_streams_and(int descriptor) {
-  close_range(STDERR_FILENO + 1, static_cast<unsigned>(descriptor) - 1, 0);
-  close_range(static_cast<unsigned>(descriptor) + 1, ~0U, 0);
-}
-
-void restore_default_signals() {
-  for (int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGABRT}) {
-    signal(number, SIG_DFL);
+/// A descriptor that is closed with it.
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { reset(); }
+  int get() const { return value_; }
+  void reset() {
+    if (value_ >= 0) close(value_);
+    value_ = -1;
   }
-}
 
-void send(int descriptor, const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t sent = write(descriptor, data, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return;
-    data += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-}
-
-void send_message(int descriptor, char status, const char* text, std::uint64_t size) {
-  char header[header_size] = {status};
-  std::memcpy(header + 1, &size, sizeof size);
-  send(descriptor, header, sizeof header);
-  send(descriptor, text, size);
-}
-
-// Leaves by _exit: neither the destructors nor the buffers of the parent are run twice.
-[[noreturn]] void be_the_child(const std::function<std::string()>& work, const ChildLimits& limits,
-                               int descriptor) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  restore_default_signals();
-  silence_standard_streams();
-  close_all_but_standard_streams_and(descriptor);
-  apply(limits);
-  try {
-    const std::string output = work();
-    send_message(descriptor, message_done, output.data(), output.size());
-  } catch (const std::bad_alloc&) {
-    send_message(descriptor, message_out_of_memory, "", 0);
-  } catch (const std::exception& e) {
-    send_message(descriptor, message_failed, e.what(), std::strlen(e.what()));
-  } catch (...) {
-    send_message(descriptor, message_failed, "unknown exception", 17);
-  }
-  _exit(0);
-}
+ private:
+  int value_;
+};
 
 int milliseconds_until(Clock::time_point deadline) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
@@ -115,10 +57,10 @@ bool receive_until(Clock::time_point deadline, int descriptor, std::string& byte
 }
 
 bool is_complete(const std::string& bytes) {
-  if (bytes.size() < header_size) return false;
+  if (bytes.size() < child_message::header_size) return false;
   std::uint64_t size = 0;
   std::memcpy(&size, bytes.data() + 1, sizeof size);
-  return bytes.size() - header_size == size;
+  return bytes.size() - child_message::header_size == size;
 }
 
 // The status word of the ended child. A child that has closed its end without leaving is killed.
@@ -143,9 +85,9 @@ int wait_for_end(pid_t child, Clock::time_point deadline) {
 }
 
 ChildResult result_of(const std::string& bytes) {
-  const std::string text = bytes.substr(header_size);
-  if (bytes[0] == message_done) return {Status::finished, text, ""};
-  if (bytes[0] == message_out_of_memory) return {Status::out_of_memory, "", ""};
+  const std::string text = bytes.substr(child_message::header_size);
+  if (bytes[0] == child_message::done) return {Status::finished, text, ""};
+  if (bytes[0] == child_message::out_of_memory) return {Status::out_of_memory, "", ""};
   return {Status::failed, "", text};
 }
 
@@ -155,6 +97,70 @@ ChildResult result_of(int wait_status) {
   if (number == SIGXCPU) return {Status::timed_out, "", ""};
   return {Status::crashed, "", strsignal(number)};
 }
+
+// The request in memory, to be read from its start; -1 where that fails.
+int descriptor_with(const std::string& request) {
+  const int descriptor = memfd_create("request", MFD_CLOEXEC);
+  if (descriptor < 0) return -1;
+  for (std::size_t written = 0; written < request.size();) {
+    const ssize_t count = write(descriptor, request.data() + written, request.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      close(descriptor);
+      return -1;
+    }
+    written += static_cast<std::size_t>(count);
+  }
+  lseek(descriptor, 0, SEEK_SET);
+  return descriptor;
+}
+
+// Default actions for the signals that this process may handle, and none blocked.
+class SpawnAttributes {
+ public:
+  SpawnAttributes() {
+    posix_spawnattr_init(&value_);
+    sigset_t handled, none;
+    sigemptyset(&handled);
+    for (int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGABRT})
+      sigaddset(&handled, number);
+    sigemptyset(&none);
+    posix_spawnattr_setsigdefault(&value_, &handled);
+    posix_spawnattr_setsigmask(&value_, &none);
+    posix_spawnattr_setflags(&value_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  }
+  SpawnAttributes(const SpawnAttributes&) = delete;
+  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+  ~SpawnAttributes() { posix_spawnattr_destroy(&value_); }
+  const posix_spawnattr_t* get() const { return &value_; }
+
+ private:
+  posix_spawnattr_t value_;
+};
+
+// The request on the standard input, the answer on its descriptor, and nothing else.
+class SpawnActions {
+ public:
+  SpawnActions(int request, int answer) {
+    posix_spawn_file_actions_init(&value_);
+    // Neither may be overwritten before it is copied.
+    const int spare = std::max({request, answer, child_message::descriptor}) + 1;
+    posix_spawn_file_actions_adddup2(&value_, request, spare);
+    posix_spawn_file_actions_adddup2(&value_, answer, spare + 1);
+    posix_spawn_file_actions_adddup2(&value_, spare, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&value_, spare + 1, child_message::descriptor);
+    for (int stream : {STDOUT_FILENO, STDERR_FILENO})
+      posix_spawn_file_actions_addopen(&value_, stream, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&value_, child_message::descriptor + 1);
+  }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
+  ~SpawnActions() { posix_spawn_file_actions_destroy(&value_); }
+  const posix_spawn_file_actions_t* get() const { return &value_; }
+
+ private:
+  posix_spawn_file_actions_t value_;
+};
 
 }  // namespace
 
@@ -172,21 +178,24 @@ bool can_limit_memory() {
 #endif
 }
 
-ChildResult run_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
+ChildResult run_program(const std::filesystem::path& program, const std::string& request,
+                        const ChildLimits& limits) {
   const Clock::time_point deadline = Clock::now() + limits.time;
+  Descriptor asked(descriptor_with(request));
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return {Status::not_started, "", std::strerror(errno)};
-  const pid_t child = fork();
-  if (child == 0) be_the_child(work, limits, ends[1]);
-  const int fork_error = errno;
-  close(ends[1]);
-  if (child < 0) {
-    close(ends[0]);
-    return {Status::not_started, "", std::strerror(fork_error)};
-  }
+  if (asked.get() < 0 || pipe2(ends, O_CLOEXEC) != 0) return {Status::not_started, "", std::strerror(errno)};
+  Descriptor answer(ends[0]), childs_end(ends[1]);
+  std::string arguments[] = {program.string(), std::to_string(getpid()), std::to_string(limits.time.count()),
+                             std::to_string(limits.memory_bytes)};
+  char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), arguments[3].data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawn(&child, program.c_str(), SpawnActions(asked.get(), childs_end.get()).get(),
+                                SpawnAttributes().get(), argv, environ);
+  childs_end.reset();
+  if (error != 0) return {Status::not_started, "", program.string() + ": " + std::strerror(error)};
   std::string bytes;
-  const bool in_time = receive_until(deadline, ends[0], bytes);
-  close(ends[0]);
+  const bool in_time = receive_until(deadline, answer.get(), bytes);
+  answer.reset();
   const int wait_status = in_time ? wait_for_end(child, deadline) : reap(child);
   if (is_complete(bytes)) return result_of(bytes);
   return in_time ? result_of(wait_status) : ChildResult{Status::timed_out, "", ""};

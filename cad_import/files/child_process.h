@@ -1,7 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstddef>
-#include <functional>
+#include <filesystem>
 #include <string>
 
 namespace nurbeam {
@@ -17,19 +17,20 @@ struct ChildResult {
   enum class Status { finished, failed, out_of_memory, timed_out, crashed, not_started };
 
   Status status;
-  std::string output;     ///< what `work` returned when finished
-  std::string complaint;  ///< the exception text when failed, the signal's name when crashed, errno's when
+  std::string output;     ///< its answer when finished
+  std::string complaint;  ///< the exception text when failed, the signal's name when crashed, the reason when
                           ///< not started
 };
 
 /// Whether this build can limit the address space (a build with the address sanitizer cannot).
 bool can_limit_memory();
 
-/// The string that `work` returns when run in a forked child process under the limits.
+/// The answer of a program that serves one request (child_work.h), run under the limits by posix_spawn: to be called
+/// from any thread.
 ///
-/// The child is silent (standard streams are /dev/null), owns no other descriptor of this process, dies with
-/// it and never returns into it. No zombie and no descriptor is left behind, however the child ends. Never
-/// throws for what happens in the child.
-ChildResult run_in_child(const std::function<std::string()>& work, const ChildLimits& limits);
+/// The child is silent (standard streams are /dev/null), owns no other descriptor of this process and dies with it. No
+/// zombie and no descriptor is left behind, however the child ends. Never throws for what happens in the child.
+ChildResult run_program(const std::filesystem::path& program, const std::string& request,
+                        const ChildLimits& limits);
 
 }  // namespace nurbeam

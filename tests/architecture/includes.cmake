@@ -14,7 +14,7 @@ set(cad_import_may_include cad_import nurbs)
 set(pipelines_may_include pipelines cad_import fem nurbs solver)
 
 set(nurbs_floors . smooth)
-set(cad_import_floors report files occt iges step .)
+set(cad_import_floors report files . occt iges step program)
 set(solver_floors .)
 set(fem_floors material element comparison structure mesh constraints forces model system motion)
 set(pipelines_floors diagnostics case section model results report run verification papers command)
@@ -23,8 +23,8 @@ set(pipelines_floors diagnostics case section model results report run verificat
 set(homes
   "[a-z_]+"                                                                       ".*"  # the standard library
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
-  "(fcntl|poll|signal|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
-  "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(.*\\.cpp|occt/edge_curve\\.h)"
+  "(fcntl|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
+  "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/((occt|iges|step|program)/.*\\.cpp|occt/edge_curve\\.h)"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"

@@ -26,7 +26,7 @@
 #include <string>
 
 #include "cad_import/import_curves.h"
-#include "cad_import/read_cad_file.h"
+#include "cad_import/program/read_cad_file.h"
 #include "tests/fuzz/mutation.h"
 
 namespace nurbeam {

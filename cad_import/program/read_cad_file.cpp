@@ -1,4 +1,4 @@
-#include "cad_import/read_cad_file.h"
+#include "cad_import/program/read_cad_file.h"
 
 #include <BRep_Tool.hxx>
 #include <IGESControl_Controller.hxx>

@@ -1,0 +1,29 @@
+#include "cad_import/files/cad_program.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nurbeam {
+
+std::filesystem::path cad_program() {
+  namespace fs = std::filesystem;
+  constexpr const char* name = "nurbeam-cad";
+  std::vector<fs::path> places;
+  if (const char* named = std::getenv("NURBEAM_CAD")) places.emplace_back(named);
+  std::error_code error;
+  const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (!error)
+    for (const char* folder : {".", "../libexec/nurbeam", "../cad_import", "../../cad_import"})
+      places.push_back(own / folder / name);
+  places.push_back(fs::path(NURBEAM_LIBEXEC) / name);
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place, error)) return place;
+  std::string tried;
+  for (const fs::path& place : places) tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
+  throw std::runtime_error("the program nurbeam-cad, which reads and writes CAD files, is in none of " + tried +
+                           "; install it, or name it by the environment variable NURBEAM_CAD");
+}
+
+}  // namespace nurbeam

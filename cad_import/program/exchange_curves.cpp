@@ -1,0 +1,324 @@
+#include "cad_import/program/exchange_curves.h"
+
+#include <BRep_Tool.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <OSD.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_ErrorHandler.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "cad_import/files/cad_format.h"
+#include "cad_import/occt/edge_curve.h"
+#include "cad_import/step/step_instances.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr double millimetres_per_metre = 1000;
+constexpr double import_tolerance = 1e-7;  ///< of ImportOptions [m]
+
+/// An edge as OpenCASCADE made it, and the instance it is made of.
+struct FoundEdge {
+  TopoDS_Edge edge;
+  int instance;
+  bool free;
+  int places;  // how often its part is placed
+};
+
+bool is_same(const NurbsCurve& a, const NurbsCurve& b) {
+  return a.knots() == b.knots() && a.control_points() == b.control_points();
+}
+
+int instance_of(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
+  for (int i = 1; i <= process->NbMapped(); ++i) {
+    const TopoDS_Shape result = TransferBRep::ShapeResult(process, process->Mapped(i));
+    if (result.IsNull() || result.ShapeType() != TopAbs_EDGE || result.TShape() != edge.TShape()) continue;
+    const int label = model->IdentLabel(process->Mapped(i));
+    if (label > 0) return label;
+  }
+  throw std::runtime_error("OpenCASCADE does not tell which instance of the file an edge came from");
+}
+
+FoundEdge find_edge(const NurbsCurve& drawn, const std::string& name, const STEPControl_Reader& reader,
+                    const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    try {
+      if (!is_same(imported_curve(edge, import_tolerance).curve, drawn)) continue;
+    } catch (const std::exception&) {
+      continue;  // no valid curve, and so none that import_curves() gave
+    }
+    int places = 0;
+    for (int k = 1; k <= faces.Extent(); ++k) places += faces.FindKey(k).TShape() == edge.TShape();
+    return {edge, instance_of(edge, reader), faces(i).IsEmpty(), places};
+  }
+  throw std::runtime_error("the curve '" + name + "' is not in the file as it was when it was imported");
+}
+
+// ---------------------------------------------------------------------------------------- representation
+
+bool is_shape_representation(const StepInstances& step, int number) {
+  return step.keyword(number).ends_with("SHAPE_REPRESENTATION");
+}
+
+/// The shape representation that holds an instance.
+int representation_of(int instance, const StepInstances& step) {
+  std::set<int> seen;
+  std::vector<int> open{instance};
+  while (!open.empty()) {
+    const int number = open.back();
+    open.pop_back();
+    if (is_shape_representation(step, number)) return number;
+    if (!seen.insert(number).second) continue;
+    for (const int user : step.users(number)) open.push_back(user);
+  }
+  throw std::runtime_error("no shape representation holds #" + std::to_string(instance));
+}
+
+/// The representation of the product that `representation` belongs to: itself, or the one it is related to.
+int of_product(int representation, const StepInstances& step) {
+  const auto defines_product = [&](int number) {
+    const std::vector<int>& users = step.users(number);
+    return std::any_of(users.begin(), users.end(),
+                       [&](int user) { return step.keyword(user) == "SHAPE_DEFINITION_REPRESENTATION"; });
+  };
+  if (defines_product(representation)) return representation;
+  for (const int user : step.users(representation))
+    if (step.keyword(user) == "SHAPE_REPRESENTATION_RELATIONSHIP")
+      for (const int other : step.references(user))
+        if (other != representation && is_shape_representation(step, other) && defines_product(other))
+          return other;
+  return representation;
+}
+
+int context_of(int representation, const StepInstances& step) {
+  return step.references(representation).back();
+}
+
+/// The length unit of a representation context [mm].
+double unit_of(int context, const StepData_StepModel& model) {
+  using Certain = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
+  using Plain = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (model.IdentLabel(model.Value(i)) != context) continue;
+    Handle(StepRepr_GlobalUnitAssignedContext) units;
+    if (const auto certain = Handle(Certain)::DownCast(model.Value(i)))
+      units = certain->GlobalUnitAssignedContext();
+    if (const auto plain = Handle(Plain)::DownCast(model.Value(i)))
+      units = plain->GlobalUnitAssignedContext();
+    STEPConstruct_UnitContext factors;
+    if (!units.IsNull()) factors.ComputeFactors(units);
+    if (!units.IsNull() && factors.LengthDone()) return factors.LengthFactor();
+  }
+  return 1;  // import_curves() takes a file without unit for one in millimetres, too
+}
+
+// ------------------------------------------------------------------------------------------ text of a curve
+
+std::string real(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17E", value);
+  return text;
+}
+
+template <typename Items, typename Text>
+std::string list_of(const Items& items, const Text& text) {
+  std::string list = "(";
+  for (const auto& item : items) list += (list.size() > 1 ? "," : "") + text(item);
+  return list + ")";
+}
+
+int add_point(const Eigen::Vector3d& point, StepInstances& step) {
+  return step.add("CARTESIAN_POINT(''," + list_of(point, real) + ")");
+}
+
+/// The value of a B-spline instance; its points are added. ISO 10303-42: b_spline_curve_with_knots, in a
+/// complex instance with rational_b_spline_curve where the weights differ.
+std::string bspline_value(const NurbsCurve& curve, const std::string& encoded_name, StepInstances& step) {
+  const auto reference = [](int number) { return "#" + std::to_string(number); };
+  std::vector<int> points;
+  std::vector<double> weights;
+  for (const auto& column : curve.control_points().colwise()) {
+    points.push_back(add_point(column.head<3>() / column(3), step));
+    weights.push_back(column(3));
+  }
+  std::vector<double> knots = curve.knots().knots();
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+  const std::string form =
+      std::to_string(curve.degree()) + "," + list_of(points, reference) + ",.UNSPECIFIED.,.F.,.F.";
+  const std::string knot_lists =
+      list_of(knots, [&](double u) { return std::to_string(curve.knots().multiplicity(u)); }) + "," +
+      list_of(knots, real) + ",.UNSPECIFIED.";
+  const std::string name = "'" + encoded_name + "'";
+  if (!curve.is_rational()) return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + form + "," + knot_lists + ")";
+  return "(BOUNDED_CURVE()B_SPLINE_CURVE(" + form + ")B_SPLINE_CURVE_WITH_KNOTS(" + knot_lists +
+         ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + list_of(weights, real) +
+         ")REPRESENTATION_ITEM(" + name + "))";
+}
+
+/// The curve in the coordinates and the unit [mm] of the part that holds the edge.
+NurbsCurve in_part(const NurbsCurve& world, const TopoDS_Edge& edge, double unit) {
+  const gp_Trsf to_part = edge.Location().Transformation().Inverted();
+  Eigen::Matrix4Xd points = world.control_points();
+  for (auto column : points.colwise()) {
+    const Eigen::Vector3d p = millimetres_per_metre / column(3) * column.head<3>();
+    const gp_Pnt moved = gp_Pnt(p.x(), p.y(), p.z()).Transformed(to_part);
+    column.head<3>() = column(3) / unit * Eigen::Vector3d(moved.X(), moved.Y(), moved.Z());
+  }
+  return {world.knots(), std::move(points)};
+}
+
+// ---------------------------------------------------------------------------------------------- exchange
+
+/// The instance that holds the curve from now on: `was`, so that styles and layers attached to it are those
+/// of the curve, or a new one where other geometry is made of `was`, too.
+int put_in_place(int was, const NurbsCurve& curve, StepInstances& step) {
+  const std::string value = bspline_value(curve, step.encoded_name(was), step);
+  const std::vector<int>& users = step.users(was);
+  const auto is_geometry = [&](int user) {
+    const std::string keyword = step.keyword(user);
+    return !keyword.ends_with("STYLED_ITEM") && keyword != "PRESENTATION_LAYER_ASSIGNMENT";
+  };
+  if (std::count_if(users.begin(), users.end(), is_geometry) > 1) return step.add(value);
+  step.replace(was, value);
+  return was;
+}
+
+void exchange(int instance, const NurbsCurve& curve, StepInstances& step) {
+  const std::string kind = step.keyword(instance), name = "'" + step.encoded_name(instance) + "',";
+  const auto number = [](int n) { return "#" + std::to_string(n); };
+  const double start = curve.knots().start(), end = curve.knots().end();
+  if (kind == "EDGE_CURVE") {  // vertex, vertex, geometry
+    const int geometry = put_in_place(step.references(instance).at(2), curve, step);
+    const auto vertex = [&](double u) {
+      return number(step.add("VERTEX_POINT(''," + number(add_point(curve.point(u), step)) + ")")) + ",";
+    };
+    const std::string first = vertex(start);
+    const std::string last = is_closed(curve, 1e-12 * length(curve)) ? first : vertex(end);
+    step.replace(instance, "EDGE_CURVE(" + name + first + last + number(geometry) + ",.T.)");
+  } else if (kind == "TRIMMED_CURVE") {
+    const int basis = put_in_place(step.references(instance).at(0), curve, step);
+    const auto trim = [](double u) { return "(PARAMETER_VALUE(" + real(u) + ")),"; };
+    step.replace(instance, "TRIMMED_CURVE(" + name + number(basis) + "," + trim(start) + trim(end) +
+                               ".T.,.PARAMETER.)");
+  } else {
+    step.replace(instance, bspline_value(curve, step.encoded_name(instance), step));
+  }
+}
+
+void add_beside(int representation, const NurbsCurve& curve, const std::string& name, StepInstances& step) {
+  const auto number = [](int n) { return "#" + std::to_string(n); };
+  const std::string context = number(context_of(representation, step));
+  const int geometry = step.add(bspline_value(curve, name, step));
+  const int set = step.add("GEOMETRIC_CURVE_SET('" + name + "',(" + number(geometry) + "))");
+  const int wires = step.add("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('" + name + "',(" +
+                             number(set) + ")," + context + ")");
+  step.add("SHAPE_REPRESENTATION_RELATIONSHIP('" + name + "',''," + number(of_product(representation, step)) +
+           "," + number(wires) + ")");
+}
+
+/// A name as it stands in a STEP file, if it is of ASCII letters only; others are left out, as the curve's
+/// own name is known from where it stands.
+std::string encoded(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (static_cast<unsigned char>(c) >= 0x80) continue;
+    text += c;
+    if (c == '\'' || c == '\\') text += c;
+  }
+  return text;
+}
+
+/// Why the curve cannot change where it stands; "" if it can.
+std::string obstacle(const DeformedCurve& wanted, const FoundEdge& found, const StepInstances& step) {
+  if (wanted.beside) return "the beam is a chain of several curves";
+  if (!found.free) return "the edge bounds faces, which do not move with it";
+  for (const int user : step.users(found.instance))
+    if (const std::string kind = step.keyword(user);
+        kind == "TRIMMED_CURVE" || kind == "EDGE_CURVE" || kind == "OFFSET_CURVE_3D")
+      return "#" + std::to_string(user) + " is made of the same curve";
+  return "";
+}
+
+std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
+                               const TopoDS_Shape& shape, StepInstances& step) {
+  const FoundEdge found = find_edge(wanted.drawn, wanted.name, reader, shape);
+  const int representation = representation_of(found.instance, step);
+  const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
+  const double unit = unit_of(context_of(representation, step), *model);
+  const NurbsCurve curve = in_part(wanted.deformed, found.edge, unit);
+  const std::string label = "#" + std::to_string(found.instance) + " '" + wanted.name + "': ";
+  std::vector<std::string> warnings;
+  if (const std::string reason = obstacle(wanted, found, step); !reason.empty()) {
+    add_beside(representation, curve, encoded(wanted.name), step);
+    warnings.push_back(label + reason + "; the deformed curve was added beside it");
+  } else {
+    const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;
+    exchange(found.instance, backwards ? curve.reversed() : curve, step);
+  }
+  if (found.places > 1)
+    warnings.push_back(label + "its part stands at " + std::to_string(found.places) +
+                       " places; the deformed curve shows at each of them");
+  return warnings;
+}
+
+}  // namespace
+
+Exchanged exchange_curves(const std::filesystem::path& source, const std::vector<DeformedCurve>& curves) {
+  std::ifstream in(source, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (!in || format_of(content.str()) != CadFormat::step)
+    throw std::runtime_error("it cannot be read as a STEP file; only into one can curves be written back");
+  OSD::SetSignal(Standard_False);
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+  try {
+    OCC_CATCH_SIGNALS
+    STEPControl_Controller::Init();
+    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+    STEPControl_Reader reader;
+    if (reader.ReadFile(source.c_str()) != IFSelect_RetDone)
+      throw std::runtime_error("OpenCASCADE cannot read it");
+    reader.TransferRoots();
+    StepInstances step(content.str());
+    Exchanged result;
+    for (const DeformedCurve& curve : curves) {
+      const std::vector<std::string> warnings = place(curve, reader, reader.OneShape(), step);
+      result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+    }
+    result.text = step.text();
+    return result;
+  } catch (const Standard_Failure& e) {
+    throw std::runtime_error(std::string("OpenCASCADE failed: ") + e.GetMessageString());
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,62 @@
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "cad_import/files/cad_format.h"
+#include "cad_import/files/child_work.h"
+#include "cad_import/iges/iges_text.h"
+#include "cad_import/program/exchange_curves.h"
+#include "cad_import/program/read_cad_file.h"
+#include "cad_import/report/report_bytes.h"
+#include "cad_import/report/request.h"
+#include "cad_import/step/step_text.h"
+
+/// nurbeam-cad: reads and writes CAD files for nurbeam, one request a process. A bad file may crash it.
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+ImportReport refusal(const fs::path& file, const std::string& message) {
+  ImportReport report;
+  report.file = file.string();
+  report.diagnostics.push_back({Severity::error, report.file, message});
+  return report;
+}
+
+ImportReport read_file(const fs::path& file, double tolerance) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream stream;
+  stream << in.rdbuf();
+  if (!in || !stream) return refusal(file, "the file cannot be read; check its permissions");
+  const std::string content = stream.str();
+  const std::optional<CadFormat> format = format_of(content);
+  if (!format) {
+    return refusal(
+        file,
+        "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
+        "first line); export the curves as STEP AP214 or IGES");
+  }
+  const std::string missing = incompleteness(content, *format);
+  if (!missing.empty()) return refusal(file, missing);
+  return read_cad_file(file, content, *format, tolerance);
+}
+
+std::string answer(const ReadRequest& request) { return to_bytes(read_file(request.file, request.tolerance)); }
+std::string answer(const WriteCurvesRequest& request) {
+  return request.step ? step_text(request.curves, request.unit) : iges_text(request.curves, request.unit);
+}
+std::string answer(const WriteSolidsRequest& request) { return step_solid_text(request.pipes, request.unit); }
+std::string answer(const ExchangeRequest& request) {
+  return to_bytes(exchange_curves(request.source, request.curves));
+}
+
+}  // namespace
+}  // namespace nurbeam
+
+int main(int argc, char** argv) {
+  return nurbeam::serve_one_request(argc, argv, [](const std::string& bytes) {
+    return std::visit([](const auto& request) { return nurbeam::answer(request); },
+                      nurbeam::request_from_bytes(bytes));
+  });
+}

@@ -1,0 +1,125 @@
+#include "cad_import/report/request.h"
+
+#include "cad_import/report/bytes.h"
+
+namespace nurbeam {
+namespace {
+
+void write(ByteWriter& out, const NamedCurve& curve) {
+  out.text(curve.name);
+  nurbeam::write(out, curve.curve);
+}
+NamedCurve read_named_curve(ByteReader& in) {
+  std::string name = in.text();
+  return {std::move(name), read_nurbs_curve(in)};
+}
+
+void write(ByteWriter& out, const NamedPipe& pipe) {
+  write(out, pipe.axis);
+  out.number(pipe.radius);
+  out.number(pipe.bore);
+}
+NamedPipe read_named_pipe(ByteReader& in) {
+  NamedCurve axis = read_named_curve(in);
+  const double radius = in.number<double>();
+  return {std::move(axis), radius, in.number<double>()};
+}
+
+void write(ByteWriter& out, const DeformedCurve& curve) {
+  nurbeam::write(out, curve.drawn);
+  nurbeam::write(out, curve.deformed);
+  out.text(curve.name);
+  out.number(curve.beside);
+}
+DeformedCurve read_deformed_curve(ByteReader& in) {
+  NurbsCurve drawn = read_nurbs_curve(in), deformed = read_nurbs_curve(in);
+  std::string name = in.text();
+  return {std::move(drawn), std::move(deformed), std::move(name), in.number<char>() != 0};
+}
+
+template <class Item>
+void write_list(ByteWriter& out, const std::vector<Item>& items) {
+  out.count(items.size());
+  for (const Item& item : items) write(out, item);
+}
+template <class Read>
+auto read_list(ByteReader& in, Read read) {
+  std::vector<decltype(read(in))> items;
+  const std::size_t count = in.count(1);
+  for (std::size_t i = 0; i < count; ++i) items.push_back(read(in));
+  return items;
+}
+
+void write(ByteWriter& out, const ReadRequest& request) {
+  out.text(request.file.string());
+  out.number(request.tolerance);
+}
+void write(ByteWriter& out, const WriteCurvesRequest& request) {
+  out.number(request.step);
+  out.number(static_cast<int>(request.unit));
+  write_list(out, request.curves);
+}
+void write(ByteWriter& out, const WriteSolidsRequest& request) {
+  out.number(static_cast<int>(request.unit));
+  write_list(out, request.pipes);
+}
+void write(ByteWriter& out, const ExchangeRequest& request) {
+  out.text(request.source.string());
+  write_list(out, request.curves);
+}
+
+LengthUnit read_unit(ByteReader& in) {
+  const int unit = in.number<int>();
+  if (unit < 0 || unit > static_cast<int>(LengthUnit::inch)) ByteReader::fail();
+  return static_cast<LengthUnit>(unit);
+}
+
+}  // namespace
+
+std::string to_bytes(const CadRequest& request) {
+  ByteWriter out;
+  out.count(request.index());
+  std::visit([&](const auto& asked) { write(out, asked); }, request);
+  return std::move(out).bytes();
+}
+
+CadRequest request_from_bytes(const std::string& bytes) {
+  ByteReader in(bytes);
+  switch (in.number<std::uint64_t>()) {
+    case 0: {
+      std::string file = in.text();
+      return ReadRequest{std::move(file), in.number<double>()};
+    }
+    case 1: {
+      const bool step = in.number<char>() != 0;
+      const LengthUnit unit = read_unit(in);
+      return WriteCurvesRequest{step, read_list(in, read_named_curve), unit};
+    }
+    case 2: {
+      const LengthUnit unit = read_unit(in);
+      return WriteSolidsRequest{read_list(in, read_named_pipe), unit};
+    }
+    case 3: {
+      std::string source = in.text();
+      return ExchangeRequest{std::move(source), read_list(in, read_deformed_curve)};
+    }
+    default:
+      ByteReader::fail();
+  }
+}
+
+std::string to_bytes(const Exchanged& exchanged) {
+  ByteWriter out;
+  out.count(exchanged.warnings.size());
+  for (const std::string& warning : exchanged.warnings) out.text(warning);
+  out.text(exchanged.text);
+  return std::move(out).bytes();
+}
+
+Exchanged exchanged_from_bytes(const std::string& bytes) {
+  ByteReader in(bytes);
+  std::vector<std::string> warnings = read_list(in, [](ByteReader& from) { return from.text(); });
+  return {std::move(warnings), in.text()};
+}
+
+}  // namespace nurbeam
