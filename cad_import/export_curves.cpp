@@ -51,9 +51,9 @@ void check_pipe(const NamedPipe& pipe) {
     throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + text_of(pipe.radius) +
                                 " m; it must be positive");
   if (!(pipe.bore >= 0 && pipe.bore < pipe.radius))
-    throw std::invalid_argument(
-        "the bore of '" + pipe.axis.name + "' has the radius " + text_of(pipe.bore) +
-        " m; it must be from 0 to below that of the pipe, " + text_of(pipe.radius) + " m");
+    throw std::invalid_argument("the bore of '" + pipe.axis.name + "' has the radius " + text_of(pipe.bore) +
+                                " m; it must be from 0 to below that of the pipe, " + text_of(pipe.radius) +
+                                " m");
 }
 
 }  // namespace
@@ -81,8 +81,9 @@ std::optional<Diagnostic> export_solids(const fs::path& file, const std::vector<
     write_at_once(file, result.output);
     return std::nullopt;
   }
-  return Diagnostic{Severity::error, file.string(),
-                    "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"};
+  return Diagnostic{
+      Severity::error, file.string(),
+      "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"};
 }
 
 }  // namespace nurbeam

@@ -66,14 +66,14 @@ ImportReport report_of(const ChildResult& result, const fs::path& file, const Im
 
 ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
   if (!(options.tolerance > 0)) {
-    throw std::invalid_argument("tolerance is " + text_of(options.tolerance) +
-                                " m; it must be positive");
+    throw std::invalid_argument("tolerance is " + text_of(options.tolerance) + " m; it must be positive");
   }
   const std::string reason = unusable(file, options.size_limit_bytes);
   if (!reason.empty()) return error_report(file, reason);
   try {
-    return report_of(asked(ReadRequest{file, options.tolerance}, {options.time_limit, options.memory_limit_bytes}),
-                     file, options);
+    return report_of(
+        asked(ReadRequest{file, options.tolerance}, {options.time_limit, options.memory_limit_bytes}), file,
+        options);
   } catch (const std::exception& e) {
     return error_report(file,
                         std::string("the reader was damaged by it and sent no valid report: ") + e.what());

@@ -24,7 +24,9 @@ function(nurbeam_room name)
   target_compile_options(nurbeam_${name} PRIVATE ${nurbeam_warnings})
   target_sources(nurbeam_${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
-  install(TARGETS nurbeam_${name} EXPORT nurbeam-targets
+  install(TARGETS nurbeam_${name} EXPORT nurbeam-${name}-targets COMPONENT dev
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nurbeam)
+  install(EXPORT nurbeam-${name}-targets NAMESPACE nurbeam:: COMPONENT dev
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/nurbeam)
 endfunction()

@@ -21,9 +21,10 @@ std::filesystem::path cad_program() {
   for (const fs::path& place : places)
     if (fs::is_regular_file(place, error)) return place;
   std::string tried;
-  for (const fs::path& place : places) tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
-  throw std::runtime_error("the program nurbeam-cad, which reads and writes CAD files, is in none of " + tried +
-                           "; install it, or name it by the environment variable NURBEAM_CAD");
+  for (const fs::path& place : places)
+    tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
+  throw std::runtime_error("the program nurbeam-cad, which reads and writes CAD files, is in none of " +
+                           tried + "; install it, or name it by the environment variable NURBEAM_CAD");
 }
 
 }  // namespace nurbeam

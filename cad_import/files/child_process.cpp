@@ -187,7 +187,8 @@ ChildResult run_program(const std::filesystem::path& program, const std::string&
   Descriptor answer(ends[0]), childs_end(ends[1]);
   std::string arguments[] = {program.string(), std::to_string(getpid()), std::to_string(limits.time.count()),
                              std::to_string(limits.memory_bytes)};
-  char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), arguments[3].data(), nullptr};
+  char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), arguments[3].data(),
+                  nullptr};
   pid_t child = 0;
   const int error = posix_spawn(&child, program.c_str(), SpawnActions(asked.get(), childs_end.get()).get(),
                                 SpawnAttributes().get(), argv, environ);

@@ -25,11 +25,12 @@ struct ChildResult {
 /// Whether this build can limit the address space (a build with the address sanitizer cannot).
 bool can_limit_memory();
 
-/// The answer of a program that serves one request (child_work.h), run under the limits by posix_spawn: to be called
-/// from any thread.
+/// The answer of a program that serves one request (child_work.h), run under the limits by posix_spawn: to be
+/// called from any thread.
 ///
-/// The child is silent (standard streams are /dev/null), owns no other descriptor of this process and dies with it. No
-/// zombie and no descriptor is left behind, however the child ends. Never throws for what happens in the child.
+/// The child is silent (standard streams are /dev/null), owns no other descriptor of this process and dies
+/// with it. No zombie and no descriptor is left behind, however the child ends. Never throws for what happens
+/// in the child.
 ChildResult run_program(const std::filesystem::path& program, const std::string& request,
                         const ChildLimits& limits);
 

@@ -42,7 +42,9 @@ ImportReport read_file(const fs::path& file, double tolerance) {
   return read_cad_file(file, content, *format, tolerance);
 }
 
-std::string answer(const ReadRequest& request) { return to_bytes(read_file(request.file, request.tolerance)); }
+std::string answer(const ReadRequest& request) {
+  return to_bytes(read_file(request.file, request.tolerance));
+}
 std::string answer(const WriteCurvesRequest& request) {
   return request.step ? step_text(request.curves, request.unit) : iges_text(request.curves, request.unit);
 }

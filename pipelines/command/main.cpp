@@ -2,11 +2,11 @@
 #include <iostream>
 
 #include "pipelines/command/command_line.h"
+#include "pipelines/diagnostics/exit_code.h"
 
 int main(int count, char** words) {
   const int code = nurbeam::run_command_line({words + 1, words + count}, std::cout, std::cerr);
-  constexpr int not_written = 4;
-  if (code == not_written) {
+  if (code == nurbeam::exit_not_written) {
     // HDF5 would try once more at exit to write what it could not write, and crash.
     std::cout.flush();
     std::cerr.flush();

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "fem/motion/simulation.h"
+#include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
@@ -25,8 +26,6 @@
 namespace nurbeam {
 
 namespace {
-
-enum ExitCode { done = 0, bad_input = 2, not_converged = 3, not_written = 4, interrupted = 130 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -92,16 +91,16 @@ std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationRepo
   return Diagnostic{Severity::warning, c.path.string() + ": analysis", message.str()};
 }
 
-ExitCode exit_code(SimulationStatus status) {
+ExitCode exit_code_of(SimulationStatus status) {
   switch (status) {
     case SimulationStatus::done:
-      return done;
+      return exit_done;
     case SimulationStatus::not_converged:
-      return not_converged;
+      return exit_not_converged;
     case SimulationStatus::interrupted:
-      return interrupted;
+      return exit_interrupted;
   }
-  return not_converged;
+  return exit_not_converged;
 }
 
 // What a restart point belongs to: the program, the case with its overrides, the CAD files.
@@ -166,7 +165,7 @@ class Run {
     if (simulated.status != SimulationStatus::done)
       tell(case_.path.string() + ": error: " + outcome_text(simulated, built_.model));
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
-    return exit_code(simulated.status);
+    return exit_code_of(simulated.status);
   }
 
  private:
@@ -258,11 +257,11 @@ int run_case(const CaseFile& c, const RunOptions& options) {
   if (options.resume && !std::filesystem::exists(restart_file(options.out))) {
     std::cerr << "error: " << restart_file(options.out).string()
               << ": does not exist: there is no run to resume; run without --resume\n";
-    return bad_input;
+    return exit_bad_input;
   }
   const BuildReport report = build_model(c);
   print_diagnostics(std::cerr, report.diagnostics);
-  if (!report.value) return bad_input;
+  if (!report.value) return exit_bad_input;
 
   RunSummary summary;
   summary.version = NURBEAM_VERSION;
@@ -277,17 +276,17 @@ int run_case(const CaseFile& c, const RunOptions& options) {
     return Run(c, report, options, std::move(summary)).play();
   } catch (const UnusableCheckpoint& problem) {
     std::cerr << "error: " << problem.what() << "\n";
-    return bad_input;
+    return exit_bad_input;
   } catch (const std::runtime_error& problem) {
     std::cerr << "error: " << problem.what() << "\n";
-    return not_written;
+    return exit_not_written;
   }
 }
 
 int check_case(const CaseFile& c) {
   const BuildReport report = build_model(c);
   print_diagnostics(std::cerr, report.diagnostics);
-  if (!report.value) return bad_input;
+  if (!report.value) return exit_bad_input;
   const BeamModel& model = report.value->model;
   const int dofs = make_mesh(model, initial_plan(model)).coordinate_count;
   std::printf("case      %s\n", c.name.c_str());
@@ -331,7 +330,7 @@ int check_case(const CaseFile& c) {
   std::printf("supports  %td, point loads %td, distributed loads %td\n",
               std::count_if(model.constraints.begin(), model.constraints.end(), is_support),
               std::ssize(model.forces) - line_loads, line_loads);
-  return done;
+  return exit_done;
 }
 
 }  // namespace nurbeam

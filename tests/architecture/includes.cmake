@@ -29,6 +29,7 @@ set(homes
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
+  "CLI/.*"                                                                        "pipelines/command/command_line\\.cpp"
   "CGAL/.*"                                                                       "pipelines/section/with_cgal\\.cpp"
   "openssl/.*"                                                                    "pipelines/results/(file_hash|base64)\\.cpp")
 

@@ -1,0 +1,278 @@
+#include "pipelines/command/commands.h"
+
+#include <charconv>
+#include <cmath>
+#include <ostream>
+
+#include "pipelines/case/case_file.h"
+#include "pipelines/case/quantity.h"
+#include "pipelines/command/compare.h"
+#include "pipelines/command/inspect.h"
+#include "pipelines/command/manual.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/papers/papers.h"
+#include "pipelines/report/report.h"
+#include "pipelines/results/export_results.h"
+#include "pipelines/run/run.h"
+#include "pipelines/run/signals.h"
+#include "pipelines/verification/verify.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// A number in SI units or a text with a unit.
+double quantity_argument(const std::string& option, const std::string& text, Dimension dimension) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) {
+    return number;
+  }
+  const ParsedQuantity quantity = parse_quantity(text, dimension);
+  if (!quantity.value) {
+    throw UsageError(option + ": " + quantity.error);
+  }
+  return *quantity.value;
+}
+
+int inspect_command(const Arguments& arguments, Streams streams) {
+  if (arguments.has("--profile")) {
+    if (arguments.has("--json")) {
+      throw UsageError("--profile and --json exclude each other");
+    }
+    return inspect_profiles({arguments.positional.begin(), arguments.positional.end()}, streams.out,
+                            streams.err);
+  }
+  return inspect_files({arguments.positional.begin(), arguments.positional.end()}, arguments.has("--json"),
+                       streams.out, streams.err);
+}
+
+/// The case with its overrides; its diagnostics are printed.
+std::optional<CaseFile> read_case(const Arguments& arguments, Streams streams) {
+  CaseFileReport report = read_case_file(arguments.positional[0], arguments.values("--set"));
+  print_diagnostics(streams.err, report.diagnostics);
+  return std::move(report.value);
+}
+
+int check_command(const Arguments& arguments, Streams streams) {
+  const auto case_file = read_case(arguments, streams);
+  return case_file ? check_case(*case_file) : exit_bad_input;
+}
+
+int run_command(const Arguments& arguments, Streams streams) {
+  if (arguments.value("--out", "results").empty()) {
+    throw UsageError("--out: is empty; give the directory for the results");
+  }
+  const BrokenPipeGuard guard;  // a run outlives the reader of its messages
+  const auto case_file = read_case(arguments, streams);
+  if (!case_file) {
+    return exit_bad_input;
+  }
+  const std::string default_out = case_file->path.stem().string() + "_results";
+  return run_case(*case_file, {.out = arguments.value("--out", default_out),
+                               .quiet = arguments.has("--quiet"),
+                               .resume = arguments.has("--resume")});
+}
+
+std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time,
+                                                        CurveParameter parameter) {
+  try {
+    return stored_curves(directory, time, parameter);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());  // what cannot be read is bad input
+  }
+}
+
+CurveParameter curve_parameter(const std::string& name) {
+  if (name == "free") return CurveParameter::free;
+  if (name == "material") return CurveParameter::material;
+  throw UsageError("--parameter: there is no " + in_quotes(name) + known_names(name, {"free", "material"}));
+}
+
+int export_command(const Arguments& arguments, Streams streams) {
+  const double time = quantity_argument("--time", arguments.value("--time", ""), Dimension::time);
+  const std::string file = arguments.value("--to", "");
+  const LengthUnit unit = parse_length_unit(arguments.value("--unit", "mm"));
+  const CurveParameter parameter = curve_parameter(arguments.value("--parameter", "free"));
+  const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
+  if (arguments.has("--solid")) {
+    const double radius = quantity_argument("--solid", arguments.value("--solid", ""), Dimension::length);
+    const double bore = quantity_argument("--bore", arguments.value("--bore", "0"), Dimension::length);
+    std::vector<NamedPipe> pipes;
+    for (const NamedCurve& curve : curves) pipes.push_back({curve, radius, bore});
+    if (const auto problem = export_solids(file, pipes, unit)) {
+      print_diagnostics(streams.err, {*problem});
+      return exit_not_written;
+    }
+  } else if (arguments.has("--bore")) {
+    throw UsageError("--bore: is the bore of a solid; give its radius with --solid");
+  } else {
+    export_curves(file, curves, unit);
+  }
+  streams.err << "note: " << file << ": the curves at " << stored_time << " s, the stored time nearest to "
+              << time << " s\n";
+  return exit_done;
+}
+
+int compare_command(const Arguments& arguments, Streams streams) {
+  const double tolerance =
+      quantity_argument("--tolerance", arguments.value("--tolerance", "1e-6"), Dimension::length);
+  if (!(tolerance > 0)) {
+    throw UsageError("--tolerance: is " + arguments.value("--tolerance", "") + "; must be greater than 0");
+  }
+  return compare_files(arguments.positional[0], arguments.positional[1], tolerance, streams.out, streams.err);
+}
+
+int schema_command(const Arguments& arguments, Streams streams) {
+  const std::string what = arguments.positional.empty() ? "case" : arguments.positional[0];
+  if (what == "study") {
+    throw UsageError("the schema \"study\" is not available in this version; available: \"case\"");
+  }
+  if (what != "case") {
+    throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case"}));
+  }
+  streams.out << case_file_schema();
+  return exit_done;
+}
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) {
+    names.push_back(item.name);
+  }
+  return names;
+}
+
+int verify_command(const Arguments& arguments, Streams streams) {
+  const std::string part = arguments.positional.empty() ? "" : arguments.positional[0];
+  if (part == "papers") {
+    write_papers(arguments.value("--out", "papers"), streams.err);
+    return exit_done;
+  }
+  std::vector<VerifyProblem> problems = verification_problems();
+  const std::vector<std::string> names = names_of(problems);
+  std::erase_if(problems,
+                [&](const VerifyProblem& problem) { return problem.name.find(part) == std::string::npos; });
+  if (problems.empty()) {
+    throw UsageError("no problem has " + in_quotes(part) + " in its name" + known_names(part, names));
+  }
+  return verify(problems, streams.out, streams.err);
+}
+
+int report_command(const Arguments& arguments, Streams streams) {
+  const std::filesystem::path directory = arguments.positional[0];
+  write_report(directory);
+  streams.err << "note: " << (directory / "report.html").string() << " written\n";
+  return exit_done;
+}
+
+int unavailable_command(const Arguments&, Streams) {
+  throw UsageError("this command is not available in this version");
+}
+
+int completion_command(const Arguments& arguments, Streams streams) {
+  const std::string shell = arguments.positional.empty() ? "bash" : arguments.positional[0];
+  if (shell != "bash")
+    throw UsageError("there is no completion for " + in_quotes(shell) + known_names(shell, {"bash"}));
+  streams.out << bash_completion(commands());
+  return exit_done;
+}
+
+int manual_command(const Arguments&, Streams streams) {
+  streams.out << manual_page(commands());
+  return exit_done;
+}
+
+constexpr std::size_t any_number = std::string::npos;
+
+const CommandOption set_option{"--set", "path=value",
+                               "changes the case before it is checked; null removes a key", false, true};
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> table = {
+      {"inspect",
+       "FILE...",
+       "lists the curves of STEP and IGES files; with --profile: the section that they draw",
+       1,
+       any_number,
+       {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
+       inspect_command},
+      {"check", "CASE.json", "reads and resolves a case, runs nothing", 1, 1, {set_option}, check_command},
+      {"run",
+       "CASE.json",
+       "runs a case",
+       1,
+       1,
+       {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
+        {"--resume", "", "goes on from the restart point in that directory"},
+        {"--quiet", "", "no progress"},
+        set_option},
+       run_command,
+       exit_not_written},
+      {"export",
+       "RESULTS_DIR",
+       "writes the deformed curves at a stored time; with --solid, as rods of that radius, with --bore as "
+       "pipes",
+       1,
+       1,
+       {{"--time", "T", "the nearest stored one is taken", true},
+        {"--to", "FILE.step|.igs", "STEP or IGES by its ending", true},
+        {"--unit", "mm|m|inch", "of the file; otherwise mm"},
+        {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
+        {"--solid", "RADIUS", "solids instead of curves"},
+        {"--bore", "RADIUS", "makes the solids pipes"}},
+       export_command,
+       exit_not_written},
+      {"compare",
+       "A B",
+       "largest distance between the curves of two CAD files",
+       2,
+       2,
+       {{"--tolerance", "1e-6", "above which they differ [m]"}},
+       compare_command},
+      {"schema", "[case]", "prints the JSON schema of the case file", 0, 1, {}, schema_command},
+      {"report",
+       "RESULTS_DIR",
+       "writes report.html anew: the 3-D view, plots and tables of a run",
+       1,
+       1,
+       {},
+       report_command,
+       exit_not_written},
+      {"study", "STUDY.json", "not available in this version", 0, any_number, {}, unavailable_command},
+      {"verify",
+       "[NAME | papers]",
+       "computes problems with known answers (those with NAME in their name) and prints a table; with "
+       "papers: the examples of the papers beside their tables, as a page with figures",
+       0,
+       1,
+       {{"--out", "DIR", "for the page of the papers"}},
+       verify_command,
+       exit_not_written},
+      {"completion",
+       "[bash]",
+       "prints a script that completes commands and options in the shell",
+       0,
+       1,
+       {},
+       completion_command},
+      {"manual", "", "prints the manual page (roff)", 0, 0, {}, manual_command},
+  };
+  return table;
+}
+
+std::string usage_of(const Command& command) {
+  std::string usage = "nurbeam " + command.name;
+  if (!command.positional.empty()) usage += " " + command.positional;
+  for (const CommandOption& option : command.options) {
+    const std::string text = option.name + (option.value.empty() ? "" : " " + option.value);
+    usage += " " + (option.required ? text : "[" + text + "]") + (option.repeated ? "..." : "");
+  }
+  return usage;
+}
+
+}  // namespace nurbeam
