@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "cad_import/files/ask_program.h"
-#include "cad_import/files/write_file.h"
+#include "cad_import/files/atomic_file.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {

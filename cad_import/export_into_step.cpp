@@ -1,7 +1,7 @@
 #include "cad_import/export_into_step.h"
 
 #include "cad_import/files/ask_program.h"
-#include "cad_import/files/write_file.h"
+#include "cad_import/files/atomic_file.h"
 #include "cad_import/import_curves.h"
 
 namespace nurbeam {

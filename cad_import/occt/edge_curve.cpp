@@ -20,10 +20,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cad_import/report/length_unit.h"
+#include "nurbs/number_text.h"
+
 namespace nurbeam {
 namespace {
-
-constexpr double millimetres_per_metre = 1000;
 
 struct TrimmedCurve {
   Handle(Geom_Curve) curve;
@@ -123,7 +124,7 @@ NurbsCurve nurbs_curve(const Geom_BSplineCurve& source) {
 void check_length(const NurbsCurve& curve) {
   const double l = length(curve);
   if (!(std::isfinite(l) && l > 0)) {
-    throw std::runtime_error("its length is " + std::to_string(l) + " m; it must be finite and positive");
+    throw std::runtime_error("its length is " + text_of(l) + " m; it must be finite and positive");
   }
 }
 

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "nurbs/number_text.h"
+
 namespace nurbeam {
 namespace {
 
@@ -21,8 +23,8 @@ std::string knots_defect(const std::vector<double>& knots) {
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!std::isfinite(knots[i])) return "knot " + std::to_string(i + 1) + " is not finite";
     if (i > 0 && knots[i] < knots[i - 1]) {
-      return "knot " + std::to_string(i + 1) + " (" + std::to_string(knots[i]) +
-             ") is less than the one before (" + std::to_string(knots[i - 1]) + "); knots must not decrease";
+      return "knot " + std::to_string(i + 1) + " (" + text_of(knots[i]) + ") is less than the one before (" +
+             text_of(knots[i - 1]) + "); knots must not decrease";
     }
   }
   return "";
@@ -31,7 +33,7 @@ std::string knots_defect(const std::vector<double>& knots) {
 std::string weights_defect(const std::vector<double>& weights) {
   for (double weight : weights) {
     if (!(std::isfinite(weight) && weight > 0)) {
-      return "a weight is " + std::to_string(weight) + "; weights must be positive";
+      return "a weight is " + text_of(weight) + "; weights must be positive";
     }
   }
   return "";

@@ -1,20 +1,10 @@
 #include "cad_import/program/exchange_curves.h"
 
 #include <BRep_Tool.hxx>
-#include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <Message_Printer.hxx>
-#include <OSD.hxx>
-#include <STEPConstruct_UnitContext.hxx>
-#include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
-#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
-#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
-#include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
@@ -32,12 +22,13 @@
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/occt/edge_curve.h"
+#include "cad_import/occt/occt_session.h"
 #include "cad_import/step/step_instances.h"
+#include "cad_import/step/step_units.h"
 
 namespace nurbeam {
 namespace {
 
-constexpr double millimetres_per_metre = 1000;
 constexpr double import_tolerance = 1e-7;  ///< of ImportOptions [m]
 
 /// An edge as OpenCASCADE made it, and the instance it is made of.
@@ -125,19 +116,9 @@ int context_of(int representation, const StepInstances& step) {
 
 /// The length unit of a representation context [mm].
 double unit_of(int context, const StepData_StepModel& model) {
-  using Certain = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
-  using Plain = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
-  for (int i = 1; i <= model.NbEntities(); ++i) {
-    if (model.IdentLabel(model.Value(i)) != context) continue;
-    Handle(StepRepr_GlobalUnitAssignedContext) units;
-    if (const auto certain = Handle(Certain)::DownCast(model.Value(i)))
-      units = certain->GlobalUnitAssignedContext();
-    if (const auto plain = Handle(Plain)::DownCast(model.Value(i)))
-      units = plain->GlobalUnitAssignedContext();
-    STEPConstruct_UnitContext factors;
-    if (!units.IsNull()) factors.ComputeFactors(units);
-    if (!units.IsNull() && factors.LengthDone()) return factors.LengthFactor();
-  }
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (model.IdentLabel(model.Value(i)) == context)
+      if (const auto unit = length_unit_of(model.Value(i))) return *unit * millimetres_per_metre;
   return 1;  // import_curves() takes a file without unit for one in millimetres, too
 }
 
@@ -298,12 +279,10 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
   content << in.rdbuf();
   if (!in || format_of(content.str()) != CadFormat::step)
     throw std::runtime_error("it cannot be read as a STEP file; only into one can curves be written back");
-  OSD::SetSignal(Standard_False);
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+  be_silent();
   try {
     OCC_CATCH_SIGNALS
-    STEPControl_Controller::Init();
-    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+    start_step();
     STEPControl_Reader reader;
     if (reader.ReadFile(source.c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");

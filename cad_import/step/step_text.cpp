@@ -49,10 +49,11 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "cad_import/report/length_unit.h"
+#include "nurbs/number_text.h"
+
 namespace nurbeam {
 namespace {
-
-constexpr double millimetres_per_metre = 1000;
 
 /// No printer of OpenCASCADE writes to stdout while this lives.
 class SilentMessenger {
@@ -202,8 +203,8 @@ void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
   if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
       std::abs(properties.Mass() - expected) > allowed * expected)
     throw std::runtime_error(
-        "OpenCASCADE sweeps no valid solid of radius " + std::to_string(pipe.radius) +
-        " m along the curve '" + pipe.axis.name +
+        "OpenCASCADE sweeps no valid solid of radius " + text_of(pipe.radius) + " m along the curve '" +
+        pipe.axis.name +
         "'; it may have a corner, bend more sharply than that radius, or be a ring in space");
 }
 
@@ -226,8 +227,8 @@ TopoDS_Shape swept(const NamedPipe& pipe) {
   const NurbsCurve& curve = pipe.axis.curve;
   if (const double curvature = largest_curvature(curve); curvature * pipe.radius >= 1)
     throw std::runtime_error("the curve '" + pipe.axis.name + "' bends to a radius of " +
-                             std::to_string(1 / curvature) + " m, too sharply for a section of radius " +
-                             std::to_string(pipe.radius) + " m");
+                             text_of(1 / curvature) + " m, too sharply for a section of radius " +
+                             text_of(pipe.radius) + " m");
   const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
   const gp_Pnt centre(vector(millimetres_per_metre * start.col(0)).XYZ());
   const gp_Ax2 square(centre, gp_Dir(vector(start.col(1))));

@@ -58,50 +58,6 @@ bool is_not_a_finite_number(const std::string& word) {
   return words.contains(word);
 }
 
-constexpr int deepest = 64;
-
-/// The offset of the bracket that opens a level deeper than any case needs, or npos. JSON is nested freely
-/// and read recursively: a text of brackets alone would exhaust the stack.
-std::size_t too_deep_at(const std::string& text) {
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    switch (text[i]) {
-      case '"':
-        for (++i; i < text.size() && text[i] != '"'; ++i) {
-          i += text[i] == '\\';
-        }
-        break;
-      case '/':
-        if (text.compare(i, 2, "//") == 0) {
-          i = text.find('\n', i);
-        } else if (text.compare(i, 2, "/*") == 0) {
-          i = text.find("*/", i + 2);
-        }
-        if (i == std::string::npos) {
-          return i;
-        }
-        break;
-      case '[':
-      case '{':
-        if (++depth > deepest) {
-          return i;
-        }
-        break;
-      case ']':
-      case '}':
-        --depth;
-        break;
-      default:
-        break;
-    }
-  }
-  return std::string::npos;
-}
-
-std::string too_deep_message() {
-  return "brackets are nested more than " + std::to_string(deepest) + " deep; a case needs fewer than 10";
-}
-
 /// Watches the parser's events for keys that stand twice in one object.
 class DuplicateKeys {
  public:
@@ -195,110 +151,49 @@ std::optional<std::string> read_text(const std::filesystem::path& file, Findings
   return text.str();
 }
 
-/// The alternative of an `either` that can hold keys; the shape itself otherwise.
-const Shape& object_alternative(const Shape& shape) {
-  if (shape.kind == Kind::either) {
-    for (const Shape& item : shape.items) {
-      if (item.kind == Kind::object) {
-        return item;
-      }
-    }
-  }
-  return shape;
-}
-
-/// "beams[0].section.radius" as "beams", "0", "section", "radius".
-std::vector<std::string> path_parts(const std::string& path) {
-  std::vector<std::string> parts(1);
-  for (const char c : path) {
-    if (c == '.' || c == '[') {
-      parts.emplace_back();
-    } else if (c != ']') {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
-std::optional<std::size_t> as_index(const std::string& text) {
-  const bool digits =
-      !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
-  return digits ? std::optional<std::size_t>(std::stoul(text)) : std::nullopt;
-}
-
-/// Whether the brackets of a path hold indices behind names, as in beams[0].section.radius.
-bool has_sound_brackets(const std::string& path) {
-  bool inside = false;
-  char last = '.';
-  for (const char c : path) {
-    const bool opens = c == '[', closes = c == ']', continues = c == '.' || opens;
-    if ((opens && (inside || last == '.')) || (closes && !inside) || (c == '.' && inside) ||
-        (last == ']' && !continues)) {
-      return false;
-    }
-    inside = opens || (inside && !closes);
-    last = c;
-  }
-  return !inside;
-}
-
-/// The number that a text outside JSON's grammar (".45", "5.", "+5", "007") means.
-std::optional<double> loose_number(std::string_view text) {
-  if (text.starts_with('+')) {
-    text.remove_prefix(1);
-  }
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(number);
-  return whole ? std::optional(number) : std::nullopt;
-}
-
-/// Sets one value of the case; null removes the key. Returns what is wrong, "" if nothing.
-std::string apply_override(Json& root, const std::string& path, const Json& new_value) {
-  Json* value = &root;
-  const Shape* shape = &case_shape();
-  std::string walked;
-  const std::vector<std::string> parts = path_parts(path);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string& part = parts[i];
-    const std::string here = walked.empty() ? "the case file" : walked;
-    const Shape& holder = object_alternative(*shape);
-    if (holder.kind != Kind::object && !value->is_array()) {
-      return here + " has no parts here; set it as a whole";
-    }
-    if (value->is_array()) {
-      const auto index = as_index(part);
-      if (!index || *index >= value->size()) {
-        return here + " has " + std::to_string(value->size()) + " item(s), counted from 0; there is no [" +
-               part + "]";
-      }
-      walked = child(walked, *index);
-      shape = holder.kind == Kind::array ? &holder.items[0] : shape;
-      value = &(*value)[*index];
-      continue;
-    }
-    const Key* key = find_key(holder, part);
-    if (!key) {
-      return "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder));
-    }
-    walked = child(walked, part);
-    shape = &key->shape;
-    if (new_value.is_null() && i + 1 == parts.size()) {
-      if (value->is_object()) {
-        value->erase(part);
-      }
-      return {};
-    }
-    if (!value->is_object()) {
-      *value = Json::object();
-    }
-    value = &(*value)[part];
-  }
-  *value = new_value;
-  return {};
-}
-
 }  // namespace
+
+constexpr int deepest = 64;  // levels of brackets
+
+std::size_t too_deep_at(const std::string& text) {
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    switch (text[i]) {
+      case '"':
+        for (++i; i < text.size() && text[i] != '"'; ++i) {
+          i += text[i] == '\\';
+        }
+        break;
+      case '/':
+        if (text.compare(i, 2, "//") == 0) {
+          i = text.find('\n', i);
+        } else if (text.compare(i, 2, "/*") == 0) {
+          i = text.find("*/", i + 2);
+        }
+        if (i == std::string::npos) {
+          return i;
+        }
+        break;
+      case '[':
+      case '{':
+        if (++depth > deepest) {
+          return i;
+        }
+        break;
+      case ']':
+      case '}':
+        --depth;
+        break;
+      default:
+        break;
+    }
+  }
+  return std::string::npos;
+}
+
+std::string too_deep_message() {
+  return "brackets are nested more than " + std::to_string(deepest) + " deep; a case needs fewer than 10";
+}
 
 const Key* find_key(const Shape& shape, const std::string& name) {
   const auto found =
@@ -317,47 +212,6 @@ std::vector<std::string> key_names(const Shape& shape) {
 std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings) {
   const auto text = read_text(file, findings);
   return text ? parse(*text, findings) : std::nullopt;
-}
-
-namespace {
-
-/// What is wrong with a --set text, "" if nothing; then the case has been changed.
-std::string apply_override(Json& root, const std::string& text) {
-  const auto equals = text.find('=');
-  if (equals == std::string::npos) {
-    return "expected path=value, for example analysis.end_time=0.1";
-  }
-  const std::string path = text.substr(0, equals), value_text = text.substr(equals + 1);
-  if (!has_sound_brackets(path)) {
-    return "the brackets of the path do not match; write it as in beams[0].section.radius=0.01";
-  }
-  if (too_deep_at(value_text) != std::string::npos) {
-    return too_deep_message();
-  }
-  Json value = Json::parse(value_text, nullptr, false);
-  if (value.is_discarded()) {
-    if (const auto number = loose_number(value_text)) {
-      return in_quotes(value_text) + " is not a number as JSON writes it; write " +
-             text_of(*number, all_digits);
-    }
-    value = value_text;  // what does not read as JSON is a text
-  }
-  Json changed = root;
-  const std::string problem = apply_override(changed, path, value);
-  if (problem.empty()) {
-    root = std::move(changed);
-  }
-  return problem;
-}
-
-}  // namespace
-
-void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong) {
-  for (const std::string& text : overrides) {
-    if (const std::string problem = apply_override(root, text); !problem.empty()) {
-      wrong.push_back({Severity::error, "--set " + text, problem});
-    }
-  }
 }
 
 }  // namespace nurbeam

@@ -20,6 +20,11 @@ inline std::string child(const std::string& path, std::size_t index) {
   return path + "[" + std::to_string(index) + "]";
 }
 
+/// The offset of the bracket that opens a level deeper than any case needs, or npos. JSON is nested freely
+/// and read recursively: a text of brackets alone would exhaust the stack.
+std::size_t too_deep_at(const std::string& text);
+std::string too_deep_message();
+
 /// The key of an object shape, nullptr if it has none of that name.
 const Key* find_key(const Shape& shape, const std::string& name);
 std::vector<std::string> key_names(const Shape& shape);

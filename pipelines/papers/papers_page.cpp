@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "pipelines/results/atomic_file.h"
+#include "cad_import/files/atomic_file.h"
 
 namespace nurbeam::papers {
 

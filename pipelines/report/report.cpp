@@ -15,8 +15,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "cad_import/files/atomic_file.h"
 #include "pipelines/report/report_template.h"
-#include "pipelines/results/atomic_file.h"
+#include "pipelines/results/base64.h"
 #include "pipelines/results/results.h"
 
 namespace nurbeam {
@@ -35,29 +36,9 @@ void append(Bytes& bytes, const Number* numbers, std::size_t count) {
   bytes.insert(bytes.end(), first, first + count * sizeof(Number));
 }
 
-/// Base64 (RFC 4648, section 4).
-std::string base64(const Bytes& bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      word = word << 8 | (k < left ? bytes[i + k] : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= left ? digits[word >> (18 - 6 * k) & 63] : '=';
-    }
-  }
-  return text;
-}
-
 template <class Number>
 std::string base64_of(const std::vector<Number>& numbers) {
-  Bytes bytes;
-  append(bytes, numbers.data(), numbers.size());
-  return base64(bytes);
+  return base64(numbers.data(), numbers.size() * sizeof(Number));
 }
 
 // ---- histories ----
@@ -361,7 +342,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
          << R"(<script type="text/plain" id="shapes">)";
   for_each_frame(frames, [&](const Snapshot& frame, std::size_t index) {
     if (std::binary_search(kept.begin(), kept.end(), index)) {
-      stream << base64(shape_bytes(frame, survey));
+      stream << base64_of(shape_bytes(frame, survey));
     }
   });
   stream << "</script>" << tail;

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "pipelines/results/atomic_file.h"
+#include "cad_import/files/atomic_file.h"
 #include "pipelines/results/base64.h"
 
 namespace nurbeam {

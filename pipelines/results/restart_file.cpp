@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "pipelines/results/atomic_file.h"
+#include "cad_import/files/atomic_file.h"
 #include "pipelines/results/netcdf_file.h"
 
 namespace nurbeam {

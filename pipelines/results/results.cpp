@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "pipelines/results/atomic_file.h"
+#include "cad_import/files/atomic_file.h"
 #include "pipelines/results/frame_store.h"
 #include "pipelines/results/history_table.h"
 

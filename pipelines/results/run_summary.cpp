@@ -1,14 +1,10 @@
 #include "pipelines/results/run_summary.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "cad_import/files/atomic_file.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/simulation_text.h"
-#include "pipelines/results/atomic_file.h"
 
 namespace nurbeam {
 
@@ -78,18 +74,8 @@ Json to_json(const RunSummary& summary) {
 }  // namespace
 
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
-  const std::filesystem::path temporary = temporary_name(file);
-  std::ofstream stream(temporary);
   // Names from files need not be valid UTF-8: what is not is replaced.
-  stream << to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  stream.close();
-  if (!stream) {
-    const std::string reason = std::strerror(errno);
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(file.string() + ": cannot be written: " + reason);
-  }
-  publish(file);
+  write_at_once(file, to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace nurbeam

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "fem/motion/simulation.h"
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/simulation_text.h"
@@ -177,8 +178,7 @@ class Run {
 
   void begin_log() {
     *log_ << "nurbeam " << NURBEAM_VERSION << ": " << case_.path.string()
-          << (from_ ? ", resumed at t = " + std::to_string(from_->state.t) + " s" : std::string())
-          << std::endl;
+          << (from_ ? ", resumed at t = " + text_of(from_->state.t) + " s" : std::string()) << std::endl;
     print_diagnostics(*log_, summary_.diagnostics);
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 namespace nurbeam {
 
@@ -11,5 +12,8 @@ std::filesystem::path temporary_name(const std::filesystem::path& file);
 void publish(const std::filesystem::path& file);
 /// The same, once it is on the disk: it also outlives a crash of the machine.
 void publish_durably(const std::filesystem::path& file);
+
+/// Writes a text so. Throws std::runtime_error (file and reason).
+void write_at_once(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace nurbeam

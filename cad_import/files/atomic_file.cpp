@@ -1,10 +1,11 @@
-#include "pipelines/results/atomic_file.h"
+#include "cad_import/files/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -50,6 +51,15 @@ void publish_durably(const fs::path& file) {
   const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!reaches_the_disk(directory))
     fail(file, std::string("its directory cannot be written: ") + std::strerror(errno));
+}
+
+void write_at_once(const fs::path& file, const std::string& text) {
+  errno = 0;
+  std::ofstream out(temporary_name(file), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) fail(file, "cannot be written: " + std::generic_category().message(errno));
+  publish(file);
 }
 
 }  // namespace nurbeam

@@ -1,0 +1,197 @@
+#include "cad_import/program/entity_origins.h"
+
+#include <BRep_Tool.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Graph.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <OSD.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_ErrorHandler.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_EdgeCurve.hxx>
+#include <StepShape_GeometricSet.hxx>
+#include <TColStd_HSequenceOfTransient.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_TShape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "cad_import/occt/spline_defect.h"
+
+namespace nurbeam {
+namespace {
+
+std::string text(const Handle(TCollection_HAsciiString) & value) {
+  if (value.IsNull()) return "";
+  std::string result = value->ToCString();
+  result.erase(0, result.find_first_not_of(' '));
+  return result.erase(result.find_last_not_of(' ') + 1);
+}
+
+std::string step_name(const Handle(Standard_Transient) & entity) {
+  const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
+  if (item.IsNull()) return "";
+  const std::string own = text(item->Name());
+  if (!own.empty()) return own;
+  if (const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity)) return step_name(edge->EdgeGeometry());
+  if (const auto curve = Handle(StepGeom_TrimmedCurve)::DownCast(entity))
+    return step_name(curve->BasisCurve());
+  return "";
+}
+
+std::string iges_name(const IGESData_IGESEntity& entity) {
+  if (entity.HasName()) return text(entity.NameValue());
+  return entity.HasShortLabel() ? text(entity.ShortLabel()) : "";
+}
+
+std::string entity_name(const Handle(Standard_Transient) & entity) {
+  if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity)) return iges_name(*iges);
+  return step_name(entity);
+}
+
+void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin& origin, Origins& origins) {
+  TopTools_IndexedMapOfShape parts;
+  TopExp::MapShapes(shape, part, parts);
+  for (int i = 1; i <= parts.Extent(); ++i) {
+    Origin& known = origins[parts(i).TShape().get()];
+    if (known.label.empty()) known.label = origin.label;
+    if (known.name.empty()) known.name = origin.name;
+    if (known.appearance.layer.empty()) known.appearance.layer = origin.appearance.layer;
+    if (known.appearance.colour.empty()) known.appearance.colour = origin.appearance.colour;
+    known.defective |= origin.defective && shape.ShapeType() != TopAbs_COMPOUND;
+  }
+}
+
+// Whether a name of the entity is one of each of its edges: curves and sets of curves, not solids.
+bool names_its_edges(const Handle(Standard_Transient) & entity, const TopoDS_Shape& result) {
+  return result.ShapeType() >= TopAbs_WIRE || entity->IsKind(STANDARD_TYPE(StepShape_GeometricSet));
+}
+
+using Entities = std::unordered_set<const Standard_Transient*>;
+
+// The B-spline curves of the file that cannot be, with a warning for each.
+Entities defective_splines(const Interface_InterfaceModel& model, ImportReport& report) {
+  Entities defective;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model.Value(i);
+    const std::string defect = spline_defect(*entity);
+    if (defect.empty()) continue;
+    defective.insert(entity.get());
+    add_diagnostic(report, Severity::warning, entity_label(model, entity),
+                   "skipped with all that is made of it: " + defect);
+  }
+  return defective;
+}
+
+// Whether the entity is one of `wanted`, or refers to one, directly or not.
+bool refers_to(const Handle(Standard_Transient) & start, const Entities& wanted,
+               const Interface_Graph& graph) {
+  if (wanted.empty()) return false;
+  Entities seen;
+  std::vector<Handle(Standard_Transient)> open{start};
+  while (!open.empty()) {
+    const Handle(Standard_Transient) entity = open.back();
+    open.pop_back();
+    if (wanted.contains(entity.get())) return true;
+    if (!seen.insert(entity.get()).second) continue;
+    Interface_EntityIterator next = graph.Shareds(entity);
+    for (next.Start(); next.More(); next.Next()) open.push_back(next.Value());
+  }
+  return false;
+}
+
+/// An entity of the file and the shape that was made of it.
+struct Translated {
+  Handle(Standard_Transient) entity;
+  TopoDS_Shape shape;
+};
+
+// All of them, edges first and compounds last.
+std::vector<Translated> translated_entities(const XSControl_Reader& reader) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  std::vector<Translated> all;
+  for (int i = 1; i <= process->NbMapped(); ++i) {
+    const Handle(Standard_Transient) entity = process->Mapped(i);
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+    if (!shape.IsNull()) all.push_back({entity, shape});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Translated& a, const Translated& b) {
+    return a.shape.ShapeType() > b.shape.ShapeType();
+  });
+  return all;
+}
+
+}  // namespace
+
+std::string entity_label(const Interface_InterfaceModel& model, const Handle(Standard_Transient) & entity) {
+  const std::string_view type = entity->DynamicType()->Name();
+  return text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
+}
+
+Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report) {
+  Origins origins;
+  const Entities defective = defective_splines(*reader.Model(), report);
+  const Interface_Graph& graph = reader.WS()->Graph();
+  const Appearances appearances = appearances_of(*reader.WS());
+  for (const auto& [entity, shape] : translated_entities(reader)) {
+    const auto shown = appearances.find(entity.get());
+    Origin origin;
+    if (shown != appearances.end()) origin.appearance = shown->second;
+    if (names_its_edges(entity, shape)) {
+      origin.name = entity_name(entity);
+      origin.label = entity_label(*reader.Model(), entity);
+      origin.defective = refers_to(entity, defective, graph);
+    }
+    add_origins(shape, TopAbs_EDGE, origin, origins);
+    if (shape.ShapeType() > TopAbs_FACE) continue;
+    origin.name = entity_name(entity);
+    origin.label = entity_label(*reader.Model(), entity);
+    add_origins(shape, TopAbs_FACE, origin, origins);
+  }
+  return origins;
+}
+
+void add_diagnostic(ImportReport& report, Severity severity, const std::string& entity,
+                    const std::string& message) {
+  const std::string where = entity.empty() ? report.file : report.file + ": " + entity;
+  report.diagnostics.push_back({severity, where, message});
+}
+
+}  // namespace nurbeam

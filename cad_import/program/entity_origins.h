@@ -1,0 +1,37 @@
+#pragma once
+#include <Interface_InterfaceModel.hxx>
+#include <Standard_Transient.hxx>
+#include <XSControl_Reader.hxx>
+#include <string>
+#include <unordered_map>
+
+#include "cad_import/occt/appearance.h"
+#include "cad_import/report/import_report.h"
+
+class TopoDS_TShape;
+
+namespace nurbeam {
+
+/// The entity of the file that an edge came from.
+struct Origin {
+  std::string name;
+  std::string label;
+  Appearance appearance;
+  bool defective = false;
+};
+// By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
+using Origins = std::unordered_map<const TopoDS_TShape*, Origin>;
+
+/// "#17 TrimmedCurve" in STEP, "D15 BSplineCurve" in IGES.
+std::string entity_label(const Interface_InterfaceModel& model,
+                         const opencascade::handle<Standard_Transient>& entity);
+
+/// Of an edge's own entity first, then of the smallest of those that hold it: wire or set, face, solid. Of a
+/// face's own entity, then of its shell or solid. B-spline curves of the file that cannot be are warned of.
+Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report);
+
+/// Adds a diagnostic about an entity, "" for the whole file.
+void add_diagnostic(ImportReport& report, Severity severity, const std::string& entity,
+                    const std::string& message);
+
+}  // namespace nurbeam

@@ -1,0 +1,207 @@
+#include "pipelines/case/case_references.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "cad_import/files/cad_format.h"
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Kind = Shape::Kind;
+
+/// Reports names that occur twice. An empty name has been reported.
+void check_unique(const std::vector<std::pair<std::string, std::string>>& names_and_paths,
+                  Findings& findings) {
+  std::map<std::string, std::string> first;
+  for (const auto& [name, path] : names_and_paths) {
+    const auto [other, is_new] = first.emplace(name, path);
+    if (!is_new && !name.empty()) {
+      findings.error(path,
+                     in_quotes(name) + " is already the name of " + other->second + "; names must differ");
+    }
+  }
+}
+
+void check_names(const Json& json, Findings& findings) {
+  const auto collect = [](const Json& holder, const char* key, const std::string& path) {
+    std::vector<std::pair<std::string, std::string>> names;
+    for_each_item(holder, key, path, [&](const Json& item, const std::string& item_path) {
+      names.emplace_back(text(item, "name"), child(item_path, "name"));
+    });
+    return names;
+  };
+  check_unique(collect(json, "beams", ""), findings);
+  auto columns = collect(json, "bodies", "");  // bodies and probes head columns of the same table
+  const auto probes = collect(part(json, "output"), "probes", "output");
+  columns.insert(columns.end(), probes.begin(), probes.end());
+  check_unique(columns, findings);
+}
+
+/// The names of the items under the key; nothing when one of them is unusable.
+std::optional<std::vector<std::string>> names_under(const Json& json, const char* key) {
+  std::vector<std::string> names;
+  if (json.contains(key) && json[key].is_null()) {
+    return {};
+  }
+  for (const Json& item : part(json, key)) {
+    names.push_back(item.is_null() ? "" : text(item, "name"));
+    if (names.back().empty()) {
+      return {};
+    }
+  }
+  return names;
+}
+
+bool is_one_of(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether it is "net 3", where the beam "net" takes every chain of its file: how many there are, the file
+/// will tell.
+bool is_beam_of_chain(const std::string& name, const Json& json) {
+  const std::size_t space = name.rfind(' ');
+  if (space == std::string::npos || name.find_first_not_of("0123456789", space + 1) != std::string::npos)
+    return false;
+  bool found = false;
+  for_each_item(json, "beams", "", [&](const Json& beam, const std::string&) {
+    found = found || (text(beam, "name") == name.substr(0, space) && has(part(beam, "axis"), "chains"));
+  });
+  return found;
+}
+
+/// Reports, for every item under the key, a name under `reference` that is not among the known ones.
+void check_references(const Json& json, const Json& holder, const char* key, const std::string& path,
+                      const char* reference, const std::vector<std::string>& known, Findings& findings) {
+  for_each_item(holder, key, path, [&](const Json& item, const std::string& item_path) {
+    const std::string name = text(item, reference);
+    if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json)) {
+      findings.error(child(item_path, reference), "there is no " + std::string(reference) + " " +
+                                                      in_quotes(name) + known_names(name, known));
+    }
+  });
+}
+
+void check_references(const Json& json, Findings& findings) {
+  if (const auto beams = names_under(json, "beams")) {
+    check_references(json, json, "loads", "", "beam", *beams, findings);
+    check_references(json, json, "supports", "", "beam", *beams, findings);
+    check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
+    check_references(json, part(json, "output"), "probes", "output", "beam", *beams, findings);
+    for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
+      for_each_item(joint, "beams", path, [&](const Json& name, const std::string& name_path) {
+        if (!is_one_of(name, *beams) && !is_beam_of_chain(name, json))
+          findings.error(name_path, "there is no beam " + in_quotes(name.get<std::string>()) +
+                                        known_names(name.get<std::string>(), *beams));
+      });
+    });
+  }
+  if (const auto bodies = names_under(json, "bodies")) {
+    check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
+  }
+}
+
+/// Every body is held by exactly one sliding joint.
+void check_bodies(const Json& json, const CaseFile& c, Findings& findings) {
+  std::map<std::string, std::vector<std::string>> holders;  // paths of the joints of each body
+  for (const CaseSlidingJoint& joint : c.sliding_joints) {
+    holders[joint.body].push_back(joint.path);
+  }
+  const std::vector<std::string> bodies = names_under(json, "bodies").value_or(std::vector<std::string>{});
+  const bool all_known = std::all_of(holders.begin(), holders.end(),
+                                     [&](const auto& holder) { return is_one_of(holder.first, bodies); });
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::vector<std::string>& joints = holders[bodies[i]];
+    if (joints.empty() && all_known) {
+      findings.error(child("bodies", i),
+                     "no sliding joint holds the body " + in_quotes(bodies[i]) +
+                         ", so it has no place; add one to \"sliding_joints\" or remove it");
+    } else if (joints.size() > 1) {
+      findings.error(joints[1], "the body " + in_quotes(bodies[i]) + " is already held by " + joints[0] +
+                                    "; a body slides on one beam");
+    }
+  }
+}
+
+/// Reports a division of the end time into more parts than `most`.
+void check_division(const char* path, const char* parts, const std::optional<double>& part,
+                    const CaseAnalysis& analysis, double most, Findings& findings) {
+  if (part && analysis.end_time / *part > most * (1 + 1e-9)) {
+    findings.error(path, "is " + text_of(*part, all_digits) +
+                             " s: " + text_of(std::ceil(analysis.end_time / *part), all_digits) + " " +
+                             parts + " until analysis.end_time, " + text_of(analysis.end_time, all_digits) +
+                             " s, and the limit is " + text_of(most, all_digits) + "; give at least " +
+                             text_of(analysis.end_time / most, all_digits) + " s");
+  }
+}
+
+void check_times(const Json& json, const CaseFile& c, Findings& findings) {
+  const bool dynamic = c.analysis.type == CaseAnalysis::Type::dynamic;
+  if (dynamic && has(json, "analysis") && !json["analysis"].contains("end_time")) {
+    findings.error("analysis",
+                   "\"end_time\" is missing; a dynamic analysis needs it (or \"type\": \"static\")");
+    return;
+  }
+  check_division("output.every", "stored frames", c.output.every, c.analysis, most_frames, findings);
+  check_division("analysis.step", "steps", c.analysis.step, c.analysis, most_steps, findings);
+  for (std::size_t i = 0; dynamic && i < c.output.cad_times.size(); ++i) {
+    if (c.output.cad_times[i] > c.analysis.end_time) {
+      findings.error(child("output.cad.times", i), "is " + text_of(c.output.cad_times[i], all_digits) +
+                                                       " s; must not be after analysis.end_time, " +
+                                                       text_of(c.analysis.end_time, all_digits) + " s");
+    }
+  }
+}
+
+void check_solids(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
+  if (solid == formats.end()) return;
+  for (const CaseBeam& beam : c.beams)
+    if (!beam.section.radius && !beam.section.from_cad)
+      findings.error(child("output.cad.formats", solid - formats.begin()),
+                     "is \"step-solid\", but the section of the beam " + in_quotes(beam.name) +
+                         " has no radius; give it one, or use \"step\" for the curve");
+}
+
+bool is_step_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head(1000, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return format_of(head) == CadFormat::step;
+}
+
+void check_source(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  const auto source = std::find(formats.begin(), formats.end(), "step-source");
+  if (source == formats.end()) return;
+  const auto* const first = std::get_if<AxisFile>(&c.beams.front().axis.source);
+  for (const CaseBeam& beam : c.beams) {
+    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
+    if (first && axis && axis->path == first->path && is_step_file(axis->path)) continue;
+    findings.error(child("output.cad.formats", source - formats.begin()),
+                   "is \"step-source\", but the axis of the beam " + in_quotes(beam.name) + " is not from " +
+                       (first && axis && axis != first ? "the same" : "a") +
+                       " STEP file; use \"step\" for the curve alone");
+    return;
+  }
+}
+
+}  // namespace
+
+void check_across(const Json& json, const CaseFile& case_file, Findings& findings) {
+  check_names(json, findings);
+  check_references(json, findings);
+  check_bodies(json, case_file, findings);
+  check_times(json, case_file, findings);
+  check_solids(case_file, findings);
+  check_source(case_file, findings);
+}
+
+}  // namespace nurbeam

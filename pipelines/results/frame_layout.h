@@ -1,0 +1,64 @@
+#pragma once
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "fem/motion/snapshot.h"
+#include "pipelines/results/netcdf_file.h"
+
+/// What the writer and the reader of stored frames share; the layout stands in frame_store.h.
+namespace nurbeam {
+
+using Type = NetcdfFile::Type;
+using Doubles = std::vector<double>;
+using Integers = std::vector<int>;
+
+inline constexpr std::size_t time_chunk = 128, row_chunk = 256;
+inline constexpr std::size_t sample_count = 4;
+
+struct EnergyPart {
+  const char* name;
+  double EnergyRecord::*value;
+};
+inline constexpr EnergyPart energy_parts[] = {
+    {"kinetic", &EnergyRecord::kinetic},       {"gravity", &EnergyRecord::gravity},
+    {"axial", &EnergyRecord::axial},           {"bending", &EnergyRecord::bending},
+    {"dissipated", &EnergyRecord::dissipated}, {"total", &EnergyRecord::total}};
+
+struct SampledField {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+  Eigen::Vector4d ElementRecord::*values;
+};
+inline constexpr SampledField sampled_fields[] = {
+    {"strain", "1", "Green's axial strain", &ElementRecord::strain},
+    {"curvature", "m-1", "curvature, signed in a planar model", &ElementRecord::curvature},
+    {"axial_force", "N", "elastic axial force, tension positive", &ElementRecord::axial_force},
+    {"bending_moment", "N m", "elastic bending moment, signed in a planar model",
+     &ElementRecord::bending_moment}};
+
+template <class Array>
+void append(Doubles& values, const Array& array) {
+  values.insert(values.end(), array.data(), array.data() + array.size());
+}
+
+template <class Visit>
+void for_each_element(std::span<const Snapshot> frames, Visit visit) {
+  for (const Snapshot& frame : frames)
+    for (const BeamRecord& beam : frame.beams)
+      for (const ElementRecord& element : beam.elements) visit(element);
+}
+
+template <class Visit>
+void for_each_element(std::vector<Snapshot>& frames, Visit visit) {
+  for (Snapshot& frame : frames)
+    for (BeamRecord& beam : frame.beams)
+      for (ElementRecord& element : beam.elements) visit(element);
+}
+
+inline std::size_t sum(Integers::const_iterator first, Integers::const_iterator last) {
+  return std::accumulate(first, last, std::size_t{0});
+}
+
+}  // namespace nurbeam

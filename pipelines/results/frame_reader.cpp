@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "pipelines/results/frame_layout.h"
+#include "pipelines/results/frame_store.h"
+
+namespace nurbeam {
+
+FrameReader::FrameReader(const std::filesystem::path& file)
+    : file_(NetcdfFile::open(file)), title_(file_.attribute("", "title")) {
+  if (file_.has_dimension("probe")) names_.probes = file_.texts("probe_name");
+  if (file_.has_dimension("body")) names_.bodies = file_.texts("body_name");
+  names_.beams = file_.texts("beam_name");
+  const std::size_t n = file_.size("time"), beams = names_.beams.size();
+  if (n == 0) return;
+  times_ = file_.doubles("time", {0}, {n});
+  element_counts_ = file_.integers("element_count", {0, 0}, {n, beams});
+  node_counts_ = file_.integers("node_count", {0, 0}, {n, beams});
+  step_counts_ = file_.integers("solver_step_count", {0}, {n});
+}
+
+std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) const {
+  if (first + count > times_.size()) throw std::out_of_range("FrameReader::read: no such frame");
+  std::vector<Snapshot> frames(count);
+  if (count == 0) return frames;
+  for (Snapshot& frame : frames) {
+    frame.probes.resize(names_.probes.size());
+    frame.bodies.resize(names_.bodies.size());
+    frame.beams.resize(names_.beams.size());
+  }
+  read_scalars(first, frames);
+  read_points(first, frames);
+  read_elements(first, frames);
+  read_nodes(first, frames);
+  read_steps(first, frames);
+  return frames;
+}
+
+void FrameReader::read_scalars(std::size_t first, std::vector<Snapshot>& frames) const {
+  const std::size_t n = frames.size();
+  const Doubles step = file_.doubles("step", {first}, {n});
+  const Integers iterations = file_.integers("newton_iterations", {first}, {n});
+  for (std::size_t i = 0; i < n; ++i) {
+    frames[i].time = times_[first + i];
+    frames[i].step = step[i];
+    frames[i].newton_iterations = iterations[i];
+  }
+  for (const EnergyPart& part : energy_parts) {
+    const Doubles values = file_.doubles(std::string("energy_") + part.name, {first}, {n});
+    for (std::size_t i = 0; i < n; ++i) frames[i].energy.*part.value = values[i];
+  }
+  const std::size_t beams = names_.beams.size();
+  const Doubles length = file_.doubles("beam_length", {first, 0}, {n, beams});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t b = 0; b < beams; ++b) frames[i].beams[b].length = length[i * beams + b];
+}
+
+void FrameReader::read_points(std::size_t first, std::vector<Snapshot>& frames) const {
+  const std::size_t n = frames.size();
+  const auto vectors = [&](const std::string& name, std::size_t points, auto target) {
+    if (points == 0) return;
+    const Doubles values = file_.doubles(name, {first, 0, 0}, {n, points, 3});
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < points; ++j)
+        target(frames[i], j) = Eigen::Vector3d(values.data() + 3 * (i * points + j));
+  };
+  const std::size_t probes = names_.probes.size(), bodies = names_.bodies.size();
+  vectors(
+      "probe_position", probes, [](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].position; });
+  vectors(
+      "probe_velocity", probes, [](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].velocity; });
+  vectors(
+      "body_position", bodies,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].point.position; });
+  vectors(
+      "body_velocity", bodies,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].point.velocity; });
+  vectors(
+      "body_joint_force", bodies,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].joint_force; });
+  if (bodies == 0) return;
+  const Doubles s = file_.doubles("body_s", {first, 0}, {n, bodies});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < bodies; ++j)
+      if (s[i * bodies + j] != NetcdfFile::fill) frames[i].bodies[j].s = s[i * bodies + j];
+}
+
+void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames) const {
+  const std::size_t beams = names_.beams.size();
+  const auto counts = element_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
+  const std::size_t start = sum(element_counts_.begin(), counts);
+  const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size() * beams));
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    for (std::size_t b = 0; b < beams; ++b)
+      frames[i].beams[b].elements.resize(counts[static_cast<std::ptrdiff_t>(i * beams + b)]);
+  if (count == 0) return;
+  const Doubles points = file_.doubles("control_points", {start, 0, 0}, {count, 4, 4});
+  const Doubles s_start = file_.doubles("element_s_start", {start}, {count});
+  const Doubles s_end = file_.doubles("element_s_end", {start}, {count});
+  const Doubles velocity = file_.doubles("velocity", {start, 0, 0}, {count, sample_count, 3});
+  std::vector<Doubles> fields;
+  for (const SampledField& field : sampled_fields)
+    fields.push_back(file_.doubles(field.name, {start, 0}, {count, sample_count}));
+  std::size_t i = 0;
+  for_each_element(frames, [&](ElementRecord& e) {
+    e.control_points = Eigen::Map<const Eigen::Matrix4d>(points.data() + 16 * i);
+    e.s_start = s_start[i];
+    e.s_end = s_end[i];
+    e.velocity = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(velocity.data() + 12 * i);
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      e.*sampled_fields[k].values = Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i);
+    ++i;
+  });
+}
+
+void FrameReader::read_nodes(std::size_t first, std::vector<Snapshot>& frames) const {
+  const std::size_t beams = names_.beams.size();
+  const auto counts = node_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
+  const std::size_t start = sum(node_counts_.begin(), counts);
+  const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size() * beams));
+  if (count == 0) return;
+  const Doubles position = file_.doubles("node_position", {start, 0}, {count, 3});
+  const Doubles slope = file_.doubles("node_slope", {start, 0}, {count, 3});
+  const Doubles s = file_.doubles("node_s", {start}, {count});
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < frames.size() * beams; ++k) {
+    BeamRecord& beam = frames[k / beams].beams[k % beams];
+    for (int node = 0; node < counts[static_cast<std::ptrdiff_t>(k)]; ++node, ++i) {
+      beam.node_positions.emplace_back(position.data() + 3 * i);
+      beam.node_slopes.emplace_back(slope.data() + 3 * i);
+      beam.node_s.push_back(s[i]);
+    }
+  }
+}
+
+void FrameReader::read_steps(std::size_t first, std::vector<Snapshot>& frames) const {
+  const auto counts = step_counts_.begin() + static_cast<std::ptrdiff_t>(first);
+  const std::size_t start = sum(step_counts_.begin(), counts);
+  const std::size_t count = sum(counts, counts + static_cast<std::ptrdiff_t>(frames.size()));
+  if (count == 0) return;
+  const Doubles time = file_.doubles("solver_step_time", {start}, {count});
+  const Doubles size = file_.doubles("solver_step_size", {start}, {count});
+  const Integers iterations = file_.integers("solver_step_newton_iterations", {start}, {count});
+  const Integers rejected = file_.integers("solver_step_rejected", {start}, {count});
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    for (int step = 0; step < counts[static_cast<std::ptrdiff_t>(k)]; ++step, ++i)
+      frames[k].steps.push_back({time[i], size[i], iterations[i], rejected[i]});
+}
+
+}  // namespace nurbeam
