@@ -31,9 +31,8 @@ bool is_step_name(const fs::path& file) {
 
 // A control character would break a line of the file, and with it the columns of IGES.
 void check_name(const std::string& name) {
-  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); })) {
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); }))
     throw std::invalid_argument("the curve name '" + name + "' holds a control character; it must hold none");
-  }
 }
 
 constexpr std::chrono::seconds patience{120};

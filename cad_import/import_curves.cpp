@@ -65,9 +65,8 @@ ImportReport report_of(const ChildResult& result, const fs::path& file, const Im
 }  // namespace
 
 ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
-  if (!(options.tolerance > 0)) {
+  if (!(options.tolerance > 0))
     throw std::invalid_argument("tolerance is " + text_of(options.tolerance) + " m; it must be positive");
-  }
   const std::string reason = unusable(file, options.size_limit_bytes);
   if (!reason.empty()) return error_report(file, reason);
   try {

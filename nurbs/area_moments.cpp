@@ -39,11 +39,21 @@ AreaMoments& AreaMoments::operator+=(const AreaMoments& other) {
 AreaMoments area_moments(const BezierPath& loop) {
   AreaMoments moments;
   for (const RationalCubic& cubic : loop.segments) {
-    moments.area += swept(cubic, [](double, double) { return 1.0; }) / 2;
-    moments.first(0) += swept(cubic, [](double x, double) { return x; }) / 3;
-    moments.first(1) += swept(cubic, [](double, double y) { return y; }) / 3;
-    moments.second(0, 0) += swept(cubic, [](double x, double) { return x * x; }) / 4;
-    moments.second(0, 1) += swept(cubic, [](double x, double y) { return x * y; }) / 4;
+    moments.area += swept(
+                        cubic, [](double, double) { return 1.0; }) /
+                    2;
+    moments.first(0) += swept(
+                            cubic, [](double x, double) { return x; }) /
+                        3;
+    moments.first(1) += swept(
+                            cubic, [](double, double y) { return y; }) /
+                        3;
+    moments.second(0, 0) += swept(
+                                cubic, [](double x, double) { return x * x; }) /
+                            4;
+    moments.second(0, 1) += swept(
+                                cubic, [](double x, double y) { return x * y; }) /
+                            4;
     moments.second(1, 1) += swept(cubic, [](double, double y) { return y * y; }) / 4;
   }
   moments.second(1, 0) = moments.second(0, 1);

@@ -137,15 +137,18 @@ class StabilisedEquations {
     const double force = T_ * T_ / work_;
     for (int j = 0; j < n_; ++j) {  // d/dx_j
       columns.add(j, T_ * cj);
-      coordinates(j, [&](int i, double, double K) { columns.add(n_ + i, force * s_[i] * K * s_[j]); });
-      constraints(j, [&](int k, double H, double) { columns.add(2 * n_ + k, H); });
+      coordinates(
+          j, [&](int i, double, double K) { columns.add(n_ + i, force * s_[i] * K * s_[j]); });
+      constraints(
+          j, [&](int k, double H, double) { columns.add(2 * n_ + k, H); });
       constraints(
           j, [&](int k, double H, double moved) { columns.add(2 * n_ + m_ + k, T_ * (moved - H) / dt); });
       columns.close();
     }
     for (int j = 0; j < n_; ++j) {  // d/dw_j
       columns.add(j, -1);
-      coordinates(j, [&](int i, double A, double) { columns.add(n_ + i, force * s_[i] * A * s_[j] / T_); });
+      coordinates(
+          j, [&](int i, double A, double) { columns.add(n_ + i, force * s_[i] * A * s_[j] / T_); });
       constraints(j, [&](int k, double H, double) { columns.add(2 * n_ + m_ + k, H); });
       columns.close();
     }

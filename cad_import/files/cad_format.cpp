@@ -56,9 +56,8 @@ std::optional<CadFormat> format_of(const std::string& content) {
 }
 
 std::string incompleteness(const std::string& content, CadFormat format) {
-  if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos) {
+  if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos)
     return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
-  }
   if (format == CadFormat::iges && terminate_line(lines_of(content)).empty()) {
     return "the IGES file is truncated: no line has a 'T' (Terminate section) in column 73; export or copy "
            "it again";

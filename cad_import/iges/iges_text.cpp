@@ -46,7 +46,8 @@ Handle(TCollection_HAsciiString) hollerith(const std::string& text) {
 }
 
 bool is_ascii(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x80; });
+  return std::all_of(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x80; });
 }
 
 // The entity itself, made without OpenCASCADE's translator, which takes every shape for one in millimetres.

@@ -40,15 +40,13 @@ struct Approximation {
 TrimmedCurve curve_of(TopoDS_Edge edge) {
   TrimmedCurve trimmed{};
   trimmed.curve = BRep_Tool::Curve(edge, trimmed.first, trimmed.last);
-  if (trimmed.curve.IsNull() && BRepLib::BuildCurve3d(edge)) {
+  if (trimmed.curve.IsNull() && BRepLib::BuildCurve3d(edge))
     trimmed.curve = BRep_Tool::Curve(edge, trimmed.first, trimmed.last);
-  }
   if (trimmed.curve.IsNull()) throw std::runtime_error("the edge has no 3D curve");
   while (const auto inner = Handle(Geom_TrimmedCurve)::DownCast(trimmed.curve))
     trimmed.curve = inner->BasisCurve();
-  if (Precision::IsInfinite(trimmed.first) || Precision::IsInfinite(trimmed.last)) {
+  if (Precision::IsInfinite(trimmed.first) || Precision::IsInfinite(trimmed.last))
     throw std::runtime_error("the curve is unbounded; trim it in the CAD system");
-  }
   if (!(trimmed.first < trimmed.last)) throw std::runtime_error("the parameter range of the curve is empty");
   return trimmed;
 }
@@ -95,12 +93,10 @@ Approximation approximated(const TrimmedCurve& source, double tolerance) {
 }
 
 Handle(Geom_BSplineCurve) exact_bspline(const TrimmedCurve& source) {
-  if (const auto bspline = Handle(Geom_BSplineCurve)::DownCast(source.curve)) {
+  if (const auto bspline = Handle(Geom_BSplineCurve)::DownCast(source.curve))
     return segment(bspline, source.first, source.last);
-  }
-  if (source.curve->IsKind(STANDARD_TYPE(Geom_BezierCurve))) {
+  if (source.curve->IsKind(STANDARD_TYPE(Geom_BezierCurve)))
     return segment(GeomConvert::CurveToBSplineCurve(source.curve), source.first, source.last);
-  }
   // Lines get degree 1, conics the rational quadratic: other parameterisations raise the degree or are not
   // exact.
   const Handle(Geom_Curve) trimmed = new Geom_TrimmedCurve(source.curve, source.first, source.last);
@@ -123,9 +119,8 @@ NurbsCurve nurbs_curve(const Geom_BSplineCurve& source) {
 
 void check_length(const NurbsCurve& curve) {
   const double l = length(curve);
-  if (!(std::isfinite(l) && l > 0)) {
+  if (!(std::isfinite(l) && l > 0))
     throw std::runtime_error("its length is " + text_of(l) + " m; it must be finite and positive");
-  }
 }
 
 }  // namespace

@@ -31,11 +31,9 @@ std::string knots_defect(const std::vector<double>& knots) {
 }
 
 std::string weights_defect(const std::vector<double>& weights) {
-  for (double weight : weights) {
-    if (!(std::isfinite(weight) && weight > 0)) {
+  for (double weight : weights)
+    if (!(std::isfinite(weight) && weight > 0))
       return "a weight is " + text_of(weight) + "; weights must be positive";
-    }
-  }
   return "";
 }
 
@@ -68,9 +66,8 @@ std::string iges_defect(const IGESGeom_BSplineCurve& curve) {
 }  // namespace
 
 std::string spline_defect(const Standard_Transient& entity) {
-  if (const auto* curve = dynamic_cast<const StepGeom_BSplineCurveWithKnots*>(&entity)) {
+  if (const auto* curve = dynamic_cast<const StepGeom_BSplineCurveWithKnots*>(&entity))
     return step_defect(values_of(curve->Knots()), curve->KnotMultiplicities(), {}, *curve);
-  }
   if (const auto* curve =
           dynamic_cast<const StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve*>(&entity)) {
     if (curve->BSplineCurveWithKnots().IsNull() || curve->RationalBSplineCurve().IsNull())

@@ -57,8 +57,10 @@ std::string answer(const ExchangeRequest& request) {
 }  // namespace nurbeam
 
 int main(int argc, char** argv) {
-  return nurbeam::serve_one_request(argc, argv, [](const std::string& bytes) {
-    return std::visit([](const auto& request) { return nurbeam::answer(request); },
-                      nurbeam::request_from_bytes(bytes));
-  });
+  return nurbeam::serve_one_request(
+      argc, argv,
+      [](const std::string& bytes) {
+        return std::visit([](const auto& request) { return nurbeam::answer(request); },
+                          nurbeam::request_from_bytes(bytes));
+      });
 }

@@ -204,9 +204,8 @@ void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& r
 }
 
 void read(XSControl_Reader& reader, const std::filesystem::path& file, ImportReport& report) {
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull()) {
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull())
     throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
-  }
   check_syntax(*reader.Model());
   add_damaged_entities(*reader.Model(), report);
 }
@@ -301,9 +300,8 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
   if (!miscounted.empty()) add_diagnostic(report, Severity::warning, "", miscounted);
   start_iges();
   // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
-  if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0)) {
+  if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0))
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
-  }
   IGESControl_Reader reader;
   read(reader, file, report);
   compare_units(global, reader.IGESModel()->GlobalSection());
@@ -314,11 +312,10 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
 
 void read_format(const std::filesystem::path& file, const std::string& content, CadFormat format,
                  double tolerance, ImportReport& report) {
-  if (format == CadFormat::step) {
+  if (format == CadFormat::step)
     read_step(file, tolerance, report);
-  } else {
+  else
     read_iges(file, content, tolerance, report);
-  }
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 namespace nurbeam {
 
 bool ImportReport::ok() const {
-  return std::none_of(diagnostics.begin(), diagnostics.end(),
-                      [](const Diagnostic& d) { return d.severity == Severity::error; });
+  return std::none_of(
+      diagnostics.begin(), diagnostics.end(),
+      [](const Diagnostic& d) { return d.severity == Severity::error; });
 }
 
 }  // namespace nurbeam

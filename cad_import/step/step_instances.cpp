@@ -19,13 +19,12 @@ class Scanner {
 
   /// Past the character here, or past the string or comment that begins here.
   void advance() {
-    if (here() == '\'') {
+    if (here() == '\'')
       at_ = past(text_.find('\'', at_ + 1), 1);
-    } else if (text_.substr(at_, 2) == "/*") {
+    else if (text_.substr(at_, 2) == "/*")
       at_ = past(text_.find("*/", at_ + 2), 2);
-    } else {
+    else
       ++at_;
-    }
   }
   /// To the next of these characters outside strings and comments.
   void seek(char wanted) {

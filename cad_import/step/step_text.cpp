@@ -68,9 +68,8 @@ class SilentMessenger {
 };
 
 void set(const char* parameter, const char* value) {
-  if (!Interface_Static::SetCVal(parameter, value)) {
+  if (!Interface_Static::SetCVal(parameter, value))
     throw std::runtime_error(std::string("OpenCASCADE refuses ") + parameter + " = " + value);
-  }
 }
 
 const char* step_unit(LengthUnit unit) {
@@ -174,9 +173,8 @@ void give_names(const StepData_StepModel& model, const std::vector<NamedCurve>& 
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Handle(TCollection_HAsciiString) name = new TCollection_HAsciiString(curves[i].name.c_str());
     translated[i]->SetName(name);
-    if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(translated[i])) {
+    if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(translated[i]))
       trimmed->BasisCurve()->SetName(name);
-    }
   }
 }
 
@@ -283,9 +281,8 @@ std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
     const SilentMessenger silence;
     set_parameters(unit);
     STEPControl_Writer writer;
-    if (writer.Transfer(compound(curves), STEPControl_GeometricCurveSet) != IFSelect_RetDone) {
+    if (writer.Transfer(compound(curves), STEPControl_GeometricCurveSet) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot translate the curves to STEP");
-    }
     give_names(*writer.Model(), curves);
     return text(writer);
   } catch (const Standard_Failure& e) {

@@ -10,13 +10,11 @@ namespace nurbeam {
 
 Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transient) & entity) {
   if (const auto context =
-          Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(entity)) {
+          Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(entity))
     return context->GlobalUnitAssignedContext();
-  }
   if (const auto context =
-          Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(entity)) {
+          Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(entity))
     return context->GlobalUnitAssignedContext();
-  }
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
 }
 

@@ -40,18 +40,20 @@ std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& div
 }  // namespace
 
 void mark_held_nodes(BeamModel& model) {
-  for_each_held_place(model, [&](int b, double s, Hold hold) {
-    Beam& beam = model.beams[b];
-    const int h = beam.home_at(s);
-    if (h < 0)
-      refuse("a constraint at s = " + text_of(s) + " m of beam \"" + beam.name + "\" needs a node there");
-    const auto mark = [&](HomeNode& node) {
-      if (hold == Hold::nothing) node.joined = true;
-      node.hold = std::max(node.hold, hold);
-    };
-    mark(beam.home[h]);
-    if (beam.is_ring() && h == 0) mark(beam.home.back());  // the seam
-  });
+  for_each_held_place(
+      model,
+      [&](int b, double s, Hold hold) {
+        Beam& beam = model.beams[b];
+        const int h = beam.home_at(s);
+        if (h < 0)
+          refuse("a constraint at s = " + text_of(s) + " m of beam \"" + beam.name + "\" needs a node there");
+        const auto mark = [&](HomeNode& node) {
+          if (hold == Hold::nothing) node.joined = true;
+          node.hold = std::max(node.hold, hold);
+        };
+        mark(beam.home[h]);
+        if (beam.is_ring() && h == 0) mark(beam.home.back());  // the seam
+      });
 }
 
 ModelBuilder::ModelBuilder(int dimension, const Eigen::Vector3d& gravity) {

@@ -217,8 +217,9 @@ class Simulation {
   }
 
   bool damped() const {
-    return std::any_of(model_->beams.begin(), model_->beams.end(),
-                       [](const Beam& beam) { return beam.properties.damping > 0; });
+    return std::any_of(
+        model_->beams.begin(), model_->beams.end(),
+        [](const Beam& beam) { return beam.properties.damping > 0; });
   }
 
   // Goes on beyond a place that a joint has landed at: a point in the next element.

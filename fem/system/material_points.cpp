@@ -75,9 +75,11 @@ void add_momentum(const MeshElement<D>& e, const State& state,
 }  // namespace
 
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s) {
-  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
-    return widened_point<D>(material_point<D>(a.elements()[span], state.q, state.v, s));
-  });
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        return widened_point<D>(material_point<D>(a.elements()[span], state.q, state.v, s));
+      });
 }
 
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s) {
@@ -85,15 +87,17 @@ MaterialPoint<3> material_point(const BeamSystem& system, const State& state, in
 }
 
 ElementRecord record_element(const BeamSystem& system, const State& state, int span) {
-  return with_assembly(system,
-                       [&]<int D>(const Assembly<D>& a) { return record<D>(a.elements()[span], state); });
+  return with_assembly(
+      system, [&]<int D>(const Assembly<D>& a) { return record<D>(a.elements()[span], state); });
 }
 
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span) {
-  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
-    const MeshElement<D>& e = a.elements()[span];
-    return e.element.bezier_weights(gather<D>(e, state.q));
-  });
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        const MeshElement<D>& e = a.elements()[span];
+        return e.element.bezier_weights(gather<D>(e, state.q));
+      });
 }
 
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,

@@ -56,20 +56,24 @@ Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
 }  // namespace
 
 SystemEnergy energy(const BeamSystem& system, const State& state) {
-  return with_assembly(system, [&](const auto& a) { return energy_of(a, state); });
+  return with_assembly(
+      system, [&](const auto& a) { return energy_of(a, state); });
 }
 
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state) {
-  return with_assembly(system, [&](const auto& a) { return momentum_of(a, state); });
+  return with_assembly(
+      system, [&](const auto& a) { return momentum_of(a, state); });
 }
 
 double beam_length(const BeamSystem& system, const State& state, int beam) {
-  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
-    double sum = 0;
-    for (int i = a.mesh().first_span[beam]; i < a.mesh().first_span[beam + 1]; ++i)
-      sum += a.elements()[i].element.length(gather<D>(a.elements()[i], state.q));
-    return sum;
-  });
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        double sum = 0;
+        for (int i = a.mesh().first_span[beam]; i < a.mesh().first_span[beam + 1]; ++i)
+          sum += a.elements()[i].element.length(gather<D>(a.elements()[i], state.q));
+        return sum;
+      });
 }
 
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint) {
@@ -82,10 +86,12 @@ Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int jo
 }
 
 double holding_force(const BeamSystem& system, const State& state, int joint) {
-  return with_assembly(system, [&](const auto& a) {
-    const auto rows = a.rows_of_place(joint);
-    return rows.count > 0 ? -state.lambda[rows.first] : 0;
-  });
+  return with_assembly(
+      system,
+      [&](const auto& a) {
+        const auto rows = a.rows_of_place(joint);
+        return rows.count > 0 ? -state.lambda[rows.first] : 0;
+      });
 }
 
 std::optional<double> place(const BeamSystem& system, const State& state, int joint) {

@@ -20,11 +20,9 @@ std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
                                                    ".STEP", ".STP", ".IGES", ".IGS"};
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
-    if (extensions.contains(entry.path().extension().string())) {
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
+    if (extensions.contains(entry.path().extension().string()))
       names.push_back(entry.path().filename().string());
-    }
-  }
   return names;
 }
 
@@ -57,11 +55,10 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
   file.gap = optional_number(axis, "gap");
   if (has(axis, "curve")) {
     const Json& curve = axis["curve"];
-    if (curve.is_string()) {
+    if (curve.is_string())
       file.curve_name = curve.get<std::string>();
-    } else {
+    else
       file.curve_index = curve.get<int>();
-    }
   }
   check_cad_file(file.path, child(path, "file"), findings);
   return file;
@@ -74,12 +71,8 @@ std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path,
   const bool complete = has(nurbs, "degree") && points_in.size() == part(nurbs, "control_points").size() &&
                         knots.size() == part(nurbs, "knots").size() &&
                         weights.size() == part(nurbs, "weights").size();
-  if (!complete || knots.empty() || points_in.empty()) {
-    return {};  // what is missing has been reported
-  }
-  if (!has(nurbs, "weights")) {
-    weights.assign(points_in.size(), 1.0);
-  }
+  if (!complete || knots.empty() || points_in.empty()) return {};  // what is missing has been reported
+  if (!has(nurbs, "weights")) weights.assign(points_in.size(), 1.0);
   if (weights.size() != points_in.size()) {
     findings.error(path, "has " + std::to_string(weights.size()) + " weights for " +
                              std::to_string(points_in.size()) +
@@ -87,9 +80,7 @@ std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path,
     return {};
   }
   Eigen::Matrix3Xd control_points(3, points_in.size());
-  for (std::size_t i = 0; i < points_in.size(); ++i) {
-    control_points.col(i) = points_in[i];
-  }
+  for (std::size_t i = 0; i < points_in.size(); ++i) control_points.col(i) = points_in[i];
   try {
     return make_nurbs_curve(KnotVector(nurbs["degree"].get<int>(), knots), control_points,
                             Eigen::Map<const Eigen::VectorXd>(weights.data(), weights.size()));
@@ -101,11 +92,9 @@ std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path,
 
 CaseAxis::Polyline read_polyline(const Json& axis, const std::string& path, Findings& findings) {
   const CaseAxis::Polyline polyline = points(axis, "polyline");
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    if (polyline[i] == polyline[i - 1]) {
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    if (polyline[i] == polyline[i - 1])
       findings.error(child(child(path, "polyline"), i), "is the same point as the one before; remove one");
-    }
-  }
   return polyline;
 }
 
@@ -135,19 +124,13 @@ CaseAxis::Arc read_arc(const Json& axis, const std::string& axis_path, Findings&
 
 CaseAxis read_axis(const Json& axis, const std::string& path, const std::filesystem::path& directory,
                    Findings& findings) {
-  if (has(axis, "file")) {
-    return {read_axis_file(axis, directory, path, findings)};
-  }
+  if (has(axis, "file")) return {read_axis_file(axis, directory, path, findings)};
   if (has(axis, "nurbs")) {
     const auto curve = read_nurbs(axis["nurbs"], child(path, "nurbs"), findings);
     return curve ? CaseAxis{*curve} : CaseAxis{};
   }
-  if (has(axis, "polyline")) {
-    return {read_polyline(axis, path, findings)};
-  }
-  if (has(axis, "arc")) {
-    return {read_arc(axis, path, findings)};
-  }
+  if (has(axis, "polyline")) return {read_polyline(axis, path, findings)};
+  if (has(axis, "arc")) return {read_arc(axis, path, findings)};
   return {};
 }
 
@@ -157,9 +140,7 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
     const Json& profile = section["profile"];
     CaseSection drawn = {.profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
                                                 text(profile, "in_plane") == "x"}};
-    if (has(profile, "file")) {
-      check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
-    }
+    if (has(profile, "file")) check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
     return drawn;
   }
   if (has(section, "radius")) {

@@ -120,9 +120,7 @@ class Checker {
   }
 
   bool check_object(const Shape& shape, Json& value, const std::string& path) {
-    if (!value.is_object()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_object()) return wrong_type(shape, value, path);
     for (const auto& [name, unused] : value.items()) {
       if (!find_key(shape, name)) {
         findings_.error(child(path, name),
@@ -130,104 +128,77 @@ class Checker {
       }
     }
     check_presence(shape, value, path);
-    for (const Key& key : shape.keys) {
-      if (value.contains(key.name) && !check(key.shape, value[key.name], child(path, key.name))) {
+    for (const Key& key : shape.keys)
+      if (value.contains(key.name) && !check(key.shape, value[key.name], child(path, key.name)))
         value[key.name] = nullptr;
-      }
-    }
     return true;
   }
 
   void check_presence(const Shape& shape, const Json& value, const std::string& path) {
     for (const Key& key : shape.keys) {
-      if (key.required && !value.contains(key.name)) {
+      if (key.required && !value.contains(key.name))
         findings_.error(path, in_quotes(key.name) + " is missing (" + key.description + ")");
-      }
-      if (value.contains(key.name) && !key.needs.empty() && !value.contains(key.needs)) {
+      if (value.contains(key.name) && !key.needs.empty() && !value.contains(key.needs))
         findings_.error(path, in_quotes(key.name) + " needs " + in_quotes(key.needs) + " beside it");
-      }
     }
     for (const Alternatives& alternatives : shape.alternatives) {
       std::vector<std::string> given;
       std::copy_if(alternatives.keys.begin(), alternatives.keys.end(), std::back_inserter(given),
                    [&](const std::string& key) { return value.contains(key); });
-      if (given.size() > 1) {
+      if (given.size() > 1)
         findings_.error(path, quoted_list(given) + " exclude each other; give one of them");
-      } else if (given.empty() && alternatives.required) {
+      else if (given.empty() && alternatives.required)
         findings_.error(path, "give one of " + quoted_list(alternatives.keys));
-      }
     }
   }
 
   bool check_array(const Shape& shape, Json& value, const std::string& path) {
-    if (!value.is_array()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_array()) return wrong_type(shape, value, path);
     if (value.size() < static_cast<std::size_t>(shape.min_items)) {
       return failed(path, "has " + std::to_string(value.size()) + " item(s); expected at least " +
                               std::to_string(shape.min_items));
     }
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      if (!check(shape.items[0], value[i], child(path, i))) {
-        value[i] = nullptr;
-      }
-    }
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (!check(shape.items[0], value[i], child(path, i))) value[i] = nullptr;
     return true;
   }
 
   bool check_either(const Shape& shape, Json& value, const std::string& path) {
-    for (const Shape& item : shape.items) {
-      if (fits_json_type(item, value)) {
-        return check(item, value, path);
-      }
-    }
+    for (const Shape& item : shape.items)
+      if (fits_json_type(item, value)) return check(item, value, path);
     return wrong_type(shape, value, path);
   }
 
   bool check_choice(const Shape& shape, const Json& value, const std::string& path) {
-    if (!value.is_string()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_string()) return wrong_type(shape, value, path);
     const auto text = value.get<std::string>();
     return std::find(shape.choices.begin(), shape.choices.end(), text) != shape.choices.end() ||
            failed(path, in_quotes(text) + " is not known here" + known_names(text, shape.choices));
   }
 
   bool check_text(const Shape& shape, const Json& value, const std::string& path) {
-    if (!value.is_string()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_string()) return wrong_type(shape, value, path);
     const auto text = value.get<std::string>();
-    if (text.empty()) {
-      return failed(path, "is empty");
-    }
+    if (text.empty()) return failed(path, "is empty");
     const auto is_barred = [](char c) { return c == ',' || c == '"' || (c >= 0 && c < ' '); };
-    if (shape.kind == Kind::name && std::any_of(text.begin(), text.end(), is_barred)) {
+    if (shape.kind == Kind::name && std::any_of(text.begin(), text.end(), is_barred))
       return failed(path, in_quotes(text) + ": a name must not hold commas, quotes or control characters");
-    }
     return true;
   }
 
   bool in_range(const Shape& shape, double value, const std::string& path) {
-    if (shape.range.contains(value)) {
-      return true;
-    }
+    if (shape.range.contains(value)) return true;
     const std::string unit = shape.dimension == Dimension::number ? "" : " " + si_unit(shape.dimension);
     return failed(path, "is " + text_of(value, all_digits) + unit + "; must be " + shape.range.rule() +
                             (shape.range.reason.empty() ? "" : " (" + shape.range.reason + ")"));
   }
 
   bool check_integer(const Shape& shape, Json& value, const std::string& path) {
-    if (!value.is_number()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_number()) return wrong_type(shape, value, path);
     const double number = value.get<double>();
-    if (number != std::floor(number)) {
+    if (number != std::floor(number))
       return failed(path, "is " + text_of(number, all_digits) + "; expected an integer");
-    }
-    if (!in_range(shape, number, path)) {
-      return false;
-    }
+    if (!in_range(shape, number, path)) return false;
     constexpr int largest = std::numeric_limits<int>::max();
     if (std::abs(number) > largest) {
       return failed(path,
@@ -240,50 +211,35 @@ class Checker {
   bool check_quantity(const Shape& shape, Json& value, const std::string& path) {
     if (value.is_string()) {
       const ParsedQuantity quantity = parse_quantity(value.get<std::string>(), shape.dimension);
-      if (!quantity.value) {
-        return failed(path, quantity.error);
-      }
+      if (!quantity.value) return failed(path, quantity.error);
       value = *quantity.value;
     }
-    if (!value.is_number()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_number()) return wrong_type(shape, value, path);
     value = value.get<double>();
     return in_range(shape, value.get<double>(), path);
   }
 
   bool check_vector(const Shape& shape, Json& value, const std::string& path) {
-    if (!value.is_array()) {
-      return wrong_type(shape, value, path);
-    }
-    if (value.size() != 3) {
+    if (!value.is_array()) return wrong_type(shape, value, path);
+    if (value.size() != 3)
       return failed(path, "has " + std::to_string(value.size()) + " item(s); expected " + expected(shape));
-    }
     const Shape component = {.kind = Kind::quantity, .dimension = shape.dimension};
     bool usable = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      usable = check(component, value[i], child(path, i)) && usable;
-    }
+    for (std::size_t i = 0; i < 3; ++i) usable = check(component, value[i], child(path, i)) && usable;
     return usable;
   }
 
   bool check_table(const Shape& shape, Json& value, const std::string& path) {
-    if (!value.is_array() || value.empty()) {
-      return wrong_type(shape, value, path);
-    }
+    if (!value.is_array() || value.empty()) return wrong_type(shape, value, path);
     const Shape time = {.kind = Kind::quantity, .dimension = Dimension::time};
     const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension};
     double last = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < value.size(); ++i) {
       Json& row = value[i];
       const std::string row_path = child(path, i);
-      if (!row.is_array() || row.size() != 2) {
-        return failed(row_path, "expected a row [time, value]");
-      }
-      if (!check(time, row[0], child(row_path, std::size_t{0})) ||
-          !check(entry, row[1], child(row_path, 1))) {
+      if (!row.is_array() || row.size() != 2) return failed(row_path, "expected a row [time, value]");
+      if (!check(time, row[0], child(row_path, std::size_t{0})) || !check(entry, row[1], child(row_path, 1)))
         return false;
-      }
       if (row[0].get<double>() <= last) {
         return failed(row_path, "time " + text_of(row[0].get<double>(), all_digits) +
                                     " s does not come after " + text_of(last, all_digits) +

@@ -78,20 +78,16 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   analysis.length_control_min = number(control, "min", analysis.length_control_min);
   analysis.length_control_max = number(control, "max", analysis.length_control_max);
   if (analysis.type == CaseAnalysis::Type::statics) {
-    for (const char* key : {"end_time", "step", "tolerance", "initial"}) {
-      if (has(json, key)) {
+    for (const char* key : {"end_time", "step", "tolerance", "initial"})
+      if (has(json, key))
         findings.add(Severity::warning, child("analysis", key), "has no effect in a static analysis");
-      }
-    }
     return analysis;
   }
   const double default_tolerance = analysis.method == Method::ida ? 1e-8 : 1e-4;
   analysis.end_time = number(json, "end_time", 0);
   analysis.step = optional_number(json, "step");
   analysis.tolerance = optional_number(json, "tolerance");
-  if (!analysis.step && !analysis.tolerance) {
-    analysis.tolerance = default_tolerance;
-  }
+  if (!analysis.step && !analysis.tolerance) analysis.tolerance = default_tolerance;
   if (analysis.method == Method::rk4 && !analysis.step)
     findings.error("analysis.step", "is missing; the explicit method \"rk4\" needs a fixed step");
   return analysis;
@@ -101,9 +97,8 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   CaseOutput output;
   output.every = optional_number(json, "every");
   constexpr int default_frames = 100;
-  if (!output.every && analysis.type == CaseAnalysis::Type::dynamic) {
+  if (!output.every && analysis.type == CaseAnalysis::Type::dynamic)
     output.every = analysis.end_time / default_frames;
-  }
   if (has(json, "cad")) {
     const Json& cad = json["cad"];
     output.cad_formats = {"step"};
@@ -139,21 +134,29 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   result.name = text(json, "name", file.stem().string());
   result.gravity = vector(json, "gravity", result.gravity);
   const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
-  for_each_item(json, "beams", "", [&](const Json& beam, const std::string& path) {
-    result.beams.push_back(read_beam(beam, path, directory, findings));
-  });
-  for_each_item(json, "bodies", "", [&](const Json& body, const std::string&) {
-    result.bodies.push_back({.name = text(body, "name"), .mass = number(body, "mass")});
-  });
-  for_each_item(json, "loads", "", [&](const Json& load, const std::string& path) {
-    result.loads.push_back(read_load(load, path));
-  });
-  for_each_item(json, "supports", "", [&](const Json& support, const std::string& path) {
-    result.supports.push_back(read_support(support, path));
-  });
-  for_each_item(json, "sliding_joints", "", [&](const Json& joint, const std::string& path) {
-    result.sliding_joints.push_back(read_sliding_joint(joint, path));
-  });
+  for_each_item(
+      json, "beams", "",
+      [&](const Json& beam, const std::string& path) {
+        result.beams.push_back(read_beam(beam, path, directory, findings));
+      });
+  for_each_item(
+      json, "bodies", "",
+      [&](const Json& body, const std::string&) {
+        result.bodies.push_back({.name = text(body, "name"), .mass = number(body, "mass")});
+      });
+  for_each_item(
+      json, "loads", "",
+      [&](const Json& load, const std::string& path) { result.loads.push_back(read_load(load, path)); });
+  for_each_item(
+      json, "supports", "",
+      [&](const Json& support, const std::string& path) {
+        result.supports.push_back(read_support(support, path));
+      });
+  for_each_item(
+      json, "sliding_joints", "",
+      [&](const Json& joint, const std::string& path) {
+        result.sliding_joints.push_back(read_sliding_joint(joint, path));
+      });
   for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
     result.joints.push_back(read_beam_joint(joint, path));
   });
@@ -167,9 +170,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Findings findings(file.string());
   auto json = read_json(file, findings);
-  if (!json) {
-    return {{}, findings.take()};
-  }
+  if (!json) return {{}, findings.take()};
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
   std::optional<CaseFile> value;
@@ -178,9 +179,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
     value->json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
     check_across(*json, *value, findings);
   }
-  if (findings.has_errors() || !diagnostics.empty()) {
-    value.reset();
-  }
+  if (findings.has_errors() || !diagnostics.empty()) value.reset();
   const std::vector<Diagnostic> found = findings.take();
   diagnostics.insert(diagnostics.end(), found.begin(), found.end());
   return {std::move(value), std::move(diagnostics)};

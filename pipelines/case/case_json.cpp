@@ -31,9 +31,7 @@ std::string line_and_column(const std::string& text, std::size_t offset) {
 std::string bare_message(const std::string& what) {
   const auto bracket = what.find("] ");
   std::string message = bracket == std::string::npos ? what : what.substr(bracket + 2);
-  if (message.starts_with("parse error at")) {
-    message.erase(0, message.find(": ") + 2);
-  }
+  if (message.starts_with("parse error at")) message.erase(0, message.find(": ") + 2);
   return message;
 }
 
@@ -43,12 +41,8 @@ std::string word_at(const std::string& text, std::size_t offset) {
     return std::isalpha(static_cast<unsigned char>(text[i])) != 0;
   };
   std::size_t begin = std::min(offset, text.size()), end = begin;
-  while (begin > 0 && is_letter(begin - 1)) {
-    --begin;
-  }
-  while (end < text.size() && is_letter(end)) {
-    ++end;
-  }
+  while (begin > 0 && is_letter(begin - 1)) --begin;
+  while (end < text.size() && is_letter(end)) ++end;
   return text.substr(begin, end - begin);
 }
 
@@ -68,18 +62,13 @@ class DuplicateKeys {
     if (event == Event::key) {
       Level& level = levels_.back();
       level.key = parsed.get<std::string>();
-      if (!level.keys.insert(level.key).second) {
+      if (!level.keys.insert(level.key).second)
         findings_.error(path(), "the key " + in_quotes(level.key) + " stands twice in this object; keep one");
-      }
     } else if (event == Event::object_end || event == Event::array_end) {
       levels_.pop_back();
     } else {
-      if (!levels_.empty() && levels_.back().is_array) {
-        ++levels_.back().count;
-      }
-      if (event != Event::value) {
-        levels_.push_back({.is_array = event == Event::array_start});
-      }
+      if (!levels_.empty() && levels_.back().is_array) ++levels_.back().count;
+      if (event != Event::value) levels_.push_back({.is_array = event == Event::array_start});
     }
     return true;
   }
@@ -94,9 +83,8 @@ class DuplicateKeys {
 
   std::string path() const {
     std::string path;
-    for (const Level& level : levels_) {
+    for (const Level& level : levels_)
       path = level.is_array ? child(path, level.count - 1) : child(path, level.key);
-    }
     return path;
   }
 
@@ -160,25 +148,18 @@ std::size_t too_deep_at(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     switch (text[i]) {
       case '"':
-        for (++i; i < text.size() && text[i] != '"'; ++i) {
-          i += text[i] == '\\';
-        }
+        for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
         break;
       case '/':
-        if (text.compare(i, 2, "//") == 0) {
+        if (text.compare(i, 2, "//") == 0)
           i = text.find('\n', i);
-        } else if (text.compare(i, 2, "/*") == 0) {
+        else if (text.compare(i, 2, "/*") == 0)
           i = text.find("*/", i + 2);
-        }
-        if (i == std::string::npos) {
-          return i;
-        }
+        if (i == std::string::npos) return i;
         break;
       case '[':
       case '{':
-        if (++depth > deepest) {
-          return i;
-        }
+        if (++depth > deepest) return i;
         break;
       case ']':
       case '}':
@@ -203,9 +184,7 @@ const Key* find_key(const Shape& shape, const std::string& name) {
 
 std::vector<std::string> key_names(const Shape& shape) {
   std::vector<std::string> names;
-  for (const Key& key : shape.keys) {
-    names.push_back(key.name);
-  }
+  for (const Key& key : shape.keys) names.push_back(key.name);
   return names;
 }
 

@@ -20,11 +20,8 @@ using Kind = Shape::Kind;
 /// The alternative of an `either` that can hold keys; the shape itself otherwise.
 const Shape& object_alternative(const Shape& shape) {
   if (shape.kind == Kind::either) {
-    for (const Shape& item : shape.items) {
-      if (item.kind == Kind::object) {
-        return item;
-      }
-    }
+    for (const Shape& item : shape.items)
+      if (item.kind == Kind::object) return item;
   }
   return shape;
 }
@@ -32,13 +29,11 @@ const Shape& object_alternative(const Shape& shape) {
 /// "beams[0].section.radius" as "beams", "0", "section", "radius".
 std::vector<std::string> path_parts(const std::string& path) {
   std::vector<std::string> parts(1);
-  for (const char c : path) {
-    if (c == '.' || c == '[') {
+  for (const char c : path)
+    if (c == '.' || c == '[')
       parts.emplace_back();
-    } else if (c != ']') {
+    else if (c != ']')
       parts.back() += c;
-    }
-  }
   return parts;
 }
 
@@ -55,9 +50,8 @@ bool has_sound_brackets(const std::string& path) {
   for (const char c : path) {
     const bool opens = c == '[', closes = c == ']', continues = c == '.' || opens;
     if ((opens && (inside || last == '.')) || (closes && !inside) || (c == '.' && inside) ||
-        (last == ']' && !continues)) {
+        (last == ']' && !continues))
       return false;
-    }
     inside = opens || (inside && !closes);
     last = c;
   }
@@ -66,9 +60,7 @@ bool has_sound_brackets(const std::string& path) {
 
 /// The number that a text outside JSON's grammar (".45", "5.", "+5", "007") means.
 std::optional<double> loose_number(std::string_view text) {
-  if (text.starts_with('+')) {
-    text.remove_prefix(1);
-  }
+  if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(number);
@@ -85,9 +77,8 @@ std::string apply_override(Json& root, const std::string& path, const Json& new_
     const std::string& part = parts[i];
     const std::string here = walked.empty() ? "the case file" : walked;
     const Shape& holder = object_alternative(*shape);
-    if (holder.kind != Kind::object && !value->is_array()) {
+    if (holder.kind != Kind::object && !value->is_array())
       return here + " has no parts here; set it as a whole";
-    }
     if (value->is_array()) {
       const auto index = as_index(part);
       if (!index || *index >= value->size()) {
@@ -100,20 +91,14 @@ std::string apply_override(Json& root, const std::string& path, const Json& new_
       continue;
     }
     const Key* key = find_key(holder, part);
-    if (!key) {
-      return "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder));
-    }
+    if (!key) return "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder));
     walked = child(walked, part);
     shape = &key->shape;
     if (new_value.is_null() && i + 1 == parts.size()) {
-      if (value->is_object()) {
-        value->erase(part);
-      }
+      if (value->is_object()) value->erase(part);
       return {};
     }
-    if (!value->is_object()) {
-      *value = Json::object();
-    }
+    if (!value->is_object()) *value = Json::object();
     value = &(*value)[part];
   }
   *value = new_value;
@@ -123,16 +108,11 @@ std::string apply_override(Json& root, const std::string& path, const Json& new_
 /// What is wrong with a --set text, "" if nothing; then the case has been changed.
 std::string apply_override(Json& root, const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos) {
-    return "expected path=value, for example analysis.end_time=0.1";
-  }
+  if (equals == std::string::npos) return "expected path=value, for example analysis.end_time=0.1";
   const std::string path = text.substr(0, equals), value_text = text.substr(equals + 1);
-  if (!has_sound_brackets(path)) {
+  if (!has_sound_brackets(path))
     return "the brackets of the path do not match; write it as in beams[0].section.radius=0.01";
-  }
-  if (too_deep_at(value_text) != std::string::npos) {
-    return too_deep_message();
-  }
+  if (too_deep_at(value_text) != std::string::npos) return too_deep_message();
   Json value = Json::parse(value_text, nullptr, false);
   if (value.is_discarded()) {
     if (const auto number = loose_number(value_text)) {
@@ -143,20 +123,16 @@ std::string apply_override(Json& root, const std::string& text) {
   }
   Json changed = root;
   const std::string problem = apply_override(changed, path, value);
-  if (problem.empty()) {
-    root = std::move(changed);
-  }
+  if (problem.empty()) root = std::move(changed);
   return problem;
 }
 
 }  // namespace
 
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong) {
-  for (const std::string& text : overrides) {
-    if (const std::string problem = apply_override(root, text); !problem.empty()) {
+  for (const std::string& text : overrides)
+    if (const std::string problem = apply_override(root, text); !problem.empty())
       wrong.push_back({Severity::error, "--set " + text, problem});
-    }
-  }
 }
 
 }  // namespace nurbeam

@@ -47,14 +47,10 @@ void check_names(const Json& json, Findings& findings) {
 /// The names of the items under the key; nothing when one of them is unusable.
 std::optional<std::vector<std::string>> names_under(const Json& json, const char* key) {
   std::vector<std::string> names;
-  if (json.contains(key) && json[key].is_null()) {
-    return {};
-  }
+  if (json.contains(key) && json[key].is_null()) return {};
   for (const Json& item : part(json, key)) {
     names.push_back(item.is_null() ? "" : text(item, "name"));
-    if (names.back().empty()) {
-      return {};
-    }
+    if (names.back().empty()) return {};
   }
   return names;
 }
@@ -79,13 +75,14 @@ bool is_beam_of_chain(const std::string& name, const Json& json) {
 /// Reports, for every item under the key, a name under `reference` that is not among the known ones.
 void check_references(const Json& json, const Json& holder, const char* key, const std::string& path,
                       const char* reference, const std::vector<std::string>& known, Findings& findings) {
-  for_each_item(holder, key, path, [&](const Json& item, const std::string& item_path) {
-    const std::string name = text(item, reference);
-    if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json)) {
-      findings.error(child(item_path, reference), "there is no " + std::string(reference) + " " +
-                                                      in_quotes(name) + known_names(name, known));
-    }
-  });
+  for_each_item(
+      holder, key, path,
+      [&](const Json& item, const std::string& item_path) {
+        const std::string name = text(item, reference);
+        if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json))
+          findings.error(child(item_path, reference), "there is no " + std::string(reference) + " " +
+                                                          in_quotes(name) + known_names(name, known));
+      });
 }
 
 void check_references(const Json& json, Findings& findings) {
@@ -102,17 +99,14 @@ void check_references(const Json& json, Findings& findings) {
       });
     });
   }
-  if (const auto bodies = names_under(json, "bodies")) {
+  if (const auto bodies = names_under(json, "bodies"))
     check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
-  }
 }
 
 /// Every body is held by exactly one sliding joint.
 void check_bodies(const Json& json, const CaseFile& c, Findings& findings) {
   std::map<std::string, std::vector<std::string>> holders;  // paths of the joints of each body
-  for (const CaseSlidingJoint& joint : c.sliding_joints) {
-    holders[joint.body].push_back(joint.path);
-  }
+  for (const CaseSlidingJoint& joint : c.sliding_joints) holders[joint.body].push_back(joint.path);
   const std::vector<std::string> bodies = names_under(json, "bodies").value_or(std::vector<std::string>{});
   const bool all_known = std::all_of(holders.begin(), holders.end(),
                                      [&](const auto& holder) { return is_one_of(holder.first, bodies); });

@@ -18,40 +18,26 @@ Json object_schema(const Shape& shape) {
     const std::string detail = property.value("description", "");
     property["description"] = key.description + (detail.empty() ? "" : " (" + detail + ")");
     schema["properties"][key.name] = property;
-    if (key.required) {
-      schema["required"].push_back(key.name);
-    }
-    if (!key.needs.empty()) {
-      schema["dependentRequired"][key.name] = Json::array({key.needs});
-    }
+    if (key.required) schema["required"].push_back(key.name);
+    if (!key.needs.empty()) schema["dependentRequired"][key.name] = Json::array({key.needs});
   }
   for (const Alternatives& alternatives : shape.alternatives) {
     Json one_of = Json::array();
-    for (const std::string& key : alternatives.keys) {
-      one_of.push_back({{"required", Json::array({key})}});
-    }
-    if (!alternatives.required) {
-      one_of.push_back({{"not", {{"anyOf", one_of}}}});
-    }
+    for (const std::string& key : alternatives.keys) one_of.push_back({{"required", Json::array({key})}});
+    if (!alternatives.required) one_of.push_back({{"not", {{"anyOf", one_of}}}});
     schema["allOf"].push_back({{"oneOf", one_of}});
   }
   return schema;
 }
 
 Json with_range(Json schema, const Range& range) {
-  if (std::isfinite(range.lower)) {
-    schema[range.open ? "exclusiveMinimum" : "minimum"] = range.lower;
-  }
-  if (std::isfinite(range.upper)) {
-    schema[range.open ? "exclusiveMaximum" : "maximum"] = range.upper;
-  }
+  if (std::isfinite(range.lower)) schema[range.open ? "exclusiveMinimum" : "minimum"] = range.lower;
+  if (std::isfinite(range.upper)) schema[range.open ? "exclusiveMaximum" : "maximum"] = range.upper;
   return schema;
 }
 
 Json quantity_schema(Dimension dimension) {
-  if (dimension == Dimension::number) {
-    return {{"type", "number"}};
-  }
+  if (dimension == Dimension::number) return {{"type", "number"}};
   return {{"type", {"number", "string"}},
           {"description", "in " + si_unit(dimension) + ", or a text with a unit"}};
 }

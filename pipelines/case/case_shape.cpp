@@ -277,15 +277,14 @@ bool Range::contains(double value) const {
 
 std::string Range::rule() const {
   std::ostringstream rule;
-  if (lower == upper) {
+  if (lower == upper)
     rule << lower;
-  } else if (std::isfinite(lower) && std::isfinite(upper)) {
+  else if (std::isfinite(lower) && std::isfinite(upper))
     rule << "between " << lower << " and " << upper << (open ? " (both excluded)" : "");
-  } else if (std::isfinite(lower)) {
+  else if (std::isfinite(lower))
     rule << (open ? "greater than " : "at least ") << lower;
-  } else {
+  else
     rule << (open ? "less than " : "at most ") << upper;
-  }
   return rule.str();
 }
 

@@ -50,55 +50,43 @@ inline Eigen::Vector3d vector(
 
 inline std::vector<Eigen::Vector3d> points(const Json& object, const char* key) {
   std::vector<Eigen::Vector3d> points;
-  for (const Json& item : part(object, key)) {
-    if (!item.is_null()) {
-      points.push_back(to_vector(item));
-    }
-  }
+  for (const Json& item : part(object, key))
+    if (!item.is_null()) points.push_back(to_vector(item));
   return points;
 }
 
 inline std::vector<double> numbers(const Json& object, const char* key) {
   std::vector<double> numbers;
-  for (const Json& item : part(object, key)) {
-    if (!item.is_null()) {
-      numbers.push_back(item.get<double>());
-    }
-  }
+  for (const Json& item : part(object, key))
+    if (!item.is_null()) numbers.push_back(item.get<double>());
   return numbers;
 }
 
 inline TimeTable time_table(const Json& object, const char* key) {
   TimeTable table;
-  for (const Json& row : part(object, key)) {
-    table.emplace_back(row[0].get<double>(), row[1].get<double>());
-  }
+  for (const Json& row : part(object, key)) table.emplace_back(row[0].get<double>(), row[1].get<double>());
   return table;
 }
 
 /// The enumerator whose text stands under the key; the first one if there is none.
 template <class Enum>
 Enum chosen(const Json& object, const char* key, const std::vector<std::pair<const char*, Enum>>& values) {
-  for (const auto& [name, value] : values) {
-    if (text(object, key) == name) {
-      return value;
-    }
-  }
+  for (const auto& [name, value] : values)
+    if (text(object, key) == name) return value;
   return values.front().second;
 }
 
 inline Place read_place(const Json& object) {
   Place place;
   const Json& at = part(object, "at");
-  if (at.is_string()) {
+  if (at.is_string())
     place.kind = at == "end" ? Place::Kind::end : Place::Kind::start;
-  } else if (has(at, "length")) {
+  else if (has(at, "length"))
     place = {.kind = Place::Kind::length, .value = number(at, "length")};
-  } else if (has(at, "fraction")) {
+  else if (has(at, "fraction"))
     place = {.kind = Place::Kind::fraction, .value = number(at, "fraction")};
-  } else if (has(at, "near")) {
+  else if (has(at, "near"))
     place = {.kind = Place::Kind::near, .point = vector(at, "near"), .within = optional_number(at, "within")};
-  }
   return place;
 }
 
@@ -108,9 +96,7 @@ void for_each_item(const Json& object, const char* key, const std::string& path,
   std::size_t index = 0;
   for (const Json& item : part(object, key)) {
     const std::string item_path = child(child(path, key), index++);
-    if (!item.is_null()) {
-      read(item, item_path);
-    }
+    if (!item.is_null()) read(item, item_path);
   }
 }
 

@@ -102,18 +102,16 @@ DimensionInfo info(Dimension dimension) {
 }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
-  }
 }
 
 /// The text with powers as ^n, products as spaces and micro as u.
 std::string plain(std::string_view unit) {
   std::string text(unit);
   for (const auto& [from, to] :
-       {std::pair{"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"·", " "}, {"*", " "}, {"µ", "u"}, {"μ", "u"}}) {
+       {std::pair{"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"·", " "}, {"*", " "}, {"µ", "u"}, {"μ", "u"}})
     replace_all(text, from, to);
-  }
   return text;
 }
 
@@ -126,19 +124,14 @@ struct UnitProduct {
 };
 
 const Unit* find_unit(std::string_view name) {
-  for (const Unit& unit : units()) {
-    if (name == unit.name) {
-      return &unit;
-    }
-  }
+  for (const Unit& unit : units())
+    if (name == unit.name) return &unit;
   return nullptr;
 }
 
 std::vector<std::string> unit_names() {
   std::vector<std::string> names;
-  for (const Unit& unit : units()) {
-    names.emplace_back(unit.name);
-  }
+  for (const Unit& unit : units()) names.emplace_back(unit.name);
   return names;
 }
 
@@ -146,9 +139,7 @@ std::vector<std::string> unit_names() {
 /// one.
 int take_power(std::string_view& rest) {
   const bool caret = rest.starts_with('^');
-  if (caret) {
-    rest.remove_prefix(1);
-  }
+  if (caret) rest.remove_prefix(1);
   int power = caret ? 0 : 1;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), power);
   rest.remove_prefix(end - rest.data());
@@ -170,9 +161,7 @@ UnitProduct parse_units(const std::string& text) {
       continue;
     }
     std::size_t letters = 0;
-    while (letters < rest.size() && is_letter(rest[letters])) {
-      ++letters;
-    }
+    while (letters < rest.size() && is_letter(rest[letters])) ++letters;
     const std::string_view name = rest.substr(0, letters);
     const Unit* unit = find_unit(name);
     if (!unit) {
@@ -188,14 +177,10 @@ UnitProduct parse_units(const std::string& text) {
     }
     product.multiply *= std::pow(power > 0 ? unit->multiply : unit->divide, std::abs(power));
     product.divide *= std::pow(power > 0 ? unit->divide : unit->multiply, std::abs(power));
-    for (int i = 0; i < 3; ++i) {
-      product.exponents[i] += power * unit->exponents[i];
-    }
+    for (int i = 0; i < 3; ++i) product.exponents[i] += power * unit->exponents[i];
     sign = 1;
   }
-  if (sign == -1) {
-    product.error = "a unit is missing after \"/\"";
-  }
+  if (sign == -1) product.error = "a unit is missing after \"/\"";
   return product;
 }
 
@@ -215,21 +200,16 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   rest.remove_prefix(std::min(rest.find_first_not_of(" +"), rest.size()));
   double number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  if (error != std::errc{} || !std::isfinite(number)) {
+  if (error != std::errc{} || !std::isfinite(number))
     return failed("does not begin with a finite number; expected a number and a unit of " + expected);
-  }
   rest.remove_prefix(end - rest.data());
   const UnitProduct product = parse_units(plain(rest));
-  if (!product.error.empty()) {
-    return failed(product.error + "; expected " + expected);
-  }
+  if (!product.error.empty()) return failed(product.error + "; expected " + expected);
   if (rest.find_first_not_of(' ') == std::string_view::npos && dimension != Dimension::number) {
     return failed("has no unit; expected " + expected + "; a number without quotes is in " +
                   si_unit(dimension));
   }
-  if (product.exponents != info(dimension).exponents) {
-    return failed("the unit does not measure " + expected);
-  }
+  if (product.exponents != info(dimension).exponents) return failed("the unit does not measure " + expected);
   const double value = number * product.multiply / product.divide;
   if (!std::isfinite(value) || (value == 0 && number != 0)) {
     return failed(std::string("is too ") + (value == 0 ? "small" : "large") + " for a number in " +

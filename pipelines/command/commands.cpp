@@ -26,21 +26,15 @@ namespace {
 double quantity_argument(const std::string& option, const std::string& text, Dimension dimension) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) {
-    return number;
-  }
+  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) return number;
   const ParsedQuantity quantity = parse_quantity(text, dimension);
-  if (!quantity.value) {
-    throw UsageError(option + ": " + quantity.error);
-  }
+  if (!quantity.value) throw UsageError(option + ": " + quantity.error);
   return *quantity.value;
 }
 
 int inspect_command(const Arguments& arguments, Streams streams) {
   if (arguments.has("--profile")) {
-    if (arguments.has("--json")) {
-      throw UsageError("--profile and --json exclude each other");
-    }
+    if (arguments.has("--json")) throw UsageError("--profile and --json exclude each other");
     return inspect_profiles({arguments.positional.begin(), arguments.positional.end()}, streams.out,
                             streams.err);
   }
@@ -61,14 +55,11 @@ int check_command(const Arguments& arguments, Streams streams) {
 }
 
 int run_command(const Arguments& arguments, Streams streams) {
-  if (arguments.value("--out", "results").empty()) {
+  if (arguments.value("--out", "results").empty())
     throw UsageError("--out: is empty; give the directory for the results");
-  }
   const BrokenPipeGuard guard;  // a run outlives the reader of its messages
   const auto case_file = read_case(arguments, streams);
-  if (!case_file) {
-    return exit_bad_input;
-  }
+  if (!case_file) return exit_bad_input;
   const std::string default_out = case_file->path.stem().string() + "_results";
   return run_case(*case_file, {.out = arguments.value("--out", default_out),
                                .quiet = arguments.has("--quiet"),
@@ -118,20 +109,16 @@ int export_command(const Arguments& arguments, Streams streams) {
 int compare_command(const Arguments& arguments, Streams streams) {
   const double tolerance =
       quantity_argument("--tolerance", arguments.value("--tolerance", "1e-6"), Dimension::length);
-  if (!(tolerance > 0)) {
+  if (!(tolerance > 0))
     throw UsageError("--tolerance: is " + arguments.value("--tolerance", "") + "; must be greater than 0");
-  }
   return compare_files(arguments.positional[0], arguments.positional[1], tolerance, streams.out, streams.err);
 }
 
 int schema_command(const Arguments& arguments, Streams streams) {
   const std::string what = arguments.positional.empty() ? "case" : arguments.positional[0];
-  if (what == "study") {
+  if (what == "study")
     throw UsageError("the schema \"study\" is not available in this version; available: \"case\"");
-  }
-  if (what != "case") {
-    throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case"}));
-  }
+  if (what != "case") throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case"}));
   streams.out << case_file_schema();
   return exit_done;
 }
@@ -139,9 +126,7 @@ int schema_command(const Arguments& arguments, Streams streams) {
 template <class Item>
 std::vector<std::string> names_of(const std::vector<Item>& items) {
   std::vector<std::string> names;
-  for (const Item& item : items) {
-    names.push_back(item.name);
-  }
+  for (const Item& item : items) names.push_back(item.name);
   return names;
 }
 
@@ -155,9 +140,8 @@ int verify_command(const Arguments& arguments, Streams streams) {
   const std::vector<std::string> names = names_of(problems);
   std::erase_if(problems,
                 [&](const VerifyProblem& problem) { return problem.name.find(part) == std::string::npos; });
-  if (problems.empty()) {
+  if (problems.empty())
     throw UsageError("no problem has " + in_quotes(part) + " in its name" + known_names(part, names));
-  }
   return verify(problems, streams.out, streams.err);
 }
 

@@ -36,9 +36,7 @@ FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vec
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (const RationalCubic& segment : BezierPath::from_nurbs(a[i].curve, tolerance).segments) {
       const double distance = largest_distance([&](double u) { return segment.point(u); }, target);
-      if (distance > farthest.distance) {
-        farthest = {distance, i};
-      }
+      if (distance > farthest.distance) farthest = {distance, i};
     }
   }
   return farthest;
@@ -49,9 +47,7 @@ int compare_files(const std::filesystem::path& a, const std::filesystem::path& b
   const ImportReport reports[] = {import_curves(a), import_curves(b)};
   for (const ImportReport& report : reports) {
     print_diagnostics(err, report.diagnostics);
-    if (!report.ok()) {
-      return 2;
-    }
+    if (!report.ok()) return 2;
     if (report.curves.empty()) {
       err << "error: " << report.file << ": holds no curve to compare\n";
       return 2;

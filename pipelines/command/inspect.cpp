@@ -66,16 +66,12 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 /// Cells in columns as wide as their widest cell.
 void print_table(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], row[i].size());
-    }
-  }
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   for (const auto& row : rows) {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    for (std::size_t i = 0; i < row.size(); ++i)
       line += "  " + row[i] + std::string(widths[i] - row[i].size(), ' ');
-    }
     out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
   }
 }
@@ -223,11 +219,10 @@ int inspect_files(const std::vector<std::filesystem::path>& files, bool json, st
     const ImportReport report = import_curves(file);
     readable = readable && report.ok();
     print_diagnostics(err, report.diagnostics);
-    if (json) {
+    if (json)
       all.push_back(to_json(report));
-    } else if (!report.curves.empty()) {
+    else if (!report.curves.empty())
       print_report(out, report);
-    }
   }
   if (json) {
     // Names from files need not be valid UTF-8: what is not is replaced.

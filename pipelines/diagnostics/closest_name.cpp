@@ -31,16 +31,12 @@ std::string in_quotes(std::string_view text) { return "\"" + std::string(text) +
 
 std::string quoted_list(const std::vector<std::string>& names) {
   std::string list;
-  for (const std::string& name : names) {
-    list += (list.empty() ? "" : ", ") + in_quotes(name);
-  }
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + in_quotes(name);
   return list;
 }
 
 std::string known_names(std::string_view unknown, const std::vector<std::string>& known) {
-  if (known.empty()) {
-    return "; there is none to name here";
-  }
+  if (known.empty()) return "; there is none to name here";
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return edit_distance(unknown, a) < edit_distance(unknown, b);
   });

@@ -27,8 +27,9 @@ class Findings {
   /// The file, and the path in it; "" stands for the whole file.
   std::string where(const std::string& path) const { return path.empty() ? file_ : file_ + ": " + path; }
   bool has_errors() const {
-    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
-                       [](const Diagnostic& d) { return d.severity == Severity::error; });
+    return std::any_of(
+        diagnostics_.begin(), diagnostics_.end(),
+        [](const Diagnostic& d) { return d.severity == Severity::error; });
   }
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 

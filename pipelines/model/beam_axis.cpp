@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
@@ -107,8 +108,8 @@ void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Find
       BezierPath{{segments.back(), segments.front()}, {}, 0}.corners(default_corner_angle);
   if (!seam.empty())
     return findings.error(where, "is true, but the axis has a corner of " +
-                                     text_of(seam[0].angle * 180 / M_PI) + " degrees at its seam, " +
-                                     text_of(start) +
+                                     text_of(seam[0].angle * 180 / std::numbers::pi) +
+                                     " degrees at its seam, " + text_of(start) +
                                      "; a ring is smooth: round the corner, or leave \"closed\" out");
   if (segments.size() == 1) {
     const auto [first, second] = segments[0].split(0.5);
@@ -131,16 +132,16 @@ std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<Rati
                                     Findings& findings) {
   const BezierPath smooth = smooth_corners({segments, {}, 0}, beam.smooth_angle);
   if (smooth.deviation > 0)
-    findings.warn(beam.path + ".corners", "corners of up to " + text_of(beam.smooth_angle * 180 / M_PI) +
-                                              " degrees were smoothed; largest deviation " +
-                                              text_of(smooth.deviation) + " m");
+    findings.warn(beam.path + ".corners",
+                  "corners of up to " + text_of(beam.smooth_angle * 180 / std::numbers::pi) +
+                      " degrees were smoothed; largest deviation " + text_of(smooth.deviation) + " m");
   return smooth.segments;
 }
 
 // How to be without a corner.
 std::string rounding(const Corner& corner) {
   constexpr int most_degrees = 45;  // that "smooth_up_to" may be
-  const int degrees = static_cast<int>(std::ceil(corner.angle * 180 / M_PI));
+  const int degrees = static_cast<int>(std::ceil(corner.angle * 180 / std::numbers::pi));
   if (degrees >= most_degrees) return "round the corner";
   return "round the corner, in the drawing or with \"corners\": \"smooth\", \"smooth_up_to\": " +
          std::to_string(degrees);
@@ -152,7 +153,7 @@ std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCu
   std::vector<int> corners;
   for (const Corner& corner : BezierPath{segments, {}, 0}.corners(default_corner_angle)) {
     corners.push_back(corner.after_segment + 1);
-    const std::string place = "the axis has a corner of " + text_of(corner.angle * 180 / M_PI) +
+    const std::string place = "the axis has a corner of " + text_of(corner.angle * 180 / std::numbers::pi) +
                               " degrees at " + text_of(corner.point) + "; ";
     const bool is_rigid = beam.corners == Corners::rigid;
     if (is_rigid || beam.corners == Corners::hinge) {
@@ -166,7 +167,7 @@ std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCu
     findings.error(
         beam.path + (beam.corners == Corners::smooth ? ".corners" : ".axis"),
         place +
-            (beam.smooth_angle > 0 ? "those of up to " + text_of(beam.smooth_angle * 180 / M_PI) +
+            (beam.smooth_angle > 0 ? "those of up to " + text_of(beam.smooth_angle * 180 / std::numbers::pi) +
                                          " degrees are smoothed (\"smooth_up_to\"): "
                                    : "a beam needs a smooth axis: ") +
             rounding(corner) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -80,8 +81,8 @@ CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& fil
                                 "; a beam has one section: give \"radius\", or choose a part with \"curve\"");
   }
   const double outer = first.pipe_radius, inner = first.bore_radius;
-  return {.area = M_PI * (outer * outer - inner * inner),
-          .second_moment = M_PI / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
+  return {.area = std::numbers::pi * (outer * outer - inner * inner),
+          .second_moment = std::numbers::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
           .radius = outer,
           .bore = inner};
 }
@@ -170,8 +171,9 @@ int beam_index(const CaseFile& case_file, const std::string& name) {
 }
 
 int sliding_bodies(const CaseFile& case_file, const std::string& name) {
-  return static_cast<int>(std::count_if(case_file.sliding_joints.begin(), case_file.sliding_joints.end(),
-                                        [&](const CaseSlidingJoint& joint) { return joint.beam == name; }));
+  return static_cast<int>(std::count_if(
+      case_file.sliding_joints.begin(), case_file.sliding_joints.end(),
+      [&](const CaseSlidingJoint& joint) { return joint.beam == name; }));
 }
 
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #include "pipelines/model/beam_section.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "nurbs/number_text.h"
@@ -44,7 +45,7 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
     if (std::abs(profile.product) > 1e-6 * profile.principal_1())
       findings.warn(where,
                     "the principal axes of the profile are turned by " +
-                        text_of(profile.principal_angle() * 180 / M_PI) +
+                        text_of(profile.principal_angle() * 180 / std::numbers::pi) +
                         " degrees: it would bend out of the plane; the planar model holds it in its plane");
   }
   return BeamSection{section, profile};

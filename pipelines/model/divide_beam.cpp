@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -71,10 +72,10 @@ void check_rigid_corner(const CaseBeam& from, const ReferenceCurve& curve, doubl
   const Eigen::Vector3d before = curve.tangent(s, true).normalized(), after = curve.tangent(s).normalized();
   const double sine = before.cross(after).norm(), cosine = before.dot(after);
   if (sine >= least_sine) return;
-  const double least = std::asin(least_sine) * 180 / M_PI;
+  const double least = std::asin(least_sine) * 180 / std::numbers::pi;
   findings.error(from.path + ".corners",
                  "is \"rigid\", but the corner at " + text_of(frame.to_world(curve.position(s))) +
-                     " turns by " + text_of(std::atan2(sine, cosine) * 180 / M_PI) +
+                     " turns by " + text_of(std::atan2(sine, cosine) * 180 / std::numbers::pi) +
                      " degrees, and this is a spatial model, which keeps corners of " + text_of(least) +
                      " to " + text_of(180 - least) + " degrees: " +
                      (cosine > 0 ? "smooth it with \"smooth_up_to\": 2" : "round it") + ", or use \"hinge\"");

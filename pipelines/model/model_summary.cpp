@@ -39,12 +39,8 @@ Json to_json(const Beam& beam) {
 /// Away from the beam at its ends, else up.
 Eigen::Vector3d outward(const BeamModel& model, const Support& support) {
   const ReferenceCurve& curve = model.beams[support.beam].curve;
-  if (support.s <= 0) {
-    return -curve.tangent(0);
-  }
-  if (support.s >= curve.length()) {
-    return curve.tangent(curve.length(), true);
-  }
+  if (support.s <= 0) return -curve.tangent(0);
+  if (support.s >= curve.length()) return curve.tangent(curve.length(), true);
   return -model.gravity.stableNormalized();
 }
 
@@ -93,21 +89,14 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
       {"supports", Json::array()},
       {"joints", Json::array()},
       {"loads", Json::array()}};
-  for (const Beam& beam : model.beams) {
-    json["beams"].push_back(to_json(beam));
-  }
-  for (const Body& body : model.bodies) {
+  for (const Beam& beam : model.beams) json["beams"].push_back(to_json(beam));
+  for (const Body& body : model.bodies)
     json["bodies"].push_back({{"name", body.name}, {"mass [kg]", body.mass}});
-  }
   for (const Constraint& constraint : model.constraints)
     if (const auto* support = std::get_if<Support>(&constraint))
       json["supports"].push_back(to_json(*support, built));
-  for (const SlidingJoint& joint : model.joints) {
-    json["joints"].push_back(to_json(joint, model));
-  }
-  for (const CaseLoad& load : case_file.loads) {
-    json["loads"].push_back(to_json(load));
-  }
+  for (const SlidingJoint& joint : model.joints) json["joints"].push_back(to_json(joint, model));
+  for (const CaseLoad& load : case_file.loads) json["loads"].push_back(to_json(load));
   // Names from files need not be valid UTF-8: what is not is replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -89,9 +89,11 @@ void write_trajectories(Page& page, const std::vector<MethodRuns>& all) {
 }
 
 long event_count(const Run& run) {
-  return std::count_if(run.changes.begin(), run.changes.end(), [](const MeshChangeRecord& change) {
-    return change.event.kind == EventKind::merge || change.event.kind == EventKind::split;
-  });
+  return std::count_if(
+      run.changes.begin(), run.changes.end(),
+      [](const MeshChangeRecord& change) {
+        return change.event.kind == EventKind::merge || change.event.kind == EventKind::split;
+      });
 }
 
 void write_times(Page& page, const std::vector<MethodRuns>& all) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -18,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius = 0.5, half_angle = M_PI / 6;  // [m], [rad]
+constexpr double radius = 0.5, half_angle = std::numbers::pi / 6;  // [m], [rad]
 const Vector3d end_B(radius* std::sin(2 * half_angle), radius*(1 - std::cos(2 * half_angle)), 0);
 
 constexpr double coarse_step = 2e-4;  // of the extrapolation [s]

@@ -45,11 +45,11 @@ void write_state(Page& page, bool straight) {
   path.lines.push_back(marks(
       places, [](const auto& p) { return p.x; }, [](const auto& p) { return p.y; }));
   const Run& fine = runs[counts.size() - 1];
-  energy.lines.push_back(
-      line_of("kinetic", fine, time_of, [](const Snapshot& frame) { return frame.energy.kinetic; }));
-  energy.lines.push_back(line_of("elastic", fine, time_of, [](const Snapshot& frame) {
-    return frame.energy.axial + frame.energy.bending;
-  }));
+  energy.lines.push_back(line_of(
+      "kinetic", fine, time_of, [](const Snapshot& frame) { return frame.energy.kinetic; }));
+  energy.lines.push_back(line_of(
+      "elastic", fine, time_of,
+      [](const Snapshot& frame) { return frame.energy.axial + frame.energy.bending; }));
   energy.lines.push_back(line_of("gravity", fine, time_of, [&](const Snapshot& frame) {
     return frame.energy.gravity - fine.frames[0].energy.gravity;
   }));

@@ -57,8 +57,10 @@ void write_energies(Page& page, const std::vector<Method>& methods, const std::v
     if (i > 0) parts.lines.back().style = PlotLine::Style::dashed;
   };
   for (const std::size_t i : {0U, 2U}) {
-    add(i, "kinetic", [](const Snapshot& frame) { return frame.energy.kinetic; });
-    add(i, "gravity", [](const Snapshot& frame) { return frame.energy.gravity; });
+    add(
+        i, "kinetic", [](const Snapshot& frame) { return frame.energy.kinetic; });
+    add(
+        i, "gravity", [](const Snapshot& frame) { return frame.energy.gravity; });
     add(i, "elastic", [](const Snapshot& frame) { return frame.energy.axial + frame.energy.bending; });
   }
   page.figure("figure-14d-parts", parts, statement(suspended_beam_example(), {methods[0], methods[2]}, pace));

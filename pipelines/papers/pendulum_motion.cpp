@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius = 0.5, half_angle = M_PI / 6;  // [m], [rad]
+constexpr double radius = 0.5, half_angle = std::numbers::pi / 6;  // [m], [rad]
 const Vector3d end_B(radius* std::sin(2 * half_angle), radius*(1 - std::cos(2 * half_angle)), 0);
 
 // The conic with weights 1, c cos(30 deg), c^2 raised to degree 3: r'(1)/r'(0) = 1/c^2.
@@ -49,7 +50,7 @@ RationalCubic pendulum_axis(PendulumArc arc) {
 
 BeamModel pendulum_model(const PendulumMesh& mesh) {
   constexpr double section_radius = 0.02, density = 6000, E = 2e6,
-                   area = M_PI * section_radius * section_radius;
+                   area = std::numbers::pi * section_radius * section_radius;
   const RationalCubic axis = pendulum_axis(mesh.arc);
   const ReferenceCurve drawn({axis}, 2);
   Beam beam{.name = "arc",

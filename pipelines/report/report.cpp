@@ -57,26 +57,17 @@ constexpr std::array point_parts = {std::pair{"x", "m"},    std::pair{"y", "m"},
 std::vector<Column> empty_columns(const SnapshotNames& names) {
   std::vector<Column> columns = {{"run", 0, "time", "s", {}}, {"run", 0, "step", "s", {}}};
   const auto add_point = [&](const char* of, std::size_t index) {
-    for (const auto& [name, unit] : point_parts) {
-      columns.push_back({of, index, name, unit, {}});
-    }
+    for (const auto& [name, unit] : point_parts) columns.push_back({of, index, name, unit, {}});
   };
-  for (std::size_t i = 0; i < names.probes.size(); ++i) {
-    add_point("probe", i);
-  }
+  for (std::size_t i = 0; i < names.probes.size(); ++i) add_point("probe", i);
   for (std::size_t i = 0; i < names.bodies.size(); ++i) {
     add_point("body", i);
     columns.push_back({"body", i, "s", "m", {}});
-    for (const char* part : {"fx", "fy", "fz"}) {
-      columns.push_back({"body", i, part, "N", {}});
-    }
+    for (const char* part : {"fx", "fy", "fz"}) columns.push_back({"body", i, part, "N", {}});
   }
-  for (std::size_t i = 0; i < names.beams.size(); ++i) {
-    columns.push_back({"beam", i, "length", "m", {}});
-  }
-  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total"}) {
+  for (std::size_t i = 0; i < names.beams.size(); ++i) columns.push_back({"beam", i, "length", "m", {}});
+  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total"})
     columns.push_back({"energy", 0, part, "J", {}});
-  }
   return columns;
 }
 
@@ -97,13 +88,9 @@ void append_values(const Snapshot& frame, std::vector<Column>& columns) {
     add(body.s.value_or(std::numeric_limits<double>::quiet_NaN()));
     add_vector(body.joint_force);
   }
-  for (const BeamRecord& beam : frame.beams) {
-    add(beam.length);
-  }
+  for (const BeamRecord& beam : frame.beams) add(beam.length);
   const EnergyRecord& e = frame.energy;
-  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total}) {
-    add(energy);
-  }
+  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total}) add(energy);
 }
 
 // ---- shapes ----
@@ -143,31 +130,25 @@ struct Survey {
     std::vector<std::uint32_t>& counts = element_counts.emplace_back();
     for (const BeamRecord& beam : frame.beams) {
       counts.push_back(static_cast<std::uint32_t>(beam.elements.size()));
-      for (const ElementRecord& element : beam.elements) {
-        add(element);
-      }
+      for (const ElementRecord& element : beam.elements) add(element);
     }
-    for (const BodyRecord& body : frame.bodies) {
-      box.extend(body.point.position);
-    }
+    for (const BodyRecord& body : frame.bodies) box.extend(body.point.position);
   }
 
   Eigen::Vector3d origin() const { return box.center(); }
 
   std::size_t bytes_of_frame(std::size_t frame) const {
     std::size_t bytes = columns.size() * sizeof(double);
-    for (const std::size_t n : element_counts[frame]) {
+    for (const std::size_t n : element_counts[frame])
       bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0)) + 4 * n * fields.size();
-    }
     return bytes;
   }
 
  private:
   void add(const ElementRecord& element) {
     const auto weights = element.control_points.row(3);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 4; ++i)
       box.extend(Eigen::Vector3d(element.control_points.col(i).head<3>() / weights[i]));
-    }
     rational = rational || weights.minCoeff() != weights.maxCoeff();
     for (Field& field : fields) {
       const Eigen::Vector4d values = field.values(element);
@@ -186,11 +167,8 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
     append(bytes, local.data(), 3);
   };
   for (const BeamRecord& beam : frame.beams) {
-    for (const ElementRecord& element : beam.elements) {
-      for (int i = 0; i < 3; ++i) {
-        add_point(element, i);
-      }
-    }
+    for (const ElementRecord& element : beam.elements)
+      for (int i = 0; i < 3; ++i) add_point(element, i);
     add_point(beam.elements.back(), 3);
     for (const ElementRecord& element : beam.elements) {
       if (survey.rational) {
@@ -199,11 +177,8 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
       }
     }
     for (const Field& field : survey.fields) {
-      for (const ElementRecord& element : beam.elements) {
-        for (const double value : field.values(element)) {
-          bytes.push_back(field.byte_of(value));
-        }
-      }
+      for (const ElementRecord& element : beam.elements)
+        for (const double value : field.values(element)) bytes.push_back(field.byte_of(value));
     }
   }
   return bytes;
@@ -218,9 +193,7 @@ void for_each_frame(const ReportFrames& frames, Use use) {
   for (std::size_t first = 0; first < frames.times.size(); first += at_once) {
     const std::size_t count = std::min(at_once, frames.times.size() - first);
     const std::vector<Snapshot> piece = frames.read(first, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      use(piece[i], first + i);
-    }
+    for (std::size_t i = 0; i < count; ++i) use(piece[i], first + i);
   }
 }
 
@@ -228,17 +201,11 @@ void for_each_frame(const ReportFrames& frames, Use use) {
 std::vector<std::size_t> kept_frames(const Survey& survey, std::size_t most_bytes) {
   const std::size_t frames = survey.element_counts.size();
   std::size_t bytes = 0;
-  for (std::size_t i = 0; i < frames; ++i) {
-    bytes += survey.bytes_of_frame(i);
-  }
+  for (std::size_t i = 0; i < frames; ++i) bytes += survey.bytes_of_frame(i);
   const std::size_t every = std::max<std::size_t>((bytes + most_bytes - 1) / most_bytes, 1);
   std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < frames; i += every) {
-    kept.push_back(i);
-  }
-  if (kept.back() != frames - 1) {
-    kept.push_back(frames - 1);
-  }
+  for (std::size_t i = 0; i < frames; i += every) kept.push_back(i);
+  if (kept.back() != frames - 1) kept.push_back(frames - 1);
   return kept;
 }
 
@@ -249,20 +216,16 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
   std::vector<double> kept_values;
   for (const Column& column : survey.columns) {
     kept_values.clear();
-    for (const std::size_t i : kept) {
-      kept_values.push_back(column.values[i]);
-    }
+    for (const std::size_t i : kept) kept_values.push_back(column.values[i]);
     columns.push_back(
         {{"of", column.of}, {"index", column.index}, {"name", column.name}, {"unit", column.unit}});
     values.push_back(base64_of(kept_values));
   }
-  for (const Field& field : survey.fields) {
+  for (const Field& field : survey.fields)
     fields.push_back({{"name", field.name}, {"unit", field.unit}, {"min", field.min}, {"max", field.max}});
-  }
   std::vector<std::uint32_t> counts;
-  for (const std::size_t i : kept) {
+  for (const std::size_t i : kept)
     counts.insert(counts.end(), survey.element_counts[i].begin(), survey.element_counts[i].end());
-  }
   return {{"title", frames.title},
           {"names",
            {{"probes", frames.names.probes}, {"bodies", frames.names.bodies}, {"beams", frames.names.beams}}},
@@ -282,21 +245,17 @@ std::string script_text(const Json& json) {
   const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string text;
   text.reserve(plain.size());
-  for (const char c : plain) {
-    if (c == '<') {
+  for (const char c : plain)
+    if (c == '<')
       text += "\\u003c";
-    } else {
+    else
       text += c;
-    }
-  }
   return text;
 }
 
 std::string html_text(const std::string& plain) {
   std::string text;
-  for (const char c : plain) {
-    text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
+  for (const char c : plain) text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return text;
 }
 
@@ -322,12 +281,8 @@ std::string text_of(const fs::path& file) {
 void write_report_page(std::ostream& stream, const ReportFrames& frames, const std::string& run_json,
                        std::size_t most_bytes) {
   const Json run = Json::parse(run_json, nullptr, false);
-  if (!run.is_object()) {
-    throw std::invalid_argument("run.json: is not a JSON object");
-  }
-  if (frames.times.empty()) {
-    throw std::invalid_argument("there is no stored frame to report");
-  }
+  if (!run.is_object()) throw std::invalid_argument("run.json: is not a JSON object");
+  if (frames.times.empty()) throw std::invalid_argument("there is no stored frame to report");
   Survey survey;
   survey.columns = empty_columns(frames.names);
   for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });

@@ -25,9 +25,7 @@ double negligible(const BezierPath& path) {
 NurbsCurve deformed_curve(const std::vector<ElementRecord>& elements, CurveParameter parameter) {
   BezierPath path;
   for (const ElementRecord& element : elements) {
-    if (path.breaks.empty()) {
-      path.breaks.push_back(element.s_start);
-    }
+    if (path.breaks.empty()) path.breaks.push_back(element.s_start);
     path.segments.emplace_back(element.control_points);
     path.breaks.push_back(element.s_end);
   }
@@ -38,9 +36,8 @@ std::pair<double, std::vector<NamedCurve>> stored_curves(const std::filesystem::
                                                          CurveParameter parameter) {
   const auto [stored_time, beams] = read_stored_beams(directory, time);
   std::vector<NamedCurve> curves;
-  for (const StoredBeam& beam : beams) {
+  for (const StoredBeam& beam : beams)
     curves.push_back({beam.name, deformed_curve(beam.elements, parameter)});
-  }
   return {stored_time, curves};
 }
 

@@ -21,9 +21,7 @@ namespace {
 std::string hexadecimal(const unsigned char* bytes, unsigned count) {
   constexpr char digits[] = "0123456789abcdef";
   std::string text;
-  for (unsigned i = 0; i < count; ++i) {
-    text += {digits[bytes[i] / 16], digits[bytes[i] % 16]};
-  }
+  for (unsigned i = 0; i < count; ++i) text += {digits[bytes[i] / 16], digits[bytes[i] % 16]};
   return text;
 }
 

@@ -196,18 +196,20 @@ void ParaviewSeries::write(const Snapshot& frame) {
 }
 
 void ParaviewSeries::write_index() const {
-  write_xml(directory_ / "frames.pvd", [&](std::ostream& out) {
-    out << "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
-    const auto entry = [&](std::size_t frame, int part, const char* kind) {
-      out << "<DataSet timestep=\"" << number(times_[frame]) << "\" part=\"" << part << "\" name=\"" << kind
-          << "\" file=\"" << frame_file(kind, frame) << "\"/>\n";
-    };
-    for (std::size_t i = 0; i < times_.size(); ++i) {
-      entry(i, 0, "beams");
-      if (!names_.bodies.empty()) entry(i, 1, "bodies");
-    }
-    out << "</Collection>\n</VTKFile>\n";
-  });
+  write_xml(
+      directory_ / "frames.pvd",
+      [&](std::ostream& out) {
+        out << "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
+        const auto entry = [&](std::size_t frame, int part, const char* kind) {
+          out << "<DataSet timestep=\"" << number(times_[frame]) << "\" part=\"" << part << "\" name=\""
+              << kind << "\" file=\"" << frame_file(kind, frame) << "\"/>\n";
+        };
+        for (std::size_t i = 0; i < times_.size(); ++i) {
+          entry(i, 0, "beams");
+          if (!names_.bodies.empty()) entry(i, 1, "bodies");
+        }
+        out << "</Collection>\n</VTKFile>\n";
+      });
 }
 
 }  // namespace nurbeam

@@ -151,22 +151,23 @@ void visit_vector(Eigen::Vector3d& x, Slot& slot) {
 
 template <class Archive>
 void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
-  exchange_rows(archive, "events",
-                "time, kind, beam, body, s, energies, momenta, impulse and lengths of each event", events,
-                [](RunEvent& event, auto& slot) {
-                  slot(event.time);
-                  slot(event.kind);
-                  slot(event.beam);
-                  slot(event.body);
-                  slot(event.s);
-                  slot(event.energy_before);
-                  slot(event.energy_after);
-                  visit_vector(event.momentum_before, slot);
-                  visit_vector(event.momentum_after, slot);
-                  visit_vector(event.support_impulse, slot);
-                  slot(event.length_before);
-                  slot(event.length_after);
-                });
+  exchange_rows(
+      archive, "events", "time, kind, beam, body, s, energies, momenta, impulse and lengths of each event",
+      events,
+      [](RunEvent& event, auto& slot) {
+        slot(event.time);
+        slot(event.kind);
+        slot(event.beam);
+        slot(event.body);
+        slot(event.s);
+        slot(event.energy_before);
+        slot(event.energy_after);
+        visit_vector(event.momentum_before, slot);
+        visit_vector(event.momentum_after, slot);
+        visit_vector(event.support_impulse, slot);
+        slot(event.length_before);
+        slot(event.length_after);
+      });
 }
 
 template <class Archive>
@@ -226,8 +227,9 @@ void exchange(Archive& archive, Checkpoint& p) {
                   slot(node.present);
                 });
   p.plan.beams = by_beam(nodes);
-  exchange_rows(archive, "joint_places", "s of the sliding joints when the mesh was made", p.plan.places,
-                [](double& place, auto& slot) { slot(place); });
+  exchange_rows(
+      archive, "joint_places", "s of the sliding joints when the mesh was made", p.plan.places,
+      [](double& place, auto& slot) { slot(place); });
   exchange_rows(archive, "joint_modes", "node, point, stopped, free", p.plan.modes,
                 [](JointMode& mode, auto& slot) { slot(mode); });
   exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", p.plan.weights,

@@ -34,9 +34,8 @@ void check_count(const char* what, std::size_t found, std::size_t expected) {
 fs::path created(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error || !fs::is_directory(directory)) {
+  if (error || !fs::is_directory(directory))
     fail(directory, "cannot be made a directory" + (error ? ": " + error.message() : std::string()));
-  }
   return directory;
 }
 
@@ -213,11 +212,10 @@ struct StoredFrames::Implementation {
 
 StoredFrames::StoredFrames(const fs::path& directory) : implementation_(std::make_unique<Implementation>()) {
   implementation_->file = store_file(directory);
-  if (fs::exists(store_file(directory))) {
+  if (fs::exists(store_file(directory)))
     implementation_->files.emplace_back(store_file(directory));
-  } else {
+  else
     for (const fs::path& file : chunks_in(directory)) implementation_->files.emplace_back(file);
-  }
   if (implementation_->files.empty())
     fail(store_file(directory), fs::is_directory(directory)
                                     ? "does not exist; expected a directory that `nurbeam run` has written"

@@ -59,9 +59,7 @@ ResultsDirectory::~ResultsDirectory() { close(descriptor_); }
 
 void ResultsDirectory::lock() {
   descriptor_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) {
-    fail(path_, std::string("cannot be read: ") + std::strerror(errno));
-  }
+  if (descriptor_ < 0) fail(path_, std::string("cannot be read: ") + std::strerror(errno));
   // Where the file system has no locks there is nothing to be held by.
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(descriptor_);

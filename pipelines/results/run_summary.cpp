@@ -39,9 +39,7 @@ Json to_json(const std::filesystem::path& path) { return path.string(); }
 template <class Item>
 Json list(const std::vector<Item>& items) {
   Json list = Json::array();
-  for (const Item& item : items) {
-    list.push_back(to_json(item));
-  }
+  for (const Item& item : items) list.push_back(to_json(item));
   return list;
 }
 

@@ -14,22 +14,19 @@ namespace {
 std::string duration(double seconds) {
   const long s = std::lround(seconds);
   char text[48];
-  if (s < 60) {
+  if (s < 60)
     std::snprintf(text, sizeof text, "%ld s", s);
-  } else if (s < 3600) {
+  else if (s < 3600)
     std::snprintf(text, sizeof text, "%ld min %02ld s", s / 60, s % 60);
-  } else {
+  else
     std::snprintf(text, sizeof text, "%ld h %02ld min", s / 3600, s % 3600 / 60);
-  }
   return text;
 }
 
 }  // namespace
 
 Progress::Style Progress::style_of_stderr(bool quiet) {
-  if (quiet) {
-    return Style::quiet;
-  }
+  if (quiet) return Style::quiet;
   return isatty(STDERR_FILENO) ? Style::terminal : Style::lines;
 }
 
@@ -59,9 +56,7 @@ std::string Progress::line(const StepRecord& step, Clock::time_point now) const 
 
 void Progress::update(const StepRecord& step, Clock::time_point now) {
   if (style_ == Style::terminal) {
-    if (step.time < end_time_ && now - last_ < std::chrono::milliseconds(100)) {
-      return;
-    }
+    if (step.time < end_time_ && now - last_ < std::chrono::milliseconds(100)) return;
     last_ = now;
     stream_ << '\r' << line(step, now) << "\x1b[K" << std::flush;  // erases what is left of a longer line
     line_open_ = true;

@@ -69,10 +69,11 @@ SimulationOptions simulation_options(const CaseFile& c) {
 // A warning when energy changes in a run where nothing does work but the weight.
 std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
   constexpr double noticed = 0.05;  // of the largest kinetic energy
-  const bool driven = !c.loads.empty() ||
-                      std::any_of(c.sliding_joints.begin(), c.sliding_joints.end(), [](const auto& joint) {
-                        return joint.motion_speed || !joint.motion_table.empty();
-                      });
+  const bool driven = !c.loads.empty() || std::any_of(
+                                              c.sliding_joints.begin(), c.sliding_joints.end(),
+                                              [](const auto& joint) {
+                                                return joint.motion_speed || !joint.motion_table.empty();
+                                              });
   const bool stopped = std::any_of(run.events.begin(), run.events.end(), [](const RunEvent& event) {
     return event.kind == EventKind::stopped_at_end;
   });

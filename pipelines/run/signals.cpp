@@ -12,9 +12,7 @@ volatile std::sig_atomic_t interrupts = 0;
 
 void interrupt(int) {
   interrupts = interrupts + 1;
-  if (interrupts > 1) {
-    std::_Exit(exit_code);
-  }
+  if (interrupts > 1) std::_Exit(exit_code);
 }
 
 struct sigaction set_handler(int signal, void (*handler)(int)) {
@@ -35,9 +33,7 @@ InterruptGuard::InterruptGuard() {
   interrupt_ = set_handler(SIGINT, interrupt);
   terminate_ = set_handler(SIGTERM, interrupt);
   hang_up_ = set_handler(SIGHUP, interrupt);
-  if (hang_up_.sa_handler == SIG_IGN) {
-    restore(SIGHUP, hang_up_);
-  }
+  if (hang_up_.sa_handler == SIG_IGN) restore(SIGHUP, hang_up_);
 }
 
 InterruptGuard::~InterruptGuard() {

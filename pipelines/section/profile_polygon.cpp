@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace nurbeam {
@@ -70,7 +71,7 @@ bool ProfilePolygon::contains(const Eigen::Vector2d& point) const {
     const Eigen::Vector2d a = corners[i] - point, b = corners[(i + 1) % corners.size()] - point;
     turned += std::atan2(cross(a, b), a.dot(b));
   }
-  return std::abs(turned) > M_PI;
+  return std::abs(turned) > std::numbers::pi;
 }
 
 double middle_of(const BezierPath& loop, const BoundaryPiece& piece) {
@@ -120,7 +121,7 @@ std::optional<Eigen::Vector2d> crossing(const std::vector<ProfilePolygon>& polyg
 }
 
 std::vector<ProfilePolygon> polygons_without_crossing(const std::vector<BezierPath>& loops) {
-  constexpr double coarsest = M_PI / 12, finest = coarsest / 128;
+  constexpr double coarsest = std::numbers::pi / 12, finest = coarsest / 128;
   for (double angle = coarsest; angle >= finest; angle /= 2) {
     std::vector<ProfilePolygon> polygons = profile_polygons(loops, angle);
     if (!crossing(polygons)) return polygons;

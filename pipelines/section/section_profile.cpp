@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <ostream>
 
 #include "nurbs/area_moments.h"
@@ -221,7 +222,7 @@ void print_profile(std::ostream& out, const SectionProfile& profile) {
       << ", I_xy " << text_of(profile.product) << " m^4\n"
       << "  principal         I_1 " << text_of(profile.principal_1()) << ", I_2 "
       << text_of(profile.principal_2()) << " m^4, axis 1 at "
-      << text_of(profile.principal_angle() * 180 / M_PI) << " degrees from x\n"
+      << text_of(profile.principal_angle() * 180 / std::numbers::pi) << " degrees from x\n"
       << "  torsion constant  ";
   const TorsionReport torsion = torsion_constant(profile.loops);
   if (torsion.status == TorsionStatus::no_mesh)

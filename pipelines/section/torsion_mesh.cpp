@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipelines/section/cgal_geometry.h"
 
@@ -12,7 +13,7 @@ std::optional<TorsionMesh> TorsionMesh::make(const std::vector<BezierPath>& loop
   const std::vector<ProfilePolygon> first = polygons_without_crossing(loops);
   if (first.empty()) return {};
   // A thin wall may need shorter edges than its outline: bent triangles must not fold.
-  constexpr double coarsest = M_PI / 12, finest = coarsest / 128;
+  constexpr double coarsest = std::numbers::pi / 12, finest = coarsest / 128;
   for (double angle = coarsest; angle >= finest; angle /= 2) {
     const std::vector<ProfilePolygon> polygons = profile_polygons(loops, angle);
     if (crossing(polygons)) continue;

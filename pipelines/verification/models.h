@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@ namespace nurbeam::verification {
 /// A solid round section.
 inline BeamProperties round_bar(double radius, double density, double youngs_modulus,
                                 CurvatureMeasure curvature = CurvatureMeasure::material) {
-  const double area = M_PI * radius * radius;
+  const double area = std::numbers::pi * radius * radius;
   return {youngs_modulus * area, youngs_modulus * area * radius * radius / 4, density * area, 0, curvature};
 }
 

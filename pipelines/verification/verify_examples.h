@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <numbers>
 
 #include "pipelines/verification/models.h"
 
@@ -27,10 +28,10 @@ inline BeamModel suspended_beam(int elements) {
 /// bent to it by end moments that are released at the start.
 inline BeamModel semicircle(int elements, bool straight) {
   BeamModel model =
-      one_beam(arc_cubics({0, 0, 0}, 2, M_PI, 2 * M_PI, 2), 2,
+      one_beam(arc_cubics({0, 0, 0}, 2, std::numbers::pi, 2 * std::numbers::pi, 2), 2,
                round_bar(0.02, 7200, 200e6, CurvatureMeasure::spatial), elements, {{0, false}, {10, false}});
   if (straight) model.beams[0].curve = model.beams[0].curve.straightened();
-  add_slider(model, 0.8, 2 * M_PI / 16);
+  add_slider(model, 0.8, 2 * std::numbers::pi / 16);
   return model;
 }
 

@@ -14,11 +14,10 @@ double root(const std::function<double(double)>& f, double lo, double hi) {
   for (int i = 0; i < 200 && hi - lo > 1e-15 * (std::abs(lo) + std::abs(hi)); ++i) {
     const double x = (lo * f_hi - hi * f_lo) / (f_hi - f_lo), f_x = f(x);
     if (f_x == 0 || x <= lo || x >= hi) return x;
-    if (f_x < 0) {
+    if (f_x < 0)
       lo = x, f_lo = f_x, f_hi /= 2;
-    } else {
+    else
       hi = x, f_hi = f_x, f_lo /= 2;
-    }
   }
   return (lo + hi) / 2;
 }

@@ -65,24 +65,22 @@ ElementRecord wave_element(double time, int i, int count) {
 }
 
 ReportFrames arc() {
-  return {"arc", {{}, {}, {"arc"}}, {0}, [](std::size_t, std::size_t) {
-            return std::vector<Snapshot>{frame_of(0, {quarter_circle()})};
-          }};
+  return {"arc",
+          {{}, {}, {"arc"}},
+          {0},
+          [](std::size_t, std::size_t) { return std::vector<Snapshot>{frame_of(0, {quarter_circle()})}; }};
 }
 
 ReportFrames large() {
   constexpr int frame_count = 1000, element_count = 1000;
   ReportFrames frames{"large", {{}, {}, {"beam"}}, {}, {}};
-  for (int i = 0; i < frame_count; ++i) {
-    frames.times.push_back(0.01 * i);
-  }
+  for (int i = 0; i < frame_count; ++i) frames.times.push_back(0.01 * i);
   frames.read = [](std::size_t first, std::size_t count) {
     std::vector<Snapshot> piece;
     for (std::size_t i = first; i < first + count; ++i) {
       std::vector<ElementRecord> elements;
-      for (int e = 0; e < element_count; ++e) {
+      for (int e = 0; e < element_count; ++e)
         elements.push_back(wave_element(0.01 * static_cast<double>(i), e, element_count));
-      }
       piece.push_back(frame_of(0.01 * static_cast<double>(i), std::move(elements)));
     }
     return piece;

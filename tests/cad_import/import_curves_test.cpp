@@ -290,9 +290,8 @@ TEST(ImportCurves, ManyThreadsMayReadAtOnce) {
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < 4; ++t) {
     threads.emplace_back([&counts, t] {
-      for (std::size_t i = 0; i < 5; ++i) {
+      for (std::size_t i = 0; i < 5; ++i)
         counts[5 * t + i] = import_curves(corpus_file("igesio-sample-curves.igs")).curves.size();
-      }
     });
   }
   for (std::thread& thread : threads) thread.join();

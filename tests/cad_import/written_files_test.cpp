@@ -277,9 +277,7 @@ TEST(ExportSolids, ASweptCableIsAValidSolidOfItsVolume) {
       EXPECT_FALSE(check.HasFreeEdges());
     }
     for (const TopoDS_Edge& edge : edges_of(shape))
-      if (!BRep_Tool::Degenerated(edge)) {
-        EXPECT_FALSE(ShapeAnalysis_Edge().CheckVerticesWithCurve3d(edge));
-      }
+      if (!BRep_Tool::Degenerated(edge)) EXPECT_FALSE(ShapeAnalysis_Edge().CheckVerticesWithCurve3d(edge));
   }
 }
 

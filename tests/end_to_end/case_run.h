@@ -24,8 +24,9 @@ struct CaseRun {
 
   bool says(const std::string& part) const { return messages.find(part) != std::string::npos; }
   bool left_half_files() const {
-    return std::any_of(files.begin(), files.end(),
-                       [](const std::string& name) { return name.find(".part") != std::string::npos; });
+    return std::any_of(
+        files.begin(), files.end(),
+        [](const std::string& name) { return name.find(".part") != std::string::npos; });
   }
   double value(std::size_t row, const std::string& column) const {
     const auto at = std::find(header.begin(), header.end(), column);

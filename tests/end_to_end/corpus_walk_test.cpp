@@ -54,9 +54,7 @@ void expect_lowest_form(const std::string& entity, const NurbsCurve& was, const 
     EXPECT_EQ(curve.degree(), 3);
     EXPECT_EQ(curve.control_points().cols(), 6);
     for (const double u : curve.knots().breaks())
-      if (u != curve.knots().start() && u != curve.knots().end()) {
-        EXPECT_LE(curve.knots().multiplicity(u), 2);
-      }
+      if (u != curve.knots().start() && u != curve.knots().end()) EXPECT_LE(curve.knots().multiplicity(u), 2);
     return;
   }
   EXPECT_LE(curve.degree(), was.degree());

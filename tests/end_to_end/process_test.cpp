@@ -78,9 +78,8 @@ std::size_t lines_in(const std::filesystem::path& file) {
 
 /// Until a run has written some lines of its histories; false after half a minute.
 bool wait_for_frames(const std::filesystem::path& out, std::size_t lines = 4) {
-  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < lines; ++i) {
+  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < lines; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
   return lines_in(out / "histories.csv.part") >= lines;
 }
 
@@ -150,9 +149,8 @@ TEST(Process, ARunThatIsKilledAtRandomMomentsAndResumedIsTheRunWithoutABreak) {
     }
     code = run.code();
     ASSERT_TRUE(code == done || code == -SIGKILL || code == interrupted) << code << run.messages();
-    if (code == -SIGKILL && std::filesystem::exists(cut / "restart.nc")) {
+    if (code == -SIGKILL && std::filesystem::exists(cut / "restart.nc"))
       EXPECT_FALSE(read_results(cut).frames.empty()) << "killed after " << moments << "s";
-    }
   }
   ASSERT_EQ(code, done);
   for (const char* file : {"histories.csv", "frames.pvd"})
@@ -209,9 +207,8 @@ TEST(Process, EverySignalThatAsksForTheEndIsAnsweredWithResults) {
     ASSERT_TRUE(wait_for_frames(out)) << run.messages();
     run.send(signal);
     EXPECT_EQ(run.code(), interrupted) << run.messages();
-    for (const char* file : {"histories.csv", "results.nc", "run.json"}) {
+    for (const char* file : {"histories.csv", "results.nc", "run.json"})
       EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
-    }
   }
 }
 
@@ -239,9 +236,8 @@ TEST(Process, AHangUpIsIgnoredWhereItWasIgnoredBefore) {
   ASSERT_TRUE(wait_for_frames(out)) << run.messages();
   run.send(SIGHUP);
   const std::size_t lines = lines_in(out / "histories.csv.part") + 3;
-  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < lines; ++i) {
+  for (int i = 0; i < 3000 && lines_in(out / "histories.csv.part") < lines; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
   run.send(SIGTERM);
   EXPECT_EQ(run.code(), interrupted);
   EXPECT_GE(lines_in(out / "histories.csv"), lines);
@@ -254,9 +250,8 @@ TEST(Process, ARunOutlivesTheReaderOfItsMessages) {
   const std::string command =
       "(sleep 0.2; exec " NURBEAM_EXECUTABLE " " + run_of("0.01", out) + "; ) 2>&1 >/dev/null | true; exit 0";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  for (int i = 0; i < 3000 && !std::filesystem::exists(out / "run.json"); ++i) {
+  for (int i = 0; i < 3000 && !std::filesystem::exists(out / "run.json"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
   EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
 }
 

@@ -33,9 +33,7 @@ TEST(TwoIntegrators, ApproachEachOtherOnABeamWithASlidingMassAsGeneralizedAlphaI
     for (int k = 0; k < steps; ++k) ASSERT_EQ(alpha.advance(end / steps).status, StepStatus::converged);
     const State& other = alpha.state();
     apart[i] = {(one.q - other.q).norm(), (one.v - other.v).norm(), (one.lambda - other.lambda).norm()};
-    if (i > 0) {
-      EXPECT_TRUE((apart[i] < apart[i - 1] / 10).all()) << apart[i].transpose();
-    }
+    if (i > 0) EXPECT_TRUE((apart[i] < apart[i - 1] / 10).all()) << apart[i].transpose();
   }
   EXPECT_TRUE((apart.back() < Eigen::Array3d(1e-6, 5e-4, 2e-4)).all()) << apart.back().transpose();
 }

@@ -171,13 +171,12 @@ void change(std::string& text, const std::vector<std::string>& others, Random& r
       repeat_line,   move_line,          repeat_block,       delete_block, insert_symbols};
   const std::size_t chosen = below(kinds_of_change.size() + 2, random);
   if (text.empty()) return;
-  if (chosen < kinds_of_change.size()) {
+  if (chosen < kinds_of_change.size())
     kinds_of_change[chosen](text, random);
-  } else if (chosen == kinds_of_change.size()) {
+  else if (chosen == kinds_of_change.size())
     truncate(text, random);
-  } else {
+  else
     splice(text, others[below(others.size(), random)], random);
-  }
 }
 
 }  // namespace

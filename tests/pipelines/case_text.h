@@ -13,9 +13,7 @@ class TemporaryDirectory {
  public:
   TemporaryDirectory() {
     std::string pattern = (std::filesystem::temp_directory_path() / "nurbeam_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) {
-      throw std::runtime_error("no temporary directory: " + pattern);
-    }
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary directory: " + pattern);
     path_ = pattern;
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;

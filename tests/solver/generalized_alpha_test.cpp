@@ -61,22 +61,23 @@ Errors pendulum_error(double rho_infinity, int rounds, const std::vector<double>
                                         pendulum.at_angle(0, 1.2, 0));
   const double time = 2.0;
   State end = advance_in_rounds(integrator, time, rounds, proportions);
-  if (proportions.size() > 1) {
-    EXPECT_TRUE(make_accelerations_consistent(pendulum, end));
-  }
+  if (proportions.size() > 1) EXPECT_TRUE(make_accelerations_consistent(pendulum, end));
   return difference(end, pendulum.reference(1.2, time, 20000));
 }
 
 TEST(GeneralizedAlpha, IsOfSecondOrderInAllOfAPendulum) {
   for (const double rho : {0.0, 0.5, 0.8, 0.9})
-    expect_second_order(400, [rho](int rounds) { return pendulum_error(rho, rounds, {1}); });
+    expect_second_order(
+        400, [rho](int rounds) { return pendulum_error(rho, rounds, {1}); });
 }
 
 TEST(GeneralizedAlpha, KeepsItsOrderUnderVaryingSteps) {
   for (const double rho : {0.5, 0.8})
-    expect_second_order(100, [rho](int rounds) {
-      return pendulum_error(rho, rounds, {1, 1.7, 2.4, 1.1, 0.6, 0.5, 1.5});
-    });
+    expect_second_order(
+        100,
+        [rho](int rounds) {
+          return pendulum_error(rho, rounds, {1, 1.7, 2.4, 1.1, 0.6, 0.5, 1.5});
+        });
 }
 
 TEST(GeneralizedAlpha, IsOfSecondOrderInAMovingConstraint) {
@@ -190,9 +191,7 @@ TEST(GeneralizedAlpha, ErrorControlMeetsItsToleranceInProportion) {
     EXPECT_LT(error, steps * tolerance);
     // Steps go with the cube root of the local error, the global error with the square of the steps: 10^(2/3)
     // = 4.6.
-    if (last_error > 0) {
-      EXPECT_NEAR(std::log10(last_error / error), 2.0 / 3, 0.25);
-    }
+    if (last_error > 0) EXPECT_NEAR(std::log10(last_error / error), 2.0 / 3, 0.25);
     last_error = error;
   }
 }

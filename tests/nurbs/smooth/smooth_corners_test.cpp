@@ -55,9 +55,7 @@ TEST(SmoothCorners, KeepWeightsAndWorkOnRationalCubics) {
     const BezierPath path = smooth_corners({{a, b}, {0, 1, 2}, 0}, 3.0);
     EXPECT_EQ(path.segments[0].points().row(3), a.points().row(3));
     EXPECT_EQ(path.segments[1].points().row(3), b.points().row(3));
-    if (BezierPath{{a, b}, {0, 1, 2}, 0}.corners(3.0).empty()) {
-      EXPECT_TRUE(path.corners(1e-12).empty());
-    }
+    if (BezierPath{{a, b}, {0, 1, 2}, 0}.corners(3.0).empty()) EXPECT_TRUE(path.corners(1e-12).empty());
   }
 }
 

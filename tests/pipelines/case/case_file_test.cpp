@@ -29,9 +29,7 @@ class CaseFileTest : public ::testing::Test {
   }
   static std::string messages(const CaseFileReport& report) {
     std::string all;
-    for (const Diagnostic& d : report.diagnostics) {
-      all += d.where + " | " + d.message + "\n";
-    }
+    for (const Diagnostic& d : report.diagnostics) all += d.where + " | " + d.message + "\n";
     return all;
   }
   std::string file() const { return (directory_.path() / "case.json").string(); }
@@ -50,16 +48,12 @@ class CaseFileTest : public ::testing::Test {
                           const std::vector<std::string>& parts) {
     EXPECT_FALSE(report.value);
     std::vector<Diagnostic> errors;
-    for (const Diagnostic& d : report.diagnostics) {
-      if (d.severity == Severity::error) {
-        errors.push_back(d);
-      }
-    }
+    for (const Diagnostic& d : report.diagnostics)
+      if (d.severity == Severity::error) errors.push_back(d);
     ASSERT_EQ(errors.size(), 1u) << messages(report);
     EXPECT_EQ(errors[0].where, where);
-    for (const std::string& part : parts) {
+    for (const std::string& part : parts)
       EXPECT_NE(errors[0].message.find(part), std::string::npos) << part << " not in: " << errors[0].message;
-    }
   }
 
   test::TemporaryDirectory directory_;
@@ -195,9 +189,7 @@ TEST_F(CaseFileTest, AllErrorsAreReportedAtOnce) {
                "section": {"radius": 1}, "material": {"density": 1, "youngs_modulus": 1}}],
     "supports": [{"beam": "b", "at": "start", "type": "pinned"}]})");
   std::set<std::string> places;
-  for (const Diagnostic& d : report.diagnostics) {
-    places.insert(d.where.substr(file().size()));
-  }
+  for (const Diagnostic& d : report.diagnostics) places.insert(d.where.substr(file().size()));
   EXPECT_EQ(places, (std::set<std::string>{"", ": gravitiy", ": beams[0].axis.polyline",
                                            ": beams[0].section.radius", ": beams[0].material.youngs_modulus",
                                            ": beams[1].axis.nurbs", ": beams[1].name", ": supports[0].beam"}))
@@ -403,9 +395,8 @@ TEST_F(CaseFileTest, OverridesOfUnknownPathsAreRefused) {
   refuse("analysis", {"path=value"});
   refuse("=1", {"the case file"});
   for (const char* path :
-       {"beams[0.name", "beams[0]name", "beams]0", "beams[[0]].name", "[0]", "beams.[0].name"}) {
+       {"beams[0.name", "beams[0]name", "beams]0", "beams[[0]].name", "[0]", "beams.[0].name"})
     refuse(std::string(path) + "=x", {"brackets", "beams[0].section.radius"});
-  }
 }
 
 TEST_F(CaseFileTest, AnOverrideThatLooksLikeANumberIsNotTakenForAText) {
@@ -450,25 +441,16 @@ TEST_F(CaseFileTest, SettingsWithoutEffectInAStaticAnalysisAreWarnedOf) {
 void collect_keys(const Json& schema, std::set<std::string>& keys) {
   if (schema.is_object() && schema.contains("properties")) {
     EXPECT_EQ(schema.at("additionalProperties"), false);
-    for (const auto& [key, unused] : schema["properties"].items()) {
-      keys.insert(key);
-    }
+    for (const auto& [key, unused] : schema["properties"].items()) keys.insert(key);
   }
-  for (const Json& item : schema) {
-    if (item.is_structured()) {
-      collect_keys(item, keys);
-    }
-  }
+  for (const Json& item : schema)
+    if (item.is_structured()) collect_keys(item, keys);
 }
 
 void collect_used_keys(const Json& value, std::set<std::string>& keys) {
   for (const auto& [key, item] : value.items()) {
-    if (value.is_object()) {
-      keys.insert(key);
-    }
-    if (item.is_structured()) {
-      collect_used_keys(item, keys);
-    }
+    if (value.is_object()) keys.insert(key);
+    if (item.is_structured()) collect_used_keys(item, keys);
   }
 }
 

@@ -159,9 +159,8 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
   const BezierPath path = BezierPath::from_nurbs(arc, 1e-9);
   Snapshot frame{};
   frame.beams.resize(1);
-  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+  for (std::size_t i = 0; i < path.segments.size(); ++i)
     frame.beams[0].elements.push_back({path.segments[i].points(), path.breaks[i], path.breaks[i + 1]});
-  }
   writer.write(frame);
   writer.finish();
   const std::string file = (directory.path() / "deformed.step").string();
@@ -172,9 +171,7 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
   ASSERT_EQ(report.curves.size(), 1u);
   EXPECT_EQ(report.curves[0].name, "cable");
   EXPECT_EQ(report.unit, "inch");
-  for (int i = 0; i <= 10; ++i) {
-    EXPECT_NEAR(report.curves[0].curve.point(0.1 * i).norm(), 1, 1e-14);
-  }
+  for (int i = 0; i <= 10; ++i) EXPECT_NEAR(report.curves[0].curve.point(0.1 * i).norm(), 1, 1e-14);
 }
 
 TEST(CommandLine, ExportTellsBadInputFromWhatCannotBeWritten) {

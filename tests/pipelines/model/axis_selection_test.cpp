@@ -167,9 +167,11 @@ BuildReport build(const test::TemporaryDirectory& directory, std::vector<std::st
 }
 
 bool says(const BuildReport& report, Severity severity, const std::string& words) {
-  return std::any_of(report.diagnostics.begin(), report.diagnostics.end(), [&](const Diagnostic& d) {
-    return d.severity == severity && (d.where + ": " + d.message).find(words) != std::string::npos;
-  });
+  return std::any_of(
+      report.diagnostics.begin(), report.diagnostics.end(),
+      [&](const Diagnostic& d) {
+        return d.severity == severity && (d.where + ": " + d.message).find(words) != std::string::npos;
+      });
 }
 
 TEST(AxisSelection, EveryChainOfAFileBecomesABeamAndIsSupportedAsTheWhole) {

@@ -42,18 +42,14 @@ TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
         "restart.nc.part", "run.json", "run.log", "report.html", "frames.pvd", "frames/beams_000000.vtu",
         "frames/bodies_000012.vtu", "deformed.step", "deformed_t0.5.igs", "deformed_t1e-05.step",
         "deformed_0012.igs", "deformed_t0.5_solid.step", "deformed_t0_source.step",
-        "deformed_t0.5.step.part123"}) {
+        "deformed_t0.5.step.part123"})
     temporary.write(name, "");
-  }
   const std::vector<std::string> others = {"deformed_tip.step", "notes.txt", "my_histories.csv",
                                            "deformed_t0.5.pdf", "results.nc.bak"};
-  for (const std::string& name : others) {
-    temporary.write(name, "");
-  }
+  for (const std::string& name : others) temporary.write(name, "");
   EXPECT_EQ(refusal(temporary.path()), "");
-  for (const std::string& name : others) {
+  for (const std::string& name : others)
     EXPECT_TRUE(std::filesystem::exists(temporary.path() / name)) << name;
-  }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(temporary.path()), {}),
             static_cast<std::ptrdiff_t>(others.size()));
 }

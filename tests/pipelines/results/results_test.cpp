@@ -50,9 +50,7 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
   for (int i = 0; i < elements; ++i) frame.steps.push_back({number(), number(), i, 2 * i});
   frame.probes = {point()};
   frame.bodies = {{point(), number(), vector()}};
-  if (body_has_left) {
-    frame.bodies[0].s.reset();
-  }
+  if (body_has_left) frame.bodies[0].s.reset();
   frame.beams = {beam(elements), beam(2)};
   frame.energy = {number(), number(), number(), number(), number(), number()};
   return frame;
@@ -63,18 +61,14 @@ const SnapshotNames names = {.probes = {"tip"}, .bodies = {"trolley"}, .beams = 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    cells.push_back(cell);
-  }
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
   return cells;
 }
 
@@ -116,9 +110,7 @@ TEST(Results, StoredBeamsComeBackExactlyWhileTheirElementsChangeInNumber) {
   const TemporaryDirectory directory;
   ResultsWriter writer(directory.path() / "new" / "directory", names, "title");
   const std::vector<Snapshot> frames = {make_frame(0, 3), make_frame(0.5, 5), make_frame(1, 1)};
-  for (const Snapshot& frame : frames) {
-    writer.write(frame);
-  }
+  for (const Snapshot& frame : frames) writer.write(frame);
   writer.finish();
   for (const Snapshot& frame : frames) {
     const auto [time, beams] =

@@ -18,9 +18,7 @@ StepRecord at(double time) { return {time, 0.01, 3, 0}; }
 TEST(Progress, PlainLinesComeAtEveryTenthWithTimeToGoAndSpeed) {
   std::ostringstream out;
   Progress progress(out, Progress::Style::lines, 0, 2, start);
-  for (int i = 1; i <= 200; ++i) {
-    progress.update(at(0.01 * i), start + milliseconds(100 * i));
-  }
+  for (int i = 1; i <= 200; ++i) progress.update(at(0.01 * i), start + milliseconds(100 * i));
   progress.finish();
   const std::string text = out.str();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10);
@@ -32,9 +30,7 @@ TEST(Progress, PlainLinesComeAtEveryTenthWithTimeToGoAndSpeed) {
 TEST(Progress, ATerminalLineIsRewrittenAtMostTenTimesASecond) {
   std::ostringstream out;
   Progress progress(out, Progress::Style::terminal, 0, 1, start);
-  for (int i = 1; i <= 1000; ++i) {
-    progress.update(at(1e-3 * i), start + milliseconds(i));
-  }
+  for (int i = 1; i <= 1000; ++i) progress.update(at(1e-3 * i), start + milliseconds(i));
   progress.finish();
   const std::string text = out.str();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 10);

@@ -31,7 +31,8 @@ Outcome run_words(const std::vector<std::string>& words) {
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 VerifyProblem problem(const std::string& name, double computed) {
-  return {name, "material, Green, straight", [=] {
+  return {name, "material, Green, straight",
+          [=] {
             VerifyResult result;
             result.add("tip [m]", 1, "a book", computed, 1e-3);
             return result;
