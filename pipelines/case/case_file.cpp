@@ -60,35 +60,49 @@ CaseBeamJoint read_beam_joint(const Json& json, const std::string& path) {
   return joint;
 }
 
+// Steps are fixed unless there is none: then the integrator chooses them by the tolerance.
+IntegratorSettings read_integrator(const Json& json, std::optional<double> tolerance, bool fixed_steps,
+                                   Findings& findings) {
+  enum class Method { generalized_alpha, ida, rk4 };
+  const auto method = chosen<Method>(
+      json, "type",
+      {{"generalized-alpha", Method::generalized_alpha}, {"ida", Method::ida}, {"rk4", Method::rk4}});
+  if (method != Method::generalized_alpha && has(json, "rho_infinity"))
+    findings.add(Severity::warning, "analysis.integrator.rho_infinity",
+                 "has an effect with \"generalized-alpha\" only");
+  switch (method) {
+    case Method::ida:
+      return Ida{.tolerance = tolerance.value_or(Ida{}.tolerance)};
+    case Method::rk4:
+      return ExplicitRungeKutta{};
+    case Method::generalized_alpha:
+      break;
+  }
+  constexpr double default_tolerance = 1e-4;
+  return GeneralizedAlpha{.rho_infinity = number(json, "rho_infinity", GeneralizedAlpha{}.rho_infinity),
+                          .tolerance = fixed_steps ? 0 : tolerance.value_or(default_tolerance)};
+}
+
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;
   analysis.type = chosen<CaseAnalysis::Type>(
       json, "type", {{"dynamic", CaseAnalysis::Type::dynamic}, {"static", CaseAnalysis::Type::statics}});
   analysis.start_from_equilibrium = text(json, "initial") == "equilibrium";
-  using Method = CaseAnalysis::Method;
-  const Json& integrator = part(json, "integrator");
-  analysis.method = chosen<Method>(
-      integrator, "type",
-      {{"generalized-alpha", Method::generalized_alpha}, {"ida", Method::ida}, {"rk4", Method::rk4}});
-  analysis.rho_infinity = number(integrator, "rho_infinity", analysis.rho_infinity);
-  if (analysis.method != Method::generalized_alpha && has(integrator, "rho_infinity"))
-    findings.add(Severity::warning, "analysis.integrator.rho_infinity",
-                 "has an effect with \"generalized-alpha\" only");
   const Json& control = part(json, "length_control");
-  analysis.length_control_min = number(control, "min", analysis.length_control_min);
-  analysis.length_control_max = number(control, "max", analysis.length_control_max);
-  if (analysis.type == CaseAnalysis::Type::statics) {
+  analysis.length_control = {number(control, "min", analysis.length_control.min),
+                             number(control, "max", analysis.length_control.max)};
+  const bool dynamic = analysis.type == CaseAnalysis::Type::dynamic;
+  if (dynamic) {
+    analysis.end_time = number(json, "end_time", 0);
+    analysis.step = optional_number(json, "step");
+  } else {
     for (const char* key : {"end_time", "step", "tolerance", "initial"})
       if (has(json, key))
         findings.add(Severity::warning, child("analysis", key), "has no effect in a static analysis");
-    return analysis;
   }
-  const double default_tolerance = analysis.method == Method::ida ? 1e-8 : 1e-4;
-  analysis.end_time = number(json, "end_time", 0);
-  analysis.step = optional_number(json, "step");
-  analysis.tolerance = optional_number(json, "tolerance");
-  if (!analysis.step && !analysis.tolerance) analysis.tolerance = default_tolerance;
-  if (analysis.method == Method::rk4 && !analysis.step)
+  analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
+                                        analysis.step.has_value(), findings);
+  if (dynamic && analysis.is_explicit() && !analysis.step)
     findings.error("analysis.step", "is missing; the explicit method \"rk4\" needs a fixed step");
   return analysis;
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "cad_import/report/import_report.h"
+#include "fem/motion/integrators.h"
+#include "fem/motion/mesh_rules.h"
 #include "fem/structure/structure.h"
 #include "nurbs/smooth/smooth_nurbs.h"
 
@@ -145,13 +147,14 @@ struct CaseBeamJoint {
 
 struct CaseAnalysis {
   enum class Type { dynamic, statics } type = Type::dynamic;
-  enum class Method { generalized_alpha, ida, rk4 } method = Method::generalized_alpha;
   bool start_from_equilibrium = false;
-  double end_time = 0;              ///< [s]
-  std::optional<double> step;       ///< [s]
-  std::optional<double> tolerance;  ///< adaptive steps
-  double rho_infinity = 0.8;
-  double length_control_min = 0.1, length_control_max = 1.15;  ///< in standard element lengths
+  double end_time = 0;         ///< [s]
+  std::optional<double> step;  ///< fixed steps [s]; else those of the integrator's tolerance
+  IntegratorSettings integrator;
+  LengthControl length_control;
+
+  /// An explicit method, which is for models without constraints between moving parts.
+  bool is_explicit() const { return std::holds_alternative<ExplicitRungeKutta>(integrator); }
 };
 
 struct CaseProbe {
@@ -160,7 +163,7 @@ struct CaseProbe {
 };
 
 struct CaseOutput {
-  std::optional<double> every;           ///< [s]
+  std::optional<double> every;           ///< [s]; always there in a dynamic analysis
   std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid", "step-source"
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   bool cad_at_all_times = false;         ///< every stored frame, numbered

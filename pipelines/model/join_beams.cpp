@@ -145,7 +145,7 @@ JoinedBeams join_beams(const CaseFile& case_file, const std::vector<DrawnBeam>& 
     for (std::size_t i = 1; i < joint.beams.size(); ++i)
       join_two(case_file, joint, beam_index(case_file, joint.beams[0]), beam_index(case_file, joint.beams[i]),
                beams, frame, joined, findings);
-  if (!case_file.joints.empty() && case_file.analysis.method == CaseAnalysis::Method::rk4)
+  if (!case_file.joints.empty() && case_file.analysis.is_explicit())
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without joints; use \"generalized-alpha\" or \"ida\"");
   return joined;

@@ -63,7 +63,7 @@ void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurv
 
 void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
                         const JoinedBeams& joined, BeamModel& model, Findings& findings) {
-  if (case_file.analysis.method == CaseAnalysis::Method::rk4 && !case_file.sliding_joints.empty())
+  if (case_file.analysis.is_explicit() && !case_file.sliding_joints.empty())
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
   for (const CaseBody& body : case_file.bodies) {

@@ -53,7 +53,7 @@ struct Runs {
   }
 };
 
-void write_example(Page& page, const Example& example, const std::vector<ReferencePlace>& places,
+void write_example(Page& page, const Example& example, const std::vector<references::Place>& places,
                    Target& target) {
   const auto pace = [&](double step) { return Pace{.end = example.end, .step = step, .every = 0.01}; };
   const std::vector<Method> ways = methods();
@@ -120,11 +120,11 @@ void write_accuracy(Page& page, std::ostream& progress) {
   Target target;
   struct Item {
     Example example;
-    std::vector<ReferencePlace> places;
+    std::vector<references::Place> places;
   };
   for (const Item& item :
-       {Item{suspended_beam_example(), suspended_beam_places()},
-        Item{semicircle_example(false), semicircle_places(false)}, Item{line_arc_line_example(), {}},
+       {Item{suspended_beam_example(), references::suspended_beam()},
+        Item{semicircle_example(false), references::semicircle(false)}, Item{line_arc_line_example(), {}},
         Item{line_arc_spline_example(), {}}, Item{reversing_example(), {}}}) {
     progress << "papers: accuracy, " << item.example.name << '\n';
     write_example(page, item.example, item.places, target);

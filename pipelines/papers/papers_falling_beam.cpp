@@ -44,7 +44,7 @@ double end_y(const Snapshot& frame) { return frame.probes[0].position.y(); }
 
 void write_trajectories(Page& page, const std::vector<MethodRuns>& all) {
   page.heading("Figures 10 and 11: the beam's end and the sliding mass", 3);
-  const std::vector<ReferencePlace> places = falling_beam_places();
+  const std::vector<references::Place> places = references::falling_beam();
   for (const MethodRuns& one : all) {
     Plot end{"Figure 10, " + one.method.name + ": the right end", "t [s]", "y [m]", {}};
     Plot path{"Figure 11, " + one.method.name + ": the sliding mass", "x [m]", "y [m]", {}};

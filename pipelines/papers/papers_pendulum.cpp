@@ -13,6 +13,7 @@
 #include "fem/model/build.h"
 #include "pipelines/papers/papers.h"
 #include "pipelines/papers/plot.h"
+#include "pipelines/verification/references.h"
 namespace nurbeam {
 
 namespace {
@@ -26,16 +27,7 @@ constexpr double coarse_step = 2e-4;  // of the extrapolation [s]
 constexpr PendulumArc arcs[] = {PendulumArc::uniform, PendulumArc::paper, PendulumArc::extreme};
 const char* const names[] = {"r1, uniform", "r2, the paper's element", "r3, end speeds 1 : 16"};
 
-// Two independent programs that share no formulation, to 4e-6 m; spatial and material curvature.
-struct Reference {
-  double t, AB, fall, length;
-};
-constexpr Reference spatial_reference[] = {{0.2, 0.423720923, -0.220576957, 0.526796576},
-                                           {0.4, 0.505662695, -0.745614747, 0.523011159},
-                                           {0.8, 0.445215937, -0.065294728, 0.531502082}};
-constexpr Reference material_reference[] = {{0.2, 0.423709655, -0.220890605, 0},
-                                            {0.4, 0.505894707, -0.745921325, 0},
-                                            {0.8, 0.441658296, -0.066021437, 0}};
+using Reference = references::Swing;
 
 std::string number(double value, int digits = 2, bool scientific = true) {
   std::ostringstream stream;
@@ -57,8 +49,8 @@ PlotLine line(const std::string& label, const std::vector<double>& x, const std:
 
 PlotLine marks_of_reference(double Reference::*value, const std::string& label = "reference runs") {
   PlotLine marks = line(label, {}, {}, PlotLine::Style::marks);
-  for (const Reference& r : spatial_reference) {
-    marks.x.push_back(r.t);
+  for (const Reference& r : references::pendulum()) {
+    marks.x.push_back(r.time);
     marks.y.push_back(r.*value);
   }
   return marks;
@@ -130,14 +122,14 @@ class Study {
         {.elements = 64, .curvature = CurvatureMeasure::material}, 2 * coarse_step);
     const auto rows = [&](const char* measure, const PendulumMotion& motion, const auto& references) {
       for (const Reference& r : references) {
-        const auto i = static_cast<std::size_t>(std::lround(100 * r.t));
-        page_ << "| " << r.t << " | " << measure << " | " << number(motion.AB[i], 9, false) << " | "
+        const auto i = static_cast<std::size_t>(std::lround(100 * r.time));
+        page_ << "| " << r.time << " | " << measure << " | " << number(motion.AB[i], 9, false) << " | "
               << number(motion.AB[i] - r.AB, 1) << " | " << number(motion.fall[i], 9, false) << " | "
               << number(motion.fall[i] - r.fall, 1) << " |\n";
       }
     };
-    rows("spatial", fine_, spatial_reference);
-    rows("material", material, material_reference);
+    rows("spatial", fine_, references::pendulum());
+    rows("material", material, references::pendulum_with_material_curvature());
     page_ << "\nThe fine run (64 elements, extrapolated; material curvature: from steps of 0.4 and 0.2 ms) "
              "minus "
              "the reference runs. [S] prints no numbers to compare with.\n\n";

@@ -8,28 +8,9 @@
 
 namespace nurbeam::papers {
 
-std::vector<ReferencePlace> falling_beam_places() {
-  return {{0.2, 0.131866, -0.061405, 0.147474, -0.196947, 1.001414},
-          {0.4, 0.213265, -0.366831, 0.438555, -0.892306, 1.006318},
-          {0.5, 0.110137, -0.663964, 0.712489, -0.802103, 1.005065}};
-}
-
-std::vector<ReferencePlace> suspended_beam_places() {
-  return {{0.3, 0.225178, -0.036238, 0.226584, NAN, 1.007698},
-          {0.6, 0.510228, -0.097381, 0.506148, NAN, 1.023557},
-          {1.0, 0.837282, -0.041253, 0.834099, NAN, 1.008379}};
-}
-
-std::vector<ReferencePlace> semicircle_places(bool straight) {
-  if (straight) return {{0.5, -1.138563, -1.349098, 1.602512}, {1.0, 1.159817, -1.634351, 4.407983}};
-  return {{0.5, -1.194665, -1.354761, 1.580274},
-          {1.0, 1.152992, -1.625596, 4.408070},
-          {1.5, 1.869061, -0.314888, 5.942009}};
-}
-
-double largest_distance(const Run& run, const std::vector<ReferencePlace>& places) {
+double largest_distance(const Run& run, const std::vector<references::Place>& places) {
   double largest = 0;
-  for (const ReferencePlace& place : places) {
+  for (const references::Place& place : places) {
     const auto at = std::find_if(run.frames.begin(), run.frames.end(), [&](const Snapshot& frame) {
       return std::abs(frame.time - place.time) < 1e-9;
     });

@@ -19,7 +19,7 @@ void write_state(Page& page, bool straight) {
     const bool paper = i == counts.size();
     runs[i] = run(example.model(paper ? counts.back() : counts[i]), paper ? paper_rule() : ours(), pace);
   });
-  const std::vector<ReferencePlace> places = semicircle_places(straight);
+  const std::vector<references::Place> places = references::semicircle(straight);
   const std::string how = statement(example, {ours(), paper_rule()}, pace);
   page.heading(example.name, 3);
 

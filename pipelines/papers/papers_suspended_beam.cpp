@@ -78,7 +78,7 @@ void write_suspended_beam(Page& page, std::ostream& progress) {
     runs[i] = run(suspended_beam_example().model(fine ? fine_elements : elements), fine ? ours() : methods[i],
                   pace);
   });
-  const std::vector<ReferencePlace> places = suspended_beam_places();
+  const std::vector<references::Place> places = references::suspended_beam();
   const std::string how = statement(suspended_beam_example(), methods, pace);
 
   Plot length{"Figure 14 (b): length of the beam, 3 elements", "t [s]", "length [m]", {}};

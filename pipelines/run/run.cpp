@@ -35,7 +35,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 std::vector<double> output_times(const CaseFile& c) {
   const double end = c.analysis.end_time;
   std::vector<double> times;
-  const double every = c.output.every.value_or(end / 100);
+  const double every = *c.output.every;
   for (int k = 0; k * every < end * (1 - 1e-9); ++k) times.push_back(k * every);
   times.push_back(end);
   for (double t : c.output.cad_times)
@@ -54,14 +54,8 @@ SimulationOptions simulation_options(const CaseFile& c) {
   options.start_from_equilibrium = a.start_from_equilibrium;
   options.end_time = a.end_time;
   options.step = a.step;
-  if (a.method == CaseAnalysis::Method::ida)
-    options.integrator = Ida{.tolerance = a.tolerance.value_or(Ida{}.tolerance)};
-  else if (a.method == CaseAnalysis::Method::rk4)
-    options.integrator = ExplicitRungeKutta{};
-  else
-    options.integrator = GeneralizedAlpha{.rho_infinity = a.rho_infinity,
-                                          .tolerance = a.step ? 0 : a.tolerance.value_or(1e-4)};
-  options.length_control = {a.length_control_min, a.length_control_max};
+  options.integrator = a.integrator;
+  options.length_control = a.length_control;
   if (!options.statics) options.output_times = output_times(c);
   return options;
 }

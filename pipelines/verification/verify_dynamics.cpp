@@ -12,6 +12,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/references.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "pipelines/verification/verify_run.h"
@@ -154,16 +155,7 @@ VerifyResult spin() {
 
 // ---- The curved pendulum ----
 
-struct Swing {
-  double AB, fall, length;  // length 0 where the reference has none
-};
-
-/// At 0.2, 0.4 and 0.8 s, to 4e-6 m.
-const std::vector<Swing> spatial_swing{{0.423720923, -0.220576957, 0.526796576},
-                                       {0.505662695, -0.745614747, 0.523011159},
-                                       {0.445215937, -0.065294728, 0.531502082}};
-const std::vector<Swing> material_swing{
-    {0.423709655, -0.220890605, 0}, {0.505894707, -0.745921325, 0}, {0.441658296, -0.066021437, 0}};
+using references::Swing;
 
 RunRecord swing(CurvatureMeasure curvature, int elements, const std::vector<double>& times, double step) {
   const BeamModel model = curved_pendulum(curvature, elements);
@@ -193,8 +185,9 @@ VerifyResult pendulum_accuracy() {
   const std::vector<double> times = even_times(1, 50);
   constexpr double step = 1e-4;
   const RunRecord fine = swing(CurvatureMeasure::spatial, 64, times, step);
-  for (std::size_t i = 0; i < spatial_swing.size(); ++i)
-    add_swing(result, fine.frames[std::vector<std::size_t>{10, 20, 40}[i]], spatial_swing[i], "64 elements");
+  for (std::size_t i = 0; i < references::pendulum().size(); ++i)
+    add_swing(result, fine.frames[std::vector<std::size_t>{10, 20, 40}[i]], references::pendulum()[i],
+              "64 elements");
   // |AB| misses 2e-6 m with 32 elements, and 16 and 256 times as much with 16 and 8.
   ConvergenceTable table{"B [m], largest up to 1 s", "elements", {}};
   for (const auto& [elements, tolerance] : {std::pair{8, 5e-4}, {16, 3.2e-5}, {24, 0.0}, {32, 2e-6}}) {
@@ -260,8 +253,10 @@ std::vector<VerifyProblem> dynamics_problems() {
          return arc_frequencies(material, {{8.988, 1e-3}, {31.597, 1e-3}, {62.297, 1e-3}, {70.822, 1e-3}});
        }},
       {"steady-spin", "material, Green, straight", spin},
-      {"pendulum-spatial", "spatial, Green, as drawn", [] { return pendulum(spatial, spatial_swing); }},
-      {"pendulum-material", "material, Green, as drawn", [] { return pendulum(material, material_swing); }},
+      {"pendulum-spatial", "spatial, Green, as drawn",
+       [] { return pendulum(spatial, references::pendulum()); }},
+      {"pendulum-material", "material, Green, as drawn",
+       [] { return pendulum(material, references::pendulum_with_material_curvature()); }},
       {"pendulum-accuracy", "spatial, Green, as drawn", pendulum_accuracy},
       {"moving-force", "material, Green, straight", moving_force},
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/verification/references.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_examples.h"
 #include "pipelines/verification/verify_run.h"
@@ -14,10 +15,7 @@ namespace {
 
 using namespace verification;
 
-/// Where the body is at a time.
-struct Place {
-  double time, x, y, s;
-};
+using references::Place;
 
 /// A sliding example: its references with their errors, and the meshes on which it converges to them.
 struct Example {
@@ -70,9 +68,7 @@ void add_convergence(VerifyResult& result, const Example& example, const RunReco
 
 VerifyResult example_1() {
   const Example example{falling_beam,
-                        {{0.2, 0.131866, -0.061405, 0.147474},
-                         {0.4, 0.213265, -0.366831, 0.438555},
-                         {0.5, 0.110137, -0.663964, 0.712489}},
+                        references::falling_beam(),
                         "two reference runs, 1e-5 m",
                         1e-5,
                         1e-5,
@@ -83,17 +79,17 @@ VerifyResult example_1() {
   VerifyResult result;
   const RunRecord fine = run_example(example, example.fine, 0.75);
   add_places(result, example, fine);
-  const double ends[] = {-0.196947, -0.892306, -0.802103}, lengths[] = {1.001414, 1.006318, 1.005065};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string when = at_time(example.places[i].time) + ", 60 elements";
-    result.add("end y" + when, ends[i], example.source, fine.probe(i).y(), 1e-5);
-    result.add("length" + when, lengths[i], example.source, fine.frames[i].beams[0].length, 1e-5);
+    result.add("end y" + when, example.places[i].end_y, example.source, fine.probe(i).y(), 1e-5);
+    result.add("length" + when, example.places[i].length, example.source, fine.frames[i].beams[0].length,
+               1e-5);
   }
   double leaves = std::nan("");
   for (const RunEvent& event : fine.report.events)
     if (event.kind == EventKind::left_beam) leaves = event.time;
   const std::string source = "two reference runs, 5e-5 s";
-  result.add("time of leaving [s]", 0.71356, source, leaves, 5e-5);
+  result.add("time of leaving [s]", references::falling_beam_leaves, source, leaves, 5e-5);
   // Back along the free flight from the last frame.
   const Snapshot& last = fine.frames.back();
   const double flight = last.time - leaves;
@@ -110,9 +106,7 @@ VerifyResult example_1() {
 
 VerifyResult example_2() {
   const Example example{suspended_beam,
-                        {{0.3, 0.225178, -0.036238, 0.226584},
-                         {0.6, 0.510228, -0.097381, 0.506148},
-                         {1.0, 0.837282, -0.041253, 0.834099}},
+                        references::suspended_beam(),
                         "two reference runs, 2e-5 m (s 1.5e-4 m)",
                         2e-5,
                         1.5e-4,
@@ -123,10 +117,9 @@ VerifyResult example_2() {
   VerifyResult result;
   const RunRecord fine = run_example(example, example.fine);
   add_places(result, example, fine);
-  const double lengths[] = {1.007698, 1.023557, 1.008379};
   for (std::size_t i = 0; i < 3; ++i)
-    result.add("length" + at_time(example.places[i].time) + ", 48 elements", lengths[i], example.source,
-               fine.frames[i].beams[0].length, 2e-5);
+    result.add("length" + at_time(example.places[i].time) + ", 48 elements", example.places[i].length,
+               example.source, fine.frames[i].beams[0].length, 2e-5);
   add_convergence(result, example, fine);
   return result;
 }
@@ -140,9 +133,7 @@ void add_start_energy(VerifyResult& result, const Example& example, double energ
 
 VerifyResult example_3_as_drawn() {
   const Example example{[](int elements) { return semicircle(elements, false); },
-                        {{0.5, -1.194665, -1.354761, 1.580274},
-                         {1.0, 1.152992, -1.625596, 4.408070},
-                         {1.5, 1.869061, -0.314888, 5.942009}},
+                        references::semicircle(false),
                         "two reference runs, 2e-5 m",
                         2e-5,
                         2e-5,
@@ -160,7 +151,7 @@ VerifyResult example_3_as_drawn() {
 
 VerifyResult example_3_straight() {
   Example example{[](int elements) { return semicircle(elements, true); },
-                  {{0.5, -1.138563, -1.349098, 1.602512}},
+                  {references::semicircle(true)[0]},
                   "two reference runs, 1e-4 m",
                   1e-4,
                   1e-4,
@@ -168,7 +159,7 @@ VerifyResult example_3_straight() {
                   144,
                   2e-4,
                   0.9};
-  const Place later{1.0, 1.159817, -1.634351, 4.407983};
+  const Place later = references::semicircle(true)[1];
   VerifyResult result;
   add_start_energy(result, example, -693.39324);
   const RunRecord fine = run_example(example, example.fine, later.time);

@@ -71,7 +71,7 @@ TEST(Papers, ABodyThatTurnsBehindAJointComesBackOverIt) {
 TEST(Papers, TheReferencesAreMet) {
   const papers::Run own =
       run(suspended_beam_example().model(24), ours(), {.end = 1, .step = 5e-4, .every = 0.1});
-  EXPECT_LT(largest_distance(own, suspended_beam_places()), 5e-4);
+  EXPECT_LT(largest_distance(own, references::suspended_beam()), 5e-4);
   EXPECT_DOUBLE_EQ(rms_distance(own, own), 0);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pipelines/papers/papers_pendulum.h"
+#include "pipelines/verification/references.h"
 
 namespace nurbeam {
 namespace {
@@ -39,14 +40,11 @@ TEST(PendulumArcs, AreTheSameArcWithOtherSpeeds) {
 
 // Two programs that share no formulation, spatial curvature, at 0.2, 0.4 and 0.8 s, to 4e-6 m.
 TEST_F(Pendulum, OnAFineMeshSwingsAsInTheReferenceRuns) {
-  const double AB[] = {0.423720923, 0.505662695, 0.445215937};
-  const double fall[] = {-0.220576957, -0.745614747, -0.065294728};
-  const double length[] = {0.526796576, 0.523011159, 0.531502082};
-  const std::size_t at[] = {20, 40, 80};
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(fine_.AB.at(at[i]), AB[i], 1.2e-5);
-    EXPECT_NEAR(fine_.fall.at(at[i]), fall[i], 1.2e-5);
-    EXPECT_NEAR(fine_.length.at(at[i]), length[i], 1.2e-5);
+  for (const references::Swing& swing : references::pendulum()) {
+    const auto at = static_cast<std::size_t>(std::lround(100 * swing.time));
+    EXPECT_NEAR(fine_.AB.at(at), swing.AB, 1.2e-5);
+    EXPECT_NEAR(fine_.fall.at(at), swing.fall, 1.2e-5);
+    EXPECT_NEAR(fine_.length.at(at), swing.length, 1.2e-5);
   }
 }
 

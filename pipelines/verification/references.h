@@ -1,0 +1,60 @@
+#pragma once
+#include <cmath>
+#include <vector>
+
+/// Reference numbers of the examples of the papers, computed by two programs that share no formulation (one
+/// with a node that moves with the body, one with a fixed mesh and the body's own coordinate) and confirmed
+/// by a third program's element; their difference is the error that stands with each. Spatial curvature
+/// unless said, g = 9.81 m/s^2.
+namespace nurbeam::references {
+
+/// A body that slides, at one time; NAN where there is no number.
+struct Place {
+  double time;          ///< [s]
+  double x, y, s;       ///< of the body [m]
+  double end_y = NAN;   ///< of the beam's free end [m]
+  double length = NAN;  ///< of the beam [m]
+};
+
+/// Example 1 of Ding & Ouyang, to 1e-5 m.
+inline std::vector<Place> falling_beam() {
+  return {{0.2, 0.131866, -0.061405, 0.147474, -0.196947, 1.001414},
+          {0.4, 0.213265, -0.366831, 0.438555, -0.892306, 1.006318},
+          {0.5, 0.110137, -0.663964, 0.712489, -0.802103, 1.005065}};
+}
+/// When the body leaves it [s], to 5e-5 s.
+inline constexpr double falling_beam_leaves = 0.71356;
+
+/// Example 2, to 2e-5 m (s to 1.5e-4 m).
+inline std::vector<Place> suspended_beam() {
+  return {{0.3, 0.225178, -0.036238, 0.226584, NAN, 1.007698},
+          {0.6, 0.510228, -0.097381, 0.506148, NAN, 1.023557},
+          {1.0, 0.837282, -0.041253, 0.834099, NAN, 1.008379}};
+}
+
+/// Example 3, to 2e-5 m as drawn, to 1e-4 m straight.
+inline std::vector<Place> semicircle(bool straight) {
+  if (straight) return {{0.5, -1.138563, -1.349098, 1.602512}, {1.0, 1.159817, -1.634351, 4.407983}};
+  return {{0.5, -1.194665, -1.354761, 1.580274},
+          {1.0, 1.152992, -1.625596, 4.408070},
+          {1.5, 1.869061, -0.314888, 5.942009}};
+}
+
+/// The curved pendulum of the subdivision paper, to 4e-6 m.
+struct Swing {
+  double time;        ///< [s]
+  double AB, fall;    ///< distance of its ends; y_B(t) - y_B(0) [m]
+  double length = 0;  ///< of the beam [m]; 0 where there is no number
+};
+inline std::vector<Swing> pendulum() {
+  return {{0.2, 0.423720923, -0.220576957, 0.526796576},
+          {0.4, 0.505662695, -0.745614747, 0.523011159},
+          {0.8, 0.445215937, -0.065294728, 0.531502082}};
+}
+/// With the material curvature.
+inline std::vector<Swing> pendulum_with_material_curvature() {
+  return {
+      {0.2, 0.423709655, -0.220890605}, {0.4, 0.505894707, -0.745921325}, {0.8, 0.441658296, -0.066021437}};
+}
+
+}  // namespace nurbeam::references
