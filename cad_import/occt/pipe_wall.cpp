@@ -45,8 +45,6 @@
 namespace nurbeam {
 namespace {
 
-using std::numbers::pi;
-
 constexpr int sections = 24, points_of_section = 16;
 Wall cylinder_wall(const Geom_CylindricalSurface& surface, const Bounds& b) {
   return {.centre = new Geom_Line(surface.Axis()),

@@ -75,7 +75,8 @@ ElementMatrix<D> tangent(const BeamElement<D>& element, const ElementState<D>& x
   element.for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
     const MovingPoint<D> p(shape, s, weight, motion);
     const Density<D> density(element.properties(), shape, p, load);
-    const auto &N = p.inertia.velocity_gradient(), &Z = density.rates.Z;
+    const auto& N = p.inertia.velocity_gradient();
+    const auto& Z = density.rates.Z;
     const double w = p.weight;
     if (t.mass != 0) K += (t.mass * w * rho) * N.transpose() * N;
     if (t.damping != 0)
