@@ -8,7 +8,6 @@
 #include <exception>
 #include <memory>
 #include <new>
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,10 +38,10 @@ inline SUNContext new_context() {
 }
 
 /// Throws std::logic_error unless `flag`, the return value of a setter, is success: its arguments are ours.
-inline void check(int flag, std::source_location where = std::source_location::current()) {
+inline void check(int flag, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   if (flag == 0) return;
-  throw std::logic_error("SUNDIALS refuses what " + std::string(where.file_name()) + ":" +
-                         std::to_string(where.line()) + " sets, with flag " + std::to_string(flag));
+  throw std::logic_error("SUNDIALS refuses what " + std::string(file) + ":" + std::to_string(line) +
+                         " sets, with flag " + std::to_string(flag));
 }
 
 inline Eigen::Map<Eigen::VectorXd> map(N_Vector vector) { return {NV_DATA_S(vector), NV_LENGTH_S(vector)}; }
