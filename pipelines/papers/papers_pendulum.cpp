@@ -14,6 +14,7 @@
 #include "pipelines/papers/papers.h"
 #include "pipelines/papers/plot.h"
 #include "pipelines/verification/references.h"
+
 namespace nurbeam {
 
 namespace {

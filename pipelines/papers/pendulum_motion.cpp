@@ -11,6 +11,7 @@
 #include "pipelines/papers/papers.h"
 #include "pipelines/papers/papers_pendulum.h"
 #include "pipelines/papers/plot.h"
+
 namespace nurbeam {
 
 namespace {
