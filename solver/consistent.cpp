@@ -57,41 +57,41 @@ Eigen::VectorXd force(const SecondOrderSystem& system, State state) {
 
 }  // namespace
 
-bool make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
+ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
   State at_rest = state;
   at_rest.a.setZero(system.coordinate_count());
   at_rest.lambda.setZero(system.constraint_count());
   const FactorisedKkt kkt(system, at_rest, h);
-  if (!kkt.regular()) return false;
+  if (!kkt.regular()) return ConsistencyStatus::singular;
   const Eigen::VectorXd solution = kkt.solve(force(system, state), -system.constraint_curvature(state));
-  if (!solution.allFinite()) return false;
+  if (!solution.allFinite()) return ConsistencyStatus::singular;
   state.a = solution.head(system.coordinate_count());
   state.lambda = solution.tail(system.constraint_count());
-  return true;
+  return ConsistencyStatus::done;
 }
 
-bool make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
+ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
   return make_accelerations_smooth(system, 0, state);
 }
 
 Projection project_velocities(const SecondOrderSystem& system, State& state) {
   const FactorisedKkt kkt(system, state);
-  if (!kkt.regular()) return {ProjectionStatus::singular, {}};
+  if (!kkt.regular()) return {ConsistencyStatus::singular, {}};
   const Eigen::VectorXd excess = kkt.constraint_product(state.v) + system.constraint_rate(state);
   const Eigen::VectorXd solution = kkt.solve(Eigen::VectorXd::Zero(state.v.size()), -excess);
-  if (!solution.allFinite()) return {ProjectionStatus::singular, {}};
+  if (!solution.allFinite()) return {ConsistencyStatus::singular, {}};
   state.v += solution.head(system.coordinate_count());
-  return {ProjectionStatus::done, solution.tail(system.constraint_count())};
+  return {ConsistencyStatus::done, solution.tail(system.constraint_count())};
 }
 
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
                                     State& state) {
   const FactorisedKkt kkt(system, state);
-  if (!kkt.regular()) return {ProjectionStatus::singular, {}};
+  if (!kkt.regular()) return {ConsistencyStatus::singular, {}};
   const Eigen::VectorXd solution = kkt.solve(momentum, -system.constraint_rate(state));
-  if (!solution.allFinite()) return {ProjectionStatus::singular, {}};
+  if (!solution.allFinite()) return {ConsistencyStatus::singular, {}};
   state.v = solution.head(system.coordinate_count());
-  return {ProjectionStatus::done, solution.tail(system.constraint_count())};
+  return {ConsistencyStatus::done, solution.tail(system.constraint_count())};
 }
 
 }  // namespace nurbeam

@@ -3,23 +3,23 @@
 
 namespace nurbeam {
 
+enum class ConsistencyStatus {
+  done,
+  singular  ///< the matrix is, and the state unchanged
+};
+
 /// Accelerations and multipliers that belong to (t, q, v): [M G'; G 0][a; lambda] = [f; -curvature].
-/// Returns false when the matrix is singular (state unchanged).
-[[nodiscard]] bool make_accelerations_consistent(const SecondOrderSystem& system, State& state);
+[[nodiscard]] ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state);
 
 /// The same, averaged over a step h: [M + (h/2) D + (h^2/4) K, G'; G 0][a; lambda] = [f; -curvature]. Motions
 /// slow against h keep their acceleration to O(h^2); those much faster, which an event may have left out of
 /// balance, lose theirs. Exact accelerations of such motions would make the first step overshoot by (omega
 /// h)^2.
-[[nodiscard]] bool make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state);
-
-enum class ProjectionStatus {
-  done,
-  singular  ///< the matrix is, and the state unchanged
-};
+[[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
+                                                          State& state);
 
 struct Projection {
-  ProjectionStatus status;
+  ConsistencyStatus status;
   Eigen::VectorXd impulse;  ///< (m) of the constraints [N s]
 };
 

@@ -16,8 +16,7 @@ MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
   return {std::move(system), std::move(state)};
 }
 
-bool change_mesh(MeshedState& at, const NextPlan& next, bool at_rest, Eigen::VectorXd& impulse,
-                 SimulationReport& report) {
+MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
   const BeamModel& model = at.system->model();
   const bool keeps_velocities = next.change == MeshChange::merge &&
                                 model.beam_of(model.joints[next.joint]).merge != MergeRule::standard;
@@ -26,26 +25,21 @@ bool change_mesh(MeshedState& at, const NextPlan& next, bool at_rest, Eigen::Vec
   const std::vector<bool> held(model.joints.size(), at_rest);
   auto to = std::make_unique<BeamSystem>(at.system->shared_model(), next.plan, held);
   if (exact) {
-    impulse.resize(0);
     State moved = interpolated(*at.system, at.state, *to);
     at = {std::move(to), std::move(moved)};
-    return true;
+    return {};
   }
   std::optional<Transferred> moved = projected(*at.system, at.state, *to);
-  if (!moved) {
-    report.fail({.kind = Failure::Kind::projection, .time = at.state.t, .places = places_of(at)});
-    return false;
-  }
-  impulse = std::move(moved->impulse);
+  if (!moved)
+    return {Failure{.kind = Failure::Kind::projection, .time = at.state.t, .places = places_of(at)}, {}};
   at = {std::move(to), std::move(moved->state)};
-  return true;
+  return {std::nullopt, std::move(moved->impulse)};
 }
 
-bool check_changes(const MeshedState& at, std::size_t count, SimulationReport& report) {
+std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count) {
   const std::size_t most = 20 * (at.system->model().joints.size() + 1);
-  if (count <= most + 1) return true;
-  report.fail({.kind = Failure::Kind::mesh, .time = at.state.t, .places = places_of(at)});
-  return false;
+  if (count <= most + 1) return std::nullopt;
+  return Failure{.kind = Failure::Kind::mesh, .time = at.state.t, .places = places_of(at)};
 }
 
 }  // namespace nurbeam

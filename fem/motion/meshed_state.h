@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "fem/motion/simulation_report.h"
 #include "fem/motion/transfer.h"
@@ -15,14 +16,17 @@ struct MeshedState {
   static MeshedState drawn(std::shared_ptr<const BeamModel> model);
 };
 
-/// Goes on on the mesh that length control asks for. `at_rest`: joints are held there, and there are no
-/// velocities to project; else `impulse` is set to the projection's (see Transferred). False, and the report
-/// says so, when velocities cannot be projected.
-[[nodiscard]] bool change_mesh(MeshedState& at, const NextPlan& next, bool at_rest, Eigen::VectorXd& impulse,
-                               SimulationReport& report);
+struct MeshChangeReport {
+  std::optional<Failure> failure = {};  ///< velocities that cannot be projected
+  Eigen::VectorXd impulse = {};         ///< of the projection (see Transferred); empty where there was none
+};
 
-/// Each change of the mesh makes the next less likely: false, and the report says so, when there were more
-/// at one moment than that can be.
-[[nodiscard]] bool check_changes(const MeshedState& at, std::size_t count, SimulationReport& report);
+/// Goes on on the mesh that length control asks for. `at_rest`: joints are held there, and there are no
+/// velocities to project.
+[[nodiscard]] MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
+
+/// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
+/// than that can be.
+[[nodiscard]] std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count);
 
 }  // namespace nurbeam

@@ -15,40 +15,6 @@ namespace nurbeam {
 
 namespace {
 
-// Equilibrium from the state as it is, which is kept on failure.
-StaticReport find_equilibrium(MeshedState& at, SimulationReport& report) {
-  at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
-  at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
-  const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, *at.system, at.state);
-  report.newton_iterations += found.newton_iterations;
-  report.steps += found.load_steps;
-  return found;
-}
-
-// With all sliding bodies held where the plan has them.
-bool hold_in_equilibrium(MeshedState& at, MeshPlan plan, SimulationReport& report) {
-  const std::vector<bool> held(at.system->model().joints.size(), true);
-  at.system = std::make_unique<BeamSystem>(at.system->shared_model(), std::move(plan), held);
-  const StaticReport found = find_equilibrium(at, report);
-  if (found.status == StaticStatus::converged) return true;
-  report.fail({.kind = Failure::Kind::equilibrium, .equilibrium = found});
-  return false;
-}
-
-// Applies the changes of the mesh that are due.
-bool settle_mesh(MeshedState& at, const LengthControl& control, SimulationReport& report) {
-  for (std::size_t count = 1;; ++count) {
-    const auto start = std::chrono::steady_clock::now();
-    const NextPlan next = next_plan(*at.system, at.state, control);
-    if (next.change == MeshChange::none) return true;
-    Eigen::VectorXd impulse;
-    if (!change_mesh(at, next, true, impulse, report)) return false;
-    report.length_control_seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!check_changes(at, count, report)) return false;
-  }
-}
-
 // How far a joint can move in a direction while its elements keep a fifth of their length [m].
 double room_to_move(const MeshedState& at, int joint, int direction) {
   const Mesh& mesh = at.system->mesh();
@@ -76,22 +42,6 @@ void move_place(MeshedState& at, int joint, double ds) {
   }
   state.q[moved.place] = s;
   state.v[moved.place] = ds;  // length control looks at the direction
-}
-
-// Moves held joints by ds, with the curve as it stands, and carries length control along: never past a node
-// at once.
-bool move_places(MeshedState& at, std::vector<double> ds, const LengthControl& control,
-                 SimulationReport& report) {
-  while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
-    for (int j = 0; j < static_cast<int>(ds.size()); ++j) {
-      const double part = std::clamp(ds[j], -room_to_move(at, j, -1), room_to_move(at, j, 1));
-      move_place(at, j, part);
-      ds[j] -= part;
-    }
-    if (!settle_mesh(at, control, report)) return false;
-  }
-  at.state.v.setZero();
-  return true;
 }
 
 // The plan of the mesh with the joints where they have been moved.
@@ -126,51 +76,129 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   return ds;
 }
 
-// Equilibrium with the joints free that are not held, if there is one nearby; else nothing changes.
-void free_bodies(MeshedState& at, const std::vector<bool>& held, SimulationReport& report) {
-  const BeamModel& model = at.system->model();
-  MeshedState freed{std::make_unique<BeamSystem>(at.system->shared_model(), at.system->mesh().plan, held),
-                    at.state};
-  bool near = find_equilibrium(freed, report).status == StaticStatus::converged;
-  for (int j = 0; near && j < static_cast<int>(held.size()); ++j) {
-    const auto s = place(*freed.system, freed.state, j);
-    near = !s || std::abs(*s - *place(*at.system, at.state, j)) < 1e-3 * home_spacing(model, j);
+// Brings `at` to rest.
+class RestSearch {
+ public:
+  RestSearch(MeshedState& at, const LengthControl& control) : at_(at), control_(control) {}
+
+  RestReport held_equilibrium() {
+    hold_in_equilibrium(at_.system->mesh().plan);
+    return std::move(report_);
   }
-  if (near) at = std::move(freed);
-}
+
+  RestReport rest(const std::function<bool()>& interrupted) {
+    if (!goes_on(meeting_bodies(at_)) || !hold_in_equilibrium(at_.system->mesh().plan))
+      return std::move(report_);
+    std::vector<Descent> bodies;
+    for (int j = 0; j < joints(); ++j) bodies.push_back({model().joints[j].motion ? 0 : spacing(j) / 4});
+    for (int guard = 0; still_far(bodies); ++guard) {
+      report_.interrupted = interrupted();
+      const bool lost = guard > 2000 && !report_.interrupted;
+      if (lost) report_.failure = Failure{.kind = Failure::Kind::resting_place};
+      if (report_.interrupted || lost || !let_down(bodies)) return std::move(report_);
+    }
+    std::vector<bool> at_end;
+    for (const Descent& body : bodies) at_end.push_back(body.at_end);
+    free_bodies(at_end);
+    return std::move(report_);
+  }
+
+ private:
+  const BeamModel& model() const { return at_.system->model(); }
+  int joints() const { return static_cast<int>(model().joints.size()); }
+  double spacing(int joint) const { return home_spacing(model(), joint); }
+
+  bool goes_on(std::optional<Failure> failure) {
+    report_.failure = std::move(failure);
+    return !report_.failure;
+  }
+
+  bool still_far(const std::vector<Descent>& bodies) const {
+    for (int j = 0; j < joints(); ++j)
+      if (bodies[j].move > 1e-6 * spacing(j)) return true;
+    return false;
+  }
+
+  // One move of every body and the equilibrium after it.
+  bool let_down(std::vector<Descent>& bodies) {
+    std::vector<double> ds;
+    for (int j = 0; j < joints(); ++j) ds.push_back(next_move(at_, j, bodies[j]));
+    return move_places(std::move(ds)) && goes_on(meeting_bodies(at_)) && hold_in_equilibrium(moved_plan(at_));
+  }
+
+  // Equilibrium from the state as it is, which is kept on failure.
+  StaticReport find_equilibrium(MeshedState& at) {
+    at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
+    at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
+    const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, *at.system, at.state);
+    report_.newton_iterations += found.newton_iterations;
+    report_.load_steps += found.load_steps;
+    return found;
+  }
+
+  // With all sliding bodies held where the plan has them.
+  bool hold_in_equilibrium(MeshPlan plan) {
+    const std::vector<bool> held(model().joints.size(), true);
+    at_.system = std::make_unique<BeamSystem>(at_.system->shared_model(), std::move(plan), held);
+    const StaticReport found = find_equilibrium(at_);
+    if (found.status == StaticStatus::converged) return true;
+    return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
+  }
+
+  // Applies the changes of the mesh that are due.
+  bool settle_mesh() {
+    for (std::size_t count = 1;; ++count) {
+      const auto start = std::chrono::steady_clock::now();
+      const NextPlan next = next_plan(*at_.system, at_.state, control_);
+      if (next.change == MeshChange::none) return true;
+      if (!goes_on(change_mesh(at_, next, true).failure)) return false;
+      report_.length_control_seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (!goes_on(excess_of_changes(at_, count))) return false;
+    }
+  }
+
+  // Moves held joints by ds, with the curve as it stands, and carries length control along: never past a node
+  // at once.
+  bool move_places(std::vector<double> ds) {
+    while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
+      for (int j = 0; j < joints(); ++j) {
+        const double part = std::clamp(ds[j], -room_to_move(at_, j, -1), room_to_move(at_, j, 1));
+        move_place(at_, j, part);
+        ds[j] -= part;
+      }
+      if (!settle_mesh()) return false;
+    }
+    at_.state.v.setZero();
+    return true;
+  }
+
+  // Equilibrium with the joints free that are not held, if there is one nearby; else nothing changes.
+  void free_bodies(const std::vector<bool>& held) {
+    MeshedState freed{std::make_unique<BeamSystem>(at_.system->shared_model(), at_.system->mesh().plan, held),
+                      at_.state};
+    bool near = find_equilibrium(freed).status == StaticStatus::converged;
+    for (int j = 0; near && j < joints(); ++j) {
+      const auto s = place(*freed.system, freed.state, j);
+      near = !s || std::abs(*s - *place(*at_.system, at_.state, j)) < 1e-3 * spacing(j);
+    }
+    if (near) at_ = std::move(freed);
+  }
+
+  MeshedState& at_;
+  const LengthControl& control_;
+  RestReport report_;
+};
 
 }  // namespace
 
-bool find_held_equilibrium(MeshedState& at, SimulationReport& report) {
-  return hold_in_equilibrium(at, at.system->mesh().plan, report);
+RestReport find_held_equilibrium(MeshedState& at) {
+  return RestSearch(at, LengthControl{}).held_equilibrium();
 }
 
-void find_rest(MeshedState& at, const LengthControl& control, const std::function<bool()>& interrupted,
-               SimulationReport& report) {
-  if (!check_bodies_apart(at, report) || !find_held_equilibrium(at, report)) return;
-  const BeamModel& model = at.system->model();
-  const int n = static_cast<int>(model.joints.size());
-  std::vector<Descent> bodies;
-  for (int j = 0; j < n; ++j) bodies.push_back({model.joints[j].motion ? 0 : home_spacing(model, j) / 4});
-  const auto still_far = [&] {
-    for (int j = 0; j < n; ++j)
-      if (bodies[j].move > 1e-6 * home_spacing(model, j)) return true;
-    return false;
-  };
-  for (int guard = 0; still_far(); ++guard) {
-    if (guard > 2000) return report.fail({.kind = Failure::Kind::resting_place});
-    if (interrupted()) {
-      report.status = SimulationStatus::interrupted;
-      return;
-    }
-    std::vector<double> ds;
-    for (int j = 0; j < n; ++j) ds.push_back(next_move(at, j, bodies[j]));
-    if (!move_places(at, ds, control, report)) return;
-    if (!check_bodies_apart(at, report) || !hold_in_equilibrium(at, moved_plan(at), report)) return;
-  }
-  std::vector<bool> at_end;
-  for (const Descent& body : bodies) at_end.push_back(body.at_end);
-  free_bodies(at, at_end, report);
+RestReport find_rest(MeshedState& at, const LengthControl& control,
+                     const std::function<bool()>& interrupted) {
+  return RestSearch(at, control).rest(interrupted);
 }
 
 }  // namespace nurbeam

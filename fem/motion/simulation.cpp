@@ -55,28 +55,37 @@ class Simulation {
   }
 
   void rest() {
-    find_rest(
-        at_, options_.length_control, [this] { return interrupted(); }, report_);
-    if (report_.status == SimulationStatus::done) take_snapshot();
+    if (book(find_rest(at_, options_.length_control, [this] { return interrupted(); }))) take_snapshot();
   }
 
-  bool fail(Failure::Kind kind) {
-    report_.fail({.kind = kind, .time = at_.state.t});
+  // Takes over what a search for rest came to; whether the run goes on.
+  bool book(RestReport rest) {
+    report_.newton_iterations += rest.newton_iterations;
+    report_.steps += rest.load_steps;
+    report_.length_control_seconds += rest.length_control_seconds;
+    if (rest.interrupted) report_.status = SimulationStatus::interrupted;
+    return !rest.interrupted && goes_on(std::move(rest.failure));
+  }
+
+  bool goes_on(std::optional<Failure> failure) {
+    if (!failure) return true;
+    report_.fail(std::move(*failure));
     return false;
   }
+  bool fail(Failure::Kind kind) { return goes_on(Failure{.kind = kind, .time = at_.state.t}); }
   bool interrupted() const { return observer_.interrupted && observer_.interrupted(); }
 
   // --- Motion
 
   bool start_motion() {
-    if (!check_bodies_apart(at_, report_)) return false;
+    if (!goes_on(meeting_bodies(at_))) return false;
     if (options_.start_from_equilibrium) {
-      if (!find_held_equilibrium(at_, report_)) return false;
+      if (!book(find_held_equilibrium(at_))) return false;
       at_.system = std::make_unique<BeamSystem>(model_, at_.system->mesh().plan);
       at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
     }
     start_moving(*at_.system, at_.state);
-    if (project_velocities(*at_.system, at_.state).status != ProjectionStatus::done)
+    if (project_velocities(*at_.system, at_.state).status != ConsistencyStatus::done)
       return fail(Failure::Kind::initial_velocities);
     return restart();
   }
@@ -117,9 +126,9 @@ class Simulation {
   // New integrator from at_.state, with consistent accelerations.
   bool restart() {
     const bool stiff = std::holds_alternative<GeneralizedAlpha>(options_.integrator);
-    if (!(stiff ? make_accelerations_smooth(*at_.system, step_, at_.state)
-                : make_accelerations_consistent(*at_.system, at_.state)))
-      return fail(Failure::Kind::mass_matrix);
+    const ConsistencyStatus status = stiff ? make_accelerations_smooth(*at_.system, step_, at_.state)
+                                           : make_accelerations_consistent(*at_.system, at_.state);
+    if (status != ConsistencyStatus::done) return fail(Failure::Kind::mass_matrix);
     integrator_ = start_integrator(options_.integrator, *at_.system, at_.state);
     return true;
   }
@@ -174,11 +183,9 @@ class Simulation {
     const StepReport taken = integrator_->advance(step);
     report_.newton_iterations += taken.newton_iterations;
     report_.rejected_steps += taken.rejected;
-    if (taken.status != StepStatus::converged) {
-      report_.fail(
-          {.kind = Failure::Kind::step, .time = at_.state.t, .places = places_of(at_), .step = taken.status});
-      return false;
-    }
+    if (taken.status != StepStatus::converged)
+      return goes_on(Failure{
+          .kind = Failure::Kind::step, .time = at_.state.t, .places = places_of(at_), .step = taken.status});
     if (!options_.step) step_ = taken.next_step;
     ++report_.steps;
     last_step_ = taken.step;
@@ -196,7 +203,7 @@ class Simulation {
     if (damped()) dissipated_ += dissipated_between(before, at_.state);
     if (ending && !end_sliding(*ending)) return false;
     if (crossing && !ending && !step_over(*crossing)) return false;
-    if (!check_bodies_apart(at_, report_)) return false;
+    if (!goes_on(meeting_bodies(at_))) return false;
     settle_mesh();
     return report_.status == SimulationStatus::done;
   }
@@ -242,10 +249,8 @@ class Simulation {
     State moved = interpolated(*at_.system, at_.state, *next);
     if (!leaves) {
       moved.q[next->mesh().joints[joint].place] = ending.s;
-      if (project_velocities(*next, moved).status != ProjectionStatus::done) {
-        report_.fail({.kind = Failure::Kind::impact, .time = at_.state.t, .joint = joint});
-        return false;
-      }
+      if (project_velocities(*next, moved).status != ConsistencyStatus::done)
+        return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = joint});
     }
     at_ = {std::move(next), std::move(moved)};
     if (!restart()) return false;
@@ -259,7 +264,7 @@ class Simulation {
   // Applies the changes of the mesh that are due.
   void settle_mesh() {
     for (std::size_t count = 1; change_due_mesh(); ++count)
-      if (!check_changes(at_, count, report_)) return;
+      if (!goes_on(excess_of_changes(at_, count))) return;
   }
 
   // Applies one change of the mesh if one is due; the integrator is restarted and the event recorded.
@@ -271,10 +276,10 @@ class Simulation {
     const bool observed = static_cast<bool>(observer_.mesh_changed);
     const std::vector<BeamRecord> before =
         observed ? record_beams(*at_.system, at_.state) : std::vector<BeamRecord>{};
-    Eigen::VectorXd impulse;
-    if (!change_mesh(at_, next, false, impulse, report_) || !restart()) return false;
+    const MeshChangeReport changed = change_mesh(at_, next, false);
+    if (!goes_on(changed.failure) || !restart()) return false;
     at_.state = integrator_->state();
-    event.support_impulse = support_impulse(*at_.system, impulse);
+    event.support_impulse = support_impulse(*at_.system, changed.impulse);
     finish_event(at_, event);
     report_.events.push_back(std::move(event));
     if (observed) observer_.mesh_changed(report_.events.back(), before, record_beams(*at_.system, at_.state));

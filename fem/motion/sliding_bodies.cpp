@@ -36,15 +36,14 @@ std::vector<BodyPlace> places_of(const MeshedState& at) {
   return places;
 }
 
-bool check_bodies_apart(const MeshedState& at, SimulationReport& report) {
+std::optional<Failure> meeting_bodies(const MeshedState& at) {
   const BeamModel& model = at.system->model();
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     const double nearest = meeting_distance * home_spacing(model, j);
-    if (!place(*at.system, at.state, j) || distance_to_others(at, j) > nearest) continue;
-    report.fail({.kind = Failure::Kind::bodies_meet, .time = at.state.t, .places = places_of(at)});
-    return false;
+    if (place(*at.system, at.state, j) && distance_to_others(at, j) <= nearest)
+      return Failure{.kind = Failure::Kind::bodies_meet, .time = at.state.t, .places = places_of(at)};
   }
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace nurbeam

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "fem/motion/meshed_state.h"
@@ -15,7 +16,7 @@ double distance_to_others(const MeshedState& at, int joint);
 /// Where each body is that a joint holds.
 std::vector<BodyPlace> places_of(const MeshedState& at);
 
-/// Two bodies that meet on one beam end the run: false, and the report says so.
-[[nodiscard]] bool check_bodies_apart(const MeshedState& at, SimulationReport& report);
+/// Two bodies that meet on one beam end the run; nothing where all are apart.
+[[nodiscard]] std::optional<Failure> meeting_bodies(const MeshedState& at);
 
 }  // namespace nurbeam

@@ -39,7 +39,7 @@ class Remap {
           material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
     }
     const Projection projection = velocities_from_momentum(to_, momentum_on(next), next);
-    if (projection.status != ProjectionStatus::done) return std::nullopt;
+    if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
   }
 

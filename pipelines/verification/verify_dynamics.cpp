@@ -128,7 +128,8 @@ Spin steady_spin(double a) {
     for (const int place : {node.r, node.slope_left})
       state.v.segment<2>(place) = a * wave_speed * Eigen::Vector2d(-state.q[place + 1], state.q[place]);
   constexpr double step = 2e-4;
-  if (!make_accelerations_smooth(system, step, state)) throw std::runtime_error("singular mass");
+  if (make_accelerations_smooth(system, step, state) != ConsistencyStatus::done)
+    throw std::runtime_error("singular mass");
   GeneralizedAlphaIntegrator integrator({.newton_tolerance = 1e-12}, system, state);
   for (int i = 0; i < 2500; ++i)
     if (integrator.advance(step).status != StepStatus::converged) throw std::runtime_error("a step failed");

@@ -31,7 +31,7 @@ int main() {
   const BeamSystem system(builder.build());
   State state = drawn_state(system);
   start_moving(system, state);
-  if (!make_accelerations_consistent(system, state)) return 1;
+  if (make_accelerations_consistent(system, state) != ConsistencyStatus::done) return 1;
 
   // The bar hardly gives way: the ball swings about the spring's length, 0.2 m up and down.
   const double period = 2 * std::acos(-1.0) * std::sqrt(mass / k);

@@ -89,7 +89,7 @@ State equilibrium(const BeamSystem& system) {
 
 State moved_on(const BeamSystem& system, double end, int steps) {
   State start = drawn_state(system);
-  EXPECT_TRUE(make_accelerations_consistent(system, start));
+  EXPECT_EQ(make_accelerations_consistent(system, start), ConsistencyStatus::done);
   GeneralizedAlphaIntegrator integrator({.rho_infinity = 0.9, .newton_tolerance = 1e-12}, system, start);
   for (int i = 0; i < steps; ++i) EXPECT_EQ(integrator.advance(end / steps).status, StepStatus::converged);
   return integrator.state();

@@ -261,7 +261,7 @@ State run(const BeamModel& model, int steps, double end) {
   const BeamSystem system(model, initial_plan(model));
   State start = drawn_state(system);
   start_moving(system, start);
-  EXPECT_TRUE(make_accelerations_consistent(system, start));
+  EXPECT_EQ(make_accelerations_consistent(system, start), ConsistencyStatus::done);
   GeneralizedAlphaIntegrator integrator({.rho_infinity = 0.6, .newton_tolerance = 1e-12}, system, start);
   for (int i = 0; i < steps; ++i) EXPECT_EQ(integrator.advance(end / steps).status, StepStatus::converged);
   return integrator.state();
