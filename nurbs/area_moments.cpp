@@ -7,15 +7,6 @@
 namespace nurbeam {
 namespace {
 
-/// Integral of f over [a, b]: halved until the halves agree with the whole to 1e-15 of `scale`.
-template <typename Function>
-double integral(const Function& f, double a, double b, double whole, double scale, int depth = 0) {
-  const double middle = 0.5 * (a + b), left = gauss(f, a, middle), right = gauss(f, middle, b);
-  constexpr int deepest = 40;
-  if (std::abs(left + right - whole) <= 1e-15 * scale || depth == deepest) return left + right;
-  return integral(f, a, middle, left, scale, depth + 1) + integral(f, middle, b, right, scale, depth + 1);
-}
-
 /// The integral over u in [0,1] of weight(r) (x dy - y dx) along a cubic.
 template <typename Weight>
 double swept(const RationalCubic& cubic, const Weight& weight) {
@@ -24,7 +15,7 @@ double swept(const RationalCubic& cubic, const Weight& weight) {
     return weight(r(0, 0), r(1, 0)) * (r(0, 0) * r(1, 1) - r(1, 0) * r(0, 1));
   };
   const double scale = gauss([&](double u) { return std::abs(f(u)); }, 0, 1);
-  return integral(f, 0, 1, gauss(f, 0, 1), scale);
+  return panels_of(f, 0, 1, scale, 1e-15).integrals.back();
 }
 
 }  // namespace
@@ -36,25 +27,20 @@ AreaMoments& AreaMoments::operator+=(const AreaMoments& other) {
   return *this;
 }
 
-AreaMoments area_moments(const BezierPath& loop) {
+AreaMoments area_moments(std::span<const RationalCubic> loop) {
+  const auto one = [](double, double) { return 1.0; };
+  const auto x = [](double x, double) { return x; };
+  const auto y = [](double, double y) { return y; };
+  const auto xx = [](double x, double) { return x * x; };
+  const auto xy = [](double x, double y) { return x * y; };
+  const auto yy = [](double, double y) { return y * y; };
   AreaMoments moments;
-  for (const RationalCubic& cubic : loop.segments) {
-    moments.area += swept(
-                        cubic, [](double, double) { return 1.0; }) /
-                    2;
-    moments.first(0) += swept(
-                            cubic, [](double x, double) { return x; }) /
-                        3;
-    moments.first(1) += swept(
-                            cubic, [](double, double y) { return y; }) /
-                        3;
-    moments.second(0, 0) += swept(
-                                cubic, [](double x, double) { return x * x; }) /
-                            4;
-    moments.second(0, 1) += swept(
-                                cubic, [](double x, double y) { return x * y; }) /
-                            4;
-    moments.second(1, 1) += swept(cubic, [](double, double y) { return y * y; }) / 4;
+  for (const RationalCubic& cubic : loop) {
+    moments.area += swept(cubic, one) / 2;
+    moments.first += Eigen::Vector2d(swept(cubic, x), swept(cubic, y)) / 3;
+    moments.second(0, 0) += swept(cubic, xx) / 4;
+    moments.second(0, 1) += swept(cubic, xy) / 4;
+    moments.second(1, 1) += swept(cubic, yy) / 4;
   }
   moments.second(1, 0) = moments.second(0, 1);
   return moments;

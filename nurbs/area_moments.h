@@ -1,7 +1,8 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
 
-#include "nurbs/bezier_path.h"
+#include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
 
@@ -14,12 +15,12 @@ struct AreaMoments {
   AreaMoments& operator+=(const AreaMoments& other);
 };
 
-/// Moments of the region inside a closed path in the plane z = 0 (its z is not looked at), to about 1e-14 of
-/// the region's extent; negative where the path runs clockwise, so that those of an outline and its holes add
-/// up.
+/// Moments of the region inside a closed row of cubics in the plane z = 0 (its z is not looked at), to about
+/// 1e-14 of the region's extent; negative where the path runs clockwise, so that those of an outline and its
+/// holes add up.
 ///
 /// For f homogeneous of degree k: integral of f dA = 1/(k + 2) times that of f (x dy - y dx) along the
 /// boundary (Green), by adaptive Gauss quadrature on every cubic.
-AreaMoments area_moments(const BezierPath& loop);
+AreaMoments area_moments(std::span<const RationalCubic> loop);
 
 }  // namespace nurbeam

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "nurbs/bernstein.h"
+
 namespace nurbeam {
 namespace {
 
@@ -27,15 +29,6 @@ double halved_bound(const BezierPoints& a, const BezierPoints& b, int halvings) 
 }
 
 }  // namespace
-
-Eigen::Vector4d blossom(BezierPoints points, const std::vector<double>& arguments) {
-  for (Eigen::Index r = 1; r < points.cols(); ++r) {
-    const double a = arguments[r - 1];
-    for (Eigen::Index j = 0; j + r < points.cols(); ++j)
-      points.col(j) = (1 - a) * points.col(j) + a * points.col(j + 1);
-  }
-  return points.col(0);
-}
 
 BezierPoints part(const BezierPoints& points, double a, double b) {
   const Eigen::Index p = points.cols() - 1;

@@ -1,17 +1,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <utility>
-#include <vector>
 
 namespace nurbeam {
 
 /// Homogeneous Bezier points of any degree, 4 x (degree + 1): column i is (w_i P_i, w_i). The curve lives on
 /// [0, 1].
 using BezierPoints = Eigen::Matrix4Xd;
-
-/// Polar form (blossom) of a Bezier curve at as many arguments as its degree: symmetric, affine in each,
-/// f(u, ..., u) = value at u.
-Eigen::Vector4d blossom(BezierPoints points, const std::vector<double>& arguments);
 
 /// The part of a Bezier curve on [a, b], which may lie outside [0, 1].
 BezierPoints part(const BezierPoints& points, double a, double b);

@@ -1,6 +1,5 @@
 #pragma once
-#include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "nurbs/nurbs_curve.h"
@@ -15,9 +14,16 @@ struct Corner {
   double angle;           ///< between the two tangents [rad]
 };
 
+/// The places where the tangent turns by more than `angle` [rad] from one segment to the next.
+std::vector<Corner> corners_of(std::span<const RationalCubic> segments, double angle);
+
+/// Total length of cubics [m], to a relative error of about 1e-13.
+double total_length(std::span<const RationalCubic> segments);
+
 /// Cubics in order, their break parameters in the source, and a bound on the deviation from it.
 ///
-/// Consecutive segments share their end points (to the source's own accuracy).
+/// Consecutive segments share their end points (to the source's own accuracy). What needs no breaks (lengths,
+/// corners, closest points) takes the cubics alone; what needs them asks for one more than segments.
 struct BezierPath {
   std::vector<RationalCubic> segments;
   std::vector<double> breaks;  ///< segments.size() + 1 parameters in the source curve, increasing
@@ -36,27 +42,8 @@ struct BezierPath {
   /// rescaled by sigma_{j+1} = sigma_j w3_j / w0_{j+1} so that shared control points agree. Lossless.
   NurbsCurve to_nurbs() const;
 
-  /// Total length [m], to a relative error of about 1e-13.
-  double length() const;
-  /// All interior breaks where the tangent turns by more than `angle` [rad].
-  std::vector<Corner> corners(double angle) const;
+  double length() const { return total_length(segments); }
+  std::vector<Corner> corners(double angle) const { return corners_of(segments, angle); }
 };
-
-/// A run of curves that meet end to end, as ordered and oriented.
-struct Chain {
-  std::vector<int> curves;     ///< indices into the input, in running order
-  std::vector<bool> reversed;  ///< whether that curve is run through backwards
-  bool closed = false;
-};
-
-/// Orders and orients curves whose end points coincide within `tolerance` [m] into maximal chains; a point
-/// where three or more ends meet ends the chains there. The first curve of a chain keeps its direction if it
-/// can.
-std::vector<Chain> find_chains(const std::vector<NurbsCurve>& curves, double tolerance);
-
-/// The cubics of the curves of a chain one after another as one path (breaks: cumulative over the curves).
-/// Where two ends do not quite meet both are moved to the point midway, end directions kept; `deviation`
-/// includes the largest such shift.
-BezierPath join(const std::vector<NurbsCurve>& curves, const Chain& chain, double tolerance);
 
 }  // namespace nurbeam

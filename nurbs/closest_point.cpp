@@ -72,31 +72,31 @@ double stationary_parameter(const RationalCubic& cubic, const Eigen::Vector3d& p
   return u;
 }
 
-/// Search of one path for the point closest to a given one.
+/// Search of cubics for the point closest to a given one.
 class Search {
  public:
-  Search(const BezierPath& path, const Eigen::Vector3d& point)
-      : path_(path),
+  Search(std::span<const RationalCubic> segments, const Eigen::Vector3d& point)
+      : segments_(segments),
         point_(point),
-        best_{0, 0, path.segments.front().point(0), std::numeric_limits<double>::infinity()} {}
+        best_{0, 0, segments.front().point(0), std::numeric_limits<double>::infinity()} {}
 
   ClosestPoint result() {
     std::vector<std::pair<double, int>> nearest_first;
-    for (int j = 0; j < static_cast<int>(path_.segments.size()); ++j)
-      nearest_first.emplace_back(distance_to_box(path_.segments[j], point_), j);
+    for (int j = 0; j < static_cast<int>(segments_.size()); ++j)
+      nearest_first.emplace_back(distance_to_box(segments_[j], point_), j);
     std::sort(nearest_first.begin(), nearest_first.end());
     for (const auto& [bound, j] : nearest_first) {
       if (bound >= best_.distance) break;
       try_parameter(j, 0);
       try_parameter(j, 1);
-      visit(j, path_.segments[j], 0, 1);
+      visit(j, segments_[j], 0, 1);
     }
     return best_;
   }
 
  private:
   void try_parameter(int j, double u) {
-    const Eigen::Vector3d candidate = path_.segments[j].point(u);
+    const Eigen::Vector3d candidate = segments_[j].point(u);
     const double distance = (candidate - point_).norm();
     if (distance < best_.distance) best_ = {j, u, candidate, distance};
   }
@@ -112,7 +112,7 @@ class Search {
     if (changes == 1) {
       const double first =
           *std::find_if(coefficients.begin(), coefficients.end(), [](double c) { return c != 0; });
-      if (first < 0) try_parameter(j, stationary_parameter(path_.segments[j], point_, a, b));
+      if (first < 0) try_parameter(j, stationary_parameter(segments_[j], point_, a, b));
       return;
     }
     try_parameter(j, middle);
@@ -121,7 +121,7 @@ class Search {
     visit(j, right, middle, b);
   }
 
-  const BezierPath& path_;
+  const std::span<const RationalCubic> segments_;
   const Eigen::Vector3d point_;
   ClosestPoint best_;
 };
@@ -145,19 +145,20 @@ double largest_value(const Function& f) {
 
 }  // namespace
 
-ClosestPoint closest_point(const BezierPath& path, const Eigen::Vector3d& point) {
-  assert(!path.segments.empty());
-  return Search(path, point).result();
+ClosestPoint closest_point(std::span<const RationalCubic> segments, const Eigen::Vector3d& point) {
+  assert(!segments.empty());
+  return Search(segments, point).result();
 }
 
-double largest_distance(const std::function<Eigen::Vector3d(double)>& curve, const BezierPath& path) {
-  return largest_value([&](double u) { return closest_point(path, curve(u)).distance; });
+double largest_distance(const std::function<Eigen::Vector3d(double)>& curve,
+                        std::span<const RationalCubic> segments) {
+  return largest_value([&](double u) { return closest_point(segments, curve(u)).distance; });
 }
 
-double hausdorff_distance(const BezierPath& a, const BezierPath& b) {
-  const auto one_way = [](const BezierPath& from, const BezierPath& to) {
+double hausdorff_distance(std::span<const RationalCubic> a, std::span<const RationalCubic> b) {
+  const auto one_way = [](std::span<const RationalCubic> from, std::span<const RationalCubic> to) {
     double largest = 0;
-    for (const RationalCubic& segment : from.segments)
+    for (const RationalCubic& segment : from)
       largest = std::max(largest, largest_distance([&](double u) { return segment.point(u); }, to));
     return largest;
   };

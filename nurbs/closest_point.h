@@ -1,12 +1,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 
-#include "nurbs/bezier_path.h"
+#include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
 
-/// The closest place of a path to a point.
+/// The closest place of a row of cubics to a point.
 struct ClosestPoint {
   int segment;            ///< 0-based
   double u;               ///< parameter in that segment, [0,1]
@@ -15,14 +16,16 @@ struct ClosestPoint {
 };
 
 /// Global closest point: candidates by bounding boxes of the control points (convex hull property) with
-/// subdivision, digits by Newton. The path has at least one segment.
-ClosestPoint closest_point(const BezierPath& path, const Eigen::Vector3d& point);
+/// subdivision, digits by Newton. There is at least one cubic; they need not meet.
+ClosestPoint closest_point(std::span<const RationalCubic> segments, const Eigen::Vector3d& point);
 
-/// Largest distance from the points curve(u), u in [0,1], to a path [m]: sampled at 33 places and refined at
+/// Largest distance from the points curve(u), u in [0,1], to cubics [m]: sampled at 33 places and refined at
 /// the maxima.
-double largest_distance(const std::function<Eigen::Vector3d(double)>& curve, const BezierPath& path);
+double largest_distance(const std::function<Eigen::Vector3d(double)>& curve,
+                        std::span<const RationalCubic> segments);
 
-/// Largest distance between two paths, both ways (Hausdorff) [m]: sampled densely and refined at the maxima.
-double hausdorff_distance(const BezierPath& a, const BezierPath& b);
+/// Largest distance between two rows of cubics, both ways (Hausdorff) [m]: sampled densely and refined at the
+/// maxima.
+double hausdorff_distance(std::span<const RationalCubic> a, std::span<const RationalCubic> b);
 
 }  // namespace nurbeam

@@ -82,7 +82,7 @@ std::vector<CurveVertex> vertices_of(const std::vector<NurbsCurve>& curves, doub
       vertex = static_cast<int>(vertices.size());
       vertices.push_back({points[i], {}});
     }
-    vertices[vertex].ends.push_back(static_cast<int>(i));
+    vertices[vertex].ends.push_back({static_cast<int>(i / 2), i % 2 == 1});
   }
   return vertices;
 }

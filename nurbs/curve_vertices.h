@@ -5,13 +5,21 @@
 
 namespace nurbeam {
 
-/// A place where ends of curves lie.
-struct CurveVertex {
-  Eigen::Vector3d point;  ///< of its first end [m]
-  std::vector<int> ends;  ///< 2 i: the start of curve i; 2 i + 1: its end; ascending
+/// The start or the end of one curve of a list.
+struct CurveEnd {
+  int curve;    ///< 0-based
+  bool at_end;  ///< else at its start
+
+  friend bool operator==(const CurveEnd&, const CurveEnd&) = default;
 };
 
-/// The start and the end point of every curve, [m].
+/// A place where ends of curves lie.
+struct CurveVertex {
+  Eigen::Vector3d point;       ///< of its first end [m]
+  std::vector<CurveEnd> ends;  ///< in the order of the curves, a start before its end
+};
+
+/// The start and the end point of every curve, one after another [m].
 std::vector<Eigen::Vector3d> end_points(const std::vector<NurbsCurve>& curves);
 
 /// The ends of the curves, grouped: two ends at most `tolerance` [m] apart are in one vertex, and so are

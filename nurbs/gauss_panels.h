@@ -29,13 +29,12 @@ struct Panels {
   std::vector<double> integrals;  ///< cumulative integral at each break, 0 first
 };
 
-/// The panels of a non-negative f on [a, b]: halved until the halves agree with the whole to 1e-13 of the
-/// integral, then both halves are kept. A panel shorter than 2^-40 of the interval is kept as it is (f with a
-/// kink or a jump).
+/// The panels of f on [a, b]: halved until the halves agree with the whole to `tolerance` of the larger of
+/// `scale` and their sum, then both halves are kept. A panel shorter than 2^-40 of the interval is kept as it
+/// is (f with a kink or a jump).
 template <typename Function>
-Panels panels_of(const Function& f, double a, double b) {
+Panels panels_of(const Function& f, double a, double b, double scale, double tolerance) {
   Panels panels{{a}, {0}};
-  const double scale = gauss(f, a, b);
   const auto append = [&panels](double end, double integral) {
     panels.breaks.push_back(end);
     panels.integrals.push_back(panels.integrals.back() + integral);
@@ -44,8 +43,8 @@ Panels panels_of(const Function& f, double a, double b) {
     const double middle = 0.5 * (left + right);
     const double first = gauss(f, left, middle);
     const double second = gauss(f, middle, right);
-    const double tolerance = 1e-13 * std::max(scale, first + second);
-    if (std::abs(first + second - whole) <= tolerance || right - left < std::ldexp(b - a, -40)) {
+    const double allowed = tolerance * std::max(scale, first + second);
+    if (std::abs(first + second - whole) <= allowed || right - left < std::ldexp(b - a, -40)) {
       append(middle, first);
       append(right, second);
     } else {
@@ -53,8 +52,14 @@ Panels panels_of(const Function& f, double a, double b) {
       self(self, middle, right, second);
     }
   };
-  divide(divide, a, b, scale);
+  divide(divide, a, b, gauss(f, a, b));
   return panels;
+}
+
+/// The panels of a non-negative f on [a, b], to 1e-13 of its integral.
+template <typename Function>
+Panels panels_of(const Function& f, double a, double b) {
+  return panels_of(f, a, b, gauss(f, a, b), 1e-13);
 }
 
 }  // namespace nurbeam

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "nurbs/bernstein.h"
 #include "nurbs/projection.h"
 
 namespace nurbeam {
@@ -17,18 +18,11 @@ Points cubic_derivatives(const Points& points, double u) {
   const Eigen::Matrix<double, 4, 3> first = 3 * (points.rightCols<3>() - points.leftCols<3>());
   const Eigen::Matrix<double, 4, 2> second = 2 * (first.rightCols<2>() - first.leftCols<2>());
   Points derivatives;
-  derivatives.col(0) = points * Eigen::Vector4d(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
+  derivatives.col(0) = points * cubic_bernstein(u);
   derivatives.col(1) = first * Eigen::Vector3d(v * v, 2 * u * v, u * u);
   derivatives.col(2) = second * Eigen::Vector2d(v, u);
   derivatives.col(3) = second.col(1) - second.col(0);
   return derivatives;
-}
-
-/// Polar form (blossom) of the cubic: symmetric, affine in each argument, blossom(u, u, u) = value at u.
-Eigen::Vector4d blossom(const Points& points, double a, double b, double c) {
-  const Eigen::Matrix<double, 4, 3> once = (1 - a) * points.leftCols<3>() + a * points.rightCols<3>();
-  const Eigen::Matrix<double, 4, 2> twice = (1 - b) * once.leftCols<2>() + b * once.rightCols<2>();
-  return (1 - c) * twice.col(0) + c * twice.col(1);
 }
 
 }  // namespace
@@ -48,8 +42,7 @@ RationalCubic::RationalCubic(const Eigen::Matrix4d& points) : points_(points) {
 Eigen::Vector3d RationalCubic::control_point(int i) const { return points_.col(i).head<3>() / weight(i); }
 
 Eigen::Vector3d RationalCubic::point(double u) const {
-  const double v = 1 - u;
-  const Eigen::Vector4d h = points_ * Eigen::Vector4d(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
+  const Eigen::Vector4d h = points_ * cubic_bernstein(u);
   return h.head<3>() / h(3);
 }
 
@@ -86,9 +79,9 @@ std::pair<RationalCubic, RationalCubic> RationalCubic::split(double u) const {
 
 RationalCubic RationalCubic::piece(double u0, double u1) const {
   assert(0 <= u0 && u0 < u1 && u1 <= 1);
+  const auto at = [this](double a, double b, double c) { return blossom(points_, std::array{a, b, c}); };
   Points points;
-  points << blossom(points_, u0, u0, u0), blossom(points_, u0, u0, u1), blossom(points_, u0, u1, u1),
-      blossom(points_, u1, u1, u1);
+  points << at(u0, u0, u0), at(u0, u0, u1), at(u0, u1, u1), at(u1, u1, u1);
   return RationalCubic(points);
 }
 

@@ -42,7 +42,7 @@
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/pipe_wall.h"
 #include "cad_import/report/length_unit.h"
-#include "nurbs/bezier_path.h"
+#include "nurbs/curve_chain.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {

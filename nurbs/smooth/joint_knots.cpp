@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "nurbs/bernstein.h"
+
 namespace nurbeam::smooth {
 
 namespace {

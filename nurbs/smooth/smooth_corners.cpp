@@ -1,5 +1,6 @@
 #include "nurbs/smooth/smooth_corners.h"
 
+#include "nurbs/bezier_path.h"
 #include "nurbs/closest_point.h"
 
 namespace nurbeam {
@@ -14,10 +15,10 @@ RationalCubic with_second_point(const RationalCubic& cubic, const Eigen::Vector3
 
 }  // namespace
 
-BezierPath smooth_corners(const BezierPath& path, double angle) {
-  BezierPath smooth = path;
+SmoothCorners smooth_corners(std::span<const RationalCubic> segments, double angle) {
+  SmoothCorners smooth{{segments.begin(), segments.end()}};
   bool moved = false;
-  for (const Corner& corner : path.corners(0)) {
+  for (const Corner& corner : corners_of(segments, 0)) {
     if (corner.angle > angle) continue;
     RationalCubic& before = smooth.segments[corner.after_segment];
     RationalCubic& after = smooth.segments[corner.after_segment + 1];
@@ -29,7 +30,7 @@ BezierPath smooth_corners(const BezierPath& path, double angle) {
     after = with_second_point(after, after.control_point(0) + out.norm() * along);
     moved = true;
   }
-  if (moved) smooth.deviation += hausdorff_distance(smooth, path);
+  if (moved) smooth.deviation = hausdorff_distance(smooth.segments, segments);
   return smooth;
 }
 

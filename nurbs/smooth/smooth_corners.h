@@ -1,12 +1,19 @@
 #pragma once
-#include "nurbs/bezier_path.h"
+#include <span>
+#include <vector>
+
+#include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
 
-/// The path with every corner of at most `angle` [rad] smoothed: both end tangents are turned into the
-/// direction midway between them, about the shared point, which stays, as do the lengths of the control
-/// polygon's legs. `deviation` grows by the measured largest distance from the given path. A path that ends
-/// where it begins is not smoothed there.
-BezierPath smooth_corners(const BezierPath& path, double angle);
+struct SmoothCorners {
+  std::vector<RationalCubic> segments;
+  double deviation = 0;  ///< largest distance from the given cubics, measured [m]
+};
+
+/// The cubics, which meet end to end, with every corner of at most `angle` [rad] smoothed: both end tangents
+/// are turned into the direction midway between them, about the shared point, which stays, as do the lengths
+/// of the control polygon's legs. The last cubic is not smoothed towards the first.
+SmoothCorners smooth_corners(std::span<const RationalCubic> segments, double angle);
 
 }  // namespace nurbeam

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "cad_import/import_curves.h"
+#include "nurbs/bezier_path.h"
 #include "nurbs/closest_point.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 
@@ -11,12 +12,12 @@ namespace nurbeam {
 
 namespace {
 
-/// The segments of all curves as one path to measure distances to (it need not be connected).
-BezierPath all_segments(const std::vector<ImportedCurve>& curves, double tolerance) {
-  BezierPath all;
+/// The segments of all curves, to measure distances to.
+std::vector<RationalCubic> all_segments(const std::vector<ImportedCurve>& curves, double tolerance) {
+  std::vector<RationalCubic> all;
   for (const ImportedCurve& curve : curves) {
     const BezierPath path = BezierPath::from_nurbs(curve.curve, tolerance);
-    all.segments.insert(all.segments.end(), path.segments.begin(), path.segments.end());
+    all.insert(all.end(), path.segments.begin(), path.segments.end());
   }
   return all;
 }
@@ -31,7 +32,7 @@ std::string name_of(const ImportReport& report, std::size_t curve) {
 
 FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b,
                              double tolerance) {
-  const BezierPath target = all_segments(b, tolerance);
+  const std::vector<RationalCubic> target = all_segments(b, tolerance);
   FarthestPoint farthest;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (const RationalCubic& segment : BezierPath::from_nurbs(a[i].curve, tolerance).segments) {

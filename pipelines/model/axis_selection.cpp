@@ -86,8 +86,8 @@ double distance_to(const Chain& chain, const Eigen::Vector3d& point, const Impor
   double least = std::numeric_limits<double>::infinity();
   for (int i : chain.curves) {
     const NurbsCurve& curve = report.curves[i].curve;
-    least =
-        std::min(least, closest_point(BezierPath::from_nurbs(curve, 1e-6 * length(curve)), point).distance);
+    const BezierPath path = BezierPath::from_nurbs(curve, 1e-6 * length(curve));
+    least = std::min(least, closest_point(path.segments, point).distance);
   }
   return least;
 }
@@ -288,7 +288,7 @@ std::vector<Junction> junctions(const ImportReport& report, double tolerance) {
   for (const CurveVertex& vertex : vertices_of(curves_at(report, indices), tolerance)) {
     if (vertex.ends.size() < 3) continue;
     std::set<int> curves;
-    for (int end : vertex.ends) curves.insert(indices[end / 2]);
+    for (const CurveEnd& end : vertex.ends) curves.insert(indices[end.curve]);
     found.push_back({vertex.point, {curves.begin(), curves.end()}});
   }
   return found;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cad_import/report/import_report.h"
-#include "nurbs/bezier_path.h"
+#include "nurbs/curve_chain.h"
 #include "pipelines/case/case_file.h"
 
 namespace nurbeam {

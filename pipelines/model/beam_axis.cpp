@@ -98,14 +98,14 @@ double gap_of(const std::vector<RationalCubic>& segments) {
 void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Findings& findings) {
   const std::string where = beam.path + ".closed";
   const Eigen::Vector3d start = segments.front().control_point(0), end = segments.back().control_point(3);
-  const double L = BezierPath{segments, {}, 0}.length();
+  const double L = total_length(segments);
   if (gap_of(segments) > closed_gap * L)
     return findings.error(where, "is true, but the axis starts at " + text_of(start) + " and ends at " +
                                      text_of(end) + ", " + text_of(gap_of(segments)) +
                                      " m apart; a ring may have a gap of " + text_of(closed_gap * L) +
                                      " m: close the curve, or leave \"closed\" out");
   const std::vector<Corner> seam =
-      BezierPath{{segments.back(), segments.front()}, {}, 0}.corners(default_corner_angle);
+      corners_of(std::array{segments.back(), segments.front()}, default_corner_angle);
   if (!seam.empty())
     return findings.error(where, "is true, but the axis has a corner of " +
                                      text_of(seam[0].angle * 180 / std::numbers::pi) +
@@ -122,7 +122,7 @@ void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Find
 
 void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                          Findings& findings) {
-  if (gap_of(segments) <= closed_gap * BezierPath{segments, {}, 0}.length())
+  if (gap_of(segments) <= closed_gap * total_length(segments))
     findings.warn(beam.path + ".axis", "is closed; the beam is open at its seam, " +
                                            text_of(segments.front().control_point(0)) +
                                            ": \"closed\": true makes it a ring");
@@ -130,7 +130,7 @@ void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>&
 
 std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                                     Findings& findings) {
-  const BezierPath smooth = smooth_corners({segments, {}, 0}, beam.smooth_angle);
+  SmoothCorners smooth = smooth_corners(segments, beam.smooth_angle);
   if (smooth.deviation > 0)
     findings.warn(beam.path + ".corners",
                   "corners of up to " + text_of(beam.smooth_angle * 180 / std::numbers::pi) +
@@ -151,7 +151,7 @@ std::string rounding(const Corner& corner) {
 std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments, bool slides,
                               Findings& findings) {
   std::vector<int> corners;
-  for (const Corner& corner : BezierPath{segments, {}, 0}.corners(default_corner_angle)) {
+  for (const Corner& corner : corners_of(segments, default_corner_angle)) {
     corners.push_back(corner.after_segment + 1);
     const std::string place = "the axis has a corner of " + text_of(corner.angle * 180 / std::numbers::pi) +
                               " degrees at " + text_of(corner.point) + "; ";

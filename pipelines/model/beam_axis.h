@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "nurbs/bezier_path.h"
+#include "nurbs/curve_chain.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/cad_files.h"

@@ -8,12 +8,12 @@
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/beam_axis.h"
-#include "pipelines/model/beam_chains.h"
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/join_beams.h"
+#include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
 
 namespace nurbeam {
@@ -21,23 +21,22 @@ namespace nurbeam {
 namespace {
 
 // The axes of all beams, as far as the first that is wrong.
-std::vector<BeamAxis> axes_of(const BeamChains& chosen, CadFiles& files, Findings& findings) {
-  const CaseFile& case_file = chosen.case_file;
+std::vector<BeamAxis> axes_of(const ResolvedCase& resolved, CadFiles& files, Findings& findings) {
   std::vector<BeamAxis> axes;
-  for (std::size_t b = 0; b < case_file.beams.size() && !findings.has_errors(); ++b) {
-    const CaseBeam& beam = case_file.beams[b];
-    axes.push_back(beam_axis(beam, chosen.chains[b], sliding_bodies(case_file, beam.name), files, findings));
+  for (std::size_t b = 0; b < resolved.beams.size() && !findings.has_errors(); ++b) {
+    const CaseBeam& beam = resolved.beams[b];
+    axes.push_back(beam_axis(beam, resolved.chains[b], resolved.sliding_bodies(beam.name), files, findings));
   }
   return axes;
 }
 
 // That of the axes, gravity and loads.
-ModelFrame frame_of(const CaseFile& case_file, const std::vector<BeamAxis>& axes) {
+ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& axes) {
   std::vector<RationalCubic> segments;
   for (const BeamAxis& axis : axes)
     segments.insert(segments.end(), axis.segments.begin(), axis.segments.end());
-  std::vector<Eigen::Vector3d> forces = {case_file.gravity}, moments;
-  for (const CaseLoad& load : case_file.loads)
+  std::vector<Eigen::Vector3d> forces = {resolved.gravity}, moments;
+  for (const CaseLoad& load : resolved.loads)
     (load.kind == CaseLoad::Kind::moment ? moments : forces).push_back(load.value);
   return model_frame(segments, forces, moments);
 }
@@ -70,9 +69,9 @@ void check_without_metric(const CaseBeam& beam, const std::vector<CaseSlidingJoi
 }
 
 // A beam without elements yet.
-Beam beam_of(const CaseFile& case_file, const CaseBeam& from, const ReferenceCurve& curve,
+Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& curve,
              const CaseSection& section, Findings& findings) {
-  if (from.metric == Metric::label) check_without_metric(from, case_file.sliding_joints, findings);
+  if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
   const Section sizes{section.area, section.second_moment, {}, section.radius, section.bore};
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
   return {.name = from.name,
@@ -87,13 +86,13 @@ Beam beam_of(const CaseFile& case_file, const CaseBeam& from, const ReferenceCur
 }
 
 // Adds the supports of one beam; returns their places in reference arc length [m].
-std::vector<double> add_supports(const CaseFile& case_file, int b, const DrawnBeam& beam, BeamModel& model,
+std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam, BeamModel& model,
                                  Findings& findings) {
   const double same = same_place * beam.measured.length();
   std::vector<double> places;
   std::vector<std::string> paths;
-  for (const CaseSupport& support : case_file.supports) {
-    if (beam_index(case_file, support.beam) != b) continue;
+  for (const CaseSupport& support : resolved.supports) {
+    if (resolved.beam_index(support.beam) != b) continue;
     const double s = place_on(beam, support.at, support.path, findings);
     for (std::size_t i = 0; i < places.size(); ++i)
       if (std::abs(places[i] - s) < same)
@@ -108,10 +107,10 @@ std::vector<double> add_supports(const CaseFile& case_file, int b, const DrawnBe
   return places;
 }
 
-void add_loads(const CaseFile& case_file, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
+void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
                BeamModel& model, Findings& findings) {
-  for (const CaseLoad& load : case_file.loads) {
-    const int b = beam_index(case_file, load.beam);
+  for (const CaseLoad& load : resolved.loads) {
+    const int b = resolved.beam_index(load.beam);
     const bool is_moment = load.kind == CaseLoad::Kind::moment;
     const Eigen::Vector3d value =
         is_moment ? frame.moment_to_local(load.value) : frame.direction_to_local(load.value);
@@ -146,15 +145,15 @@ double mass_of(const BeamModel& model) {
 }
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
-std::vector<DrawnBeam> add_beams(const CaseFile& case_file, const std::vector<BeamAxis>& axes,
+std::vector<DrawnBeam> add_beams(const ResolvedCase& resolved, const std::vector<BeamAxis>& axes,
                                  CadFiles& files, BuiltModel& built, Findings& findings) {
   std::vector<DrawnBeam> beams;
   for (std::size_t b = 0; b < axes.size() && !findings.has_errors(); ++b) {
-    const CaseBeam& from = case_file.beams[b];
+    const CaseBeam& from = resolved.beams[b];
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!drawn || !section) break;
-    built.model.beams.push_back(beam_of(case_file, from, drawn->curve, section->section, findings));
+    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, section->section, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     if (section->profile) built.sources.back().profile = {from.section.profile->path, *section->profile};
     beams.push_back(*drawn);
@@ -163,45 +162,44 @@ std::vector<DrawnBeam> add_beams(const CaseFile& case_file, const std::vector<Be
 }
 
 // Adds supports and elements.
-void divide_beams(const CaseFile& case_file, const std::vector<DrawnBeam>& beams, const JoinedBeams& joined,
-                  const ModelFrame& frame, BeamModel& model, Findings& findings) {
+void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
+                  const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model, Findings& findings) {
   for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
-    const CaseBeam& from = case_file.beams[b];
-    std::vector<double> held = add_supports(case_file, static_cast<int>(b), beams[b], model, findings);
+    const CaseBeam& from = resolved.beams[b];
+    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], model, findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
     model.beams[b].home =
-        divide_beam(from, beams[b], held, sliding_bodies(case_file, from.name), frame, findings);
+        divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), frame, findings);
   }
 }
 
 // Nothing, with errors among the findings, where the case cannot be a model.
-std::optional<BuiltModel> built_model(const CaseFile& as_read, Findings& findings) {
+std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findings) {
   CadFiles files;
-  const BeamChains chosen = choose_chains(as_read, files, findings);
-  const CaseFile& case_file = chosen.case_file;
-  const std::vector<BeamAxis> axes = axes_of(chosen, files, findings);
+  const ResolvedCase resolved = resolve_case(case_file, files, findings);
+  const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
   if (findings.has_errors()) return {};
 
   BuiltModel built;
-  built.frame = frame_of(case_file, axes);
+  built.frame = frame_of(resolved, axes);
   built.model.dimension = built.frame.dimension;
-  built.model.gravity = built.frame.direction_to_local(case_file.gravity);
-  const std::vector<DrawnBeam> beams = add_beams(case_file, axes, files, built, findings);
+  built.model.gravity = built.frame.direction_to_local(resolved.gravity);
+  const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, built, findings);
   if (findings.has_errors()) return {};
 
-  const JoinedBeams joined = join_beams(case_file, beams, built.frame, findings);
-  divide_beams(case_file, beams, joined, built.frame, built.model, findings);
+  const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
+  divide_beams(resolved, beams, joined, built.frame, built.model, findings);
   if (findings.has_errors()) return {};
-  check_joined_supports(case_file, beams, joined, findings);
+  check_joined_supports(resolved, beams, joined, findings);
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
   mark_held_nodes(built.model);
 
-  add_loads(case_file, beams, built.frame, built.model, findings);
-  add_sliding_joints(case_file, beams, joined, built.model, findings);
-  built.frame.gravity_energy = -mass_of(built.model) * case_file.gravity.dot(built.frame.origin);
-  for (const CaseProbe& probe : case_file.output.probes) {
-    const int b = beam_index(case_file, probe.beam);
+  add_loads(resolved, beams, built.frame, built.model, findings);
+  add_sliding_joints(resolved, beams, joined, built.model, findings);
+  built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
+  for (const CaseProbe& probe : resolved.probes) {
+    const int b = resolved.beam_index(probe.beam);
     const double s = place_on(beams[b], probe.at, "output.probes", findings);
     built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
   }

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "nurbs/closest_point.h"
 #include "nurbs/number_text.h"
-#include "pipelines/section/cgal_geometry.h"
 
 namespace nurbeam {
 
@@ -42,10 +42,7 @@ std::optional<DrawnBeam> drawn_beam(const CaseBeam& beam, const BeamAxis& axis, 
     const ReferenceCurve measured(local, frame.dimension, Metric::arc_length, beam.ring);
     check_lengths(beam, measured, findings);
     if (findings.has_errors()) return {};
-    return DrawnBeam{beam.name,
-                     {axis.segments, {}, 0},
-                     axis.corners,
-                     measured,
+    return DrawnBeam{beam.name, axis.segments, axis.corners, measured,
                      ReferenceCurve(local, frame.dimension, beam.metric, beam.ring)};
   } catch (const std::invalid_argument& problem) {
     findings.error(beam.path + ".axis", problem.what());
@@ -71,7 +68,7 @@ double place_on(const DrawnBeam& beam, const Place& at, const std::string& where
       s = at.value * L;
       break;
     case Place::Kind::near: {
-      const ClosestPoint found = closest_place(beam.axis, at.point);
+      const ClosestPoint found = closest_point(beam.axis, at.point);
       const double within = at.within.value_or(0.01 * L);
       if (found.distance > within)
         findings.error(where + ".at.near",

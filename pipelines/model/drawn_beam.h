@@ -21,10 +21,10 @@ constexpr double least_sine = 0.02;
 /// A beam's axis in the coordinates of the case and in those of the model.
 struct DrawnBeam {
   std::string name;
-  BezierPath axis;           ///< as the case has it
-  std::vector<int> corners;  ///< the breaks that stay corners
-  ReferenceCurve measured;   ///< in reference arc length, which the case's places are given in
-  ReferenceCurve curve;      ///< the model's: the same, but for a beam without a metric
+  std::vector<RationalCubic> axis;  ///< as the case has it
+  std::vector<int> corners;         ///< the breaks that stay corners
+  ReferenceCurve measured;          ///< in reference arc length, which the case's places are given in
+  ReferenceCurve curve;             ///< the model's: the same, but for a beam without a metric
 
   /// The model's material coordinate of a place in reference arc length.
   double material_coordinate(double s) const;

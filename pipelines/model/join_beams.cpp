@@ -8,7 +8,7 @@
 #include "nurbs/closest_point.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/model/beam_chains.h"
+#include "pipelines/model/resolved_case.h"
 
 namespace nurbeam {
 
@@ -63,11 +63,11 @@ Meeting meeting_place(const std::vector<DrawnBeam>& beams, const ModelFrame& fra
 }
 
 // A body slides to an end of a beam, but over no joint.
-void check_sliders(const CaseFile& case_file, const CaseBeamJoint& joint, const DrawnBeam& beam, double s,
+void check_sliders(const ResolvedCase& resolved, const CaseBeamJoint& joint, const DrawnBeam& beam, double s,
                    Findings& findings) {
   const ReferenceCurve& curve = beam.measured;
   const bool at_end = !curve.closed() && (s == 0 || s == curve.length());
-  for (const CaseSlidingJoint& slider : case_file.sliding_joints)
+  for (const CaseSlidingJoint& slider : resolved.sliding_joints)
     if (slider.beam == beam.name && !at_end)
       findings.error(joint.path, "is at s = " + text_of(s) + " m of beam " + in_quotes(beam.name) +
                                      ", over which body " + in_quotes(slider.body) +
@@ -106,7 +106,7 @@ bool unite(const Meeting& places, std::map<std::pair<int, double>, int>& groups)
   return a != b;
 }
 
-void join_two(const CaseFile& case_file, const CaseBeamJoint& joint, int a, int b,
+void join_two(const ResolvedCase& resolved, const CaseBeamJoint& joint, int a, int b,
               const std::vector<DrawnBeam>& beams, const ModelFrame& frame, JoinedBeams& joined,
               Findings& findings) {
   const std::string names = both(beams, a, b);
@@ -121,7 +121,7 @@ void join_two(const CaseFile& case_file, const CaseBeamJoint& joint, int a, int 
                                           text_of(world_position(beams, frame, at_b)) + "; the limit is " +
                                           text_of(allowed) + " m");
   for (const BeamPlace& place : {at_a, at_b})
-    check_sliders(case_file, joint, beams[place.beam], place.s, findings);
+    check_sliders(resolved, joint, beams[place.beam], place.s, findings);
   if (joint.rigid) check_angle(joint, beams, places, findings);
   if (!unite(places, joined.groups))
     return findings.error(joint.path, names + " are joined at " +
@@ -137,25 +137,25 @@ void join_two(const CaseFile& case_file, const CaseBeamJoint& joint, int a, int 
 
 }  // namespace
 
-JoinedBeams join_beams(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+JoinedBeams join_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                        const ModelFrame& frame, Findings& findings) {
   JoinedBeams joined;
   joined.places.resize(beams.size());
-  for (const CaseBeamJoint& joint : case_file.joints)
+  for (const CaseBeamJoint& joint : resolved.joints)
     for (std::size_t i = 1; i < joint.beams.size(); ++i)
-      join_two(case_file, joint, beam_index(case_file, joint.beams[0]), beam_index(case_file, joint.beams[i]),
+      join_two(resolved, joint, resolved.beam_index(joint.beams[0]), resolved.beam_index(joint.beams[i]),
                beams, frame, joined, findings);
-  if (!case_file.joints.empty() && case_file.analysis.is_explicit())
+  if (!resolved.joints.empty() && resolved.analysis.is_explicit())
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without joints; use \"generalized-alpha\" or \"ida\"");
   return joined;
 }
 
-void check_joined_supports(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+void check_joined_supports(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                            const JoinedBeams& joined, Findings& findings) {
   std::map<int, std::string> first;
-  for (const CaseSupport& support : case_file.supports) {
-    const int b = beam_index(case_file, support.beam);
+  for (const CaseSupport& support : resolved.supports) {
+    const int b = resolved.beam_index(support.beam);
     const auto found = joined.groups.find({b, place_on(beams[b], support.at, support.path, findings)});
     if (found == joined.groups.end()) continue;
     const auto [other, is_new] = first.emplace(found->second, support.path);

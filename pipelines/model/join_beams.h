@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
-#include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/model_frame.h"
+#include "pipelines/model/resolved_case.h"
 
 namespace nurbeam {
 
@@ -21,11 +21,11 @@ struct JoinedBeams {
 /// Joins the beams of a case (in its order) where they meet: an error for beams that do not, that are joined
 /// there already, or over whose place a body slides. Places are in reference arc length, the joints in the
 /// model's material coordinates.
-JoinedBeams join_beams(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+JoinedBeams join_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                        const ModelFrame& frame, Findings& findings);
 
 /// Of places that are joined, one may be supported: the others are held by it.
-void check_joined_supports(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+void check_joined_supports(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                            const JoinedBeams& joined, Findings& findings);
 
 }  // namespace nurbeam

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "nurbs/number_text.h"
-#include "pipelines/model/beam_chains.h"
+#include "pipelines/model/resolved_case.h"
 
 namespace nurbeam {
 
@@ -61,22 +61,21 @@ void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurv
 
 }  // namespace
 
-void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                         const JoinedBeams& joined, BeamModel& model, Findings& findings) {
-  if (case_file.analysis.is_explicit() && !case_file.sliding_joints.empty())
+  if (resolved.analysis.is_explicit() && !resolved.sliding_joints.empty())
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
-  for (const CaseBody& body : case_file.bodies) {
+  for (const CaseBody& body : resolved.bodies) {
     model.bodies.push_back({.name = body.name, .mass = body.mass});
     const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };
-    const auto count =
-        std::count_if(case_file.sliding_joints.begin(), case_file.sliding_joints.end(), carries);
+    const auto count = std::count_if(resolved.sliding_joints.begin(), resolved.sliding_joints.end(), carries);
     if (count != 1)
       findings.error("bodies", "body \"" + body.name + "\" is in " + std::to_string(count) +
                                    " sliding joints; a body needs exactly one");
   }
-  for (const CaseSlidingJoint& joint : case_file.sliding_joints) {
-    const int b = beam_index(case_file, joint.beam);
+  for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
+    const int b = resolved.beam_index(joint.beam);
     const ReferenceCurve& curve = beams[b].curve;
     SlidingJoint added{0,
                        b,
@@ -85,16 +84,16 @@ void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>&
                        std::nullopt,
                        joint.continuous_slope,
                        joint.leave_at_end};
-    for (std::size_t i = 0; i < case_file.bodies.size(); ++i)
-      if (case_file.bodies[i].name == joint.body) added.body = static_cast<int>(i);
+    for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
+      if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
     if (!joint.motion_table.empty()) {
       check_motion(joint, added.s, curve, findings);
       added.motion = joint.motion_table;
       added.s = value_and_slope(joint.motion_table, 0).first;
     }
     if (joint.motion_speed)
-      added.motion = steady_motion(added.s, *joint.motion_speed, curve, case_file.analysis.end_time);
-    if (joint.leave_at_end && case_file.analysis.type != CaseAnalysis::Type::statics)
+      added.motion = steady_motion(added.s, *joint.motion_speed, curve, resolved.analysis.end_time);
+    if (joint.leave_at_end && resolved.analysis.type != CaseAnalysis::Type::statics)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     model.joints.push_back(std::move(added));
   }

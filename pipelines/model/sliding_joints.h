@@ -2,16 +2,16 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
-#include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/join_beams.h"
+#include "pipelines/model/resolved_case.h"
 
 namespace nurbeam {
 
 /// Adds the bodies of a case and the joints by which they slide to a model that has its beams and supports;
 /// an error for a body without exactly one joint and for a motion that leaves its beam.
-void add_sliding_joints(const CaseFile& case_file, const std::vector<DrawnBeam>& beams,
+void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                         const JoinedBeams& joined, BeamModel& model, Findings& findings);
 
 }  // namespace nurbeam

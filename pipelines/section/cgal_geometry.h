@@ -4,8 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "nurbs/closest_point.h"
-
 /// What CGAL does for nurbeam, and what takes its place in a build without it (NURBEAM_WITH_CGAL=OFF).
 namespace nurbeam {
 
@@ -23,9 +21,5 @@ bool has_cgal();
 /// `most_points`.
 std::optional<TriangleMesh> delaunay_mesh(const std::vector<std::vector<Eigen::Vector2d>>& polygons,
                                           std::size_t most_points);
-
-/// The closest place of a path to a point: that of `closest_point`, with the candidates from a tree of
-/// bounding boxes of the path's chords where there is CGAL.
-ClosestPoint closest_place(const BezierPath& path, const Eigen::Vector3d& point);
 
 }  // namespace nurbeam

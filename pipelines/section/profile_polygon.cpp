@@ -23,8 +23,8 @@ double largest_turn(const RationalCubic& cubic) {
   return turn;
 }
 
-void cut(const BezierPath& loop, BoundaryPiece piece, double angle, int depth, ProfilePolygon& polygon) {
-  const RationalCubic cubic = loop.segments[piece.segment].piece(piece.u0, piece.u1);
+void cut(const Loop& loop, BoundaryPiece piece, double angle, int depth, ProfilePolygon& polygon) {
+  const RationalCubic cubic = loop[piece.segment].piece(piece.u0, piece.u1);
   constexpr int deepest = 20;
   if (largest_turn(cubic) <= angle || depth == deepest) {
     polygon.corners.emplace_back(cubic.control_point(0).head<2>());
@@ -74,8 +74,8 @@ bool ProfilePolygon::contains(const Eigen::Vector2d& point) const {
   return std::abs(turned) > std::numbers::pi;
 }
 
-double middle_of(const BezierPath& loop, const BoundaryPiece& piece) {
-  const RationalCubic& cubic = loop.segments[piece.segment];
+double middle_of(const Loop& loop, const BoundaryPiece& piece) {
+  const RationalCubic& cubic = loop[piece.segment];
   const Eigen::Vector3d start = cubic.point(piece.u0), end = cubic.point(piece.u1), chord = end - start;
   double low = piece.u0, high = piece.u1;
   for (int i = 0; i < 60; ++i) {
@@ -85,10 +85,10 @@ double middle_of(const BezierPath& loop, const BoundaryPiece& piece) {
   return 0.5 * (low + high);
 }
 
-std::vector<ProfilePolygon> profile_polygons(const std::vector<BezierPath>& loops, double angle) {
+std::vector<ProfilePolygon> profile_polygons(const std::vector<Loop>& loops, double angle) {
   std::vector<ProfilePolygon> polygons(loops.size());
   for (std::size_t k = 0; k < loops.size(); ++k)
-    for (std::size_t j = 0; j < loops[k].segments.size(); ++j)
+    for (std::size_t j = 0; j < loops[k].size(); ++j)
       cut(loops[k], {static_cast<int>(k), static_cast<int>(j), 0, 1}, angle, 0, polygons[k]);
   return polygons;
 }
@@ -120,7 +120,7 @@ std::optional<Eigen::Vector2d> crossing(const std::vector<ProfilePolygon>& polyg
   return {};
 }
 
-std::vector<ProfilePolygon> polygons_without_crossing(const std::vector<BezierPath>& loops) {
+std::vector<ProfilePolygon> polygons_without_crossing(const std::vector<Loop>& loops) {
   constexpr double coarsest = std::numbers::pi / 12, finest = coarsest / 128;
   for (double angle = coarsest; angle >= finest; angle /= 2) {
     std::vector<ProfilePolygon> polygons = profile_polygons(loops, angle);

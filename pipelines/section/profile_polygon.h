@@ -3,9 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "nurbs/bezier_path.h"
+#include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
+
+/// Cubics that meet end to end, the last one the first; in the plane z = 0.
+using Loop = std::vector<RationalCubic>;
 
 /// The part of a profile's boundary between two corners of a polygon: segment `segment` of a loop from u0 to
 /// u1.
@@ -27,17 +30,17 @@ struct ProfilePolygon {
 };
 
 /// The point of a piece on the perpendicular bisector of its chord: its parameter.
-double middle_of(const BezierPath& loop, const BoundaryPiece& piece);
+double middle_of(const Loop& loop, const BoundaryPiece& piece);
 
-/// A polygon for each closed loop in the plane z = 0: the segments cut until no leg of a piece's control
+/// A polygon for each loop: the segments cut until no leg of a piece's control
 /// polygon turns from its chord by more than `angle` [rad].
-std::vector<ProfilePolygon> profile_polygons(const std::vector<BezierPath>& loops, double angle);
+std::vector<ProfilePolygon> profile_polygons(const std::vector<Loop>& loops, double angle);
 
 /// A point where two edges of the polygons cross or touch other than in a common corner.
 std::optional<Eigen::Vector2d> crossing(const std::vector<ProfilePolygon>& polygons);
 
 /// Polygons that do not cross: cut at 15 degrees, and finer where that is needed. Empty when they still cross
 /// at a hundredth of that.
-std::vector<ProfilePolygon> polygons_without_crossing(const std::vector<BezierPath>& loops);
+std::vector<ProfilePolygon> polygons_without_crossing(const std::vector<Loop>& loops);
 
 }  // namespace nurbeam

@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "nurbs/area_moments.h"
+#include "nurbs/curve_chain.h"
 #include "nurbs/number_text.h"
 #include "pipelines/section/cgal_geometry.h"
 #include "pipelines/section/profile_polygon.h"
@@ -58,7 +59,7 @@ std::string named(const std::vector<ImportedCurve>& curves, int i) {
                 "; a profile is closed (gaps up to " + text_of(gap) + " m are)"};
 }
 
-std::vector<BezierPath> closed_paths(const std::vector<ImportedCurve>& imported) {
+std::vector<Loop> closed_paths(const std::vector<ImportedCurve>& imported) {
   std::vector<NurbsCurve> curves;
   double size = 0;
   for (const ImportedCurve& curve : imported) {
@@ -67,11 +68,11 @@ std::vector<BezierPath> closed_paths(const std::vector<ImportedCurve>& imported)
   }
   if (curves.empty()) throw Refusal{"has no curves; a profile is made of closed outlines"};
   const double gap = relative_gap * size;
-  std::vector<BezierPath> paths;
+  std::vector<Loop> paths;
   for (const Chain& chain : find_chains(curves, gap)) {
     const bool one_closed = chain.curves.size() == 1 && is_closed(curves[chain.curves[0]], gap);
     if (!chain.closed && !one_closed) refuse_open(imported, chain, gap);
-    paths.push_back(join(curves, chain, 1e-9 * size));
+    paths.push_back(join(curves, chain, 1e-9 * size).segments);
   }
   return paths;
 }
@@ -83,10 +84,10 @@ struct Plane {
   Eigen::Vector3d to_file(const Eigen::Vector2d& p) const { return origin + p.x() * x_axis + p.y() * y_axis; }
 };
 
-Plane plane_of(const std::vector<BezierPath>& paths) {
+Plane plane_of(const std::vector<Loop>& paths) {
   std::vector<Eigen::Vector3d> points;
-  for (const BezierPath& path : paths)
-    for (const RationalCubic& cubic : path.segments)
+  for (const Loop& path : paths)
+    for (const RationalCubic& cubic : path)
       for (int i = 0; i < 4; ++i) points.push_back(cubic.control_point(i));
   Eigen::Vector3d low = points[0], high = points[0];
   for (const Eigen::Vector3d& p : points) {
@@ -117,29 +118,29 @@ Plane plane_of(const std::vector<BezierPath>& paths) {
   return plane;
 }
 
-BezierPath in_plane(const BezierPath& path, const Plane& plane) {
-  BezierPath flat{{}, path.breaks, path.deviation};
-  for (const RationalCubic& cubic : path.segments) {
+Loop in_plane(const Loop& path, const Plane& plane) {
+  Loop flat;
+  for (const RationalCubic& cubic : path) {
     Eigen::Matrix4d points;
     for (int i = 0; i < 4; ++i) {
       const Eigen::Vector3d offset = cubic.control_point(i) - plane.origin;
       points.col(i) << cubic.weight(i) * offset.dot(plane.x_axis), cubic.weight(i) * offset.dot(plane.y_axis),
           0, cubic.weight(i);
     }
-    flat.segments.emplace_back(points);
+    flat.emplace_back(points);
   }
   return flat;
 }
 
-BezierPath reversed(const BezierPath& path) {
-  BezierPath backwards{{}, path.breaks, path.deviation};
-  for (auto segment = path.segments.rbegin(); segment != path.segments.rend(); ++segment)
-    backwards.segments.push_back(segment->reversed());
+Loop reversed(const Loop& path) {
+  Loop backwards;
+  for (auto segment = path.rbegin(); segment != path.rend(); ++segment)
+    backwards.push_back(segment->reversed());
   return backwards;
 }
 
 /// The outline first, anticlockwise; then the holes, clockwise.
-std::vector<BezierPath> ordered(std::vector<BezierPath> paths, const Plane& plane) {
+std::vector<Loop> ordered(std::vector<Loop> paths, const Plane& plane) {
   const std::vector<ProfilePolygon> polygons = polygons_without_crossing(paths);
   if (polygons.empty()) {
     const auto where = crossing(profile_polygons(paths, 0.01));
@@ -147,7 +148,7 @@ std::vector<BezierPath> ordered(std::vector<BezierPath> paths, const Plane& plan
                   (where ? " near " + text_of(plane.to_file(*where)) : std::string()) +
                   "; outlines must lie apart and run through no place twice"};
   }
-  std::vector<BezierPath> outlines, holes;
+  std::vector<Loop> outlines, holes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     int around = 0;
     for (std::size_t j = 0; j < paths.size(); ++j)
@@ -163,18 +164,18 @@ std::vector<BezierPath> ordered(std::vector<BezierPath> paths, const Plane& plan
 }
 
 SectionProfile profile_of(const std::vector<ImportedCurve>& curves) {
-  std::vector<BezierPath> paths = closed_paths(curves);
+  std::vector<Loop> paths = closed_paths(curves);
   Plane plane = plane_of(paths);
-  for (BezierPath& path : paths) path = in_plane(path, plane);
+  for (Loop& path : paths) path = in_plane(path, plane);
   SectionProfile profile;
   profile.loops = ordered(paths, plane);
   AreaMoments moments;
   // About the middle first, then about the centroid, where the second moments keep their digits.
-  for (const BezierPath& loop : profile.loops) moments += area_moments(loop);
+  for (const Loop& loop : profile.loops) moments += area_moments(loop);
   const Eigen::Vector2d centroid = moments.first / moments.area;
   const Plane centred{{centroid.x(), centroid.y(), 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
   moments = {};
-  for (BezierPath& loop : profile.loops) {
+  for (Loop& loop : profile.loops) {
     loop = in_plane(loop, centred);
     moments += area_moments(loop);
   }
@@ -184,7 +185,8 @@ SectionProfile profile_of(const std::vector<ImportedCurve>& curves) {
   profile.area = moments.area;
   profile.second_x = moments.second(1, 1);
   profile.second_y = moments.second(0, 0);
-  profile.product = moments.second(0, 1);
+  const double round_off = 1e-15 * moments.second.trace();
+  profile.product = std::abs(moments.second(0, 1)) > round_off ? moments.second(0, 1) : 0;
   return profile;
 }
 

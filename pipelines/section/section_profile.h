@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cad_import/report/import_report.h"
-#include "nurbs/bezier_path.h"
+#include "pipelines/section/profile_polygon.h"
 
 namespace nurbeam {
 
@@ -15,8 +15,7 @@ namespace nurbeam {
 /// In a plane z = const of the file, x and y are the file's. In any other plane y is the direction in it
 /// nearest to the file's z axis. x is perpendicular to y, with its largest component positive.
 struct SectionProfile {
-  std::vector<BezierPath>
-      loops;                 ///< (x, y, 0) about the centroid: the outline anticlockwise, holes clockwise
+  std::vector<Loop> loops;   ///< (x, y, 0) about the centroid: the outline anticlockwise, holes clockwise
   Eigen::Vector3d centroid;  ///< in the file's coordinates [m]
   Eigen::Vector3d x_axis, y_axis;  ///< in the file's coordinates
   double area = 0;                 ///< [m^2]

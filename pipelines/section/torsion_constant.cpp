@@ -184,7 +184,7 @@ class Problem {
   double area_between(const TorsionMesh::Edge& edge) const {
     const TorsionMesh::Neighbours& sides = mesh_.edges().at(edge);
     const BoundaryPiece& piece = *sides.piece;
-    const RationalCubic& cubic = mesh_.loops()[piece.loop].segments[piece.segment];
+    const RationalCubic& cubic = mesh_.loops()[piece.loop][piece.segment];
     const Eigen::Vector2d a = cubic.point(piece.u0).head<2>(), b = cubic.point(piece.u1).head<2>();
     const Eigen::Vector2d middle = mesh_.middle(edge), chord = b - a;
     double distance = 0;
@@ -228,7 +228,7 @@ std::vector<int> half_of(const std::vector<double>& errors) {
 
 }  // namespace
 
-TorsionReport torsion_constant(const std::vector<BezierPath>& loops, const TorsionOptions& options) {
+TorsionReport torsion_constant(const std::vector<Loop>& loops, const TorsionOptions& options) {
   std::optional<TorsionMesh> mesh = TorsionMesh::make(loops, options.most_points);
   if (!mesh) return {};
   TorsionReport report;

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "nurbs/bezier_path.h"
+#include "pipelines/section/profile_polygon.h"
 
 namespace nurbeam {
 
@@ -34,6 +34,6 @@ struct TorsionReport {
 /// the integral of the squared difference of their stresses, (psi_x - y, psi_y + x) and (phi_y, -phi_x)
 /// (Prager and Synge 1947), which also says where to refine. The area between curve and mesh boundary, times
 /// the square of the stress there (Hadamard), is added to the error.
-TorsionReport torsion_constant(const std::vector<BezierPath>& loops, const TorsionOptions& options = {});
+TorsionReport torsion_constant(const std::vector<Loop>& loops, const TorsionOptions& options = {});
 
 }  // namespace nurbeam

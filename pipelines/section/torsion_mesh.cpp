@@ -9,7 +9,7 @@
 
 namespace nurbeam {
 
-std::optional<TorsionMesh> TorsionMesh::make(const std::vector<BezierPath>& loops, std::size_t most_points) {
+std::optional<TorsionMesh> TorsionMesh::make(const std::vector<Loop>& loops, std::size_t most_points) {
   const std::vector<ProfilePolygon> first = polygons_without_crossing(loops);
   if (first.empty()) return {};
   // A thin wall may need shorter edges than its outline: bent triangles must not fold.
@@ -49,7 +49,7 @@ void TorsionMesh::add_boundary(const std::vector<ProfilePolygon>& polygons) {
       const int end = first + (i + 1) % count;
       const Eigen::Vector2d from = points_[corner], chord = points_[end] - from;
       BoundaryPiece piece = polygon.pieces[i];
-      const RationalCubic& cubic = loops_[piece.loop].segments[piece.segment];
+      const RationalCubic& cubic = loops_[piece.loop][piece.segment];
       const double u0 = piece.u0, u1 = piece.u1;
       for (int at = corner; at != end; at = next.at(at)) {
         const int to = next.at(at);
@@ -77,8 +77,8 @@ void TorsionMesh::add_boundary(const std::vector<ProfilePolygon>& polygons) {
 Eigen::Vector2d TorsionMesh::middle(const Edge& edge) const {
   const std::optional<BoundaryPiece>& piece = edges_.at(edge).piece;
   if (!piece) return 0.5 * (points_[edge.first] + points_[edge.second]);
-  const BezierPath& loop = loops_[piece->loop];
-  return loop.segments[piece->segment].point(middle_of(loop, *piece)).head<2>();
+  const Loop& loop = loops_[piece->loop];
+  return loop[piece->segment].point(middle_of(loop, *piece)).head<2>();
 }
 
 bool TorsionMesh::is_sound() const {

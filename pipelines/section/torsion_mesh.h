@@ -24,12 +24,12 @@ class TorsionMesh {
 
   /// A coarse mesh by CGAL. Nothing without CGAL, when it would take more than `most_points`, or when the
   /// paths cross.
-  static std::optional<TorsionMesh> make(const std::vector<BezierPath>& loops, std::size_t most_points);
+  static std::optional<TorsionMesh> make(const std::vector<Loop>& loops, std::size_t most_points);
 
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::map<Edge, Neighbours>& edges() const { return edges_; }
-  const std::vector<BezierPath>& loops() const { return loops_; }
+  const std::vector<Loop>& loops() const { return loops_; }
   static Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
   /// The node of an edge: halfway, or on the path over the middle of the chord [m].
   Eigen::Vector2d middle(const Edge& edge) const;
@@ -40,7 +40,7 @@ class TorsionMesh {
   void refine(const std::vector<int>& marked);
 
  private:
-  explicit TorsionMesh(const std::vector<BezierPath>& loops) : loops_(loops) {}
+  explicit TorsionMesh(const std::vector<Loop>& loops) : loops_(loops) {}
   void add_boundary(const std::vector<ProfilePolygon>& polygons);
   Edge longest_edge(int triangle) const;
   int across(int triangle, const Edge& edge) const;
@@ -48,7 +48,7 @@ class TorsionMesh {
   void bisect(int triangle, const Edge& edge, int middle);
   void replace(const Edge& edge, int before, int after);
 
-  std::vector<BezierPath> loops_;
+  std::vector<Loop> loops_;
   std::vector<Eigen::Vector2d> points_;
   std::vector<Triangle> triangles_;
   std::map<Edge, Neighbours> edges_;

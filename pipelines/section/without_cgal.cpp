@@ -8,8 +8,4 @@ std::optional<TriangleMesh> delaunay_mesh(const std::vector<std::vector<Eigen::V
   return {};
 }
 
-ClosestPoint closest_place(const BezierPath& path, const Eigen::Vector3d& point) {
-  return closest_point(path, point);
-}
-
 }  // namespace nurbeam

@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include "nurbs/bernstein.h"
 #include "tests/support/curves.h"
 
 namespace nurbeam {
@@ -58,9 +60,11 @@ TEST(Bezier, PartsHalvesAndHigherDegreesAreTheSameCurve) {
 TEST(Bezier, TheBlossomIsSymmetricAndGivesTheControlPoints) {
   Generator generator(91);
   const BezierPoints points = random_bezier(generator, 3);
-  EXPECT_LE((blossom(points, {0.2, 0.7, -0.4}) - blossom(points, {-0.4, 0.2, 0.7})).norm(), 1e-15);
-  EXPECT_LE((blossom(points, {0.2, 0.2, 0.2}) - value(points, 0.2)).norm(), 1e-15);
-  EXPECT_EQ(blossom(points, {0, 1, 1}), points.col(2));
+  EXPECT_LE(
+      (blossom(points, std::array{0.2, 0.7, -0.4}) - blossom(points, std::array{-0.4, 0.2, 0.7})).norm(),
+      1e-15);
+  EXPECT_LE((blossom(points, std::array{0.2, 0.2, 0.2}) - value(points, 0.2)).norm(), 1e-15);
+  EXPECT_EQ(blossom(points, std::array{0.0, 1.0, 1.0}), points.col(2));
 }
 
 TEST(Bezier, TheDistanceBoundIsNeverBelowTheDistanceAndClosesInOnIt) {

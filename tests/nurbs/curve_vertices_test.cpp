@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "nurbs/bezier_path.h"
+#include "nurbs/curve_chain.h"
 #include "tests/support/curves.h"
 
 namespace nurbeam {
@@ -15,9 +15,9 @@ TEST(CurveVertices, AreTheDifferentEndsInOrderOfAppearance) {
   const std::vector<CurveVertex> vertices = vertices_of({line(b, a), line(b, c), line(c, b)}, 1e-9);
   ASSERT_EQ(vertices.size(), 3U);
   EXPECT_EQ(vertices[0].point, b);
-  EXPECT_EQ(vertices[0].ends, (std::vector<int>{0, 2, 5}));
-  EXPECT_EQ(vertices[1].ends, std::vector<int>{1});
-  EXPECT_EQ(vertices[2].ends, (std::vector<int>{3, 4}));
+  EXPECT_EQ(vertices[0].ends, (std::vector<CurveEnd>{{0, false}, {1, false}, {2, true}}));
+  EXPECT_EQ(vertices[1].ends, (std::vector<CurveEnd>{{0, true}}));
+  EXPECT_EQ(vertices[2].ends, (std::vector<CurveEnd>{{1, true}, {2, false}}));
 }
 
 TEST(CurveVertices, AgreeWithTheComparisonOfAllPairs) {
@@ -45,8 +45,9 @@ TEST(CurveVertices, AgreeWithTheComparisonOfAllPairs) {
     }
     for (const CurveVertex& vertex : vertices_of(curves, tolerance))
       for (std::size_t k = 0; k < points.size(); ++k) {
-        const bool inside = std::find(vertex.ends.begin(), vertex.ends.end(), k) != vertex.ends.end();
-        ASSERT_EQ(inside, group[k] == group[vertex.ends.front()]);
+        const CurveEnd end{static_cast<int>(k / 2), k % 2 == 1}, &first = vertex.ends.front();
+        const bool inside = std::find(vertex.ends.begin(), vertex.ends.end(), end) != vertex.ends.end();
+        ASSERT_EQ(inside, group[k] == group[2 * first.curve + (first.at_end ? 1 : 0)]);
       }
   }
 }

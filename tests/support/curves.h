@@ -94,4 +94,23 @@ inline RationalCubic moebius(const RationalCubic& cubic, double c) {
   return RationalCubic(cubic.points() * Eigen::Vector4d(1, c, c * c, c * c * c).asDiagonal());
 }
 
+/// A connected path of random gentle cubics (none turns by 90 degrees), weights in [0.5, 2] and free at
+/// joints.
+inline BezierPath random_path(Generator& generator, int count) {
+  BezierPath path{{}, {uniform(generator, -1, 1)}, 0};
+  Eigen::Vector3d start = random_point(generator);
+  for (int j = 0; j < count; ++j) {
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = uniform(generator, 0.5, 2);
+      const Eigen::Vector3d along(1.0 * i, 0, 0);
+      points.col(i) << weight * (start + along + (i == 0 ? 0 : 0.2) * random_point(generator)), weight;
+    }
+    path.segments.emplace_back(points);
+    start = path.segments.back().control_point(3);
+    path.breaks.push_back(path.breaks.back() + uniform(generator, 0.1, 1));
+  }
+  return path;
+}
+
 }  // namespace nurbeam

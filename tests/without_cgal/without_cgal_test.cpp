@@ -22,10 +22,5 @@ TEST(WithoutCgal, AllOfAProfileButItsTorsionConstantIsThere) {
       << out.str();
 }
 
-TEST(WithoutCgal, TheClosestPlaceIsFoundAllTheSame) {
-  const BezierPath circle = BezierPath::from_nurbs(unit_circle(), 0);
-  EXPECT_NEAR(closest_place(circle, {3, 4, 0}).distance, 4, 1e-15);
-}
-
 }  // namespace
 }  // namespace nurbeam

@@ -38,7 +38,7 @@ BezierPath in_pieces(Generator& generator, const NurbsCurve& curve, int count) {
 
 /// Distance both ways, seen by projection, independent of the bound that comes with the curve.
 double distance(const NurbsCurve& a, const BezierPath& b) {
-  return hausdorff_distance(BezierPath::from_nurbs(a, 1e-6), b);
+  return hausdorff_distance(BezierPath::from_nurbs(a, 1e-6).segments, b.segments);
 }
 
 /// A polynomial B-spline of degree p with simple interior knots.

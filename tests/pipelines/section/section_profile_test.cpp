@@ -102,7 +102,7 @@ TEST(SectionProfile, AnIpe200FromStepOrIgesHasItsTableValues) {
   const test::TemporaryDirectory directory;
   for (const char* name : {"ipe.step", "ipe.igs"}) {
     const std::filesystem::path file = directory.path() / name;
-    export_curves(file, curves, LengthUnit::millimetre);
+    ASSERT_TRUE(export_curves(file, curves, LengthUnit::millimetre).empty());
     const SectionProfile p = profile_of(import_curves(file).curves);
     EXPECT_NEAR(p.area, 28.48e-4, 0.005e-4);
     EXPECT_NEAR(p.second_x, 1943e-8, 0.5e-8);
@@ -151,7 +151,7 @@ class DrawnSection : public ::testing::Test {
   BuildReport build(const Outline& outline, const std::string& in_plane, bool spatial) {
     std::vector<NamedCurve> curves;
     for (const NurbsCurve& curve : outline) curves.push_back({"profile", curve});
-    export_curves(directory_.path() / "profile.step", curves, LengthUnit::millimetre);
+    EXPECT_TRUE(export_curves(directory_.path() / "profile.step", curves, LengthUnit::millimetre).empty());
     std::vector<std::string> overrides = {
         R"(beams[0].section={"profile": {"file": "profile.step", "in_plane": ")" + in_plane + "\"}}",
         R"(gravity=[0, -9.81, 0])"};

@@ -1,4 +1,4 @@
-#include "pipelines/model/beam_chains.h"
+#include "pipelines/model/resolved_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,24 +113,24 @@ void name_each_beam(std::vector<Item>& items, const BeamNames& names, const std:
 }
 
 // Loads and supports of a name are those of every beam that it stands for; the rest needs one beam.
-void name_beams(CaseFile& case_file, const BeamNames& names, Findings& findings) {
-  name_each_beam(case_file.loads, names, case_file.beams, findings);
-  name_each_beam(case_file.supports, names, case_file.beams, findings);
+void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findings) {
+  name_each_beam(resolved.loads, names, resolved.beams, findings);
+  name_each_beam(resolved.supports, names, resolved.beams, findings);
   const auto known = [&](const std::string& name, const std::string& path) {
-    return check_name(name, path, names, case_file.beams, findings);
+    return check_name(name, path, names, resolved.beams, findings);
   };
-  for (const CaseSlidingJoint& joint : case_file.sliding_joints)
+  for (const CaseSlidingJoint& joint : resolved.sliding_joints)
     if (known(joint.beam, joint.path) && names.at(joint.beam).size() > 1)
       findings.error(joint.path + ".beam",
                      "is " + in_quotes(joint.beam) +
                          ", which is several beams; choose one: " + quoted_list(names.at(joint.beam)));
-  for (const CaseBeamJoint& joint : case_file.joints)
+  for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& name : joint.beams)
       if (known(name, joint.path) && names.at(name).size() > 1)
         findings.error(joint.path + ".beams",
                        "names " + in_quotes(name) +
                            ", which is several beams; choose of: " + quoted_list(names.at(name)));
-  for (const CaseProbe& probe : case_file.output.probes)
+  for (const CaseProbe& probe : resolved.probes)
     if (known(probe.beam, "output.probes") && names.at(probe.beam).size() > 1)
       findings.error("output.probes",
                      "probe " + in_quotes(probe.name) + " is on " + in_quotes(probe.beam) +
@@ -139,9 +139,15 @@ void name_beams(CaseFile& case_file, const BeamNames& names, Findings& findings)
 
 }  // namespace
 
-BeamChains choose_chains(CaseFile case_file, CadFiles& files, Findings& findings) {
-  std::vector<CaseBeam> beams;
-  std::vector<Chain> chains_of_beams;
+ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& findings) {
+  ResolvedCase resolved{.gravity = case_file.gravity,
+                        .bodies = case_file.bodies,
+                        .loads = case_file.loads,
+                        .supports = case_file.supports,
+                        .sliding_joints = case_file.sliding_joints,
+                        .joints = case_file.joints,
+                        .probes = case_file.output.probes,
+                        .analysis = case_file.analysis};
   BeamNames names;
   for (const CaseBeam& beam : case_file.beams) {
     const auto* file = std::get_if<AxisFile>(&beam.axis.source);
@@ -155,24 +161,23 @@ BeamChains choose_chains(CaseFile case_file, CadFiles& files, Findings& findings
       }
       names[one.name] = {one.name};
       if (one.section.from_cad) one.section = pipe_section(one, chains[i], files, findings);
-      beams.push_back(std::move(one));
-      chains_of_beams.push_back(chains[i]);
+      resolved.beams.push_back(std::move(one));
+      resolved.chains.push_back(chains[i]);
     }
   }
-  case_file.beams = std::move(beams);
-  if (!findings.has_errors()) name_beams(case_file, names, findings);
-  return {std::move(case_file), std::move(chains_of_beams)};
+  if (!findings.has_errors()) name_beams(resolved, names, findings);
+  return resolved;
 }
 
-int beam_index(const CaseFile& case_file, const std::string& name) {
-  const auto found = std::find_if(case_file.beams.begin(), case_file.beams.end(),
-                                  [&](const CaseBeam& beam) { return beam.name == name; });
-  return static_cast<int>(found - case_file.beams.begin());
+int ResolvedCase::beam_index(const std::string& name) const {
+  const auto found =
+      std::find_if(beams.begin(), beams.end(), [&](const CaseBeam& beam) { return beam.name == name; });
+  return static_cast<int>(found - beams.begin());
 }
 
-int sliding_bodies(const CaseFile& case_file, const std::string& name) {
+int ResolvedCase::sliding_bodies(const std::string& name) const {
   return static_cast<int>(std::count_if(
-      case_file.sliding_joints.begin(), case_file.sliding_joints.end(),
+      sliding_joints.begin(), sliding_joints.end(),
       [&](const CaseSlidingJoint& joint) { return joint.beam == name; }));
 }
 
