@@ -57,32 +57,29 @@ void check_pipe(const NamedPipe& pipe) {
 
 }  // namespace
 
-void export_curves(const fs::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit) {
+std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<NamedCurve>& curves,
+                                      LengthUnit unit) {
   const bool step = is_step_name(file);
   if (curves.empty())
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
   for (const NamedCurve& curve : curves) check_name(curve.name);
   const ChildResult result = asked(WriteCurvesRequest{step, curves, unit}, {patience});
   if (result.status != ChildResult::Status::finished)
-    throw std::runtime_error(file.string() + ": not written: " + reason_of(result, "writing"));
-  write_at_once(file, result.output);
+    return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing")}};
+  return write_at_once(file, result.output);
 }
 
-std::optional<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
-                                        LengthUnit unit) {
+std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
+                                      LengthUnit unit) {
   if (!is_step_name(file))
     throw std::invalid_argument("solids are written to STEP only; name " + file.string() + " .step");
   if (pipes.empty())
     throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
   for (const NamedPipe& pipe : pipes) check_pipe(pipe);
   const ChildResult result = asked(WriteSolidsRequest{pipes, unit}, {patience});
-  if (result.status == ChildResult::Status::finished) {
-    write_at_once(file, result.output);
-    return std::nullopt;
-  }
-  return Diagnostic{
-      Severity::error, file.string(),
-      "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"};
+  if (result.status == ChildResult::Status::finished) return write_at_once(file, result.output);
+  return {{Severity::error, file.string(),
+           "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"}};
 }
 
 }  // namespace nurbeam

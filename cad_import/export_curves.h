@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "cad_import/report/import_report.h"
@@ -10,19 +9,20 @@
 namespace nurbeam {
 
 /// Writes the curves, one B-spline curve entity each, under their names, in the unit, at full (17 digits)
-/// precision; STEP or IGES by the extension (.step .stp .igs .iges). Written to a temporary name and renamed.
-/// Throws std::invalid_argument for an unknown extension (naming the known ones), for no curves and for a
-/// name with a control character; std::runtime_error when the file cannot be written (it is then as it was
-/// before).
-void export_curves(const std::filesystem::path& file, const std::vector<NamedCurve>& curves, LengthUnit unit);
+/// precision; STEP or IGES by the extension (.step .stp .igs .iges). Written to a temporary name and renamed;
+/// when it cannot be written it is as it was before, and a Diagnostic of severity error says why. Throws
+/// std::invalid_argument for an unknown extension (naming the known ones), for no curves and for a name with
+/// a control character.
+[[nodiscard]] std::vector<Diagnostic> export_curves(const std::filesystem::path& file,
+                                                    const std::vector<NamedCurve>& curves, LengthUnit unit);
 
 /// Writes each pipe as a solid (its axis swept by a disk or an annulus, ends cut square) under its name, to a
 /// STEP file, else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with
 /// the area of the section times the length within 1e-3. When a curve cannot be swept (a corner, a bend
-/// sharper than the radius, most rings that lie in no plane) nothing is written and the Diagnostic says why;
-/// it is empty when the file was written. Throws std::invalid_argument also for another extension than .step
-/// or .stp, for a radius that is not positive and for a bore that is negative or not below the radius.
-[[nodiscard]] std::optional<Diagnostic> export_solids(const std::filesystem::path& file,
-                                                      const std::vector<NamedPipe>& pipes, LengthUnit unit);
+/// sharper than the radius, most rings that lie in no plane) nothing is written and a Diagnostic of severity
+/// error says why. Throws std::invalid_argument also for another extension than .step or .stp, for a radius
+/// that is not positive and for a bore that is negative or not below the radius.
+[[nodiscard]] std::vector<Diagnostic> export_solids(const std::filesystem::path& file,
+                                                    const std::vector<NamedPipe>& pipes, LengthUnit unit);
 
 }  // namespace nurbeam

@@ -29,11 +29,10 @@ std::vector<Diagnostic> export_into_step(const std::filesystem::path& source,
   if (result.status != ChildResult::Status::finished)
     return {{Severity::error, source.string(), failure(result) + "; " + file.string() + " was not written"}};
   const Exchanged exchanged = exchanged_from_bytes(result.output);
-  std::vector<Diagnostic> warnings;
+  std::vector<Diagnostic> diagnostics = write_at_once(file, exchanged.text);
   for (const std::string& warning : exchanged.warnings)
-    warnings.push_back({Severity::warning, source.string(), warning});
-  write_at_once(file, exchanged.text);
-  return warnings;
+    diagnostics.push_back({Severity::warning, source.string(), warning});
+  return diagnostics;
 }
 
 }  // namespace nurbeam

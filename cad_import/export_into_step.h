@@ -15,9 +15,8 @@ namespace nurbeam {
 /// edge that bounds faces cannot move without them, nor a curve of which another one is made: there the
 /// deformed curve is added to the same part, without style, and a warning says so. A part that is placed
 /// several times shows the shape at every place (a warning). The source is read in a child process as by
-/// import_curves(); when that fails, or a drawn curve is not in it, nothing is written and a Diagnostic of
-/// severity error says why. Written to a temporary name and renamed; throws std::runtime_error when the file
-/// cannot be written.
+/// import_curves(); when that fails, a drawn curve is not in it, or the file cannot be written, nothing is
+/// written and a Diagnostic of severity error says why. Written to a temporary name and renamed.
 [[nodiscard]] std::vector<Diagnostic> export_into_step(const std::filesystem::path& source,
                                                        const std::filesystem::path& file,
                                                        const std::vector<DeformedCurve>& curves);

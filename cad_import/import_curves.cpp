@@ -1,6 +1,7 @@
 #include "cad_import/import_curves.h"
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -22,8 +23,8 @@ ImportReport error_report(const fs::path& file, const std::string& message) {
 
 std::string megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
 
-// Why the path cannot hold a CAD file at all; "" if it may.
-std::string unusable(const fs::path& file, std::size_t size_limit) {
+// Why the path cannot hold a CAD file at all; nothing if it may.
+std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit) {
   constexpr const char* expected = "; expected a STEP or IGES file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -36,7 +37,7 @@ std::string unusable(const fs::path& file, std::size_t size_limit) {
   if (size > size_limit)
     return "the file has " + megabytes(size) + ", more than the limit of " + megabytes(size_limit) +
            "; export only the curves that are needed, or raise size_limit_bytes";
-  return "";
+  return std::nullopt;
 }
 
 ImportReport report_of(const ChildResult& result, const fs::path& file, const ImportOptions& options) {
@@ -67,8 +68,7 @@ ImportReport report_of(const ChildResult& result, const fs::path& file, const Im
 ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
   if (!(options.tolerance > 0))
     throw std::invalid_argument("tolerance is " + text_of(options.tolerance) + " m; it must be positive");
-  const std::string reason = unusable(file, options.size_limit_bytes);
-  if (!reason.empty()) return error_report(file, reason);
+  if (const auto reason = unusable(file, options.size_limit_bytes)) return error_report(file, *reason);
   try {
     return report_of(
         asked(ReadRequest{file, options.tolerance}, {options.time_limit, options.memory_limit_bytes}), file,

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -34,14 +35,29 @@ bool reaches_the_disk(const fs::path& path) {
   throw std::runtime_error(file.string() + ": " + reason);
 }
 
+// Why the temporary file cannot be given its name, which it has afterwards if there is no reason.
+std::optional<std::string> obstacle_to_renaming(const fs::path& file) {
+  std::error_code error;
+  fs::rename(temporary_name(file), file, error);
+  if (!error) return std::nullopt;
+  return "cannot be renamed from its temporary name: " + error.message();
+}
+
+std::optional<std::string> obstacle_to_writing(const fs::path& file, const std::string& text) {
+  errno = 0;
+  std::ofstream out(temporary_name(file), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) return "cannot be written: " + std::generic_category().message(errno);
+  return obstacle_to_renaming(file);
+}
+
 }  // namespace
 
 fs::path temporary_name(const fs::path& file) { return file.string() + ".part"; }
 
 void publish(const fs::path& file) {
-  std::error_code error;
-  fs::rename(temporary_name(file), file, error);
-  if (error) fail(file, "cannot be renamed from its temporary name: " + error.message());
+  if (const auto obstacle = obstacle_to_renaming(file)) fail(file, *obstacle);
 }
 
 void publish_durably(const fs::path& file) {
@@ -53,13 +69,12 @@ void publish_durably(const fs::path& file) {
     fail(file, std::string("its directory cannot be written: ") + std::strerror(errno));
 }
 
-void write_at_once(const fs::path& file, const std::string& text) {
-  errno = 0;
-  std::ofstream out(temporary_name(file), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) fail(file, "cannot be written: " + std::generic_category().message(errno));
-  publish(file);
+std::vector<Diagnostic> write_at_once(const fs::path& file, const std::string& text) {
+  const std::optional<std::string> obstacle = obstacle_to_writing(file, text);
+  if (!obstacle) return {};
+  std::error_code ignored;
+  fs::remove(temporary_name(file), ignored);
+  return {{Severity::error, file.string(), *obstacle}};
 }
 
 }  // namespace nurbeam

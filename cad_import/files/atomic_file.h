@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "cad_import/report/import_report.h"
 
 namespace nurbeam {
 
@@ -13,7 +16,8 @@ void publish(const std::filesystem::path& file);
 /// The same, once it is on the disk: it also outlives a crash of the machine.
 void publish_durably(const std::filesystem::path& file);
 
-/// Writes a text so. Throws std::runtime_error (file and reason).
-void write_at_once(const std::filesystem::path& file, const std::string& text);
+/// Writes a text so; nothing, or a Diagnostic of severity error with the reason.
+[[nodiscard]] std::vector<Diagnostic> write_at_once(const std::filesystem::path& file,
+                                                    const std::string& text);
 
 }  // namespace nurbeam

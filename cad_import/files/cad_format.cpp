@@ -55,17 +55,17 @@ std::optional<CadFormat> format_of(const std::string& content) {
   return std::nullopt;
 }
 
-std::string incompleteness(const std::string& content, CadFormat format) {
+std::optional<std::string> incompleteness(const std::string& content, CadFormat format) {
   if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos)
     return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
   if (format == CadFormat::iges && terminate_line(lines_of(content)).empty()) {
     return "the IGES file is truncated: no line has a 'T' (Terminate section) in column 73; export or copy "
            "it again";
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string miscounted_lines(const std::string& content) {
+std::optional<std::string> miscounted_lines(const std::string& content) {
   const std::vector<std::string_view> lines = lines_of(content);
   const std::string_view terminate = terminate_line(lines);
   for (const char section : {'S', 'G', 'D', 'P'}) {
@@ -77,7 +77,7 @@ std::string miscounted_lines(const std::string& content) {
            " lines, the Terminate section says " + std::to_string(*declared) +
            "; curves may be missing or wrong; export or copy it again";
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace nurbeam

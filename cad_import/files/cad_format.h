@@ -10,12 +10,12 @@ enum class CadFormat { step, iges };
 /// its first line; nothing for any other content.
 std::optional<CadFormat> format_of(const std::string& content);
 
-/// Why the content is not a whole file of the format ("" if it is): STEP ends with END-ISO-10303-21, IGES
-/// with a line that has a 'T' in column 73.
-std::string incompleteness(const std::string& content, CadFormat format);
+/// Why the content is not a whole file of the format (nothing if it is): STEP ends with END-ISO-10303-21,
+/// IGES with a line that has a 'T' in column 73.
+std::optional<std::string> incompleteness(const std::string& content, CadFormat format);
 
-/// How the lines of an IGES file differ from the numbers of lines in its Terminate section ("" if they
-/// agree): OpenCASCADE passes over entities whose lines are damaged.
-std::string miscounted_lines(const std::string& content);
+/// How the lines of an IGES file differ from the numbers of lines in its Terminate section (nothing if
+/// they agree): OpenCASCADE passes over entities whose lines are damaged.
+std::optional<std::string> miscounted_lines(const std::string& content);
 
 }  // namespace nurbeam

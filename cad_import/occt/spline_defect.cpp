@@ -19,7 +19,7 @@ std::vector<double> values_of(const Handle(TColStd_HArray1OfReal) & array) {
   return {array->begin(), array->end()};
 }
 
-std::string knots_defect(const std::vector<double>& knots) {
+std::optional<std::string> knots_defect(const std::vector<double>& knots) {
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!std::isfinite(knots[i])) return "knot " + std::to_string(i + 1) + " is not finite";
     if (i > 0 && knots[i] < knots[i - 1]) {
@@ -27,19 +27,20 @@ std::string knots_defect(const std::vector<double>& knots) {
              text_of(knots[i - 1]) + "); knots must not decrease";
     }
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string weights_defect(const std::vector<double>& weights) {
+std::optional<std::string> weights_defect(const std::vector<double>& weights) {
   for (double weight : weights)
     if (!(std::isfinite(weight) && weight > 0))
       return "a weight is " + text_of(weight) + "; weights must be positive";
-  return "";
+  return std::nullopt;
 }
 
-std::string step_defect(const std::vector<double>& knots,
-                        const Handle(TColStd_HArray1OfInteger) & multiplicities,
-                        const std::vector<double>& weights, const StepGeom_BSplineCurve& curve) {
+std::optional<std::string> step_defect(const std::vector<double>& knots,
+                                       const Handle(TColStd_HArray1OfInteger) & multiplicities,
+                                       const std::vector<double>& weights,
+                                       const StepGeom_BSplineCurve& curve) {
   if (curve.ControlPointsList().IsNull() || multiplicities.IsNull())
     return "its control points or knots are missing";
   int count = 0;
@@ -50,22 +51,22 @@ std::string step_defect(const std::vector<double>& knots,
     return "it has " + std::to_string(count) + " knots; " + std::to_string(expected) +
            " must go with its control points and degree";
   }
-  const std::string defect = knots_defect(knots);
-  return defect.empty() ? weights_defect(weights) : defect;
+  const std::optional<std::string> defect = knots_defect(knots);
+  return defect ? defect : weights_defect(weights);
 }
 
-std::string iges_defect(const IGESGeom_BSplineCurve& curve) {
+std::optional<std::string> iges_defect(const IGESGeom_BSplineCurve& curve) {
   std::vector<double> knots;
   for (int i = 0; i < curve.NbKnots(); ++i) knots.push_back(curve.Knot(i - curve.Degree()));
   std::vector<double> weights;
   for (int i = 0; i < curve.NbPoles(); ++i) weights.push_back(curve.Weight(i));
-  const std::string defect = knots_defect(knots);
-  return defect.empty() ? weights_defect(weights) : defect;
+  const std::optional<std::string> defect = knots_defect(knots);
+  return defect ? defect : weights_defect(weights);
 }
 
 }  // namespace
 
-std::string spline_defect(const Standard_Transient& entity) {
+std::optional<std::string> spline_defect(const Standard_Transient& entity) {
   if (const auto* curve = dynamic_cast<const StepGeom_BSplineCurveWithKnots*>(&entity))
     return step_defect(values_of(curve->Knots()), curve->KnotMultiplicities(), {}, *curve);
   if (const auto* curve =
@@ -76,7 +77,7 @@ std::string spline_defect(const Standard_Transient& entity) {
                        values_of(curve->WeightsData()), *curve);
   }
   if (const auto* curve = dynamic_cast<const IGESGeom_BSplineCurve*>(&entity)) return iges_defect(*curve);
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace nurbeam

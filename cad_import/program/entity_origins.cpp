@@ -111,11 +111,11 @@ Entities defective_splines(const Interface_InterfaceModel& model, ImportReport& 
   Entities defective;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Handle(Standard_Transient) entity = model.Value(i);
-    const std::string defect = spline_defect(*entity);
-    if (defect.empty()) continue;
+    const std::optional<std::string> defect = spline_defect(*entity);
+    if (!defect) continue;
     defective.insert(entity.get());
     add_diagnostic(report, Severity::warning, entity_label(model, entity),
-                   "skipped with all that is made of it: " + defect);
+                   "skipped with all that is made of it: " + *defect);
   }
   return defective;
 }

@@ -238,15 +238,16 @@ std::string encoded(const std::string& name) {
   return text;
 }
 
-/// Why the curve cannot change where it stands; "" if it can.
-std::string obstacle(const DeformedCurve& wanted, const FoundEdge& found, const StepInstances& step) {
+/// Why the curve cannot change where it stands; nothing if it can.
+std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundEdge& found,
+                                    const StepInstances& step) {
   if (wanted.beside) return "the beam is a chain of several curves";
   if (!found.free) return "the edge bounds faces, which do not move with it";
   for (const int user : step.users(found.instance))
     if (const std::string kind = step.keyword(user);
         kind == "TRIMMED_CURVE" || kind == "EDGE_CURVE" || kind == "OFFSET_CURVE_3D")
       return "#" + std::to_string(user) + " is made of the same curve";
-  return "";
+  return std::nullopt;
 }
 
 std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
@@ -258,9 +259,9 @@ std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Re
   const NurbsCurve curve = in_part(wanted.deformed, found.edge, unit);
   const std::string label = "#" + std::to_string(found.instance) + " '" + wanted.name + "': ";
   std::vector<std::string> warnings;
-  if (const std::string reason = obstacle(wanted, found, step); !reason.empty()) {
+  if (const auto reason = obstacle(wanted, found, step)) {
     add_beside(representation, curve, encoded(wanted.name), step);
-    warnings.push_back(label + reason + "; the deformed curve was added beside it");
+    warnings.push_back(label + *reason + "; the deformed curve was added beside it");
   } else {
     const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;
     exchange(found.instance, backwards ? curve.reversed() : curve, step);

@@ -37,8 +37,7 @@ ImportReport read_file(const fs::path& file, double tolerance) {
         "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
         "first line); export the curves as STEP AP214 or IGES");
   }
-  const std::string missing = incompleteness(content, *format);
-  if (!missing.empty()) return refusal(file, missing);
+  if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
   return read_cad_file(file, content, *format, tolerance);
 }
 

@@ -296,8 +296,8 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
     add_diagnostic(report, Severity::note, "",
                    "the model space scale " + text_of(global.scale) + " (drawing scale) is not applied");
   }
-  const std::string miscounted = miscounted_lines(content);
-  if (!miscounted.empty()) add_diagnostic(report, Severity::warning, "", miscounted);
+  if (const auto miscounted = miscounted_lines(content))
+    add_diagnostic(report, Severity::warning, "", *miscounted);
   start_iges();
   // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
   if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0))

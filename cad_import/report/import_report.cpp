@@ -4,10 +4,9 @@
 
 namespace nurbeam {
 
-bool ImportReport::ok() const {
-  return std::none_of(
-      diagnostics.begin(), diagnostics.end(),
-      [](const Diagnostic& d) { return d.severity == Severity::error; });
+bool has_errors(const std::vector<Diagnostic>& diagnostics) {
+  const auto is_error = [](const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; };
+  return std::any_of(diagnostics.begin(), diagnostics.end(), is_error);
 }
 
 }  // namespace nurbeam

@@ -15,6 +15,8 @@ struct Diagnostic {
   std::string message;  ///< what was found, the rule, and the nearest valid alternative
 };
 
+bool has_errors(const std::vector<Diagnostic>& diagnostics);
+
 /// One curve of a CAD file, in metres, in world coordinates (locations and transforms applied).
 struct ImportedCurve {
   std::string name = {};    ///< as in the file; "" if it has none there
@@ -41,7 +43,7 @@ struct ImportReport {
       0;  ///< distance within which points of the file are one, as declared [m]; 0: undeclared
   std::vector<ImportedCurve> curves;
   std::vector<Diagnostic> diagnostics;
-  bool ok() const;  ///< no diagnostic is an error
+  bool ok() const { return !has_errors(diagnostics); }
 };
 
 }  // namespace nurbeam

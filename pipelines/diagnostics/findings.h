@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,11 +25,7 @@ class Findings {
   }
   /// The file, and the path in it; "" stands for the whole file.
   std::string where(const std::string& path) const { return path.empty() ? file_ : file_ + ": " + path; }
-  bool has_errors() const {
-    return std::any_of(
-        diagnostics_.begin(), diagnostics_.end(),
-        [](const Diagnostic& d) { return d.severity == Severity::error; });
-  }
+  bool has_errors() const { return nurbeam::has_errors(diagnostics_); }
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 
  private:

@@ -1,6 +1,7 @@
 #include "pipelines/results/run_summary.h"
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
@@ -73,7 +74,9 @@ Json to_json(const RunSummary& summary) {
 
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
   // Names from files need not be valid UTF-8: what is not is replaced.
-  write_at_once(file, to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  const std::string text = to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (const Diagnostic& problem : write_at_once(file, text))
+    throw std::runtime_error(problem.where + ": " + problem.message);
 }
 
 }  // namespace nurbeam

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "cad_import/export_into_step.h"
@@ -57,6 +58,12 @@ std::vector<NamedCurve> CadOutput::curves(const Snapshot& frame, CurveParameter 
   return curves;
 }
 
+void CadOutput::write_curves(const Snapshot& frame, const std::filesystem::path& file) const {
+  const LengthUnit unit = parse_length_unit(case_.output.cad_unit);
+  for (const Diagnostic& problem : export_curves(file, curves(frame, case_.output.cad_parameter), unit))
+    throw std::runtime_error(problem.where + ": " + problem.message);  // every shape can be written so
+}
+
 std::vector<Diagnostic> CadOutput::write_solids(const Snapshot& frame,
                                                 const std::filesystem::path& file) const {
   std::vector<NamedPipe> pipes;
@@ -65,8 +72,7 @@ std::vector<Diagnostic> CadOutput::write_solids(const Snapshot& frame,
     const Section& section = built_.model.beams[b].section;
     pipes.push_back({std::move(axis), section.radius.value(), section.bore.value_or(0)});
   }
-  const auto problem = export_solids(file, pipes, parse_length_unit(case_.output.cad_unit));
-  return problem ? std::vector{*problem} : std::vector<Diagnostic>{};
+  return export_solids(file, pipes, parse_length_unit(case_.output.cad_unit));
 }
 
 std::vector<Diagnostic> CadOutput::write_into_source(const Snapshot& frame,
@@ -89,7 +95,7 @@ void CadOutput::write(const Snapshot& frame, const std::string& format,
   else if (format == "step-source")
     found = write_into_source(frame, file);
   else
-    export_curves(file, curves(frame, case_.output.cad_parameter), parse_length_unit(case_.output.cad_unit));
+    write_curves(frame, file);
   for (Diagnostic& diagnostic : found) diagnostic.severity = Severity::warning;  // the run goes on
   const auto is_known = [&](const Diagnostic& d) {                               // from an earlier frame
     return std::any_of(diagnostics.begin(), diagnostics.end(),

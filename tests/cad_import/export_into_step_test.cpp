@@ -55,7 +55,9 @@ TEST(ExportIntoStep, ExchangesOneCurveAndLeavesTheRestOfTheTextAlone) {
   for (const LengthUnit unit : {LengthUnit::metre, LengthUnit::millimetre, LengthUnit::inch})
     for (const bool rational : {false, true}) {
       const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
-      export_curves(source, {{"left", bent(0.1, !rational)}, {"right 'x'", bent(0.2, false)}}, unit);
+      ASSERT_TRUE(
+          export_curves(source, {{"left", bent(0.1, !rational)}, {"right 'x'", bent(0.2, false)}}, unit)
+              .empty());
       const ImportReport before = import_curves(source);
       const NurbsCurve deformed = bent(0.7, rational);
       EXPECT_TRUE(
@@ -186,7 +188,7 @@ TEST(ExportIntoStep, AnEdgeOfASolidStaysAndTheCurveIsAddedBesideIt) {
 TEST(ExportIntoStep, AChainIsAddedBesideItsFirstCurve) {
   const ScratchDirectory scratch;
   const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
-  export_curves(source, {{"one", bent(0.1, false)}}, LengthUnit::metre);
+  ASSERT_TRUE(export_curves(source, {{"one", bent(0.1, false)}}, LengthUnit::metre).empty());
   const NurbsCurve drawn = import_curves(source).curves.at(0).curve;
   const auto warnings = export_into_step(source, target, {{drawn, bent(0.4, false), "one", true}});
   ASSERT_EQ(warnings.size(), 1u);
@@ -295,7 +297,7 @@ TEST(ExportIntoStep, SaysWhatItCannotReadOrFindAndWritesNothing) {
     return diagnostics.at(0).message;
   };
   const fs::path source = scratch.path() / "source.step";
-  export_curves(source, {{"one", bent(0.1, false)}}, LengthUnit::metre);
+  ASSERT_TRUE(export_curves(source, {{"one", bent(0.1, false)}}, LengthUnit::metre).empty());
   EXPECT_NE(error_of(source, bent(0.11, false)).find("cable"), std::string::npos);
   EXPECT_NE(error_of(corpus_file("iges-126-bsplines.igs"), bent(0.1, false)).find("STEP"), std::string::npos);
   EXPECT_NE(error_of(scratch.path() / "missing.step", bent(0.1, false)).find("STEP"), std::string::npos);

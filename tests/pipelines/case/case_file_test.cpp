@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "pipelines/case/case_schema.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "tests/pipelines/case_text.h"
 

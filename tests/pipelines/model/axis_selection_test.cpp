@@ -149,12 +149,13 @@ TEST(AxisSelection, JunctionsAreWhereThreeOrMoreEndsOfCurvesMeet) {
 // A file with a star of three legs and a wire of its own, in metres.
 std::filesystem::path star(const test::TemporaryDirectory& directory) {
   const std::filesystem::path file = directory.path() / "star.step";
-  export_curves(file,
-                {{"a", line({0, 0, 0}, {1, 0, 0})},
-                 {"b", line({0, 0, 0}, {0, 1, 0})},
-                 {"c", line({0, 0, 0}, {-1, 0, 0})},
-                 {"d", line({0, 5, 0}, {3, 5, 0})}},
-                LengthUnit::metre);
+  EXPECT_TRUE(export_curves(file,
+                            {{"a", line({0, 0, 0}, {1, 0, 0})},
+                             {"b", line({0, 0, 0}, {0, 1, 0})},
+                             {"c", line({0, 0, 0}, {-1, 0, 0})},
+                             {"d", line({0, 5, 0}, {3, 5, 0})}},
+                            LengthUnit::metre)
+                  .empty());
   return file;
 }
 
