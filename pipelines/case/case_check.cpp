@@ -1,9 +1,10 @@
+#include "pipelines/case/case_check.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "nurbs/number_text.h"
-#include "pipelines/case/case_json.h"
 #include "pipelines/case/quantity.h"
 #include "pipelines/diagnostics/closest_name.h"
 

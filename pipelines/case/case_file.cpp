@@ -5,6 +5,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_beam.h"
+#include "pipelines/case/case_check.h"
 #include "pipelines/case/case_references.h"
 #include "pipelines/diagnostics/closest_name.h"
 

@@ -202,7 +202,4 @@ struct CaseFileReport {
 CaseFileReport read_case_file(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides = {});
 
-/// The JSON schema of the case file.
-std::string case_file_schema();
-
 }  // namespace nurbeam

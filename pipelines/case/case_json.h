@@ -35,9 +35,4 @@ std::optional<Json> read_json(const std::filesystem::path& file, Findings& findi
 /// Applies --set path=value texts; what is wrong with them goes to `wrong`.
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong);
 
-/// Checks a value against its shape, turns every quantity into a number in SI units, and makes what is
-/// unusable null (it has been reported), so that what is left can be checked further. Returns whether the
-/// value is usable.
-bool check_shape(const Shape& shape, Json& value, Findings& findings);
-
 }  // namespace nurbeam

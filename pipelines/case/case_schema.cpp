@@ -1,6 +1,7 @@
+#include "pipelines/case/case_schema.h"
+
 #include <cmath>
 
-#include "pipelines/case/case_file.h"
 #include "pipelines/case/case_json.h"
 
 namespace nurbeam {

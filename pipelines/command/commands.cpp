@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "pipelines/case/case_file.h"
+#include "pipelines/case/case_schema.h"
 #include "pipelines/case/quantity.h"
 #include "pipelines/command/compare.h"
 #include "pipelines/command/inspect.h"
@@ -87,20 +88,20 @@ int export_command(const Arguments& arguments, Streams streams) {
   const LengthUnit unit = parse_length_unit(arguments.value("--unit", "mm"));
   const CurveParameter parameter = curve_parameter(arguments.value("--parameter", "free"));
   const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
+  std::vector<Diagnostic> found;
   if (arguments.has("--solid")) {
     const double radius = quantity_argument("--solid", arguments.value("--solid", ""), Dimension::length);
     const double bore = quantity_argument("--bore", arguments.value("--bore", "0"), Dimension::length);
     std::vector<NamedPipe> pipes;
     for (const NamedCurve& curve : curves) pipes.push_back({curve, radius, bore});
-    if (const auto problem = export_solids(file, pipes, unit)) {
-      print_diagnostics(streams.err, {*problem});
-      return exit_not_written;
-    }
+    found = export_solids(file, pipes, unit);
   } else if (arguments.has("--bore")) {
     throw UsageError("--bore: is the bore of a solid; give its radius with --solid");
   } else {
-    export_curves(file, curves, unit);
+    found = export_curves(file, curves, unit);
   }
+  print_diagnostics(streams.err, found);
+  if (has_errors(found)) return exit_not_written;
   streams.err << "note: " << file << ": the curves at " << stored_time << " s, the stored time nearest to "
               << time << " s\n";
   return exit_done;
@@ -116,8 +117,6 @@ int compare_command(const Arguments& arguments, Streams streams) {
 
 int schema_command(const Arguments& arguments, Streams streams) {
   const std::string what = arguments.positional.empty() ? "case" : arguments.positional[0];
-  if (what == "study")
-    throw UsageError("the schema \"study\" is not available in this version; available: \"case\"");
   if (what != "case") throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case"}));
   streams.out << case_file_schema();
   return exit_done;
@@ -152,10 +151,6 @@ int report_command(const Arguments& arguments, Streams streams) {
   return exit_done;
 }
 
-int unavailable_command(const Arguments&, Streams) {
-  throw UsageError("this command is not available in this version");
-}
-
 int completion_command(const Arguments& arguments, Streams streams) {
   const std::string shell = arguments.positional.empty() ? "bash" : arguments.positional[0];
   if (shell != "bash")
@@ -174,78 +169,89 @@ constexpr std::size_t any_number = std::string::npos;
 const CommandOption set_option{"--set", "path=value",
                                "changes the case before it is checked; null removes a key", false, true};
 
+const Command inspect_entry{
+    "inspect",
+    "FILE...",
+    "lists the curves of STEP and IGES files; with --profile: the section that they draw",
+    1,
+    any_number,
+    {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
+    inspect_command};
+
+const Command check_entry{"check",      "CASE.json",  "reads and resolves a case, runs nothing", 1, 1,
+                          {set_option}, check_command};
+
+const Command run_entry{"run",
+                        "CASE.json",
+                        "runs a case",
+                        1,
+                        1,
+                        {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
+                         {"--resume", "", "goes on from the restart point in that directory"},
+                         {"--quiet", "", "no progress"},
+                         set_option},
+                        run_command,
+                        exit_not_written};
+
+const Command export_entry{
+    "export",
+    "RESULTS_DIR",
+    "writes the deformed curves at a stored time; with --solid, as rods of that radius, with --bore as "
+    "pipes",
+    1,
+    1,
+    {{"--time", "T", "the nearest stored one is taken", true},
+     {"--to", "FILE.step|.igs", "STEP or IGES by its ending", true},
+     {"--unit", "mm|m|inch", "of the file; otherwise mm"},
+     {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
+     {"--solid", "RADIUS", "solids instead of curves"},
+     {"--bore", "RADIUS", "makes the solids pipes"}},
+    export_command,
+    exit_not_written};
+
+const Command compare_entry{"compare",
+                            "A B",
+                            "largest distance between the curves of two CAD files",
+                            2,
+                            2,
+                            {{"--tolerance", "1e-6", "above which they differ [m]"}},
+                            compare_command};
+
+const Command schema_entry{"schema", "[case]",      "prints the JSON schema of the case file", 0, 1,
+                           {},       schema_command};
+
+const Command report_entry{"report",
+                           "RESULTS_DIR",
+                           "writes report.html anew: the 3-D view, plots and tables of a run",
+                           1,
+                           1,
+                           {},
+                           report_command,
+                           exit_not_written};
+
+const Command verify_entry{
+    "verify",
+    "[NAME | papers]",
+    "computes problems with known answers (those with NAME in their name) and prints a table; with "
+    "papers: the examples of the papers beside their tables, as a page with figures",
+    0,
+    1,
+    {{"--out", "DIR", "for the page of the papers"}},
+    verify_command,
+    exit_not_written};
+
+const Command completion_entry{
+    "completion", "[bash]",          "prints a script that completes commands and options in the shell", 0, 1,
+    {},           completion_command};
+
+const Command manual_entry{"manual", "", "prints the manual page (roff)", 0, 0, {}, manual_command};
+
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> table = {
-      {"inspect",
-       "FILE...",
-       "lists the curves of STEP and IGES files; with --profile: the section that they draw",
-       1,
-       any_number,
-       {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
-       inspect_command},
-      {"check", "CASE.json", "reads and resolves a case, runs nothing", 1, 1, {set_option}, check_command},
-      {"run",
-       "CASE.json",
-       "runs a case",
-       1,
-       1,
-       {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
-        {"--resume", "", "goes on from the restart point in that directory"},
-        {"--quiet", "", "no progress"},
-        set_option},
-       run_command,
-       exit_not_written},
-      {"export",
-       "RESULTS_DIR",
-       "writes the deformed curves at a stored time; with --solid, as rods of that radius, with --bore as "
-       "pipes",
-       1,
-       1,
-       {{"--time", "T", "the nearest stored one is taken", true},
-        {"--to", "FILE.step|.igs", "STEP or IGES by its ending", true},
-        {"--unit", "mm|m|inch", "of the file; otherwise mm"},
-        {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
-        {"--solid", "RADIUS", "solids instead of curves"},
-        {"--bore", "RADIUS", "makes the solids pipes"}},
-       export_command,
-       exit_not_written},
-      {"compare",
-       "A B",
-       "largest distance between the curves of two CAD files",
-       2,
-       2,
-       {{"--tolerance", "1e-6", "above which they differ [m]"}},
-       compare_command},
-      {"schema", "[case]", "prints the JSON schema of the case file", 0, 1, {}, schema_command},
-      {"report",
-       "RESULTS_DIR",
-       "writes report.html anew: the 3-D view, plots and tables of a run",
-       1,
-       1,
-       {},
-       report_command,
-       exit_not_written},
-      {"study", "STUDY.json", "not available in this version", 0, any_number, {}, unavailable_command},
-      {"verify",
-       "[NAME | papers]",
-       "computes problems with known answers (those with NAME in their name) and prints a table; with "
-       "papers: the examples of the papers beside their tables, as a page with figures",
-       0,
-       1,
-       {{"--out", "DIR", "for the page of the papers"}},
-       verify_command,
-       exit_not_written},
-      {"completion",
-       "[bash]",
-       "prints a script that completes commands and options in the shell",
-       0,
-       1,
-       {},
-       completion_command},
-      {"manual", "", "prints the manual page (roff)", 0, 0, {}, manual_command},
-  };
+  static const std::vector<Command> table = {inspect_entry,    check_entry,  run_entry,    export_entry,
+                                             compare_entry,    schema_entry, report_entry, verify_entry,
+                                             completion_entry, manual_entry};
   return table;
 }
 

@@ -1,0 +1,11 @@
+#pragma once
+#include "pipelines/case/case_json.h"
+
+namespace nurbeam {
+
+/// Checks a value against its shape, turns every quantity into a number in SI units, and makes what is
+/// unusable null (it has been reported), so that what is left can be checked further. Returns whether the
+/// value is usable.
+bool check_shape(const Shape& shape, Json& value, Findings& findings);
+
+}  // namespace nurbeam
