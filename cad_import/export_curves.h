@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "cad_import/report/import_report.h"
+#include "cad_import/report/diagnostic.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/report/named_curve.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/report/import_report.h"
+#include "cad_import/report/diagnostic.h"
 #include "cad_import/report/request.h"
 
 namespace nurbeam {

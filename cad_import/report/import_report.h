@@ -2,20 +2,10 @@
 #include <string>
 #include <vector>
 
+#include "cad_import/report/diagnostic.h"
 #include "nurbs/nurbs_curve.h"
 
 namespace nurbeam {
-
-enum class Severity { note, warning, error };
-
-/// Something a user must know about a file: data, not an exception.
-struct Diagnostic {
-  Severity severity;
-  std::string where;    ///< file, entity or JSON path
-  std::string message;  ///< what was found, the rule, and the nearest valid alternative
-};
-
-bool has_errors(const std::vector<Diagnostic>& diagnostics);
 
 /// One curve of a CAD file, in metres, in world coordinates (locations and transforms applied).
 struct ImportedCurve {

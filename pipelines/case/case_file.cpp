@@ -6,6 +6,7 @@
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_beam.h"
 #include "pipelines/case/case_check.h"
+#include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_references.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -189,7 +190,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
   std::optional<CaseFile> value;
-  if (check_shape(case_shape(), *json, findings)) {
+  if (check_shape(case_keys(), *json, findings)) {
     value = read_case(*json, file, findings);
     value->json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
     check_across(*json, *value, findings);

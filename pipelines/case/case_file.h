@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "cad_import/report/import_report.h"
+#include "cad_import/report/diagnostic.h"
 #include "fem/motion/integrators.h"
 #include "fem/motion/mesh_rules.h"
 #include "fem/structure/structure.h"

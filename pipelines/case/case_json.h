@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/case/case_shape.h"
+#include "pipelines/case/case_keys.h"
 #include "pipelines/diagnostics/findings.h"
 
 /// Private to the reader of case files: its JSON.
@@ -31,8 +31,5 @@ std::vector<std::string> key_names(const Shape& shape);
 
 /// The JSON of a case file with comments; nothing, and findings, when it cannot be read as JSON.
 std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings);
-
-/// Applies --set path=value texts; what is wrong with them goes to `wrong`.
-void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong);
 
 }  // namespace nurbeam

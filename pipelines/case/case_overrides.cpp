@@ -1,3 +1,5 @@
+#include "pipelines/case/case_overrides.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -8,7 +10,6 @@
 #include <sstream>
 
 #include "nurbs/number_text.h"
-#include "pipelines/case/case_json.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -70,7 +71,7 @@ std::optional<double> loose_number(std::string_view text) {
 /// Sets one value of the case; null removes the key. Returns what is wrong, "" if nothing.
 std::string apply_override(Json& root, const std::string& path, const Json& new_value) {
   Json* value = &root;
-  const Shape* shape = &case_shape();
+  const Shape* shape = &case_keys();
   std::string walked;
   const std::vector<std::string> parts = path_parts(path);
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -82,7 +82,7 @@ Json schema_of(const Shape& shape) {
 
 std::string case_file_schema() {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "nurbeam case file"}};
-  schema.update(schema_of(case_shape()));
+  schema.update(schema_of(case_keys()));
   return schema.dump(2) + "\n";
 }
 

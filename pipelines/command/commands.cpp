@@ -7,6 +7,7 @@
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/case/quantity.h"
+#include "pipelines/command/check.h"
 #include "pipelines/command/compare.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/manual.h"
@@ -52,7 +53,7 @@ std::optional<CaseFile> read_case(const Arguments& arguments, Streams streams) {
 
 int check_command(const Arguments& arguments, Streams streams) {
   const auto case_file = read_case(arguments, streams);
-  return case_file ? check_case(*case_file) : exit_bad_input;
+  return case_file ? check_case(*case_file, streams.out, streams.err) : exit_bad_input;
 }
 
 int run_command(const Arguments& arguments, Streams streams) {

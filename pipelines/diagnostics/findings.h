@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/report/import_report.h"
+#include "cad_import/report/diagnostic.h"
 
 namespace nurbeam {
 

@@ -107,33 +107,51 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
   return places;
 }
 
+// That of a force or a moment at a place.
+LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, const Eigen::Vector3d& value,
+                          Findings& findings) {
+  const double s = beam.material_coordinate(place_on(beam, load.at, load.path, findings));
+  const double speed = load.moving_speed.value_or(0);
+  const bool at_start = s == 0, at_end = s == beam.curve.length();
+  if (!beam.curve.closed() && ((at_start && speed < 0) || (at_end && speed > 0)))
+    findings.warn(load.path + ".moves.speed", "is " + text_of(speed) +
+                                                  " m/s: the force leaves the beam at once and does "
+                                                  "nothing; it moves from the " +
+                                                  (at_start ? "start" : "end") + " into the beam with a " +
+                                                  (at_start ? "positive" : "negative") + " speed");
+  return {b, s, speed, value, load.follower, load.time};
+}
+
+// A beam without torsion takes no moment along itself.
+void check_moment(const CaseLoad& load, const LoadAtPlace& moment, const DrawnBeam& beam,
+                  Findings& findings) {
+  const double along = moment.value.dot(beam.curve.tangent(moment.s));
+  if (std::abs(along) > 1e-9 * moment.value.norm())
+    findings.error(load.path + ".moment",
+                   "the moment has a component of " + text_of(along) +
+                       " N m along the beam, which has no torsion; leave only the part across it");
+}
+
 void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
                BeamModel& model, Findings& findings) {
   for (const CaseLoad& load : resolved.loads) {
     const int b = resolved.beam_index(load.beam);
-    const bool is_moment = load.kind == CaseLoad::Kind::moment;
-    const Eigen::Vector3d value =
-        is_moment ? frame.moment_to_local(load.value) : frame.direction_to_local(load.value);
-    if (load.kind == CaseLoad::Kind::force_per_length) {
-      model.forces.push_back(LineLoad{b, value, load.time});
-      continue;
+    const DrawnBeam& beam = beams[b];
+    switch (load.kind) {
+      case CaseLoad::Kind::force:
+        model.forces.push_back(
+            PointLoad{load_at_place(load, b, beam, frame.direction_to_local(load.value), findings)});
+        break;
+      case CaseLoad::Kind::moment: {
+        const LoadAtPlace moment = load_at_place(load, b, beam, frame.moment_to_local(load.value), findings);
+        check_moment(load, moment, beam, findings);
+        model.forces.push_back(Moment{moment});
+        break;
+      }
+      case CaseLoad::Kind::force_per_length:
+        model.forces.push_back(LineLoad{b, frame.direction_to_local(load.value), load.time});
+        break;
     }
-    const double s = beams[b].material_coordinate(place_on(beams[b], load.at, load.path, findings));
-    const ReferenceCurve& curve = beams[b].curve;
-    const double speed = load.moving_speed.value_or(0);
-    if (!curve.closed() && ((s == 0 && speed < 0) || (s == curve.length() && speed > 0)))
-      findings.warn(load.path + ".moves.speed", "is " + text_of(speed) +
-                                                    " m/s: the force leaves the beam at once and does "
-                                                    "nothing; it moves from the " +
-                                                    (s == 0 ? "start" : "end") + " into the beam with a " +
-                                                    (s == 0 ? "positive" : "negative") + " speed");
-    const Eigen::Vector3d along = curve.tangent(s);
-    if (is_moment && std::abs(value.dot(along)) > 1e-9 * value.norm())
-      findings.error(load.path + ".moment",
-                     "the moment has a component of " + text_of(value.dot(along)) +
-                         " N m along the beam, which has no torsion; leave only the part across it");
-    const LoadAtPlace added{b, s, speed, value, load.follower, load.time};
-    model.forces.push_back(is_moment ? Force(Moment{added}) : Force(PointLoad{added}));
   }
 }
 

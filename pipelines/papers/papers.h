@@ -7,9 +7,8 @@
 namespace nurbeam {
 
 /// Computes the examples of Ding & Ouyang 2022 and of the subdivision paper and writes what came out beside
-/// what the papers have, as
-/// DIR/papers.md with its figures; what is being computed goes to `progress`. Throws std::runtime_error (file
-/// and reason) when a file cannot be written.
+/// what the papers have, as DIR/papers.md with its figures; what is being computed goes to `progress`. Throws
+/// std::runtime_error (file and reason) when a file cannot be written.
 void write_papers(const std::filesystem::path& directory, std::ostream& progress);
 
 namespace papers {

@@ -1,6 +1,4 @@
 // Long because it is one page, figure by figure.
-#include "pipelines/papers/papers_pendulum.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 #include "fem/element/subdivision.h"
 #include "fem/model/build.h"
 #include "pipelines/papers/papers.h"
+#include "pipelines/papers/pendulum_motion.h"
 #include "pipelines/papers/plot.h"
 #include "pipelines/verification/references.h"
 

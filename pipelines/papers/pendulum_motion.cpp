@@ -1,3 +1,5 @@
+#include "pipelines/papers/pendulum_motion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,7 +11,6 @@
 #include "fem/element/subdivision.h"
 #include "fem/model/build.h"
 #include "pipelines/papers/papers.h"
-#include "pipelines/papers/papers_pendulum.h"
 #include "pipelines/papers/plot.h"
 
 namespace nurbeam {

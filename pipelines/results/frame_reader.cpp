@@ -1,8 +1,9 @@
+#include "pipelines/results/frame_reader.h"
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "pipelines/results/frame_layout.h"
-#include "pipelines/results/frame_store.h"
 
 namespace nurbeam {
 

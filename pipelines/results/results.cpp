@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cad_import/files/atomic_file.h"
+#include "pipelines/results/frame_reader.h"
 #include "pipelines/results/frame_store.h"
 #include "pipelines/results/history_table.h"
 

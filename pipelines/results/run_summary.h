@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cad_import/report/import_report.h"
+#include "cad_import/report/diagnostic.h"
 #include "fem/motion/run_event.h"
 
 namespace nurbeam {

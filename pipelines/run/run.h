@@ -15,8 +15,4 @@ struct RunOptions {
 /// the solver did not converge, 4 results could not be written, 130 interrupted. Messages go to stderr.
 int run_case(const CaseFile& case_file, const RunOptions& options);
 
-/// Resolves everything a case names (files, curves, joints) and prints the model it would run to stdout; runs
-/// nothing. Returns 0, or 2 for bad input.
-int check_case(const CaseFile& case_file);
-
 }  // namespace nurbeam

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipelines/papers/papers_pendulum.h"
+#include "pipelines/papers/pendulum_motion.h"
 #include "pipelines/verification/references.h"
 
 namespace nurbeam {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/run/run.h"
 #include "tests/pipelines/case_text.h"
 
 namespace nurbeam {
@@ -61,17 +60,6 @@ TEST(BuildModel, AGradingWithoutEffectIsMentioned) {
   ASSERT_EQ(report.diagnostics.size(), 1u);
   EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
   EXPECT_NE(report.diagnostics[0].message.find("no effect"), std::string::npos);
-}
-
-TEST(BuildModel, TheCheckPrintsTheShortestAndTheLongestElement) {
-  const test::TemporaryDirectory directory;
-  const CaseFileReport report =
-      read_case_file(directory.write("case.json", test::smallest_case),
-                     {R"(beams[0].elements={"per_segment": 4, "grading": "10 cm"})"});
-  ::testing::internal::CaptureStdout();
-  EXPECT_EQ(check_case(report.value.value()), 0);
-  const std::string out = ::testing::internal::GetCapturedStdout();
-  EXPECT_NE(out.find("4 elements of 0.1 to 0.4 m"), std::string::npos) << out;
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 #include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
+#include "pipelines/command/check.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/model/build_model.h"
-#include "pipelines/run/run.h"
 #include "tests/pipelines/case_text.h"
 #include "tests/support/profiles.h"
 
@@ -200,10 +200,9 @@ TEST_F(DrawnSection, APlanarModelSaysThatAnAngleWouldBendOutOfThePlane) {
 
 TEST_F(DrawnSection, CheckAndInspectPrintItsProperties) {
   ASSERT_TRUE(build(rectangle(0.1, 0.3), "y", false).value);
-  ::testing::internal::CaptureStdout();
-  EXPECT_EQ(check_case(case_), 0);
-  const std::string checked = ::testing::internal::GetCapturedStdout();
-  std::ostringstream out, err;
+  std::ostringstream checking, out, err;
+  EXPECT_EQ(check_case(case_, checking, err), 0);
+  const std::string checked = checking.str();
   EXPECT_EQ(inspect_profiles({directory_.path() / "profile.step"}, out, err), 0);
   EXPECT_EQ(err.str(), "");
   for (const char* part :

@@ -1,4 +1,4 @@
-#include "pipelines/case/case_shape.h"
+#include "pipelines/case/case_keys.h"
 
 #include <cmath>
 #include <sstream>
@@ -288,7 +288,7 @@ std::string Range::rule() const {
   return rule.str();
 }
 
-const Shape& case_shape() {
+const Shape& case_keys() {
   static const Shape shape = object(
       {{"$schema", text(), "for editors; ignored"},
        {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),

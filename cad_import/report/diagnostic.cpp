@@ -1,4 +1,4 @@
-#include "cad_import/report/import_report.h"
+#include "cad_import/report/diagnostic.h"
 
 #include <algorithm>
 

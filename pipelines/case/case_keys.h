@@ -62,6 +62,6 @@ struct Key {
 };
 
 /// The case file.
-const Shape& case_shape();
+const Shape& case_keys();
 
 }  // namespace nurbeam

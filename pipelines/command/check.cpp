@@ -1,0 +1,90 @@
+#include "pipelines/command/check.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/exit_code.h"
+#include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/model/build_model.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr int place_digits = 9, size_digits = 6;
+
+std::string place(double s) { return "s = " + text_of(s, place_digits) + " m"; }
+
+void print_beam(std::ostream& out, const Beam& beam) {
+  const double L = beam.curve.length();
+  double shortest = L, longest = 0;
+  for (std::size_t i = 1; i < beam.home.size(); ++i) {
+    const double length = beam.home[i].s - beam.home[i - 1].s;
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  const BeamProperties& p = beam.properties;
+  const auto size = [](double value) { return text_of(value, size_digits); };
+  out << "beam      " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
+      << text_of(L, place_digits) << " m, mass " << size(L * p.mass_per_length) << " kg, "
+      << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
+      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.axial_stiffness) << " N, EI "
+      << size(p.bending_stiffness) << " N m^2, stress-free "
+      << (beam.curve.straight() ? "straight" : "as drawn") << '\n';
+}
+
+void print_corners(std::ostream& out, const Beam& beam) {
+  for (const HomeNode& node : beam.home)
+    if (node.kind != NodeKind::smooth)
+      out << "corner    of " << beam.name << " at " << place(node.s) << ", "
+          << (node.kind == NodeKind::rigid ? "rigid" : "a hinge") << '\n';
+}
+
+void print_sections(std::ostream& out, const BuiltModel& built) {
+  for (std::size_t b = 0; b < built.sources.size(); ++b)
+    if (const auto& drawn = built.sources[b].profile) {
+      out << "section   of " << built.model.beams[b].name << ": " << drawn->file.string() << '\n';
+      print_profile(out, drawn->profile);
+    }
+}
+
+void print_joints(std::ostream& out, const BeamModel& model) {
+  for (const SlidingJoint& joint : model.joints)
+    out << "joint     " << model.bodies[joint.body].name << " ("
+        << text_of(model.bodies[joint.body].mass, size_digits) << " kg) on " << model.beams[joint.beam].name
+        << " at " << place(joint.s) << '\n';
+  for (const Constraint& constraint : model.constraints)
+    if (const auto* joint = std::get_if<BeamJoint>(&constraint))
+      out << "joint     " << model.beams[joint->beam_a].name << " at " << place(joint->s_a) << " and "
+          << model.beams[joint->beam_b].name << " at " << place(joint->s_b) << ", "
+          << (joint->rigid ? "rigid" : "hinged") << '\n';
+}
+
+template <class Alternative, class List>
+std::ptrdiff_t count(const List& list) {
+  return std::count_if(
+      list.begin(), list.end(), [](const auto& item) { return std::holds_alternative<Alternative>(item); });
+}
+
+}  // namespace
+
+int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) {
+  const BuildReport report = build_model(case_file);
+  print_diagnostics(err, report.diagnostics);
+  if (!report.value) return exit_bad_input;
+  const BeamModel& model = report.value->model;
+  out << "case      " << case_file.name << '\n';
+  out << "model     " << (model.dimension == 2 ? "planar" : "spatial") << ", "
+      << make_mesh(model, initial_plan(model)).coordinate_count << " coordinates\n";
+  for (const Beam& beam : model.beams) print_beam(out, beam);
+  for (const Beam& beam : model.beams) print_corners(out, beam);
+  print_sections(out, *report.value);
+  print_joints(out, model);
+  out << "supports  " << count<Support>(model.constraints) << ", point loads "
+      << count<PointLoad>(model.forces) << ", moments " << count<Moment>(model.forces)
+      << ", distributed loads " << count<LineLoad>(model.forces) << '\n';
+  return exit_done;
+}
+
+}  // namespace nurbeam
