@@ -173,9 +173,8 @@ TEST(RigidCornerRun, CheckListsTheCorners) {
   const std::string file = directory.write("frame.json", frame);
   const auto listed = [&](const std::vector<std::string>& words) {
     std::ostringstream out, err;
-    ::testing::internal::CaptureStdout();
     EXPECT_EQ(run_command_line(words, out, err), 0) << err.str();
-    return ::testing::internal::GetCapturedStdout();
+    return out.str();
   };
   const std::string corner = "corner    of frame at s = 1 m, ";
   EXPECT_NE(listed({"check", file}).find(corner + "rigid\n"), std::string::npos);
