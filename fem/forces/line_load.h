@@ -12,10 +12,7 @@ struct LineLoad {
   TimeTable time = {};                              ///< factor
 
   /// On a beam at time t, for a full load [N/m]: elements carry it.
-  Eigen::Vector3d per_length(int on_beam, double t) const {
-    if (on_beam != beam) return Eigen::Vector3d::Zero();
-    return value_and_slope(time, t).first * value;
-  }
+  Eigen::Vector3d per_length(int on_beam, double t) const;
 };
 
 }  // namespace nurbeam

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "fem/forces/turned_vector.h"
 #include "fem/mesh/point_on_beam.h"
 
@@ -23,48 +25,31 @@ struct LoadedPoint {
   TurnedVector vector;  ///< without its factor
   double factor;        ///< of time and of State::load
 
-  static std::optional<LoadedPoint> of(const LoadAtPlace& load, const MeshedBeams<D>& at,
-                                       const State& state) {
-    const Beam& beam = at.structure.beams[load.beam];
-    const double s = load.s + load.speed * state.t;
-    if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) return std::nullopt;
-    const int index = find_span(at.structure, at.mesh, state.q, load.beam, s);
-    const PointShape<D> shape = point_shape<D>(at.elements[index], state.q, s);
-    const PointField<D> rs = shape.slope();
-    TurnedVector vector{load.value, Eigen::Matrix3d::Zero()};
-    if (load.follower) vector = turned_with_tangent(load.value, beam.curve.tangent(s), widened<D>(rs.value));
-    return LoadedPoint{index, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
-  }
+  static std::optional<LoadedPoint> of(const LoadAtPlace& load, const MeshedBeams<D>& at, const State& state);
 
   /// The force f conjugate to the field `loaded` on the dynamics: less loaded_q' f.
   void add_force(const MeshedBeams<D>& at, const PointField<D>& loaded, const TurnedVector& f,
-                 Eigen::Ref<Eigen::VectorXd> dynamics) const {
-    const Eigen::Matrix<double, D, 1> value = factor * f.value.template head<D>();
-    const auto& dofs = at.elements[element].dofs;
-    for (int k = 0; k < element_size<D>; ++k)
-      if (dofs[k] >= 0) dynamics[dofs[k]] -= loaded.gradient.col(k).dot(value);
-  }
-  ElementMatrix<D> stiffness(const PointField<D>& loaded, const TurnedVector& f, double weight) const {
-    const Eigen::Matrix<double, D, 1> value = factor * f.value.template head<D>();
-    const Eigen::Matrix<double, D, D> gradient = factor * f.gradient.template topLeftCorner<D, D>();
-    ElementMatrix<D> K = -weight * loaded.gradient.transpose() * gradient * rs.gradient;
-    loaded.add_hessian(value, -weight, shape.nodes, K);
-    return K;
-  }
+                 Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  ElementMatrix<D> stiffness(const PointField<D>& loaded, const TurnedVector& f, double weight) const;
+};
+
+/// What a load adds to the tangent of one element.
+template <int D>
+struct LoadTangent {
+  int element;
+  ElementMatrix<D> matrix;
 };
 
 /// A force on a material point [N].
 struct PointLoad : LoadAtPlace {
   template <int D>
-  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
-    if (const auto p = LoadedPoint<D>::of(*this, at, state))
-      p->add_force(at, p->shape.position(), p->vector, dynamics);
-  }
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  template <int D>
+  std::optional<LoadTangent<D>> tangent(const MeshedBeams<D>& at, const State& state,
+                                        const TangentWeights& w) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
-    if (w.stiffness == 0) return;
-    if (const auto p = LoadedPoint<D>::of(*this, at, state))
-      sink.element(p->element, p->stiffness(p->shape.position(), p->vector, w.stiffness));
+    if (const auto added = tangent(at, state, w)) sink.element(added->element, added->matrix);
   }
 };
 

@@ -18,22 +18,18 @@ class PointMass {
 
   const std::vector<int>& dofs() const { return dofs_; }
 
-  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
-    const Vector gravity = state.load * at.structure.gravity.template head<D>();
-    dynamics.segment<D>(dofs_[0]) += mass_ * (state.a.segment<D>(dofs_[0]) - gravity);
-  }
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <class Sink>
   void add_tangent(const MeshedBeams<D>&, const State&, const TangentWeights& w, Sink&& sink) const {
-    sink.own(Eigen::Matrix<double, D, D>(Vector::Constant(w.mass * mass_).asDiagonal()));
+    sink.own(tangent(w));
   }
-  void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const {
-    sum.kinetic += mass_ * state.v.segment<D>(dofs_[0]).squaredNorm() / 2;
-    sum.gravity -= mass_ * at.structure.gravity.template head<D>().dot(state.q.segment<D>(dofs_[0]));
-  }
+  void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
   /// [kg m/s].
-  Vector momentum(const State& state) const { return mass_ * state.v.segment<D>(dofs_[0]); }
+  Vector momentum(const State& state) const;
 
  private:
+  Eigen::Matrix<double, D, D> tangent(const TangentWeights& w) const;
+
   double mass_;
   std::vector<int> dofs_;
 };

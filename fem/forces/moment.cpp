@@ -1,0 +1,39 @@
+#include "fem/forces/moment.h"
+
+namespace nurbeam {
+
+TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs) {
+  const double A = rs.squaredNorm();
+  const Eigen::Vector3d f = m.value.cross(rs) / A;
+  Eigen::Matrix3d gradient;
+  for (int i = 0; i < 3; ++i)
+    gradient.col(i) =
+        (m.value.cross(Eigen::Vector3d::Unit(i)) + m.gradient.col(i).cross(rs)) / A - f * (2 * rs[i] / A);
+  return {f, gradient};
+}
+
+template <int D>
+void Moment::add_force(const MeshedBeams<D>& at, const State& state,
+                       Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  if (const auto p = LoadedPoint<D>::of(*this, at, state))
+    p->add_force(at, p->rs, moment_on_slope(p->vector, widened<D>(p->rs.value)), dynamics);
+}
+
+template <int D>
+std::optional<LoadTangent<D>> Moment::tangent(const MeshedBeams<D>& at, const State& state,
+                                              const TangentWeights& w) const {
+  if (w.stiffness == 0) return std::nullopt;
+  const auto p = LoadedPoint<D>::of(*this, at, state);
+  if (!p) return std::nullopt;
+  const TurnedVector f = moment_on_slope(p->vector, widened<D>(p->rs.value));
+  return LoadTangent<D>{p->element, p->stiffness(p->rs, f, w.stiffness)};
+}
+
+template void Moment::add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
+template void Moment::add_force(const MeshedBeams<3>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
+template std::optional<LoadTangent<2>> Moment::tangent(const MeshedBeams<2>&, const State&,
+                                                       const TangentWeights&) const;
+template std::optional<LoadTangent<3>> Moment::tangent(const MeshedBeams<3>&, const State&,
+                                                       const TangentWeights&) const;
+
+}  // namespace nurbeam

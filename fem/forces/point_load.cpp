@@ -1,0 +1,63 @@
+#include "fem/forces/point_load.h"
+
+namespace nurbeam {
+
+template <int D>
+std::optional<LoadedPoint<D>> LoadedPoint<D>::of(const LoadAtPlace& load, const MeshedBeams<D>& at,
+                                                 const State& state) {
+  const Beam& beam = at.structure.beams[load.beam];
+  const double s = load.s + load.speed * state.t;
+  if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) return std::nullopt;
+  const int index = find_span(at.structure, at.mesh, state.q, load.beam, s);
+  const PointShape<D> shape = point_shape<D>(at.elements[index], state.q, s);
+  const PointField<D> rs = shape.slope();
+  TurnedVector vector{load.value, Eigen::Matrix3d::Zero()};
+  if (load.follower) vector = turned_with_tangent(load.value, beam.curve.tangent(s), widened<D>(rs.value));
+  return LoadedPoint{index, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
+}
+
+template <int D>
+void LoadedPoint<D>::add_force(const MeshedBeams<D>& at, const PointField<D>& loaded, const TurnedVector& f,
+                               Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  const Eigen::Matrix<double, D, 1> value = factor * f.value.template head<D>();
+  const auto& dofs = at.elements[element].dofs;
+  for (int k = 0; k < element_size<D>; ++k)
+    if (dofs[k] >= 0) dynamics[dofs[k]] -= loaded.gradient.col(k).dot(value);
+}
+
+template <int D>
+ElementMatrix<D> LoadedPoint<D>::stiffness(const PointField<D>& loaded, const TurnedVector& f,
+                                           double weight) const {
+  const Eigen::Matrix<double, D, 1> value = factor * f.value.template head<D>();
+  const Eigen::Matrix<double, D, D> gradient = factor * f.gradient.template topLeftCorner<D, D>();
+  ElementMatrix<D> K = -weight * loaded.gradient.transpose() * gradient * rs.gradient;
+  loaded.add_hessian(value, -weight, shape.nodes, K);
+  return K;
+}
+
+template <int D>
+void PointLoad::add_force(const MeshedBeams<D>& at, const State& state,
+                          Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  if (const auto p = LoadedPoint<D>::of(*this, at, state))
+    p->add_force(at, p->shape.position(), p->vector, dynamics);
+}
+
+template <int D>
+std::optional<LoadTangent<D>> PointLoad::tangent(const MeshedBeams<D>& at, const State& state,
+                                                 const TangentWeights& w) const {
+  if (w.stiffness == 0) return std::nullopt;
+  const auto p = LoadedPoint<D>::of(*this, at, state);
+  if (!p) return std::nullopt;
+  return LoadTangent<D>{p->element, p->stiffness(p->shape.position(), p->vector, w.stiffness)};
+}
+
+template struct LoadedPoint<2>;
+template struct LoadedPoint<3>;
+template void PointLoad::add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
+template void PointLoad::add_force(const MeshedBeams<3>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
+template std::optional<LoadTangent<2>> PointLoad::tangent(const MeshedBeams<2>&, const State&,
+                                                          const TangentWeights&) const;
+template std::optional<LoadTangent<3>> PointLoad::tangent(const MeshedBeams<3>&, const State&,
+                                                          const TangentWeights&) const;
+
+}  // namespace nurbeam
