@@ -1,5 +1,7 @@
 #include "fem/forces/moment.h"
 
+#include <Eigen/Geometry>
+
 namespace nurbeam {
 
 TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs) {
