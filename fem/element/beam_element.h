@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "fem/element/axial_sums.h"
 #include "fem/element/layout.h"
 #include "fem/element/quadrature.h"
 #include "fem/element/rancf_basis.h"
@@ -48,6 +50,13 @@ class BeamElement {
   ElementEnergy energy(const ElementState<D>& x, const Vector& load) const;
   /// Deformed [m].
   double length(const ElementVector<D>& q) const;
+  /// What the assumed strain is made of, with its gradient in q.
+  AxialSums<D> axial_sums(const ElementVector<D>& q) const;
+  /// Largest difference of the pointwise axial strain from the assumed one, at the Gauss points: how much
+  /// bending between the nodes the element cannot follow without stretching.
+  double axial_mismatch(const ElementVector<D>& q) const;
+  /// The axial strain that carries, where it is not the pointwise one.
+  std::optional<AssumedStrain> assumed_strain(const ElementVector<D>& q) const;
 
   /// Shape functions at material point s for the end positions in q.
   ShapeFunctions<double> shape(const ElementVector<D>& q, double s) const;
@@ -78,6 +87,11 @@ class BeamElement {
   };
   ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
   ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
+  void add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w, ElementMatrix<D>& K) const;
+  AxialSums<D> fixed_sums(const ElementVector<D>& q) const;
+  void add_ends(const ElementVector<D>& q, const ElementNodes<D>& e, AxialRates<D>& rates) const;
+  bool assumes_strain() const;
+  double axial_viscosity() const { return properties_->damping * properties_->axial_stiffness; }
 
   const ReferenceCurve* curve_;
   const BeamProperties* properties_;
@@ -86,6 +100,9 @@ class BeamElement {
   std::vector<FixedPoint> points_;  // fixed elements only
   Eigen::Matrix4d mass_;            // fixed elements only: rho A int S_k S_l ds
   Eigen::Vector4d load_factor_;     // fixed elements only: int S_k ds
+  Eigen::Matrix4d stretch_;         // fixed elements only: int S'_k S'_l ds, G of AxialSums
+  Eigen::Vector3d strain0_;         // fixed elements only: int eps_0 ds and eps_0 at both ends
+  double length_ = 0;               // fixed elements only: s_b - s_a [m]
 };
 
 template <int D>

@@ -108,8 +108,8 @@ Eigen::Vector3d ReferenceCurve::tangent(double s, bool from_left) const {
   return metric_ == Metric::label ? Eigen::Vector3d(r_u / segment_length(j)) : r_u.normalized();
 }
 
-double ReferenceCurve::strain(double s) const {
-  return metric_ == Metric::label ? (tangent(s).squaredNorm() - 1) / 2 : 0;
+double ReferenceCurve::strain(double s, bool from_left) const {
+  return metric_ == Metric::label ? (tangent(s, from_left).squaredNorm() - 1) / 2 : 0;
 }
 
 double ReferenceCurve::largest_curvature() const {

@@ -87,7 +87,7 @@ class ReferenceCurve {
   /// after it, or before it when `from_left`.
   Eigen::Vector3d tangent(double s, bool from_left = false) const;
   /// Green's strain (|dr/ds|^2 - 1)/2 of the drawing: 0 but with Metric::label.
-  double strain(double s) const;
+  double strain(double s, bool from_left = false) const;
   /// Largest curvature of the drawing, sampled [1/m].
   double largest_curvature() const;
 

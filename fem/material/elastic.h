@@ -11,7 +11,8 @@ struct EnergyDensity {
 };
 
 /// Strain energy per reference length psi(z) = EA (eps - eps_0)^2/2 + EI (K - kappa_0)^2/2 and its
-/// derivatives in z = (r_s, r_ss) and kappa_0. eps_0 = 0 but for Metric::label.
+/// derivatives in z = (r_s, r_ss) and kappa_0. eps_0 = 0 but for Metric::label. EA counts only where the
+/// beam's axial strain is pointwise: the energy of the assumed one is the element's (assumed_axial.h).
 template <int D>
 struct ElasticResponse {
   EnergyDensity energy;
@@ -22,13 +23,13 @@ struct ElasticResponse {
   double bending_stiffness;                         ///< -d(moment)/d(kappa_0) [N m^2]
 };
 
-/// The constitutive law: the only place that multiplies strain by stiffness.
+/// The constitutive law: with assumed_axial.h the only place that multiplies strain by stiffness.
 template <int D>
 ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Matrix<double, D, 1>& rs,
                                     const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
   const StrainMeasure<D> eps = axial_strain<D>(rs);
   const StrainMeasure<D> K = curvature(rs, rss, beam.curvature);
-  const double EA = beam.axial_stiffness, EI = beam.bending_stiffness;
+  const double EA = beam.pointwise_axial_stiffness(), EI = beam.bending_stiffness;
   const double stretch = eps.value - eps0, bend = K.value - kappa0;
   ElasticResponse<D> e;
   e.energy.axial = EA * stretch * stretch / 2;
@@ -52,15 +53,17 @@ struct SectionForces {
   double bending_moment = 0;  ///< EI (K - kappa_0) [N m]
 };
 
+/// `eps`: the axial strain that the section carries; eps_0 the drawing's.
 template <int D>
-SectionForces section_forces(const BeamProperties& beam, const Eigen::Matrix<double, D, 1>& rs,
+SectionForces section_forces(const BeamProperties& beam, double eps, const Eigen::Matrix<double, D, 1>& rs,
                              const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
-  const double eps = axial_strain<D>(rs).value, K = curvature(rs, rss, beam.curvature).value;
-  return {eps, K, beam.axial_stiffness * (eps - eps0) * rs.norm(), beam.bending_stiffness * (K - kappa0)};
+  const double K = curvature(rs, rss, beam.curvature).value;
+  return {eps, K, beam.axial_stiffness * (eps - eps0) * std::sqrt(1 + 2 * eps),
+          beam.bending_stiffness * (K - kappa0)};
 }
 
 /// Kelvin-Voigt stress y = c (EA eps' eps_z + EI K' K_z), with z' the rate at fixed material, and its
-/// derivatives.
+/// derivatives; EA as above.
 template <int D>
 struct DampingResponse {
   Eigen::Matrix<double, 2 * D, 1> stress;       ///< y
@@ -85,7 +88,7 @@ DampingResponse<D> damping_response(const BeamProperties& beam, const Eigen::Mat
     d.by_rate += viscosity * p.gradient * p.gradient.transpose();
     d.power += viscosity * p_rate * p_rate;
   };
-  add(axial_strain<D>(rs), beam.axial_stiffness);
+  add(axial_strain<D>(rs), beam.pointwise_axial_stiffness());
   add(curvature(rs, rss, beam.curvature), beam.bending_stiffness);
   return d;
 }

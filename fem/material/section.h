@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "fem/material/axial_strain.h"
 #include "fem/material/curvature_measure.h"
 
 namespace nurbeam {
@@ -31,7 +32,12 @@ struct BeamProperties {
   double mass_per_length = 0;    ///< rho A [kg/m]
   double damping = 0;            ///< c [s]
   CurvatureMeasure curvature = CurvatureMeasure::material;
+  AxialStrain axial_strain = AxialStrain::pointwise;
 
+  /// EA where it multiplies a pointwise strain; else 0.
+  double pointwise_axial_stiffness() const {
+    return axial_strain == AxialStrain::pointwise ? axial_stiffness : 0;
+  }
   BeamProperties() = default;
   BeamProperties(double EA, double EI, double rho_A, double c = 0,
                  CurvatureMeasure measure = CurvatureMeasure::material)

@@ -12,7 +12,7 @@ struct LengthControl {
 
 enum class MeshChange {
   none,
-  split,          ///< nodes inserted only: exact in position and velocity
+  split,          ///< nodes inserted only
   merge,          ///< at least one node removed: velocities by L2 projection
   becomes_point,  ///< a joint near a beam end or a permanent node: its node goes, it is carried as a point
   becomes_node    ///< a joint has come away from there

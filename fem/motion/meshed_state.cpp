@@ -9,6 +9,17 @@
 
 namespace nurbeam {
 
+namespace {
+
+// Whether a new mesh holds the motion as it is, or takes the papers' way.
+bool keeps_motion(const Beam& beam, MeshChange change) {
+  if (change == MeshChange::split || change == MeshChange::becomes_node)
+    return beam.properties.axial_strain == AxialStrain::pointwise;
+  return change == MeshChange::merge && beam.merge != MergeRule::standard;
+}
+
+}  // namespace
+
 MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
   MeshPlan plan = initial_plan(*model);
   auto system = std::make_unique<BeamSystem>(std::move(model), std::move(plan));
@@ -18,10 +29,7 @@ MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
 
 MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
   const BeamModel& model = at.system->model();
-  const bool keeps_velocities = next.change == MeshChange::merge &&
-                                model.beam_of(model.joints[next.joint]).merge != MergeRule::standard;
-  const bool exact = at_rest || next.change == MeshChange::split || next.change == MeshChange::becomes_node ||
-                     keeps_velocities;
+  const bool exact = at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change);
   const std::vector<bool> held(model.joints.size(), at_rest);
   auto to = std::make_unique<BeamSystem>(at.system->shared_model(), next.plan, held);
   if (exact) {

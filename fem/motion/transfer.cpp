@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "fem/motion/matched_node.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
@@ -215,13 +216,17 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   next.t = state.t;
   const int D = to.dimension();
   const Mesh &old = from.mesh(), &mesh = to.mesh();
+  std::vector<std::pair<int, int>> added;  // beam, node
   for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
-    for (const MeshNode& node : mesh.nodes[b]) {
+    for (int i = 0; i < static_cast<int>(mesh.nodes[b].size()); ++i) {
+      const MeshNode& node = mesh.nodes[b][i];
       const int kept = same_node(old.nodes[b], node);
-      if (kept >= 0)
+      if (kept >= 0) {
         keep_node(old.nodes[b][kept], state, node, D, next);
-      else
+      } else {
         place_node(from, state, b, node, next);
+        added.emplace_back(b, i);
+      }
     }
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
     next.q.segment(mesh.bodies[body], D) = state.q.segment(old.bodies[body], D);
@@ -232,6 +237,7 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
     next.q[mesh.joints[j].place] = state.q[old.joints[j].place];
     next.v[mesh.joints[j].place] = state.v[old.joints[j].place];
   }
+  for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
   return next;
 }
 

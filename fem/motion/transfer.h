@@ -6,7 +6,8 @@
 namespace nurbeam {
 
 /// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them and their rates from the
-/// old curve. Exact where nodes were only inserted (a split). t, q and v are set; a and lambda are zero.
+/// old curve, moved by match_axial_strain(). Where nodes were only inserted (a split) the axial energy is the
+/// old one, and with the pointwise strain the motion is. t, q and v are set; a and lambda are zero.
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to);
 
 /// A motion on another mesh, and what carrying it over took.

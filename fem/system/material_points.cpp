@@ -33,11 +33,16 @@ ElementRecord record(const MeshElement<D>& e, const State& state) {
   record.control_points = control_points<D>(e, q);
   record.s_start = q[Layout::place(0)];
   record.s_end = q[Layout::place(1)];
+  record.axial_mismatch = e.element.axial_mismatch(q);
+  const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
   for (int i = 0; i < 4; ++i) {
     const double s = e.element.place(q, i / 3.0);
     const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+    const double drawn = e.element.curve().strain(s),
+                 xi = (s - record.s_start) / (record.s_end - record.s_start);
+    const double strain = assumed ? drawn + assumed->carried(xi) : axial_strain<D>(p.rs).value;
     const SectionForces carried =
-        section_forces<D>(e.element.properties(), p.rs, p.rss, p.kappa0, e.element.curve().strain(s));
+        section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn);
     record.strain[i] = carried.strain;
     record.curvature[i] = carried.curvature;
     record.axial_force[i] = carried.axial_force;
@@ -89,6 +94,30 @@ MaterialPoint<3> material_point(const BeamSystem& system, const State& state, in
 ElementRecord record_element(const BeamSystem& system, const State& state, int span) {
   return with_assembly(
       system, [&]<int D>(const Assembly<D>& a) { return record<D>(a.elements()[span], state); });
+}
+
+std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        return a.elements()[span].element.assumed_strain(gather<D>(a.elements()[span], state.q));
+      });
+}
+
+StrainIntegral strain_integral(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        using Layout = ElementLayout<D>;
+        const MeshElement<D>& e = a.elements()[span];
+        const AxialSums<D> sums = e.element.axial_sums(gather<D>(e, state.q));
+        const auto part = [&](int first) {
+          return widened<D>(Eigen::Matrix<double, D, 1>(sums.y_q.template block<1, D>(0, first).transpose()));
+        };
+        return StrainIntegral{sums.y[0],
+                              {part(Layout::r(0)), part(Layout::r(1))},
+                              {part(Layout::slope(0)), part(Layout::slope(1))}};
+      });
 }
 
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span) {

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <functional>
+#include <optional>
 
 #include "fem/mesh/mesh_elements.h"
 #include "fem/system/beam_system.h"
@@ -14,15 +16,26 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 /// The element in a span as a rational cubic, and what it carries at the parameters u = 0, 1/3, 2/3, 1
 /// (`sample`).
 struct ElementRecord {
-  Eigen::Matrix4d control_points;        ///< homogeneous, deformed [m]
-  double s_start = 0, s_end = 0;         ///< reference arc length [m]
-  Eigen::Vector4d strain;                ///< Green's axial strain [-]
-  Eigen::Vector4d curvature;             ///< [1/m], by the model's measure; signed in a planar model
-  Eigen::Vector4d axial_force;           ///< elastic, tension positive [N]
-  Eigen::Vector4d bending_moment;        ///< elastic [N m]; signed in a planar model
+  Eigen::Matrix4d control_points;  ///< homogeneous, deformed [m]
+  double s_start = 0, s_end = 0;   ///< reference arc length [m]
+  double axial_mismatch = 0;       ///< pointwise less assumed axial strain, the largest: a coarse mesh [-]
+  Eigen::Vector4d strain;          ///< Green's axial strain that carries [-]
+  Eigen::Vector4d curvature;       ///< [1/m], by the model's measure; signed in a planar model
+  Eigen::Vector4d axial_force;     ///< elastic, tension positive [N]
+  Eigen::Vector4d bending_moment;  ///< elastic [N m]; signed in a planar model
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
 };
 ElementRecord record_element(const BeamSystem& system, const State& state, int span);
+
+/// The axial strain that the element in a span carries; nothing where it is the pointwise one.
+std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const State& state, int span);
+
+/// int eps ds of the pointwise axial strain over a span [m], and its gradients in r and r_s of its ends.
+struct StrainIntegral {
+  double value;
+  std::array<Eigen::Vector3d, 2> by_position, by_slope;
+};
+StrainIntegral strain_integral(const BeamSystem& system, const State& state, int span);
 
 /// The weights w_0..w_3 of the element in a span.
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span);

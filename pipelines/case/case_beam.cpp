@@ -153,6 +153,17 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
   return {.area = number(section, "area"), .second_moment = number(section, "second_moment")};
 }
 
+AxialStrain read_axial_strain(const Json& json, const std::string& path, Form form, Findings& findings) {
+  const AxialStrain strain = chosen<AxialStrain>(
+      json, "axial_strain",
+      {{"pointwise", AxialStrain::pointwise}, {"ends-and-mean", AxialStrain::ends_and_mean}});
+  if (strain == AxialStrain::ends_and_mean && form == Form::virtual_work)
+    findings.error(child(path, "axial_strain"),
+                   "is \"ends-and-mean\", but \"form\": \"virtual-work\" is the papers' element, which has "
+                   "\"pointwise\"; leave one of them out");
+  return strain;
+}
+
 }  // namespace
 
 CaseBeam read_beam(const Json& json, const std::string& path, const std::filesystem::path& directory,
@@ -197,6 +208,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.metric = chosen<Metric>(json, "metric", {{"reference", Metric::arc_length}, {"none", Metric::label}});
   beam.form =
       chosen<Form>(json, "form", {{"variational", Form::variational}, {"virtual-work", Form::virtual_work}});
+  beam.axial_strain = read_axial_strain(json, path, beam.form, findings);
   return beam;
 }
 

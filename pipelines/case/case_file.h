@@ -99,6 +99,7 @@ struct CaseBeam {
   MergeRule merge = MergeRule::standard;
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
+  AxialStrain axial_strain = AxialStrain::pointwise;
   Metric metric = Metric::arc_length;
   Form form = Form::variational;
 };

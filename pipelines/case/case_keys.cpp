@@ -148,6 +148,9 @@ Shape beam() {
         "the unstressed shape; as-drawn in planar models, straight in spatial ones when omitted"},
        {"curvature", choice({"material", "spatial"}),
         "curvature measure; spatial: the papers'; material when omitted"},
+       {"axial_strain", choice({"pointwise", "ends-and-mean"}),
+        "the axial strain that carries: that at every point, which locks in slender beams, or the quadratic with its "
+        "values at the element's ends and its mean, for cables and slender rods; pointwise when omitted"},
        {"form", choice({"variational", "virtual-work"}),
         "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
         "variational when omitted"},

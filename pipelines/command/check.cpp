@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <ostream>
 
+#include "fem/motion/snapshot.h"
+#include "fem/system/initial_state.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/results/run_summary.h"
 
 namespace nurbeam {
 
@@ -61,6 +64,20 @@ void print_joints(std::ostream& out, const BeamModel& model) {
           << (joint->rigid ? "rigid" : "hinged") << '\n';
 }
 
+// Where elements cannot even have the drawn shape without stretching.
+void print_mismatch(std::ostream& out, const BeamSystem& system) {
+  Mismatch mismatch;
+  Snapshot drawn;
+  drawn.beams = record_beams(system, drawn_state(system));
+  std::vector<std::string> names;
+  for (const Beam& beam : system.model().beams) names.push_back(beam.name);
+  mismatch.look_at(drawn, names);
+  constexpr double round_off = 1e-12;
+  if (mismatch.value > round_off)
+    out << "mesh      axial mismatch of the drawn shape up to " << text_of(mismatch.value, 3) << ", in "
+        << mismatch.beam << " at " << place(mismatch.s) << ": more elements there lessen it\n";
+}
+
 template <class Alternative, class List>
 std::ptrdiff_t count(const List& list) {
   return std::count_if(
@@ -75,10 +92,12 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
   if (!report.value) return exit_bad_input;
   const BeamModel& model = report.value->model;
   out << "case      " << case_file.name << '\n';
-  out << "model     " << (model.dimension == 2 ? "planar" : "spatial") << ", "
-      << make_mesh(model, initial_plan(model)).coordinate_count << " coordinates\n";
+  const BeamSystem system(model);
+  out << "model     " << (model.dimension == 2 ? "planar" : "spatial") << ", " << system.coordinate_count()
+      << " coordinates\n";
   for (const Beam& beam : model.beams) print_beam(out, beam);
   for (const Beam& beam : model.beams) print_corners(out, beam);
+  print_mismatch(out, system);
   print_sections(out, *report.value);
   print_joints(out, model);
   out << "supports  " << count<Support>(model.constraints) << ", point loads "

@@ -74,9 +74,11 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
   const Section sizes{section.area, section.second_moment, {}, section.radius, section.bore};
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
+  BeamProperties properties(sizes, material, from.curvature);
+  properties.axial_strain = from.axial_strain;
   return {.name = from.name,
           .curve = is_straight(from, curve, findings) ? curve.straightened() : curve,
-          .properties = BeamProperties(sizes, material, from.curvature),
+          .properties = properties,
           .section = sizes,
           .material = material,
           .weights = from.element == ElementKind::ale_ancf ? WeightRule::ones : from.weights,

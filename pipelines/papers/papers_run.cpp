@@ -65,6 +65,7 @@ Run run(BeamModel model, const Method& method, const Pace& pace) {
     beam.weights = method.weights;
     beam.merge = method.merge;
     beam.form = method.form;
+    beam.properties.axial_strain = method.axial_strain;
   }
   SimulationOptions options;
   options.end_time = pace.end;

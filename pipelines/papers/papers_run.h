@@ -15,9 +15,10 @@ struct Method {
   MergeRule merge = MergeRule::standard;
   LengthControl control = {};
   Form form = Form::variational;
+  AxialStrain axial_strain = AxialStrain::pointwise;
 };
 
-/// nurbeam's defaults.
+/// nurbeam's defaults but for the axial strain, which is the papers'.
 Method ours();
 /// ALE-RANCF as in the paper: constant weights, Eqs. 29-38, kept nodal velocities, its thresholds.
 Method paper_rule();

@@ -61,6 +61,7 @@ BeamModel pendulum_model(const PendulumMesh& mesh) {
                            mesh.curvature},
             .weights = mesh.ancf ? WeightRule::ones : WeightRule::material,
             .home = home_nodes({0, drawn.length()}, {mesh.elements}, mesh.grading)};
+  beam.properties.axial_strain = AxialStrain::pointwise;  // as in [S]
   for (HomeNode& node : beam.home) node.s = beam.curve.arc_length(0, drawn.parameter(0, node.s));
   beam.home.back().s = beam.curve.length();
   ModelBuilder builder(2, {0, -9.81, 0});

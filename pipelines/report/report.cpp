@@ -109,12 +109,16 @@ struct Field {
 };
 
 std::vector<Field> all_fields() {
-  return {{"strain", "1", [](const ElementRecord& e) { return e.strain; }},
-          {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
-          {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
-          {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
-          {"speed", "m/s",
-           [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }}};
+  return {
+      {"strain", "1", [](const ElementRecord& e) { return e.strain; }},
+      {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
+      {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
+      {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
+      {"speed", "m/s", [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }},
+      {"axial mismatch", "1",
+       [](const ElementRecord& e) -> Eigen::Vector4d {
+         return Eigen::Vector4d::Constant(e.axial_mismatch);
+       }}};
 }
 
 /// What must be known of all frames before one can be written.

@@ -25,6 +25,18 @@ inline constexpr EnergyPart energy_parts[] = {
     {"axial", &EnergyRecord::axial},           {"bending", &EnergyRecord::bending},
     {"dissipated", &EnergyRecord::dissipated}, {"total", &EnergyRecord::total}};
 
+struct ElementField {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+  double ElementRecord::*value;
+};
+inline constexpr ElementField element_fields[] = {
+    {"element_s_start", "m", "reference arc length at the element's start", &ElementRecord::s_start},
+    {"element_s_end", "m", "reference arc length at the element's end", &ElementRecord::s_end},
+    {"axial_mismatch", "1", "largest difference of the pointwise axial strain from the quadratic with its end values and mean",
+     &ElementRecord::axial_mismatch}};
+
 struct SampledField {
   const char* name;
   const char* unit;
@@ -32,7 +44,7 @@ struct SampledField {
   Eigen::Vector4d ElementRecord::*values;
 };
 inline constexpr SampledField sampled_fields[] = {
-    {"strain", "1", "Green's axial strain", &ElementRecord::strain},
+    {"strain", "1", "Green's axial strain that carries", &ElementRecord::strain},
     {"curvature", "m-1", "curvature, signed in a planar model", &ElementRecord::curvature},
     {"axial_force", "N", "elastic axial force, tension positive", &ElementRecord::axial_force},
     {"bending_moment", "N m", "elastic bending moment, signed in a planar model",

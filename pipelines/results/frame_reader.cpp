@@ -96,17 +96,17 @@ void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames
       frames[i].beams[b].elements.resize(counts[static_cast<std::ptrdiff_t>(i * beams + b)]);
   if (count == 0) return;
   const Doubles points = file_.doubles("control_points", {start, 0, 0}, {count, 4, 4});
-  const Doubles s_start = file_.doubles("element_s_start", {start}, {count});
-  const Doubles s_end = file_.doubles("element_s_end", {start}, {count});
   const Doubles velocity = file_.doubles("velocity", {start, 0, 0}, {count, sample_count, 3});
-  std::vector<Doubles> fields;
+  std::vector<Doubles> scalars, fields;
+  for (const ElementField& field : element_fields)  // results of earlier versions have fewer
+    scalars.push_back(file_.has_variable(field.name) ? file_.doubles(field.name, {start}, {count})
+                                                     : Doubles(count, 0));
   for (const SampledField& field : sampled_fields)
     fields.push_back(file_.doubles(field.name, {start, 0}, {count, sample_count}));
   std::size_t i = 0;
   for_each_element(frames, [&](ElementRecord& e) {
     e.control_points = Eigen::Map<const Eigen::Matrix4d>(points.data() + 16 * i);
-    e.s_start = s_start[i];
-    e.s_end = s_end[i];
+    for (std::size_t k = 0; k < scalars.size(); ++k) e.*element_fields[k].value = scalars[k][i];
     e.velocity = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(velocity.data() + 12 * i);
     for (std::size_t k = 0; k < fields.size(); ++k)
       e.*sampled_fields[k].values = Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i);

@@ -72,8 +72,8 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   };
   define("control_points", {"element", "control_point", "homogeneous"}, "m",
          "deformed rational cubic as (w x, w y, w z, w); the weight w has no unit");
-  define("element_s_start", {"element"}, "m", "reference arc length at the element's start");
-  define("element_s_end", {"element"}, "m", "reference arc length at the element's end");
+  for (const ElementField& field : element_fields)
+    define(field.name, {"element"}, field.unit, field.long_name);
   for (const SampledField& field : sampled_fields)
     define(field.name, {"element", "sample"}, field.unit, field.long_name);
   define("velocity", {"element", "sample", "xyz"}, "m s-1", "velocity of the material");
@@ -161,21 +161,20 @@ void FrameStore::write(std::span<const Snapshot> frames) {
 
 void FrameStore::write_elements(std::span<const Snapshot> frames) {
   std::size_t count = 0;
-  Doubles points, start, end, velocity;
-  std::vector<Doubles> fields(std::size(sampled_fields));
+  Doubles points, velocity;
+  std::vector<Doubles> scalars(std::size(element_fields)), fields(std::size(sampled_fields));
   for_each_element(frames, [&](const ElementRecord& e) {
     // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
     append(points, e.control_points);
-    start.push_back(e.s_start);
-    end.push_back(e.s_end);
+    for (std::size_t i = 0; i < scalars.size(); ++i) scalars[i].push_back(e.*element_fields[i].value);
     for (std::size_t i = 0; i < fields.size(); ++i) append(fields[i], e.*sampled_fields[i].values);
     append(velocity, e.velocity);
     ++count;
   });
   if (count == 0) return;
   file_.put("control_points", {elements_, 0, 0}, {count, 4, 4}, points.data());
-  file_.put("element_s_start", {elements_}, {count}, start.data());
-  file_.put("element_s_end", {elements_}, {count}, end.data());
+  for (std::size_t i = 0; i < scalars.size(); ++i)
+    file_.put(element_fields[i].name, {elements_}, {count}, scalars[i].data());
   for (std::size_t i = 0; i < fields.size(); ++i)
     file_.put(sampled_fields[i].name, {elements_, 0}, {count, sample_count}, fields[i].data());
   file_.put("velocity", {elements_, 0, 0}, {count, sample_count, 3}, velocity.data());

@@ -133,6 +133,11 @@ bool NetcdfFile::has_dimension(const std::string& name) const {
   return nc_inq_dimid(id_, name.c_str(), &dimension) == NC_NOERR;
 }
 
+bool NetcdfFile::has_variable(const std::string& name) const {
+  int variable;
+  return nc_inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
+}
+
 std::size_t NetcdfFile::size(const std::string& dimension) const {
   std::size_t size = 0;
   check(nc_inq_dimlen(id_, this->dimension(dimension), &size), dimension);

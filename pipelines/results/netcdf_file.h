@@ -39,6 +39,7 @@ class NetcdfFile {
   std::vector<std::string> texts(const std::string& name) const;
 
   bool has_dimension(const std::string& name) const;
+  bool has_variable(const std::string& name) const;
   std::size_t size(const std::string& dimension) const;
   void close();
 

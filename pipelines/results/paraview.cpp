@@ -116,7 +116,8 @@ Grid beam_grid(const std::vector<BeamRecord>& beams) {
   Grid grid{.cell_type = bezier_curve_cell, .points_per_cell = 4};
   grid.point_data = {{"RationalWeights", 1, {}}, {"strain", 1, {}},         {"curvature", 1, {}},
                      {"axial_force", 1, {}},     {"bending_moment", 1, {}}, {"velocity", 3, {}}};
-  grid.cell_data = {{"beam", 1, {}}, {"element", 1, {}}, {"s_start", 1, {}}, {"s_end", 1, {}}};
+  grid.cell_data = {
+      {"beam", 1, {}}, {"element", 1, {}}, {"s_start", 1, {}}, {"s_end", 1, {}}, {"axial_mismatch", 1, {}}};
   for (std::size_t b = 0; b < beams.size(); ++b)
     for (std::size_t i = 0; i < beams[b].elements.size(); ++i) {
       const ElementRecord& e = beams[b].elements[i];
@@ -134,8 +135,9 @@ Grid beam_grid(const std::vector<BeamRecord>& beams) {
         for (int column = 0; column < 7; ++column)
           grid.point_data[std::min(1 + column, 5)].values.push_back(values(k, column));
       }
-      const double of_cell[] = {static_cast<double>(b), static_cast<double>(i), e.s_start, e.s_end};
-      for (int k = 0; k < 4; ++k) grid.cell_data[k].values.push_back(of_cell[k]);
+      const double of_cell[] = {static_cast<double>(b), static_cast<double>(i), e.s_start, e.s_end,
+                                e.axial_mismatch};
+      for (int k = 0; k < 5; ++k) grid.cell_data[k].values.push_back(of_cell[k]);
     }
   return grid;
 }

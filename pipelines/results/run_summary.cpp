@@ -37,6 +37,13 @@ Json to_json(const Diagnostic& d) {
 Json to_json(const RunInput& input) { return {{"file", input.file.string()}, {"sha256", input.sha256}}; }
 Json to_json(const std::filesystem::path& path) { return path.string(); }
 
+Json to_json(const Mismatch& mismatch) {
+  return {{"largest", mismatch.value},
+          {"beam", mismatch.beam},
+          {"s [m]", mismatch.s},
+          {"time [s]", mismatch.time}};
+}
+
 template <class Item>
 Json list(const std::vector<Item>& items) {
   Json list = Json::array();
@@ -57,6 +64,7 @@ Json to_json(const RunSummary& summary) {
           {"rejected_steps", summary.rejected_steps},
           {"newton_iterations", summary.newton_iterations},
           {"energy_drift [J]", summary.energy_drift},
+          {"axial_mismatch", to_json(summary.axial_mismatch)},
           {"wall_times [s]",
            {{"import", wall.import},
             {"model", wall.model},
@@ -71,6 +79,13 @@ Json to_json(const RunSummary& summary) {
 }
 
 }  // namespace
+
+void Mismatch::look_at(const Snapshot& frame, const std::vector<std::string>& beams) {
+  for (std::size_t b = 0; b < frame.beams.size(); ++b)
+    for (const ElementRecord& e : frame.beams[b].elements)
+      if (e.axial_mismatch > value)
+        *this = {e.axial_mismatch, beams.at(b), (e.s_start + e.s_end) / 2, frame.time};
+}
 
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
   // Names from files need not be valid UTF-8: what is not is replaced.

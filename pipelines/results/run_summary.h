@@ -6,6 +6,7 @@
 
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/run_event.h"
+#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
@@ -24,6 +25,15 @@ struct PhaseTimes {
   double output = 0;
 };
 
+/// The largest axial mismatch (ElementRecord) of a run: where the mesh is coarsest for what it has to do.
+struct Mismatch {
+  double value = 0;
+  std::string beam;
+  double s = 0, time = 0;  ///< the element's middle [m], [s]
+
+  void look_at(const Snapshot& frame, const std::vector<std::string>& beams);
+};
+
 /// What run.json says about a run.
 struct RunSummary {
   std::string version;
@@ -39,6 +49,7 @@ struct RunSummary {
   std::vector<std::string> beams, bodies;  ///< names of the model's, for the events
   double energy_drift =
       0;  ///< largest departure of the total energy, with the dissipated, from its start [J]
+  Mismatch axial_mismatch;
   std::vector<Diagnostic> diagnostics;
   std::vector<std::filesystem::path> files;  ///< written, relative to the results directory
 };

@@ -63,6 +63,8 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       cad_(case_file, built, directory, from ? from->snapshots : 0) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
+  for (std::size_t i = 0; from && i < from->snapshots; ++i)
+    mismatch_.look_at(StoredFrames(directory).read(i, 1)[0], snapshot_names(built).beams);
 }
 
 template <class Work>
@@ -77,6 +79,7 @@ void RunOutputs::write(const Snapshot& local) {
     const Snapshot frame = to_world(built_.frame, local);
     results_.write(frame);
     if (paraview_) paraview_->write(frame);
+    mismatch_.look_at(frame, snapshot_names(built_).beams);
     cad_.write(frame, diagnostics_);
   });
 }

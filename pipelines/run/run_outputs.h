@@ -8,6 +8,7 @@
 #include "pipelines/results/paraview.h"
 #include "pipelines/results/restart_file.h"
 #include "pipelines/results/results.h"
+#include "pipelines/results/run_summary.h"
 #include "pipelines/run/cad_output.h"
 
 namespace nurbeam {
@@ -32,6 +33,8 @@ class RunOutputs {
   void finish();
   /// What could not be written into a CAD file; the run goes on.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  /// The largest over all frames.
+  const Mismatch& axial_mismatch() const { return mismatch_; }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
 
@@ -49,6 +52,7 @@ class RunOutputs {
   Clock::time_point last_restart_ = Clock::now();
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
+  Mismatch mismatch_;
 };
 
 }  // namespace nurbeam

@@ -129,6 +129,7 @@ void VerifyResult::add(ConvergenceTable table, double expected, double tolerance
 
 std::vector<VerifyProblem> verification_problems() {
   std::vector<VerifyProblem> all = statics_problems();
+  append(all, axial_strain_problems());
   append(all, dynamics_problems());
   append(all, invariance_problems());
   append(all, sliding_problems());

@@ -52,6 +52,7 @@ struct VerifyProblem {
 std::vector<VerifyProblem> verification_problems();
 /// Its families.
 std::vector<VerifyProblem> statics_problems();
+std::vector<VerifyProblem> axial_strain_problems();
 std::vector<VerifyProblem> dynamics_problems();
 std::vector<VerifyProblem> sliding_problems();
 std::vector<VerifyProblem> invariance_problems();

@@ -1,5 +1,6 @@
 #include "pipelines/verification/verify_oracles.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,6 +32,27 @@ Tip elastica_tip(double q) {
            1 / std::numbers::sqrt2, 1 - 1e-12);
   const double drop = 1 - 2 * (std::comp_ellint_2(p) - std::ellint_2(p, phi(p))) / std::sqrt(q);
   return {std::sqrt(2 * (2 * p * p - 1) / q), -drop};
+}
+
+Tip stretching_elastica_tip(double EA, double q) {
+  constexpr int steps = 4000;
+  const StringLaw law{.EA = EA, .w = 0};
+  const auto rate = [&](const Eigen::Vector4d& y) {  // theta, M, x, y
+    const double lambda = law.stretch(-q * std::sin(y[0]));
+    return Eigen::Vector4d(y[1], lambda * q * std::cos(y[0]), lambda * std::cos(y[0]),
+                           lambda * std::sin(y[0]));
+  };
+  const auto end = [&](double root_moment) {
+    Eigen::Vector4d y(0, root_moment, 0, 0);
+    constexpr double h = 1.0 / steps;
+    for (int i = 0; i < steps; ++i) {
+      const Eigen::Vector4d k1 = rate(y), k2 = rate(y + h / 2 * k1), k3 = rate(y + h / 2 * k2);
+      y += h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(y + h * k3));
+    }
+    return y;
+  };
+  const Eigen::Vector4d y = end(root([&](double M) { return end(M)[1]; }, -1.2 * q, 0));
+  return {y[2], y[3]};
 }
 
 double StringLaw::stretch(double T) const {

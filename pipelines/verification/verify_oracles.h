@@ -17,6 +17,11 @@ Tip roll_up_tip(double m);
 /// Inextensible cantilever under a dead tip load across it, downwards, q = P L^2/EI; Mattiasson (1981).
 Tip elastica_tip(double q);
 
+/// A cantilever of unit length and bending stiffness that stretches, axial stiffness EA (Green's law: the
+/// force is EA lambda (lambda^2 - 1)/2 at the stretch lambda), under a dead tip load q downwards: theta' = M,
+/// M' = lambda q cos(theta), r' = lambda (cos, sin)(theta), by shooting and Runge-Kutta.
+Tip stretching_elastica_tip(double EA, double q);
+
 struct StringShape {
   double x = 0, y = 0, axial_energy = 0;
 };

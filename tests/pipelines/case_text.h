@@ -58,7 +58,7 @@ inline const char* const full_case = R"({
       "material": { "density": "7.2 g/cm^3", "youngs_modulus": "20 MPa", "damping": "1 ms" },
       "elements": { "per_segment": 2, "grading": "-2 cm" },
       "element": "ale-ancf", "weights": "constant", "merge": "paper", "metric": "reference",
-      "stress_free": "straight", "curvature": "spatial", "form": "variational",
+      "stress_free": "straight", "curvature": "spatial", "form": "variational", "axial_strain": "pointwise",
       "corners": "hinge", "smooth_up_to": 3, "closed": false, "approximation_tolerance": "1 um"
     },
     {

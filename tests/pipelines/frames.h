@@ -39,6 +39,7 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
       EXPECT_EQ(x.strain, y.strain);
       EXPECT_EQ(x.curvature, y.curvature);
       EXPECT_EQ(x.axial_force, y.axial_force);
+      EXPECT_EQ(x.axial_mismatch, y.axial_mismatch);
       EXPECT_EQ(x.bending_moment, y.bending_moment);
       EXPECT_EQ(x.velocity, y.velocity);
     }

@@ -190,7 +190,42 @@ struct Witness {
     T bending = T(properties.bending_stiffness / 2) * bend * bend;
     if (D == 3 && straight)
       bending = bending - T(properties.bending_stiffness * curvature_rounding * curvature_rounding / 2);
-    return T(properties.axial_stiffness / 2) * eps * eps + bending - load_r;
+    return T(pointwise() ? properties.axial_stiffness / 2 : 0) * eps * eps + bending - load_r;
+  }
+
+  bool pointwise() const { return properties.axial_strain == AxialStrain::pointwise; }
+
+  // int x^2 ds of the quadratic x = a + b xi + c xi^2 with these end values and this mean, over a length.
+  template <class T>
+  static T integral_of_square(const T& at_a, const T& at_b, const T& mean, const T& length) {
+    const T c = T(3.0) * (at_a + at_b) - T(6.0) * mean, b = at_b - at_a - c;
+    T sum(0.0);
+    for (int g = 0; g < GaussRule::size; ++g) {
+      const double xi = GaussRule::points[g];
+      const T x = at_a + b * T(xi) + c * T(xi * xi);
+      sum = sum + T(GaussRule::weights[g]) * x * x;
+    }
+    return length * sum;
+  }
+
+  template <class T>
+  T strain(const std::array<T, n>& q, const T& s) const {
+    const auto r = jets<T>(q, s);
+    T rs2(0.0);
+    for (int d = 0; d < D; ++d) rs2 = rs2 + r[1][d] * r[1][d];
+    return (rs2 - T(1.0)) / T(2.0);
+  }
+
+  // Energy of the assumed axial strain.
+  template <class T>
+  T axial_energy(const std::array<T, n>& q) const {
+    if (pointwise()) return T(0.0);
+    T integral(0.0);
+    visit_points<T>(q, [&](const T& s, const T& weight) { integral = integral + weight * strain<T>(q, s); });
+    const T length = q[4 * D + 1] - q[4 * D];
+    return T(properties.axial_stiffness / 2) * integral_of_square<T>(strain<T>(q, q[4 * D]),
+                                                                     strain<T>(q, q[4 * D + 1]),
+                                                                     integral / length, length);
   }
 
   template <class T>
@@ -204,7 +239,7 @@ struct Witness {
       for (int d = 0; d < D; ++d) speed2 = speed2 + velocity[d].d * velocity[d].d;
       sum = sum + weight * (T(properties.mass_per_length / 2) * speed2 - potential<T>(q, s));
     });
-    return sum;
+    return sum - axial_energy<T>(q);
   }
 
   // Rayleigh's dissipation function: half the power lost.
@@ -212,15 +247,23 @@ struct Witness {
   T dissipation(const std::array<T, n>& q, const std::array<T, n>& v) const {
     T sum(0.0);
     if (properties.damping == 0) return sum;
+    std::array<Dual<T>, n> moving;
+    for (int i = 0; i < n; ++i) moving[i] = {q[i], v[i]};
+    if (!pointwise()) {
+      const auto rate = [&](const T& s) { return strain<Dual<T>>(moving, lifted(s)).d; };
+      T integral(0.0);
+      visit_points<T>(q, [&](const T& s, const T& weight) { integral = integral + weight * rate(s); });
+      const T length = q[4 * D + 1] - q[4 * D];
+      sum = T(properties.damping / 2 * properties.axial_stiffness) *
+            integral_of_square<T>(rate(q[4 * D]), rate(q[4 * D + 1]), integral / length, length);
+    }
     visit_points<T>(q, [&](const T& s, const T& weight) {
-      std::array<Dual<T>, n> moving;
-      for (int i = 0; i < n; ++i) moving[i] = {q[i], v[i]};
       const auto r = jets<Dual<T>>(moving, lifted(s));
       Dual<T> rs2(0.0);
       for (int d = 0; d < D; ++d) rs2 = rs2 + r[1][d] * r[1][d];
       const T eps_rate = rs2.d / T(2.0), K_rate = curvature<Dual<T>>(r[1], r[2]).d;
       sum = sum + weight * T(properties.damping / 2) *
-                      (T(properties.axial_stiffness) * eps_rate * eps_rate +
+                      (T(pointwise() ? properties.axial_stiffness : 0) * eps_rate * eps_rate +
                        T(properties.bending_stiffness) * K_rate * K_rate);
     });
     return sum;
@@ -302,6 +345,7 @@ struct Variant {
   bool constant_weights, straight;
   double damping;
   CurvatureMeasure curvature;
+  AxialStrain axial_strain = AxialStrain::ends_and_mean;
   bool virtual_work = false;
 };
 
@@ -318,6 +362,7 @@ void check_against_witness(const Variant& variant, int seed) {
   witness.chart.segment = variant.segment;
   if (variant.constant_weights) witness.chart.constant_weights = {1.0, 1.2, 0.9, 1.1};
   witness.properties = {300.0, 2.0, 0.7, variant.damping, variant.curvature};
+  witness.properties.axial_strain = variant.axial_strain;
   for (int d = 0; d < D; ++d) witness.load[d] = unit(random);
 
   const ReferenceCurve drawn({cubic}, D), curve = variant.straight ? drawn.straightened() : drawn;
@@ -383,8 +428,14 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"ConstantWeights", 0, true, false, 0.1, CurvatureMeasure::material},
         Variant{"ArcLengthCubic", -1, false, false, 0.1, CurvatureMeasure::material},
         Variant{"ArcLengthConstantWeights", -1, true, false, 0, CurvatureMeasure::spatial},
-        Variant{"VirtualWork", 0, false, false, 0.2, CurvatureMeasure::material, true},
-        Variant{"VirtualWorkConstantWeights", 0, true, true, 0, CurvatureMeasure::spatial, true}),
+        Variant{"PointwiseStrainDamped", 0, false, false, 0.2, CurvatureMeasure::material,
+                AxialStrain::pointwise},
+        Variant{"PointwiseStrainArcLength", -1, false, false, 0, CurvatureMeasure::spatial,
+                AxialStrain::pointwise},
+        Variant{"VirtualWork", 0, false, false, 0.2, CurvatureMeasure::material, AxialStrain::pointwise,
+                true},
+        Variant{"VirtualWorkConstantWeights", 0, true, true, 0, CurvatureMeasure::spatial,
+                AxialStrain::pointwise, true}),
     name_of);
 
 }  // namespace

@@ -71,8 +71,10 @@ struct SplitModel {
   BeamModel model;
   MeshPlan full, coarse;
 
-  SplitModel(std::mt19937& random, bool moving, bool straight) {
-    model = one_beam(uneven_axis(random, D), D, {300, 2, 0.7, 0, {}}, 8, {});
+  SplitModel(std::mt19937& random, bool moving, bool straight, AxialStrain strain) {
+    BeamProperties properties(300, 2, 0.7, 0, {});
+    properties.axial_strain = strain;
+    model = one_beam(uneven_axis(random, D), D, properties, 8, {});
     if (straight) model.beams[0].curve = model.beams[0].curve.straightened();
     const auto& home = model.beams[0].home;
     testing::add_slider(model, 0.8, home[2].s + 0.3 * (home[3].s - home[2].s));
@@ -87,7 +89,7 @@ struct SplitModel {
 template <int D>
 void check_split(bool moving, int seed) {
   std::mt19937 random(seed);
-  const SplitModel<D> split(random, moving, D == 3);
+  const SplitModel<D> split(random, moving, D == 3, AxialStrain::pointwise);
   const BeamSystem from(split.model, split.coarse), to(split.model, split.full);
   const State before = disturbed_state(from, random);
   const State after = interpolated(from, before, to);
@@ -107,16 +109,53 @@ void check_split(bool moving, int seed) {
   EXPECT_LT((b.momentum - a.momentum).norm(), 1e-12 * a.scale);
 }
 
+// With the pointwise strain: the node stays on the curve.
 TEST(Split, OfAnElementWithFixedEndsChangesNothingInThePlane) { check_split<2>(false, 1); }
 TEST(Split, OfAnElementWithFixedEndsChangesNothingInSpace) { check_split<3>(false, 2); }
 TEST(Split, OfAnElementWithAMovingEndChangesNothingInThePlane) { check_split<2>(true, 3); }
 TEST(Split, OfAnElementWithAMovingEndChangesNothingInSpace) { check_split<3>(true, 4); }
 
+// With the assumed strain: both halves carry what the whole did.
+template <int D>
+void check_matched_split(bool moving, int seed) {
+  std::mt19937 random(seed);
+  const SplitModel<D> split(random, moving, D == 3, AxialStrain::ends_and_mean);
+  const BeamSystem from(split.model, split.coarse), to(split.model, split.full);
+  const State before = disturbed_state(from, random, 0.01);
+  const State after = interpolated(from, before, to);
+  const double axial = energy(from, before).axial;
+  EXPECT_NEAR(energy(to, after).axial, axial, 1e-12 * axial);
+  const auto carried = [&](const BeamSystem& system, const State& state, double s) {
+    const int i = find_span(system.model(), system.mesh(), state.q, 0, s);
+    const MeshSpan& span = system.mesh().spans[i];
+    const double start = span.start(state.q);
+    return assumed_strain(system, state, i)->at((s - start) / (span.end(state.q) - start));
+  };
+  double moved = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double s = split.model.beams[0].curve.length() * (i + 0.5) / 200;
+    EXPECT_NEAR(carried(to, after, s), carried(from, before, s), 1e-12);
+    moved =
+        std::max(moved, (material_point(from, before, 0, s).r - material_point(to, after, 0, s).r).norm());
+  }
+  EXPECT_GT(moved, 1e-9);  // there was something to match
+  EXPECT_LT(moved, 5e-3);
+}
+
+TEST(MatchedSplit, OfAnElementWithFixedEndsKeepsItsAxialStrainInThePlane) {
+  check_matched_split<2>(false, 21);
+}
+TEST(MatchedSplit, OfAnElementWithFixedEndsKeepsItsAxialStrainInSpace) { check_matched_split<3>(false, 22); }
+TEST(MatchedSplit, OfAnElementWithAMovingEndKeepsItsAxialStrainInThePlane) {
+  check_matched_split<2>(true, 23);
+}
+TEST(MatchedSplit, OfAnElementWithAMovingEndKeepsItsAxialStrainInSpace) { check_matched_split<3>(true, 24); }
+
 // The change of momentum over a merge must come from the supports; a free beam has none.
 template <int D>
 void check_merge(bool moving, int seed) {
   std::mt19937 random(seed);
-  const SplitModel<D> split(random, moving, D == 3);
+  const SplitModel<D> split(random, moving, D == 3, AxialStrain::ends_and_mean);
   const BeamSystem from(split.model, split.full), to(split.model, split.coarse);
   const State before = disturbed_state(from, random, 0.02);
   const std::optional<Transferred> after = projected(from, before, to);

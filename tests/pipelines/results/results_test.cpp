@@ -31,6 +31,7 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
       element.strain = four();
       element.curvature = four();
       element.axial_force = four();
+      element.axial_mismatch = four()[0];
       element.bending_moment = four();
       element.velocity = Eigen::Matrix<double, 3, 4>::NullaryExpr([&] { return number(); });
       record.elements.push_back(element);
