@@ -34,7 +34,7 @@ struct ElementField {
 inline constexpr ElementField element_fields[] = {
     {"element_s_start", "m", "reference arc length at the element's start", &ElementRecord::s_start},
     {"element_s_end", "m", "reference arc length at the element's end", &ElementRecord::s_end},
-    {"axial_mismatch", "1", "largest difference of the pointwise axial strain from the quadratic with its end values and mean",
+    {"axial_mismatch", "1", "largest difference of the pointwise from the assumed axial strain",
      &ElementRecord::axial_mismatch}};
 
 struct SampledField {
