@@ -1,3 +1,5 @@
+// The own header comes late on purpose.
+// clang-format off
 #include <vector>
 
 #include "solver/event.h"
