@@ -103,7 +103,7 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
     axial.y[0] += omega * (rs.value.squaredNorm() - 1) / 2;
     if (!(properties_->damping > 0)) return;
     sum.dissipation += omega * damping_response<D>(*properties_, rs.value, rss.value, rate).power;
-    axial_rates.add(0, rs, rss, s, weight);
+    if (assumes_strain()) axial_rates.add(0, rs, rss, s, weight);
   });
   if (!assumes_strain()) return sum;
   if (fixed()) axial.y.template head<3>() -= strain0_;

@@ -63,8 +63,10 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       cad_(case_file, built, directory, from ? from->snapshots : 0) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
-  for (std::size_t i = 0; from && i < from->snapshots; ++i)
-    mismatch_.look_at(StoredFrames(directory).read(i, 1)[0], snapshot_names(built).beams);
+  if (!from || from->snapshots == 0) return;
+  const StoredFrames stored(directory);
+  for (std::size_t i = 0; i < from->snapshots; ++i)
+    mismatch_.look_at(stored.read(i, 1)[0], stored.names().beams);
 }
 
 template <class Work>
