@@ -32,7 +32,7 @@ void require_finite_and_sorted(const std::vector<double>& knots) {
 KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree), knots_(std::move(knots)) {
   require(degree >= 1, "degree is ", degree, "; it must be at least 1");
   require(knots_.size() / 2 >= static_cast<std::size_t>(degree) + 1, "there are ", knots_.size(),
-          " knots; degree ", degree, " needs at least 2 (degree + 1)");
+          " knots; degree ", degree, " needs at least ", 2 * (static_cast<std::size_t>(degree) + 1));
   require_finite_and_sorted(knots_);
   require(start() < end(), "the curve would live on [", start(), ", ", end(),
           "]; its start must lie before its end");

@@ -100,6 +100,14 @@ typename BoundCustomForce<D>::Points BoundCustomForce<D>::points(const MeshedBea
 }
 
 template <int D>
+double BoundCustomForce<D>::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  const Points before = points(at, from), after = points(at, to);
+  const Eigen::Matrix3Xd sum = from.load * force_->law(from.t, before.r, before.v).force +
+                               to.load * force_->law(to.t, after.r, after.v).force;
+  return sum.cwiseProduct(after.r - before.r).sum() / 2;
+}
+
+template <int D>
 void BoundCustomForce<D>::add_force(const MeshedBeams<D>& at, const State& state,
                                     Eigen::Ref<Eigen::VectorXd> dynamics) const {
   const Points p = points(at, state);

@@ -45,6 +45,8 @@ class BoundCustomForce {
   /// Of all elements that may hold a point while this mesh stands, and of the bodies.
   const std::vector<int>& dofs() const { return dofs_; }
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  /// Done between two states on one mesh [J]: the mean forces on the way.
+  double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
   template <class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if (w.stiffness != 0 || w.damping != 0) sink.own(tangent(at, state, w));

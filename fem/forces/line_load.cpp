@@ -7,4 +7,20 @@ Eigen::Vector3d LineLoad::per_length(int on_beam, double t) const {
   return value_and_slope(time, t).first * value;
 }
 
+template <int D>
+double LineLoad::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  const Eigen::Matrix<double, D, 1> mean =
+      ((from.load * per_length(beam, from.t) + to.load * per_length(beam, to.t)) / 2).template head<D>();
+  double sum = 0;
+  for (int i = at.mesh.first_span[beam]; i < at.mesh.first_span[beam + 1]; ++i) {
+    const MeshElement<D>& e = at.elements[i];
+    sum += e.element.energy(gather<D>(e, from), mean).external -
+           e.element.energy(gather<D>(e, to), mean).external;
+  }
+  return sum;
+}
+
+template double LineLoad::work(const MeshedBeams<2>&, const State&, const State&) const;
+template double LineLoad::work(const MeshedBeams<3>&, const State&, const State&) const;
+
 }  // namespace nurbeam

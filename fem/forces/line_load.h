@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "fem/mesh/mesh_elements.h"
 #include "fem/structure/time_table.h"
 
 namespace nurbeam {
@@ -13,6 +14,9 @@ struct LineLoad {
 
   /// On a beam at time t, for a full load [N/m]: elements carry it.
   Eigen::Vector3d per_length(int on_beam, double t) const;
+  /// Done between two states on one mesh [J]: the mean force on the way.
+  template <int D>
+  double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
 };
 
 }  // namespace nurbeam

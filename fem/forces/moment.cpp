@@ -22,6 +22,16 @@ void Moment::add_force(const MeshedBeams<D>& at, const State& state,
 }
 
 template <int D>
+double Moment::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
+    const auto p = LoadedPoint<D>::of(*this, at, state);
+    if (!p) return std::nullopt;
+    return LoadedField<D>(*p, p->rs, moment_on_slope(p->vector, widened<D>(p->rs.value)), at, state);
+  };
+  return load_work<D>(loaded(from), loaded(to), speed != 0, to.t - from.t);
+}
+
+template <int D>
 std::optional<LoadTangent<D>> Moment::tangent(const MeshedBeams<D>& at, const State& state,
                                               const TangentWeights& w) const {
   if (w.stiffness == 0) return std::nullopt;
@@ -31,6 +41,8 @@ std::optional<LoadTangent<D>> Moment::tangent(const MeshedBeams<D>& at, const St
   return LoadTangent<D>{p->element, p->stiffness(p->rs, f, w.stiffness)};
 }
 
+template double Moment::work(const MeshedBeams<2>&, const State&, const State&) const;
+template double Moment::work(const MeshedBeams<3>&, const State&, const State&) const;
 template void Moment::add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
 template void Moment::add_force(const MeshedBeams<3>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
 template std::optional<LoadTangent<2>> Moment::tangent(const MeshedBeams<2>&, const State&,

@@ -14,6 +14,9 @@ struct Moment : LoadAtPlace {
   template <int D>
   std::optional<LoadTangent<D>> tangent(const MeshedBeams<D>& at, const State& state,
                                         const TangentWeights& w) const;
+  /// Done between two states on one mesh [J].
+  template <int D>
+  double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if (const auto added = tangent(at, state, w)) sink.element(added->element, added->matrix);

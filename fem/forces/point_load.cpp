@@ -36,6 +36,32 @@ ElementMatrix<D> LoadedPoint<D>::stiffness(const PointField<D>& loaded, const Tu
 }
 
 template <int D>
+LoadedField<D>::LoadedField(const LoadedPoint<D>& p, const PointField<D>& loaded, const TurnedVector& f,
+                            const MeshedBeams<D>& at, const State& state)
+    : field(loaded.value), force(p.factor * f.value.template head<D>()), power(0) {
+  const auto& dofs = at.elements[p.element].dofs;
+  for (int k = 0; k < element_size<D>; ++k)
+    if (dofs[k] >= 0) power += state.v[dofs[k]] * loaded.gradient.col(k).dot(force);
+}
+
+template <int D>
+double load_work(const std::optional<LoadedField<D>>& from, const std::optional<LoadedField<D>>& to,
+                 bool moves, double time) {
+  if (!moves && from && to) return (from->force + to->force).dot(to->field - from->field) / 2;
+  return time / 2 * ((from ? from->power : 0) + (to ? to->power : 0));
+}
+
+template <int D>
+double PointLoad::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
+    const auto p = LoadedPoint<D>::of(*this, at, state);
+    if (!p) return std::nullopt;
+    return LoadedField<D>(*p, p->shape.position(), p->vector, at, state);
+  };
+  return load_work<D>(loaded(from), loaded(to), speed != 0, to.t - from.t);
+}
+
+template <int D>
 void PointLoad::add_force(const MeshedBeams<D>& at, const State& state,
                           Eigen::Ref<Eigen::VectorXd> dynamics) const {
   if (const auto p = LoadedPoint<D>::of(*this, at, state))
@@ -53,6 +79,14 @@ std::optional<LoadTangent<D>> PointLoad::tangent(const MeshedBeams<D>& at, const
 
 template struct LoadedPoint<2>;
 template struct LoadedPoint<3>;
+template struct LoadedField<2>;
+template struct LoadedField<3>;
+template double load_work<2>(const std::optional<LoadedField<2>>&, const std::optional<LoadedField<2>>&, bool,
+                             double);
+template double load_work<3>(const std::optional<LoadedField<3>>&, const std::optional<LoadedField<3>>&, bool,
+                             double);
+template double PointLoad::work(const MeshedBeams<2>&, const State&, const State&) const;
+template double PointLoad::work(const MeshedBeams<3>&, const State&, const State&) const;
 template void PointLoad::add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
 template void PointLoad::add_force(const MeshedBeams<3>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
 template std::optional<LoadTangent<2>> PointLoad::tangent(const MeshedBeams<2>&, const State&,

@@ -33,6 +33,23 @@ struct LoadedPoint {
   ElementMatrix<D> stiffness(const PointField<D>& loaded, const TurnedVector& f, double weight) const;
 };
 
+/// What a load at a place does at a moment: its force, the field it works on there, and its power.
+template <int D>
+struct LoadedField {
+  Eigen::Matrix<double, D, 1> field, force;
+  double power;  ///< [W]
+
+  LoadedField(const LoadedPoint<D>& p, const PointField<D>& loaded, const TurnedVector& f,
+              const MeshedBeams<D>& at, const State& state);
+};
+
+/// Work between two states [J]: the mean force on the way, which is exact for a dead force that stays at its
+/// place, or the mean power over the time where it `moves`. Nothing at a moment at which the load is not
+/// there.
+template <int D>
+double load_work(const std::optional<LoadedField<D>>& from, const std::optional<LoadedField<D>>& to,
+                 bool moves, double time);
+
 /// What a load adds to the tangent of one element.
 template <int D>
 struct LoadTangent {
@@ -47,6 +64,9 @@ struct PointLoad : LoadAtPlace {
   template <int D>
   std::optional<LoadTangent<D>> tangent(const MeshedBeams<D>& at, const State& state,
                                         const TangentWeights& w) const;
+  /// Done between two states on one mesh [J].
+  template <int D>
+  double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if (const auto added = tangent(at, state, w)) sink.element(added->element, added->matrix);

@@ -17,9 +17,9 @@ struct Checkpoint {
   MeshPlan plan;
   State state;
   IntegratorHistory history;
-  double next_step = 0;                     ///< what error control would take [s]
-  double last_step = 0;                     ///< [s]
-  double dissipated = 0, start_energy = 0;  ///< [J]
+  double next_step = 0;                                ///< what error control would take [s]
+  double last_step = 0;                                ///< [s]
+  double dissipated = 0, input = 0, start_energy = 0;  ///< [J]
   long iterations_in_snapshots = 0;
   std::vector<StepRecord> steps;  ///< since the last snapshot
   SimulationReport report;        ///< so far

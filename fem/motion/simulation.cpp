@@ -102,6 +102,7 @@ class Simulation {
     point.next_step = step_;
     point.last_step = last_step_;
     point.dissipated = dissipated_;
+    point.input = input_;
     point.start_energy = start_energy_;
     point.iterations_in_snapshots = iterations_written_;
     point.steps = steps_;
@@ -116,6 +117,7 @@ class Simulation {
     step_ = point.next_step;
     last_step_ = point.last_step;
     dissipated_ = point.dissipated;
+    input_ = point.input;
     start_energy_ = point.start_energy;
     iterations_written_ = point.iterations_in_snapshots;
     steps_ = point.steps;
@@ -133,7 +135,7 @@ class Simulation {
     return true;
   }
 
-  double total_energy() const { return energy(*at_.system, at_.state).mechanical() + dissipated_; }
+  double total_energy() const { return energy(*at_.system, at_.state).mechanical() + dissipated_ - input_; }
 
   void begin_motion() {
     start_energy_ = total_energy();
@@ -204,6 +206,7 @@ class Simulation {
     last_record_ = {at_.state.t, length, taken.newton_iterations, taken.rejected};
     steps_.push_back(last_record_);
     if (damped()) dissipated_ += dissipated_between(before, at_.state);
+    if (driven()) input_ += input_work(*at_.system, before, at_.state);
     if (ending && !end_sliding(*ending)) return false;
     if (crossing && !ending && !step_over(*crossing)) return false;
     if (!goes_on(meeting_bodies(at_))) return false;
@@ -232,6 +235,12 @@ class Simulation {
         [](const Beam& beam) { return beam.properties.damping > 0; });
   }
 
+  bool driven() const {
+    return !model_->forces.empty() || std::any_of(
+                                          model_->joints.begin(), model_->joints.end(),
+                                          [](const SlidingJoint& joint) { return joint.motion.has_value(); });
+  }
+
   // Goes on beyond a place that a joint has landed at: a point in the next element.
   bool step_over(const Crossing& crossing) {
     const double beyond = landing_tolerance(*model_, crossing.joint);
@@ -258,6 +267,7 @@ class Simulation {
     at_ = {std::move(next), std::move(moved)};
     if (!restart()) return false;
     finish_event(at_, event);
+    if (!leaves) dissipated_ += event.energy_before - event.energy_after;  // in the impact
     report_.events.push_back(std::move(event));
     return true;
   }
@@ -296,16 +306,20 @@ class Simulation {
     Snapshot snapshot = record_snapshot(*at_.system, at_.state, probes_);
     snapshot.steps = std::exchange(steps_, {});
     snapshot.energy.dissipated = dissipated_;
-    snapshot.energy.total += dissipated_;
+    snapshot.energy.input = input_;
+    snapshot.energy.total += dissipated_ - input_;
     snapshot.step = last_step_;
     snapshot.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
     iterations_written_ = report_.newton_iterations;
     if (!options_.statics) {
       double drift = snapshot.energy.total - start_energy_;
       report_.energy_drift = std::max(report_.energy_drift, std::abs(drift));
-      for (const RunEvent& event : report_.events) drift -= event.energy_after - event.energy_before;
+      for (const RunEvent& event : report_.events)
+        if (event.kind != EventKind::stopped_at_end) drift -= event.energy_after - event.energy_before;
       report_.integration_error = std::max(report_.integration_error, std::abs(drift));
       report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, snapshot.energy.kinetic);
+      report_.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending);
+      report_.gravity_energy.add(snapshot.energy.gravity);
     }
     last_written_ = at_.state.t;
     if (observer_.snapshot) observer_.snapshot(snapshot);
@@ -323,7 +337,7 @@ class Simulation {
   double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
   StepRecord last_record_;
   std::vector<StepRecord> steps_;  // since the last frame
-  double dissipated_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
+  double dissipated_ = 0, input_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
   long iterations_written_ = 0;
 };
 

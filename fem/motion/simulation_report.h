@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -38,6 +41,16 @@ struct Failure {
   StaticReport equilibrium = {};
 };
 
+/// The least and the greatest of an energy in the frames so far [J].
+struct EnergyRange {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  void add(double energy) {
+    least = std::min(least, energy);
+    greatest = std::max(greatest, energy);
+  }
+  double width() const { return std::max(0.0, greatest - least); }
+};
+
 /// How a simulation ended, and what it took.
 struct SimulationReport {
   SimulationStatus status = SimulationStatus::done;
@@ -48,7 +61,23 @@ struct SimulationReport {
   double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
   double integration_error = 0;    ///< the same without what events changed [J]
   double peak_kinetic_energy = 0;  ///< [J]
+  EnergyRange strain_energy, gravity_energy;
   std::vector<RunEvent> events;
+
+  /// What an error of the energy is to be compared with: the largest of the kinetic energy and of the changes
+  /// of strain and gravity energy [J].
+  double energy_scale() const {
+    return std::max({peak_kinetic_energy, strain_energy.width(), gravity_energy.width()});
+  }
+  /// What round-off may make of the total energy [J].
+  double energy_round_off() const {
+    const auto size = [](const EnergyRange& range) {
+      return range.width() > 0 || std::isfinite(range.least)
+                 ? std::max(std::abs(range.least), std::abs(range.greatest))
+                 : 0;
+    };
+    return 1e-11 * (peak_kinetic_energy + size(strain_energy) + size(gravity_energy));
+  }
 
   void fail(Failure why) {
     status = SimulationStatus::not_converged;

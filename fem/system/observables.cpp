@@ -33,6 +33,29 @@ SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
 }
 
 template <int D>
+double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
+  double sum = 0;
+  const MeshedBeams<D> at = a.beams();
+  for (const BoundForce<D>& force : a.forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.template work<D>(at, from, to); })
+            sum += f.template work<D>(at, from, to);
+          else if constexpr (requires { f.work(at, from, to); })
+            sum += f.work(at, from, to);
+        },
+        force);
+  for (std::size_t j = 0; j < a.model()->joints.size(); ++j) {
+    const auto rows = a.rows_of_place(static_cast<int>(j));
+    const int place = a.mesh().joints[j].place;
+    if (rows.count == 0 || place < 0) continue;
+    const double holding = -(from.lambda[rows.first] + to.lambda[rows.first]) / 2;
+    sum += holding * (to.q[place] - from.q[place]);
+  }
+  return sum;
+}
+
+template <int D>
 Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   using Layout = ElementLayout<D>;
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
@@ -58,6 +81,11 @@ Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
 SystemEnergy energy(const BeamSystem& system, const State& state) {
   return with_assembly(
       system, [&](const auto& a) { return energy_of(a, state); });
+}
+
+double input_work(const BeamSystem& system, const State& from, const State& to) {
+  return with_assembly(
+      system, [&](const auto& a) { return input_work_of(a, from, to); });
 }
 
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state) {

@@ -7,6 +7,9 @@
 namespace nurbeam {
 
 SystemEnergy energy(const BeamSystem& system, const State& state);
+/// Work of all forces but weight, and of all prescribed motions, between two states of the system [J]: by the
+/// mean force, of second order in the time between them, exact for dead forces that stay at their place.
+double input_work(const BeamSystem& system, const State& from, const State& to);
 /// Linear momentum [N s] of beams and bodies.
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state);
 /// Deformed length of a beam [m].

@@ -224,7 +224,7 @@ class Checker {
     if (!value.is_array()) return wrong_type(shape, value, path);
     if (value.size() != 3)
       return failed(path, "has " + std::to_string(value.size()) + " item(s); expected " + expected(shape));
-    const Shape component = {.kind = Kind::quantity, .dimension = shape.dimension};
+    const Shape component = {.kind = Kind::quantity, .dimension = shape.dimension, .range = shape.range};
     bool usable = true;
     for (std::size_t i = 0; i < 3; ++i) usable = check(component, value[i], child(path, i)) && usable;
     return usable;

@@ -41,7 +41,9 @@ Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(r
 Shape quantity(Dimension dimension, Range range = {}) {
   return {.kind = Kind::quantity, .dimension = dimension, .range = std::move(range)};
 }
-Shape vector(Dimension dimension) { return {.kind = Kind::vector, .dimension = dimension}; }
+Shape vector(Dimension dimension, Range of_components = {}) {
+  return {.kind = Kind::vector, .dimension = dimension, .range = std::move(of_components)};
+}
 Shape table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension}; }
 
 Shape place() {
@@ -237,7 +239,9 @@ Shape analysis() {
                   "end of the motion; a dynamic analysis needs it"},
                  {"step", quantity(Dimension::time, time_step()),
                   "fixed step; with ida how often length control looks"},
-                 {"tolerance", quantity(Dimension::number, positive()),
+                 {"tolerance",
+                  quantity(Dimension::number,
+                           {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
                   "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
                  {"integrator", integrator, "time integrator"},
                  {"length_control", length_control,
@@ -272,7 +276,7 @@ Shape body() {
        {"mass",
         quantity(Dimension::mass,
                  {.lower = 1e-9,
-                  .upper = 1e9,
+                  .upper = 1e12,
                   .reason = "a body without mass has no inertia; what lies outside is most likely in another "
                             "unit"}),
         "mass", required}});
@@ -298,20 +302,21 @@ std::string Range::rule() const {
 }
 
 const Shape& case_keys() {
-  static const Shape shape = object(
-      {{"$schema", text(), "for editors; ignored"},
-       {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
-        "version of the case-file format", required},
-       {"name", text(), "title of the case; the file's name when omitted"},
-       {"gravity", vector(Dimension::acceleration), "acceleration of gravity; [0, 0, -9.81] when omitted"},
-       {"beams", array(beam(), 1), "the beams", required},
-       {"bodies", array(body()), "point masses that slide on beams; each needs a sliding joint"},
-       {"loads", array(load()), "forces and moments"},
-       {"supports", array(support()), "where beams are held"},
-       {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
-       {"joints", array(beam_joint()), "which beams are joined to each other"},
-       {"analysis", analysis(), "what to compute", required},
-       {"output", output(), "what to store"}});
+  static const Shape shape =
+      object({{"$schema", text(), "for editors; ignored"},
+              {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
+               "version of the case-file format", required},
+              {"name", text(), "title of the case; the file's name when omitted"},
+              {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
+               "acceleration of gravity; [0, 0, -9.81] when omitted"},
+              {"beams", array(beam(), 1), "the beams", required},
+              {"bodies", array(body()), "point masses that slide on beams; each needs a sliding joint"},
+              {"loads", array(load()), "forces and moments"},
+              {"supports", array(support()), "where beams are held"},
+              {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+              {"joints", array(beam_joint()), "which beams are joined to each other"},
+              {"analysis", analysis(), "what to compute", required},
+              {"output", output(), "what to store"}});
   return shape;
 }
 

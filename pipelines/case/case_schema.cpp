@@ -64,8 +64,10 @@ Json schema_of(const Shape& shape) {
     case Kind::quantity:
       return with_range(quantity_schema(shape.dimension), shape.range);
     case Kind::vector:
-      return {
-          {"type", "array"}, {"items", quantity_schema(shape.dimension)}, {"minItems", 3}, {"maxItems", 3}};
+      return {{"type", "array"},
+              {"items", with_range(quantity_schema(shape.dimension), shape.range)},
+              {"minItems", 3},
+              {"maxItems", 3}};
     case Kind::table:
       return {{"type", "array"},
               {"items",

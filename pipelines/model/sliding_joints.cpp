@@ -50,13 +50,31 @@ void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurv
     end = end || s == curve.length();
   }
   if (start || end)
-    findings.warn(joint.path + ".at_beam_end", std::string("the ") +
-                                                   (start && end ? "start and the end"
-                                                    : start      ? "start"
-                                                                 : "end") +
-                                                   " of beam \"" + joint.beam + "\" " +
-                                                   (start && end ? "are" : "is") +
-                                                   " supported: there \"leave\" acts like \"stop\"");
+    findings.add(Severity::note, joint.path + ".at_beam_end",
+                 std::string("the ") +
+                     (start && end ? "start and the end"
+                      : start      ? "start"
+                                   : "end") +
+                     " of beam \"" + joint.beam + "\" " + (start && end ? "are" : "is") +
+                     " supported: there \"leave\" acts like \"stop\"");
+}
+
+// Two bodies on one beam must be apart: contact between them is not modelled.
+void check_apart(const std::vector<CaseSlidingJoint>& from, const BeamModel& model, Findings& findings) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const SlidingJoint &a = model.joints[i], &b = model.joints[j];
+      if (a.beam != b.beam) continue;
+      const Beam& beam = model.beam_of(b);
+      const double least = meeting_distance * beam.curve.length() / beam.home_intervals();
+      const double apart = std::abs(beam.curve.unrolled(a.s, b.s) - b.s);
+      if (apart <= least)
+        findings.error(from[j].path + ".at", "puts body \"" + from[j].body + "\" " + text_of(apart) +
+                                                 " m from body \"" + from[i].body + "\" on beam \"" +
+                                                 from[j].beam +
+                                                 "\"; contact is not modelled, bodies must be more than " +
+                                                 text_of(least) + " m apart");
+    }
 }
 
 }  // namespace
@@ -97,6 +115,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     model.joints.push_back(std::move(added));
   }
+  check_apart(resolved.sliding_joints, model, findings);
 }
 
 }  // namespace nurbeam

@@ -66,7 +66,7 @@ std::vector<Column> empty_columns(const SnapshotNames& names) {
     for (const char* part : {"fx", "fy", "fz"}) columns.push_back({"body", i, part, "N", {}});
   }
   for (std::size_t i = 0; i < names.beams.size(); ++i) columns.push_back({"beam", i, "length", "m", {}});
-  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total"})
+  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total", "input"})
     columns.push_back({"energy", 0, part, "J", {}});
   return columns;
 }
@@ -90,7 +90,7 @@ void append_values(const Snapshot& frame, std::vector<Column>& columns) {
   }
   for (const BeamRecord& beam : frame.beams) add(beam.length);
   const EnergyRecord& e = frame.energy;
-  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total}) add(energy);
+  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total, e.input}) add(energy);
 }
 
 // ---- shapes ----

@@ -20,10 +20,13 @@ struct EnergyPart {
   const char* name;
   double EnergyRecord::*value;
 };
-inline constexpr EnergyPart energy_parts[] = {
-    {"kinetic", &EnergyRecord::kinetic},       {"gravity", &EnergyRecord::gravity},
-    {"axial", &EnergyRecord::axial},           {"bending", &EnergyRecord::bending},
-    {"dissipated", &EnergyRecord::dissipated}, {"total", &EnergyRecord::total}};
+inline constexpr EnergyPart energy_parts[] = {{"kinetic", &EnergyRecord::kinetic},
+                                              {"gravity", &EnergyRecord::gravity},
+                                              {"axial", &EnergyRecord::axial},
+                                              {"bending", &EnergyRecord::bending},
+                                              {"dissipated", &EnergyRecord::dissipated},
+                                              {"total", &EnergyRecord::total},
+                                              {"input", &EnergyRecord::input}};
 
 struct ElementField {
   const char* name;

@@ -16,7 +16,7 @@ HistoryTable::HistoryTable(const std::filesystem::path& file, const SnapshotName
     row_ += "," + name + ".s [m]";
   }
   for (const std::string& name : names.beams) row_ += "," + name + ".length [m]";
-  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total"})
+  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total", "input"})
     row_ += std::string(",energy.") + part + " [J]";
   write_row();
 }
@@ -34,7 +34,7 @@ void HistoryTable::write(const Snapshot& frame) {
     add_number(beam.length);
   }
   const EnergyRecord& e = frame.energy;
-  for (const double value : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total}) {
+  for (const double value : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total, e.input}) {
     row_ += ',';
     add_number(value);
   }

@@ -198,6 +198,7 @@ void exchange(Archive& archive, Checkpoint& p) {
                   slot(point.next_step);
                   slot(point.last_step);
                   slot(point.dissipated);
+                  slot(point.input);
                   slot(point.start_energy);
                   slot(point.iterations_in_snapshots);
                   slot(r.time);
@@ -209,6 +210,10 @@ void exchange(Archive& archive, Checkpoint& p) {
                   slot(r.energy_drift);
                   slot(r.integration_error);
                   slot(r.peak_kinetic_energy);
+                  for (EnergyRange* range : {&r.strain_energy, &r.gravity_energy}) {
+                    slot(range->least);
+                    slot(range->greatest);
+                  }
                 });
   const std::string digest = inputs.at(0);
   p = row.at(0);

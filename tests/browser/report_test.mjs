@@ -115,7 +115,7 @@ for (const [directory, probe, body] of [['zipline', 'middle', 'trolley'], ['fall
         .filter((text) => Number(text.getAttribute('x')) < 60)
         .map((text) => [Number(text.textContent.replace('−', '-')), Number(text.getAttribute('y'))]));
       const [[low, y_low], [high, y_high]] = [ticks.at(0), ticks.at(-1)];
-      ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total'].forEach((part, i) => {
+      ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'].forEach((part, i) => {
         const value = csv.value(-1, `energy.${part} [J]`);
         const expected = y_low + ((value - low) / (high - low)) * (y_high - y_low);
         assert.ok(Math.abs(ends[i] - expected) < 0.3, `${part}: ${ends[i]}, not ${expected} pixels`);

@@ -15,6 +15,7 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   EXPECT_EQ(a.newton_iterations, b.newton_iterations);
   EXPECT_EQ(a.energy.kinetic, b.energy.kinetic);
   EXPECT_EQ(a.energy.dissipated, b.energy.dissipated);
+  EXPECT_EQ(a.energy.input, b.energy.input);
   EXPECT_EQ(a.energy.total, b.energy.total);
   ASSERT_EQ(a.probes.size(), b.probes.size());
   for (std::size_t i = 0; i < a.probes.size(); ++i) EXPECT_TRUE(equal(a.probes[i], b.probes[i]));

@@ -224,7 +224,7 @@ export function plots_of(data) {
   }
   plots.push({ title: 'Length of the beam', unit: 'm', id: 'length',
     series: names.beams.map((name, i) => ({ name, values: values('beam', i, 'length') })) });
-  const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total'];
+  const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'];
   plots.push({ title: 'Energy', unit: 'J', id: 'energy',
     series: energies.map((name) => ({ name, values: values('energy', 0, name) })) });
   const total = values('energy', 0, 'total');

@@ -87,7 +87,7 @@ export function model_tables(run) {
 /** Where the energy was at the start and the end of the run. */
 export function energy_table(data) {
   const last = data.time.length - 1;
-  const rows = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total'].map((name) => {
+  const rows = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'].map((name) => {
     const { values } = data.column('energy', 0, name);
     return last === 0 ? { energy: name, 'value [J]': values[0] }
       : { energy: name, 'start [J]': values[0], 'end [J]': values[last], 'change [J]': values[last] - values[0] };
@@ -96,7 +96,7 @@ export function energy_table(data) {
   return [
     table_of('Energy balance', rows),
     typeof drift === 'number' && last > 0
-      ? element('p', { class: 'note' }, `The total, with what was dissipated, departed by at most ${number(drift, 3)} J from its start.`)
+      ? element('p', { class: 'note' }, `The total, with what was dissipated and less the work put in, departed by at most ${number(drift, 3)} J from its start.`)
       : null,
   ];
 }

@@ -83,7 +83,7 @@ TEST(Results, HistoriesHaveTheColumnsOfTheContract) {
           "time [s],tip.x [m],tip.y [m],tip.z [m],tip.vx [m/s],tip.vy [m/s],tip.vz [m/s],trolley.x [m],"
           "trolley.y [m],trolley.z [m],trolley.vx [m/s],trolley.vy [m/s],trolley.vz [m/s],trolley.s [m],"
           "cable.length [m],arch.length [m],energy.kinetic [J],energy.gravity [J],energy.axial [J],"
-          "energy.bending [J],energy.dissipated [J],energy.total [J]"});
+          "energy.bending [J],energy.dissipated [J],energy.total [J],energy.input [J]"});
 }
 
 TEST(Results, HistoriesGiveEveryNumberBackExactly) {

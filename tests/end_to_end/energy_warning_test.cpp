@@ -1,0 +1,54 @@
+// "Do not trust the result": where energy comes from nowhere, and only there.
+
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+const char* const warning = "do not trust the result";
+
+CaseRun run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return run_file(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name, overrides);
+}
+
+TEST(EnergyWarning, IsNotSilencedByALoad) {
+  // A joint with a discontinuous slope on a stiff bent bar gains energy; the load of 1e-9 N does no work.
+  for (const char* name : {"d_unmasked.json", "d_masked_warning.json"})
+    EXPECT_TRUE(run_case(name).says(warning)) << name;
+}
+
+TEST(EnergyWarning, DoesNotRingOverRoundOff) {
+  const CaseRun run = run_case("d_rest_false_warning.json");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_FALSE(run.says(warning)) << run.messages;
+}
+
+TEST(EnergyWarning, CountsWhatAStopTakes) {
+  // A rider who stops at the end of a zip line: the impact's loss is dissipated, not lost from the balance.
+  const CaseRun run = run_case("u1_zip.json", {"output.every=0.2", "output.report=false"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_FALSE(run.says(warning)) << run.messages;
+  const double start = run.value(0, "energy.total [J]");
+  double drift = 0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i)
+    drift = std::max(drift, std::abs(run.value(i, "energy.total [J]") - start));
+  EXPECT_GT(run.last("energy.dissipated [J]"), 1000);
+  EXPECT_LT(drift, 0.2);
+}
+
+TEST(EnergyWarning, RingsWithALoadWhoseWorkIsBooked) {
+  // Far too long a step under a load that does work.
+  const CaseRun coarse = run_file(
+      sample("falling_beam/falling_beam.json"),
+      {R"(loads=[{"beam":"beam","at":"end","force":[0,1,0]}])", "analysis.step=2e-2", "output.every=0.02"});
+  EXPECT_TRUE(coarse.says(warning) || coarse.code != 0) << coarse.messages;
+  const CaseRun fine = run_file(sample("falling_beam/falling_beam.json"),
+                                {R"(loads=[{"beam":"beam","at":"end","force":[0,1,0]}])"});
+  EXPECT_EQ(fine.code, 0) << fine.messages;
+  EXPECT_FALSE(fine.says(warning)) << fine.messages;
+}
+
+}  // namespace
+}  // namespace nurbeam::test
