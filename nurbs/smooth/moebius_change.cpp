@@ -23,13 +23,6 @@ std::optional<MoebiusChange> next_change(const Piece& left, const MoebiusChange&
   return MoebiusChange{c, chart.length * chart.c * c / mu};
 }
 
-/// Whether two pieces share their tangent so well that a double knot moves nothing by more than tolerance.
-bool share_tangent(const Piece& left, const Piece& right, double tolerance) {
-  const Eigen::Vector3d a = leg(left, left.degree() - 1), b = leg(right, 0);
-  const double shorter = std::min(a.norm(), b.norm());
-  return shorter > 0 && (a.normalized() - b.normalized()).norm() * shorter <= tolerance;
-}
-
 /// Charts of the pieces first..last, C1 in homogeneous coordinates, with the least ratio of weights; and the
 /// logarithm of that ratio.
 std::pair<double, std::vector<MoebiusChange>> mildest_changes(const Pieces& pieces, int first, int last) {
@@ -69,6 +62,18 @@ std::optional<std::vector<MoebiusChange>> changes_of_run(const Pieces& pieces, i
     charts.push_back(*next);
   }
   return charts;
+}
+
+bool share_tangent(const Piece& left, const Piece& right, double tolerance) {
+  const Eigen::Vector3d a = leg(left, left.degree() - 1), b = leg(right, 0);
+  const double shorter = std::min(a.norm(), b.norm());
+  return shorter > 0 && (a.normalized() - b.normalized()).norm() * shorter <= tolerance;
+}
+
+std::optional<std::vector<MoebiusChange>> mild_changes(const Pieces& pieces, int first, int last) {
+  auto [spread, changes] = mildest_changes(pieces, first, last);
+  if (!(spread <= widest_spread)) return std::nullopt;
+  return std::move(changes);
 }
 
 Pieces changed(const Pieces& pieces, int first, const std::vector<MoebiusChange>& charts) {
