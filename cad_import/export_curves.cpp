@@ -46,6 +46,7 @@ std::string reason_of(const ChildResult& result, const char* work) {
 
 void check_pipe(const NamedPipe& pipe) {
   check_name(pipe.axis.name);
+  check_name(pipe.axis.part);
   if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
     throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + text_of(pipe.radius) +
                                 " m; it must be positive");
@@ -62,7 +63,10 @@ std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<Na
   const bool step = is_step_name(file);
   if (curves.empty())
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
-  for (const NamedCurve& curve : curves) check_name(curve.name);
+  for (const NamedCurve& curve : curves) {
+    check_name(curve.name);
+    check_name(curve.part);
+  }
   const ChildResult result = asked(WriteCurvesRequest{step, curves, unit}, {patience});
   if (result.status != ChildResult::Status::finished)
     return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing")}};

@@ -59,6 +59,7 @@
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/entity_origins.h"
+#include "cad_import/program/part_names.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
 #include "nurbs/number_text.h"
@@ -84,8 +85,16 @@ void note_approximation(const ImportedCurve& curve, const std::string& label, do
                      text_of(curve.deviation / metres_per_millimetre) + " mm");
 }
 
+// What is unnamed itself goes by the name of its part, but for the many edges of a solid.
+void name_by_part(const TopoDS_Shape& shape, const PartNames& parts, ImportedCurve& curve) {
+  if (!parts.IsBound(shape)) return;
+  const PartName& part = parts.Find(shape);
+  curve.part = part.path;
+  if (curve.name.empty() && (curve.free || curve.is_centre_line())) curve.name = part.own;
+}
+
 void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, const Origin& origin,
-              double tolerance, ImportReport& report) {
+              const PartNames& parts, double tolerance, ImportReport& report) {
   try {
     OCC_CATCH_SIGNALS
     ImportedCurve curve = imported_curve(edge, tolerance);
@@ -93,6 +102,7 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
     curve.layer = origin.appearance.layer;
     curve.colour = origin.appearance.colour;
     curve.free = free;
+    name_by_part(edge, parts, curve);
     note_approximation(curve, label, tolerance, report);
     report.curves.push_back(std::move(curve));
   } catch (const Standard_Failure& e) {
@@ -106,8 +116,8 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
 }
 
 // Centre lines stand after the curves of the file, whose numbers they leave as they are.
-void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, double tolerance,
-                      ImportReport& report) {
+void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const PartNames& parts,
+                      double tolerance, ImportReport& report) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   CentreLines found = centre_lines(shape, tolerance);
@@ -119,6 +129,7 @@ void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, double 
       line.curve.layer = known->second.appearance.layer;
       line.curve.colour = known->second.appearance.colour;
     }
+    name_by_part(faces(line.face), parts, line.curve);
     report.curves.push_back(std::move(line.curve));
   }
   for (const std::string& remark : found.remarks) add_diagnostic(report, Severity::note, "", remark);
@@ -128,6 +139,7 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return;
   const Origins origins = origins_of_edges_and_faces(reader, report);
+  const PartNames parts = part_names(reader, shape);
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -136,9 +148,9 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     const auto known = origins.find(edge.TShape().get());
     const Origin origin = known == origins.end() ? Origin{} : known->second;
     if (origin.defective) continue;
-    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, tolerance, report);
+    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
   }
-  add_centre_lines(shape, origins, tolerance, report);
+  add_centre_lines(shape, origins, parts, tolerance, report);
 }
 
 // What OpenCASCADE failed to read or to translate.

@@ -1,5 +1,6 @@
 #include "cad_import/step/step_text.h"
 
+#include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -18,11 +19,13 @@
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_GeometricSetSelect.hxx>
 #include <StepShape_ManifoldSolidBrep.hxx>
@@ -85,13 +88,12 @@ const char* step_unit(LengthUnit unit) {
 }
 
 // Global state of OpenCASCADE, which anything in the process may have changed.
-void set_parameters(LengthUnit unit) {
+void set_parameters(LengthUnit unit, bool assembly) {
   STEPControl_Controller::Init();
   set("xstep.cascade.unit", "MM");
   set("write.step.unit", step_unit(unit));
   set("write.step.schema", "AP214IS");
-  set("write.step.assembly", "Off");
-  set("write.step.product.name", "curves");
+  set("write.step.assembly", assembly ? "On" : "Off");
 }
 
 Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
@@ -126,12 +128,17 @@ TopoDS_Edge edge(const NamedCurve& named) {
   return maker.Edge();
 }
 
-TopoDS_Compound compound(const std::vector<NamedCurve>& curves) {
+TopoDS_Compound compound(const std::vector<TopoDS_Shape>& shapes) {
   TopoDS_Compound all;
   const BRep_Builder builder;
   builder.MakeCompound(all);
-  for (const NamedCurve& curve : curves) builder.Add(all, edge(curve));
+  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
   return all;
+}
+
+// One shape for all parts: a part alone, or the assembly of several.
+TopoDS_Shape assembled(const std::vector<TopoDS_Shape>& parts) {
+  return parts.size() == 1 ? parts[0] : compound(parts);
 }
 
 // Characters outside ASCII in hexadecimal, 8 digits each (ISO 10303-21, 6.4.3.3). They occur in names only,
@@ -176,6 +183,41 @@ void give_names(const StepData_StepModel& model, const std::vector<NamedCurve>& 
     if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(translated[i]))
       trimmed->BasisCurve()->SetName(name);
   }
+}
+
+Handle(TCollection_HAsciiString) ascii(const std::string& text) {
+  return new TCollection_HAsciiString(text.c_str());
+}
+
+const std::string& part_name(const NamedCurve& curve) { return curve.part.empty() ? curve.name : curve.part; }
+
+// Under their names: the products, that of an assembly first, and where it uses them.
+void name_products(const StepData_StepModel& model, const std::vector<std::string>& parts) {
+  std::vector<Handle(StepBasic_Product)> products;
+  std::vector<Handle(StepRepr_NextAssemblyUsageOccurrence)> uses;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (const auto product = Handle(StepBasic_Product)::DownCast(model.Value(i))) products.push_back(product);
+    if (const auto use = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(model.Value(i)))
+      uses.push_back(use);
+  }
+  const std::size_t above = parts.size() > 1 ? 1 : 0;
+  if (products.size() != parts.size() + above || uses.size() != above * parts.size())
+    throw std::runtime_error("OpenCASCADE did not make one product of each beam");
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    const Handle(TCollection_HAsciiString) name = ascii(i < above ? "beams" : parts[i - above]);
+    products[i]->SetId(name);
+    products[i]->SetName(name);
+  }
+  for (std::size_t i = 0; i < uses.size(); ++i) uses[i]->SetName(ascii(parts[i]));
+}
+
+void describe(const Handle(StepData_StepModel) & model, const std::string& name) {
+  APIHeaderSection_MakeHeader header(model);
+  header.SetName(ascii(name));
+  header.SetAuthorValue(1, ascii(""));
+  header.SetOrganizationValue(1, ascii(""));
+  header.SetOriginatingSystem(ascii("nurbeam"));
+  header.SetDescriptionValue(1, ascii("deformed beams"));
 }
 
 std::string text(STEPControl_Writer& writer) {
@@ -264,12 +306,19 @@ void give_names(const StepData_StepModel& model, const std::vector<NamedPipe>& p
 std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit);
+    set_parameters(unit, pipes.size() > 1);
+    std::vector<TopoDS_Shape> parts;
+    std::vector<std::string> names;
+    for (const NamedPipe& pipe : pipes) {
+      parts.push_back(swept(pipe));
+      names.push_back(part_name(pipe.axis));
+    }
     STEPControl_Writer writer;
-    for (const NamedPipe& pipe : pipes)
-      if (writer.Transfer(swept(pipe), STEPControl_ManifoldSolidBrep) != IFSelect_RetDone)
-        throw std::runtime_error("OpenCASCADE cannot translate the solids to STEP");
+    if (writer.Transfer(assembled(parts), STEPControl_AsIs) != IFSelect_RetDone)
+      throw std::runtime_error("OpenCASCADE cannot translate the solids to STEP");
     give_names(*writer.Model(), pipes);
+    name_products(*writer.Model(), names);
+    describe(writer.Model(), names[0]);
     return text(writer);
   } catch (const Standard_Failure& e) {
     throw std::runtime_error(std::string("OpenCASCADE cannot sweep a solid: ") + e.GetMessageString());
@@ -279,11 +328,19 @@ std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit
 std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit);
+    set_parameters(unit, curves.size() > 1);
+    std::vector<TopoDS_Shape> parts;
+    std::vector<std::string> names;
+    for (const NamedCurve& curve : curves) {
+      parts.push_back(edge(curve));
+      names.push_back(part_name(curve));
+    }
     STEPControl_Writer writer;
-    if (writer.Transfer(compound(curves), STEPControl_GeometricCurveSet) != IFSelect_RetDone)
+    if (writer.Transfer(assembled(parts), STEPControl_AsIs) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot translate the curves to STEP");
     give_names(*writer.Model(), curves);
+    name_products(*writer.Model(), names);
+    describe(writer.Model(), names[0]);
     return text(writer);
   } catch (const Standard_Failure& e) {
     throw std::runtime_error(std::string("OpenCASCADE cannot write a curve: ") + e.GetMessageString());

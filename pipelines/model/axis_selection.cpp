@@ -182,7 +182,7 @@ std::string several_chains(const std::vector<Chain>& chains, const ImportReport&
                text_of(length_of(chains[i], report), all_digits) + " m)";
   if (chains.size() > most_listed) message += "; ...";
   message +=
-      "; choose one with \"curve\", \"layer\", \"colour\", \"near\" or \"longest\", or take \"chains\": "
+      "; choose one with \"curve\", \"part\", \"layer\", \"colour\", \"near\" or \"longest\", or take \"chains\": "
       "\"all\"";
   const std::optional<Gap> gap = narrowest_gap_between(chains, report);
   if (gap && gap->width > tolerance)
@@ -221,7 +221,7 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
                                   " curves: " + list_of_curves(report, all_curves(report)));
     if (std::find(candidates.begin(), candidates.end(), index) == candidates.end())
       return failure("curve", "index " + std::to_string(*axis.curve_index) +
-                                  " is not among the curves of the layer and colour: " +
+                                  " is not among the curves of the part, layer and colour: " +
                                   list_of_curves(report, candidates));
     found = {index};
   } else {
@@ -243,8 +243,17 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
                               "; choose one by its index");
 }
 
+// Whether the part's path is this one or ends with it.
+bool is_in_part(const ImportedCurve& curve, const std::string& part) {
+  return curve.part == part || curve.part.ends_with("/" + part);
+}
+
 AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, double tolerance) {
   Indices candidates = all_curves(report);
+  if (axis.part) {
+    candidates = those(report, candidates, [&](const ImportedCurve& c) { return is_in_part(c, *axis.part); });
+    if (candidates.empty()) return without("part", *axis.part, report, &ImportedCurve::part);
+  }
   if (axis.layer) {
     candidates = those(report, candidates, [&](const ImportedCurve& c) { return c.layer == *axis.layer; });
     if (candidates.empty()) return without("layer", *axis.layer, report, &ImportedCurve::layer);

@@ -128,6 +128,20 @@ void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>&
                                            ": \"closed\": true makes it a ring");
 }
 
+// The axis with one tangent at each joint where the digits of the drawing, not its author, made a kink.
+std::vector<RationalCubic> without_kinks(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
+                                         Findings& findings) {
+  constexpr double arithmetic = 1e-12, digits = 1e-6;  // [rad]
+  const std::vector<Corner> kinks = corners_of(segments, arithmetic);
+  if (std::none_of(kinks.begin(), kinks.end(), [](const Corner& kink) { return kink.angle <= digits; }))
+    return segments;
+  SmoothCorners smooth = smooth_corners(segments, digits);
+  findings.add(Severity::note, beam.path + ".axis",
+               "tangents that differed by up to " + text_of(digits) +
+                   " rad were made one; largest deviation " + text_of(smooth.deviation) + " m");
+  return smooth.segments;
+}
+
 std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                                     Findings& findings) {
   SmoothCorners smooth = smooth_corners(segments, beam.smooth_angle);
@@ -187,6 +201,7 @@ BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies,
   } catch (const std::invalid_argument& problem) {
     findings.error(beam.path + ".axis", problem.what());
   }
+  if (!findings.has_errors()) axis.segments = without_kinks(beam, axis.segments, findings);
   if (!findings.has_errors() && beam.smooth_angle > 0)
     axis.segments = smoothed(beam, axis.segments, findings);
   if (!findings.has_errors() && beam.ring) {
