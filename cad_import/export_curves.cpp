@@ -41,6 +41,8 @@ constexpr std::chrono::seconds patience{120};
 std::string reason_of(const ChildResult& result, const char* work) {
   if (result.status == ChildResult::Status::timed_out)
     return std::string(work) + " takes longer than " + std::to_string(patience.count()) + " s";
+  if (result.status == ChildResult::Status::crashed)
+    return "OpenCASCADE crashed while " + std::string(work) + " (" + result.complaint + ")";
   return result.complaint;
 }
 

@@ -2,16 +2,7 @@
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeSolid.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
-#include <BRepCheck_Analyzer.hxx>
-#include <BRepGProp.hxx>
-#include <BRepOffsetAPI_MakePipe.hxx>
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
-#include <Eigen/Geometry>
-#include <GProp_GProps.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -33,27 +24,17 @@
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Shell.hxx>
-#include <TopoDS_Solid.hxx>
-#include <TopoDS_Wire.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <gp_Ax2.hxx>
-#include <gp_Circ.hxx>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "cad_import/report/length_unit.h"
-#include "nurbs/number_text.h"
+#include "cad_import/step/swept_pipe.h"
 
 namespace nurbeam {
 namespace {
@@ -230,68 +211,6 @@ std::string text(STEPControl_Writer& writer) {
   return step_encoded(stream.str());
 }
 
-gp_Vec vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-// OpenCASCADE does not always say that a sweep went wrong.
-void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
-  constexpr double allowed = 1e-3;
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(solid, properties, 0.01 * allowed);
-  const double area = std::numbers::pi * (pipe.radius * pipe.radius - pipe.bore * pipe.bore);
-  // Pappus: a section whose centroid is on the curve sweeps its area times the length.
-  const double expected = area * length(pipe.axis.curve) * std::pow(millimetres_per_metre, 3);
-  if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
-      std::abs(properties.Mass() - expected) > allowed * expected)
-    throw std::runtime_error(
-        "OpenCASCADE sweeps no valid solid of radius " + text_of(pipe.radius) + " m along the curve '" +
-        pipe.axis.name +
-        "'; it may have a corner, bend more sharply than that radius, or be a ring in space");
-}
-
-// Largest curvature |r' x r''| / |r'|^3 at 33 places of each span [1/m].
-double largest_curvature(const NurbsCurve& curve) {
-  constexpr int count = 32;
-  const std::vector<double> breaks = curve.knots().breaks();
-  double largest = 0;
-  for (std::size_t j = 0; j + 1 < breaks.size(); ++j)
-    for (int i = 0; i <= count; ++i) {
-      const double u = breaks[j] + (breaks[j + 1] - breaks[j]) * i / count;
-      const Eigen::Matrix3Xd d = curve.derivatives(u, 2);
-      const Eigen::Vector3d first = d.col(1), second = d.col(2);
-      largest = std::max(largest, first.cross(second).norm() / std::pow(first.norm(), 3));
-    }
-  return largest;
-}
-
-TopoDS_Shape swept(const NamedPipe& pipe) {
-  const NurbsCurve& curve = pipe.axis.curve;
-  if (const double curvature = largest_curvature(curve); curvature * pipe.radius >= 1)
-    throw std::runtime_error("the curve '" + pipe.axis.name + "' bends to a radius of " +
-                             text_of(1 / curvature) + " m, too sharply for a section of radius " +
-                             text_of(pipe.radius) + " m");
-  const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
-  const gp_Pnt centre(vector(millimetres_per_metre * start.col(0)).XYZ());
-  const gp_Ax2 square(centre, gp_Dir(vector(start.col(1))));
-  const auto rim = [&](double radius) {
-    const gp_Circ circle(square, radius * millimetres_per_metre);
-    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
-  };
-  const TopoDS_Wire spine = BRepBuilderAPI_MakeWire(edge(pipe.axis)).Wire();
-  BRepBuilderAPI_MakeFace section(rim(pipe.radius));
-  const bool hollow = pipe.bore > 0, ring = BRep_Tool::IsClosed(spine);
-  if (hollow && !ring) section.Add(TopoDS::Wire(rim(pipe.bore).Reversed()));
-  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, section.Face()).Shape();
-  if (hollow && ring) {  // without ends inner and outer faces are no one shell
-    const TopoDS_Face bore = BRepBuilderAPI_MakeFace(rim(pipe.bore)).Face();
-    const TopExp_Explorer core(BRepOffsetAPI_MakePipe(spine, bore).Shape(), TopAbs_SHELL);
-    BRepBuilderAPI_MakeSolid with_core(TopoDS::Solid(solid));
-    with_core.Add(TopoDS::Shell(core.Current().Reversed()));
-    solid = with_core.Solid();
-  }
-  check_pipe(solid, pipe);
-  return solid;
-}
-
 // The solids of the model stand in the order in which they were transferred.
 void give_names(const StepData_StepModel& model, const std::vector<NamedPipe>& pipes) {
   std::size_t named = 0;
@@ -310,7 +229,7 @@ std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit
     std::vector<TopoDS_Shape> parts;
     std::vector<std::string> names;
     for (const NamedPipe& pipe : pipes) {
-      parts.push_back(swept(pipe));
+      parts.push_back(swept_pipe(pipe));
       names.push_back(part_name(pipe.axis));
     }
     STEPControl_Writer writer;
@@ -321,7 +240,8 @@ std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit
     describe(writer.Model(), names[0]);
     return text(writer);
   } catch (const Standard_Failure& e) {
-    throw std::runtime_error(std::string("OpenCASCADE cannot sweep a solid: ") + e.GetMessageString());
+    throw std::runtime_error(std::string("OpenCASCADE cannot sweep a solid (") + e.DynamicType()->Name() +
+                             " " + e.GetMessageString() + ")");
   }
 }
 
