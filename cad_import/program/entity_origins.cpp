@@ -22,6 +22,7 @@
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepData_UndefinedEntity.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
@@ -91,6 +92,7 @@ void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin&
     if (known.name.empty()) known.name = origin.name;
     if (known.appearance.layer.empty()) known.appearance.layer = origin.appearance.layer;
     if (known.appearance.colour.empty()) known.appearance.colour = origin.appearance.colour;
+    known.appearance.hidden |= origin.appearance.hidden;
     known.defective |= origin.defective && shape.ShapeType() != TopAbs_COMPOUND;
   }
 }
@@ -169,7 +171,8 @@ std::string entity_name(const Handle(Standard_Transient) & entity) {
 }
 
 std::string entity_label(const Interface_InterfaceModel& model, const Handle(Standard_Transient) & entity) {
-  const std::string_view type = entity->DynamicType()->Name();
+  const auto unknown = Handle(StepData_UndefinedEntity)::DownCast(entity);
+  const std::string_view type = unknown.IsNull() ? entity->DynamicType()->Name() : unknown->StepType();
   return trimmed_text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
 }
 

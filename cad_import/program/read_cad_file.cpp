@@ -59,6 +59,7 @@
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/entity_origins.h"
+#include "cad_import/program/lost_curves.h"
 #include "cad_import/program/part_names.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
@@ -101,6 +102,7 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
     curve.name = origin.name;
     curve.layer = origin.appearance.layer;
     curve.colour = origin.appearance.colour;
+    curve.hidden = origin.appearance.hidden;
     curve.free = free;
     name_by_part(edge, parts, curve);
     note_approximation(curve, label, tolerance, report);
@@ -128,6 +130,7 @@ void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const P
       line.curve.name = known->second.name;
       line.curve.layer = known->second.appearance.layer;
       line.curve.colour = known->second.appearance.colour;
+      line.curve.hidden = known->second.appearance.hidden;
     }
     name_by_part(faces(line.face), parts, line.curve);
     report.curves.push_back(std::move(line.curve));
@@ -135,9 +138,18 @@ void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const P
   for (const std::string& remark : found.remarks) add_diagnostic(report, Severity::note, "", remark);
 }
 
+void note_hidden(ImportReport& report) {
+  const auto hidden = std::count_if(report.curves.begin(), report.curves.end(),
+                                    [](const ImportedCurve& curve) { return curve.hidden; });
+  if (hidden > 0)
+    add_diagnostic(
+        report, Severity::note, "",
+        std::to_string(hidden) + " curve(s) are hidden in the file and are taken only by name or number");
+}
+
 void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
-  if (shape.IsNull()) return;
+  if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
   const Origins origins = origins_of_edges_and_faces(reader, report);
   const PartNames parts = part_names(reader, shape);
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
@@ -150,7 +162,9 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     if (origin.defective) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
   }
+  add_lost_curves(reader, tolerance, report);
   add_centre_lines(shape, origins, parts, tolerance, report);
+  note_hidden(report);
 }
 
 // What OpenCASCADE failed to read or to translate.

@@ -17,6 +17,7 @@ struct ImportedCurve {
   std::string part = {};    ///< path of the part that holds it, "bridge/cable" (STEP: names of occurrences or
                             ///< products; IGES: of groups); "" for none
   bool free = true;         ///< no face uses it
+  bool hidden = false;      ///< not shown: STEP INVISIBILITY, IGES blank status
   bool exact = true;        ///< whether `curve` is the entity exactly
   double deviation = 0;     ///< measured distance from the entity when not exact [m]
   double pipe_radius = 0;   ///< of a centre line: the pipe's outer radius [m]; 0 for a curve of the file

@@ -41,7 +41,7 @@ CurveRow row_of(const ImportedCurve& imported) {
   const double curve_length = length(curve);
   constexpr double closed_tolerance = 1e-9;  // of the length
   return {.name = imported.name,
-          .entity = imported.entity + pipe_of(imported),
+          .entity = imported.entity + pipe_of(imported) + (imported.hidden ? ", hidden" : ""),
           .part = imported.part,
           .layer = imported.layer,
           .colour = imported.colour,
@@ -183,6 +183,7 @@ Json to_json(const ImportReport& report) {
                       {"control_points", row.control_points},
                       {"length [m]", row.length},
                       {"closed", row.closed},
+                      {"hidden", report.curves[i].hidden},
                       {"start [m]", to_json(row.start)},
                       {"end [m]", to_json(row.end)},
                       {"exact", row.exact},

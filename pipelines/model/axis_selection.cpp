@@ -56,7 +56,9 @@ Indices those(const ImportReport& report, const Indices& indices, Predicate want
 }
 
 // Free curves before centre lines before edges of faces.
-Indices that_count(const ImportReport& report, const Indices& candidates) {
+Indices that_count(const ImportReport& report, const Indices& all) {
+  const Indices candidates = those(
+      report, all, [](const ImportedCurve& c) { return !c.hidden; });
   const Indices free = those(report, candidates, [](const ImportedCurve& c) { return c.free; });
   if (!free.empty()) return free;
   const Indices centre = those(report, candidates, [](const ImportedCurve& c) { return c.is_centre_line(); });
@@ -265,6 +267,9 @@ AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, do
   }
   if (axis.curve_index || axis.curve_name) return named(axis, report, candidates, tolerance);
   const std::vector<Chain> chains = chains_among(report, that_count(report, candidates), tolerance);
+  if (chains.empty())
+    return failure("", "every curve of " + report.file + " that is left to choose from is hidden: " +
+                           list_of_curves(report, candidates) + "; name one with \"curve\"");
   if (axis.near)
     return {{least(chains, [&](const Chain& c) { return distance_to(c, *axis.near, report); })}, {}, "", ""};
   if (axis.longest)
