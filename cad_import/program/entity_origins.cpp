@@ -55,6 +55,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/files/tolerant_text.h"
 #include "cad_import/occt/spline_defect.h"
 
 namespace nurbeam {
@@ -162,7 +163,7 @@ std::string trimmed_text(const Handle(TCollection_HAsciiString) & value) {
   if (value.IsNull()) return "";
   std::string result = value->ToCString();
   result.erase(0, result.find_first_not_of(' '));
-  return result.erase(result.find_last_not_of(' ') + 1);
+  return as_utf8(result.erase(result.find_last_not_of(' ') + 1));
 }
 
 std::string entity_name(const Handle(Standard_Transient) & entity) {

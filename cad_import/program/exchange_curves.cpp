@@ -14,15 +14,15 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
+#include "cad_import/program/drawing_text.h"
+#include "cad_import/program/memory_file.h"
 #include "cad_import/step/step_instances.h"
 #include "cad_import/step/step_units.h"
 
@@ -275,20 +275,18 @@ std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Re
 }  // namespace
 
 Exchanged exchange_curves(const std::filesystem::path& source, const std::vector<DeformedCurve>& curves) {
-  std::ifstream in(source, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  if (!in || format_of(content.str()) != CadFormat::step)
+  const std::string content = drawing_text(source);
+  if (format_of(content) != CadFormat::step)
     throw std::runtime_error("it cannot be read as a STEP file; only into one can curves be written back");
   be_silent();
   try {
     OCC_CATCH_SIGNALS
     start_step();
     STEPControl_Reader reader;
-    if (reader.ReadFile(source.c_str()) != IFSelect_RetDone)
+    if (reader.ReadFile(MemoryFile(content).path().c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");
     reader.TransferRoots();
-    StepInstances step(content.str());
+    StepInstances step(content);
     Exchanged result;
     for (const DeformedCurve& curve : curves) {
       const std::vector<std::string> warnings = place(curve, reader, reader.OneShape(), step);

@@ -1,10 +1,10 @@
-#include <fstream>
 #include <optional>
-#include <sstream>
+#include <stdexcept>
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/files/child_work.h"
 #include "cad_import/iges/iges_text.h"
+#include "cad_import/program/drawing_text.h"
 #include "cad_import/program/exchange_curves.h"
 #include "cad_import/program/read_cad_file.h"
 #include "cad_import/report/report_bytes.h"
@@ -25,11 +25,12 @@ ImportReport refusal(const fs::path& file, const std::string& message) {
 }
 
 ImportReport read_file(const fs::path& file, double tolerance) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream stream;
-  stream << in.rdbuf();
-  if (!in || !stream) return refusal(file, "the file cannot be read; check its permissions");
-  const std::string content = stream.str();
+  std::string content;
+  try {
+    content = drawing_text(file);
+  } catch (const std::runtime_error& e) {
+    return refusal(file, e.what());
+  }
   const std::optional<CadFormat> format = format_of(content);
   if (!format) {
     return refusal(

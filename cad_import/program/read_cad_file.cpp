@@ -21,6 +21,7 @@
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
@@ -60,6 +61,7 @@
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/lost_curves.h"
+#include "cad_import/program/memory_file.h"
 #include "cad_import/program/part_names.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
@@ -209,7 +211,9 @@ void check_syntax(const Interface_InterfaceModel& model) {
 // Whether numbers of a curve may be lost with what OpenCASCADE could not read in the entity: not with a name.
 bool matters(const Standard_Transient& entity, std::string_view failure) {
   const bool step = !entity.IsKind(STANDARD_TYPE(IGESData_IGESEntity));
-  const bool geometry = std::string_view(entity.DynamicType()->Name()).starts_with("StepGeom_");
+  const std::string_view type = entity.DynamicType()->Name();
+  const bool lost = type == "StepShape_GeometricSet" || type == "StepShape_GeometricCurveSet";
+  const bool geometry = lost || type.starts_with("StepGeom_");
   return !step || (geometry && failure.find("(name)") == std::string_view::npos);
 }
 
@@ -229,10 +233,25 @@ void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& r
   }
 }
 
-void read(XSControl_Reader& reader, const std::filesystem::path& file, ImportReport& report) {
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull())
+// OpenCASCADE computes for minutes with numbers that no drawing holds.
+void check_coordinates(const Interface_InterfaceModel& model) {
+  constexpr double largest = 1e15;  // in units of the file
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto point = Handle(StepGeom_CartesianPoint)::DownCast(model.Value(i));
+    for (int k = 1; !point.IsNull() && k <= point->NbCoordinates(); ++k)
+      if (!(std::abs(point->CoordinatesValue(k)) <= largest))
+        throw std::runtime_error(entity_label(model, point) + " has a coordinate of " +
+                                 text_of(point->CoordinatesValue(k)) + "; the limit is " + text_of(largest) +
+                                 ": the file is damaged; export or copy it again");
+  }
+}
+
+void read(XSControl_Reader& reader, const std::string& content, ImportReport& report) {
+  const MemoryFile file(content);
+  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone || reader.Model().IsNull())
     throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
   check_syntax(*reader.Model());
+  check_coordinates(*reader.Model());
   add_damaged_entities(*reader.Model(), report);
 }
 
@@ -295,10 +314,10 @@ void report_step_unit(const Interface_InterfaceModel& model, ImportReport& repor
   report_unit(units.empty() ? metres_per_millimetre : *units.begin(), report);
 }
 
-void read_step(const std::filesystem::path& file, double tolerance, ImportReport& report) {
+void read_step(const std::string& content, double tolerance, ImportReport& report) {
   start_step();
   STEPControl_Reader reader;
-  read(reader, file, report);
+  read(reader, content, report);
   report_step_unit(*reader.Model(), report);
   transfer(reader, tolerance, report);
 }
@@ -314,8 +333,7 @@ void compare_units(const IgesGlobal& ours, const IGESData_GlobalSection& theirs)
                            " m; correct the Global section (Hollerith counts, parameters 14 and 15)");
 }
 
-void read_iges(const std::filesystem::path& file, const std::string& content, double tolerance,
-               ImportReport& report) {
+void read_iges(const std::string& content, double tolerance, ImportReport& report) {
   const IgesGlobal global = parse_iges_global(content);
   report_unit(global.unit_in_metres, report);
   if (global.scale != 1) {
@@ -329,19 +347,18 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
   if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0))
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
   IGESControl_Reader reader;
-  read(reader, file, report);
+  read(reader, content, report);
   compare_units(global, reader.IGESModel()->GlobalSection());
   const double resolution = reader.IGESModel()->GlobalSection().Resolution();
   if (std::isfinite(resolution) && resolution > 0) report.resolution = resolution * global.unit_in_metres;
   transfer(reader, tolerance, report);
 }
 
-void read_format(const std::filesystem::path& file, const std::string& content, CadFormat format,
-                 double tolerance, ImportReport& report) {
+void read_format(const std::string& content, CadFormat format, double tolerance, ImportReport& report) {
   if (format == CadFormat::step)
-    read_step(file, tolerance, report);
+    read_step(content, tolerance, report);
   else
-    read_iges(file, content, tolerance, report);
+    read_iges(content, tolerance, report);
 }
 
 }  // namespace
@@ -353,7 +370,7 @@ ImportReport read_cad_file(const std::filesystem::path& file, const std::string&
   be_silent();
   try {
     OCC_CATCH_SIGNALS
-    read_format(file, content, format, tolerance, report);
+    read_format(content, format, tolerance, report);
   } catch (const Standard_Failure& e) {
     add_diagnostic(report, Severity::error, "",
                    std::string("OpenCASCADE failed (") + e.DynamicType()->Name() + " " +
