@@ -126,7 +126,9 @@ bool is_one_part(const Interface_InterfaceModel& model) {
 }
 
 // Why the curve was not added; nothing if it was.
-std::optional<std::string> obstacle(const Entity& entity, double tolerance, ImportReport& report) {
+std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph& graph, double tolerance,
+                                    ImportReport& report) {
+  if (graph.Sharings(entity).NbEntities() == 0) return "no representation holds it";
   if (entity->IsKind(STANDARD_TYPE(StepGeom_Pcurve))) return "it lies in the parameters of a surface";
   if (!entity->IsKind(STANDARD_TYPE(StepGeom_Curve)) && !entity->IsKind(STANDARD_TYPE(StepShape_PolyLoop)) &&
       !entity->IsKind(STANDARD_TYPE(StepShape_EdgeCurve)))
@@ -154,8 +156,8 @@ void add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportRep
   const bool placed = is_one_part(model);
   int unnamed = 0, named = 0;
   for (const Entity& entity : lost_curves(reader)) {
-    const std::optional<std::string> why =
-        placed ? obstacle(entity, tolerance, report) : "its place in the assembly is not known";
+    const std::optional<std::string> why = placed ? obstacle(entity, reader.WS()->Graph(), tolerance, report)
+                                                  : "its place in the assembly is not known";
     if (!why) continue;
     if (++named > most_named) {
       ++unnamed;

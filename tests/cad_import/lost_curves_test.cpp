@@ -129,6 +129,7 @@ TEST(LostCurves, WhatCannotBeReadIsNamed) {
                               "#164 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#10,#163);\n"),
        "#161 TessellatedCurveSet 'mesh'");
   told(import_beside_a_circle("#110 = CLOTHOID('spiral',#11,5.);\n"), "CLOTHOID");
+  told(import_beside_a_circle("#110 = CIRCLE('loose',#11,2.);\n"), "no representation holds it");
 }
 
 TEST(LostCurves, HiddenCurvesAreMarked) {
