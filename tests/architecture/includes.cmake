@@ -28,6 +28,7 @@ set(homes
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
+  "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
   "CLI/.*"                                                                        "pipelines/command/command_line\\.cpp"
   "CGAL/.*"                                                                       "pipelines/section/with_cgal\\.cpp"
