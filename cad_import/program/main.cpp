@@ -36,7 +36,7 @@ ImportReport read_file(const fs::path& file, double tolerance) {
     return refusal(
         file,
         "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
-        "first line); export the curves as STEP AP214 or IGES");
+        "first line) nor DXF (must begin with a SECTION); export the curves as STEP AP214 or IGES");
   }
   if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
   return read_cad_file(file, content, *format, tolerance);

@@ -54,6 +54,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/dxf/read_dxf.h"
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/occt/appearance.h"
 #include "cad_import/occt/centre_line.h"
@@ -354,11 +355,25 @@ void read_iges(const std::string& content, double tolerance, ImportReport& repor
   transfer(reader, tolerance, report);
 }
 
+void read_drawing(const std::string& content, ImportReport& report) {
+  ImportReport drawing = read_dxf(content);
+  for (Diagnostic& diagnostic : drawing.diagnostics)
+    add_diagnostic(report, diagnostic.severity, diagnostic.where, diagnostic.message);
+  drawing.file = report.file;
+  drawing.diagnostics = std::move(report.diagnostics);
+  report = std::move(drawing);
+  note_hidden(report);
+}
+
 void read_format(const std::string& content, CadFormat format, double tolerance, ImportReport& report) {
-  if (format == CadFormat::step)
-    read_step(content, tolerance, report);
-  else
-    read_iges(content, tolerance, report);
+  switch (format) {
+    case CadFormat::step:
+      return read_step(content, tolerance, report);
+    case CadFormat::iges:
+      return read_iges(content, tolerance, report);
+    case CadFormat::dxf:
+      return read_drawing(content, report);
+  }
 }
 
 }  // namespace
