@@ -1,11 +1,12 @@
 #include "solver/static_equilibrium.h"
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 #include "solver/arguments.h"
 #include "solver/kinsol.h"
 #include "solver/kkt_solver.h"
+#include "solver/stability.h"
 
 namespace nurbeam {
 
@@ -20,6 +21,7 @@ constexpr double first_increment = 0.1;
 constexpr double smallest_increment = 1e-3;
 constexpr int easy_iterations = 6;
 constexpr int proximal_iterations = 15;
+constexpr double departing_change = 1e-2;  ///< from an unstable equilibrium, of a coordinate over its scale
 
 /// One search: the state and load factor of the last equilibrium, and what was spent so far.
 class EquilibriumSearch {
@@ -33,7 +35,12 @@ class EquilibriumSearch {
         kinsol_(equations_) {}
 
   StaticReport run() {
-    if (!reach(1).converged && (reach(0).converged || relax(0))) follow_load();
+    if (!reach(1).converged) {
+      if (reach(0).converged)
+        follow_load();
+      else
+        relax(1);
+    }
     state_.load = report_.load_factor;
     return report_;
   }
@@ -46,6 +53,9 @@ class EquilibriumSearch {
     bool singular_at_start = false;
     int iterations = 0;
     double residual_norm = 0;
+    std::optional<Stability> stability = {};  // of what it converged to, where that is known
+
+    bool unstable() const { return stability && stability->unstable_directions > 0; }
   };
 
   static State at_rest(State state, const SecondOrderSystem& system) {
@@ -73,19 +83,20 @@ class EquilibriumSearch {
     }
   }
 
-  /// Newton at a load factor from the last equilibrium, within the bound on the change. From a singular
-  /// tangent its direction means nothing, and so does the equilibrium it may end in.
+  /// Newton at a load factor from the last equilibrium to a stable one within the bound on the change. From a
+  /// singular tangent its direction means nothing, and so does the equilibrium it may end in.
   Outcome reach(double factor) {
     ++report_.load_steps;
     State trial = state_;
     Outcome outcome = newton(factor, trial);
-    outcome.converged =
-        outcome.converged && !outcome.singular_at_start && change(trial, state_) <= largest_change;
+    outcome.converged = outcome.converged && !outcome.singular_at_start && !outcome.unstable() &&
+                        change(trial, state_) <= largest_change;
     if (outcome.converged) accept(factor, trial, outcome);
     return outcome;
   }
 
-  /// Proximal steps at a load factor from the last equilibrium until plain Newton converges nearby.
+  /// Proximal steps at a load factor from the last equilibrium until plain Newton converges nearby, to an
+  /// equilibrium that is stable: an unstable one is left along its unstable direction.
   bool relax(double factor) {
     equations_.set_load(factor);
     State centre = state_;
@@ -93,31 +104,49 @@ class EquilibriumSearch {
     const double inertia = equations_.inertial_work(centre);
     if (!(inertia > 0)) return false;
     double proximity = 10 * largest_force(centre) / inertia;
+    std::optional<Departure> departure;
     while (steps_left()) {
       ++report_.load_steps;
       State trial = centre;
       const Outcome step = proximal_step(proximity, trial);
       const double moved = change(trial, centre);
-      if (!step.converged || !(moved <= largest_change)) {
+      const bool back = departure && !departure->goes_on(centre.q, trial.q);
+      if (!step.converged || !(moved <= largest_change) || back) {
         proximity *= 10;
         continue;
       }
       centre = trial;
       const Outcome settled = moved <= settled_change ? newton(factor, trial) : Outcome{};
-      if (settled.converged && change(trial, centre) <= largest_change) {
+      const double settling = change(trial, centre);
+      if (settled.converged && !settled.unstable() && settling <= largest_change) {
         accept(factor, trial, settled);
         return true;
+      }
+      if (settled.unstable() && settling <= settled_change && !departure) {
+        departure = Departure{trial.q, depart(*settled.stability)};
+        centre.q = departure->from + departure->direction;
+        continue;
       }
       proximity *= step.iterations <= easy_iterations ? 0.2 : 0.5;
     }
     return false;
   }
 
+  /// From an unstable equilibrium: steps lead away from it.
+  struct Departure {
+    Vector from, direction;
+    bool goes_on(const Vector& before, const Vector& after) const {
+      return (after - before).dot(direction) > 0 || (after - from).norm() > 100 * direction.norm();
+    }
+  };
+  Vector depart(const Stability& from) const {
+    return departing_change / from.direction.lpNorm<Eigen::Infinity>() * from.direction.cwiseProduct(scale_);
+  }
+
   /// Solves the equilibrium at `factor` from `trial`, in place; rescaled as the multipliers become known.
   ///
   /// Full Newton steps come first: where stiff members turn, a line search would follow them in tiny steps.
   Outcome newton(double factor, State& trial) {
-    constexpr std::array strategies = {KIN_NONE, KIN_LINESEARCH, KIN_LINESEARCH};
     trial.load = factor;
     equations_.set_load(factor);
     equations_.clear_proximity();
@@ -126,18 +155,23 @@ class EquilibriumSearch {
     Outcome outcome{.converged = quality.residual_norm <= settings_.tolerance,
                     .residual_norm = quality.residual_norm};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
-    for (const int strategy : strategies) {
-      if (outcome.converged) break;
+    const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
-      improve(x, quality.allowed, strategy, settings_.max_iterations, outcome);
+      improve(x, quality.allowed, strategy, iterations, outcome);
       const bool better = equations_.quality(x, settings_.tolerance).residual_norm <= outcome.residual_norm;
       if (better) trial = equations_.state_of(x);
       equations_.rescale(trial, largest_force(trial));
       quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
       outcome.residual_norm = quality.residual_norm;
       outcome.converged = quality.acceptable;
-    }
-    report_.status = outcome.singular_at_start ? StaticStatus::singular_matrix : StaticStatus::not_converged;
+    };
+    if (!outcome.converged) improve_by(KIN_NONE, settings_.max_iterations);
+    if (!outcome.converged) improve_by(KIN_LINESEARCH, std::min(20, settings_.max_iterations));
+    if (outcome.residual_norm > settings_.tolerance) improve_by(KIN_NONE, 2);  // down to the round-off
+    if (outcome.converged) outcome.stability = stability(equations_.tangent(), equations_.coordinates());
+    report_.status = outcome.unstable()          ? StaticStatus::unstable
+                     : outcome.singular_at_start ? StaticStatus::singular_matrix
+                                                 : StaticStatus::not_converged;
     report_.residual_norm = outcome.residual_norm;
     return outcome;
   }

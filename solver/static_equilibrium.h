@@ -9,7 +9,12 @@ struct StaticEquilibrium {
   int max_load_steps = 400;  ///< increments, proximal steps and failed attempts together
 };
 
-enum class StaticStatus { converged, not_converged, singular_matrix };
+enum class StaticStatus {
+  converged,
+  not_converged,
+  singular_matrix,
+  unstable  ///< equilibria were found, but none that is stable
+};
 
 struct StaticReport {
   StaticStatus status = StaticStatus::not_converged;
@@ -25,7 +30,8 @@ struct StaticReport {
 /// State::load in [0, 1] scales the system's loads. The full load is tried directly. When that does not
 /// converge, or moves a coordinate by more than its coordinate_scale(), the load is applied in adaptive
 /// increments under the same bound, so that the branch of equilibria that starts at `state` is followed.
-/// Where no increment does (a straight or slack cable without tension has a singular tangent, a snap-through
+/// An equilibrium that is not stable (stability.h) is none: it is left along its unstable direction. Where no
+/// increment converges (a straight or slack cable without tension has a singular tangent, a snap-through
 /// no equilibrium nearby) the load is reached by proximal steps M(q)(q - q_k)/tau^2 - f + G'lambda = 0 with
 /// growing tau, which decrease the potential energy.
 ///

@@ -73,6 +73,19 @@ double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
 }
 
 template <int D>
+double BeamElement<D>::quartic_strain(const ElementVector<D>& q) const {
+  const ElementNodes<D> e = ElementLayout<D>::nodes(q);
+  const double s_a = q[ElementLayout<D>::place(0)], length = q[ElementLayout<D>::place(1)] - s_a;
+  double sum = 0;
+  for_each_point(s_a, s_a + length, [&](const ShapeFunctions<double>& shape, double s, double weight) {
+    const double strain = ((e * row(shape.d1)).squaredNorm() - 1) / 2 - curve_->strain(s);
+    const double x = std::pow(2 * (s - s_a) / length - 1, 2);
+    sum += weight / length * strain * (35 * x * x - 30 * x + 3) / 8;
+  });
+  return 9 * sum;
+}
+
+template <int D>
 std::optional<AssumedStrain> BeamElement<D>::assumed_strain(const ElementVector<D>& q) const {
   if (!assumes_strain()) return std::nullopt;
   const Eigen::Vector4d y = axial_sums(q).y;

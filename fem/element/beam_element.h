@@ -55,6 +55,9 @@ class BeamElement {
   /// Largest difference of the pointwise axial strain from the assumed one, at the Gauss points: how much
   /// bending between the nodes the element cannot follow without stretching.
   double axial_mismatch(const ElementVector<D>& q) const;
+  /// The coefficient of the fourth Legendre polynomial in the pointwise axial strain: what the assumed one
+  /// does not see of it, but for an odd part that moves no position.
+  double quartic_strain(const ElementVector<D>& q) const;
   /// The axial strain that carries, where it is not the pointwise one.
   std::optional<AssumedStrain> assumed_strain(const ElementVector<D>& q) const;
 

@@ -3,10 +3,14 @@
 
 namespace nurbeam {
 
-// The sums of a fixed element: I = (tr(e G e') - l)/2 - int eps_0 ds.
+// The sums of a fixed element: I = (tr(e G e') - l)/2 - int eps_0 ds, with positions counted from the start,
+// which G does not see: far from the origin they would leave their round-off.
 template <int D>
 AxialSums<D> BeamElement<D>::fixed_sums(const ElementVector<D>& q) const {
-  const ElementNodes<D> e = ElementLayout<D>::nodes(q);
+  ElementNodes<D> e = ElementLayout<D>::nodes(q);
+  const Vector start = e.col(0);
+  e.col(0).setZero();
+  e.col(2) -= start;
   const ElementNodes<D> I_e = e * stretch_;
   AxialSums<D> sums(q);
   sums.y[0] = (e.cwiseProduct(I_e).sum() - length_) / 2;

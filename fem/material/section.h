@@ -32,7 +32,7 @@ struct BeamProperties {
   double mass_per_length = 0;    ///< rho A [kg/m]
   double damping = 0;            ///< c [s]
   CurvatureMeasure curvature = CurvatureMeasure::material;
-  AxialStrain axial_strain = AxialStrain::pointwise;
+  AxialStrain axial_strain = AxialStrain::ends_and_mean;
 
   /// EA where it multiplies a pointwise strain; else 0.
   double pointwise_axial_stiffness() const {

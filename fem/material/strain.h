@@ -28,31 +28,30 @@ StrainMeasure<D> axial_strain(const Eigen::Matrix<double, D, 1>& rs) {
 
 namespace detail {
 
-// c = r_s x r_ss (signed) in the plane.
-inline StrainMeasure<2> cross_measure(const Eigen::Vector2d& rs, const Eigen::Vector2d& rss) {
-  StrainMeasure<2> c;
-  c.value = rs.x() * rss.y() - rs.y() * rss.x();
-  c.gradient << rss.y(), -rss.x(), -rs.y(), rs.x();
-  c.hessian.setZero();
-  c.hessian(0, 3) = c.hessian(3, 0) = 1;
-  c.hessian(1, 2) = c.hessian(2, 1) = -1;
+// c = r_s x r_ss (signed) in the plane; B = |r_s x r_ss|^2 in space.
+template <int D>
+StrainMeasure<D> cross_measure(const Eigen::Matrix<double, D, 1>& rs,
+                               const Eigen::Matrix<double, D, 1>& rss) {
+  StrainMeasure<D> c;
+  if constexpr (D == 2) {
+    c.value = rs.x() * rss.y() - rs.y() * rss.x();
+    c.gradient << rss.y(), -rss.x(), -rs.y(), rs.x();
+    c.hessian.setZero();
+    c.hessian(0, 3) = c.hessian(3, 0) = 1;
+    c.hessian(1, 2) = c.hessian(2, 1) = -1;
+  } else {
+    const double A = rs.squaredNorm(), G = rss.squaredNorm(), F = rs.dot(rss);
+    const Eigen::Matrix<double, D, D> I = Eigen::Matrix<double, D, D>::Identity();
+    c.value = A * G - F * F;
+    c.gradient.template head<D>() = 2 * (G * rs - F * rss);
+    c.gradient.template tail<D>() = 2 * (A * rss - F * rs);
+    c.hessian.template topLeftCorner<D, D>() = 2 * (G * I - rss * rss.transpose());
+    c.hessian.template bottomRightCorner<D, D>() = 2 * (A * I - rs * rs.transpose());
+    const Eigen::Matrix<double, D, D> mixed = 4 * rs * rss.transpose() - 2 * rss * rs.transpose() - 2 * F * I;
+    c.hessian.template topRightCorner<D, D>() = mixed;
+    c.hessian.template bottomLeftCorner<D, D>() = mixed.transpose();
+  }
   return c;
-}
-
-// B = |r_s x r_ss|^2 in space.
-inline StrainMeasure<3> cross_measure(const Eigen::Vector3d& rs, const Eigen::Vector3d& rss) {
-  const double A = rs.squaredNorm(), G = rss.squaredNorm(), F = rs.dot(rss);
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  StrainMeasure<3> B;
-  B.value = A * G - F * F;
-  B.gradient.head<3>() = 2 * (G * rs - F * rss);
-  B.gradient.tail<3>() = 2 * (A * rss - F * rs);
-  B.hessian.topLeftCorner<3, 3>() = 2 * (G * I - rss * rss.transpose());
-  B.hessian.bottomRightCorner<3, 3>() = 2 * (A * I - rs * rs.transpose());
-  const Eigen::Matrix3d mixed = 4 * rs * rss.transpose() - 2 * rss * rs.transpose() - 2 * F * I;
-  B.hessian.topRightCorner<3, 3>() = mixed;
-  B.hessian.bottomLeftCorner<3, 3>() = mixed.transpose();
-  return B;
 }
 
 // c A^-m with A = |r_s|^2.
@@ -78,23 +77,22 @@ StrainMeasure<D> scaled_by_stretch(const StrainMeasure<D>& c, const Eigen::Matri
 /// constant.
 inline constexpr double curvature_rounding = 1e-4;
 
-/// Signed curvature of a planar axis [1/m]; undefined at r_s = 0.
-inline StrainMeasure<2> curvature(const Eigen::Vector2d& rs, const Eigen::Vector2d& rss,
-                                  CurvatureMeasure measure) {
-  return detail::scaled_by_stretch<2>(detail::cross_measure(rs, rss), rs,
-                                      measure == CurvatureMeasure::material ? 1.0 : 1.5);
-}
-
-/// Rounded curvature of a spatial axis [1/m]; undefined at r_s = 0.
-inline StrainMeasure<3> curvature(const Eigen::Vector3d& rs, const Eigen::Vector3d& rss,
-                                  CurvatureMeasure measure) {
-  const StrainMeasure<3> square = detail::scaled_by_stretch<3>(
-      detail::cross_measure(rs, rss), rs, measure == CurvatureMeasure::material ? 2.0 : 3.0);
-  StrainMeasure<3> k;
-  k.value = std::sqrt(square.value + curvature_rounding * curvature_rounding);
-  k.gradient = square.gradient / (2 * k.value);
-  k.hessian = (square.hessian / 2 - k.gradient * k.gradient.transpose()) / k.value;
-  return k;
+/// Signed curvature of a planar axis, rounded curvature of a spatial one [1/m]; undefined at r_s = 0.
+template <int D>
+StrainMeasure<D> curvature(const Eigen::Matrix<double, D, 1>& rs, const Eigen::Matrix<double, D, 1>& rss,
+                           CurvatureMeasure measure) {
+  const bool material = measure == CurvatureMeasure::material;
+  const StrainMeasure<D> cross = detail::cross_measure<D>(rs, rss);
+  if constexpr (D == 2) {
+    return detail::scaled_by_stretch<D>(cross, rs, material ? 1.0 : 1.5);
+  } else {
+    const StrainMeasure<D> square = detail::scaled_by_stretch<D>(cross, rs, material ? 2.0 : 3.0);
+    StrainMeasure<D> k;
+    k.value = std::sqrt(square.value + curvature_rounding * curvature_rounding);
+    k.gradient = square.gradient / (2 * k.value);
+    k.hessian = (square.hessian / 2 - k.gradient * k.gradient.transpose()) / k.value;
+    return k;
+  }
 }
 
 }  // namespace nurbeam

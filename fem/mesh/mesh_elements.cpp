@@ -1,6 +1,7 @@
 #include "fem/mesh/mesh_elements.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace nurbeam {
 
@@ -58,6 +59,8 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
   for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
     const MeshSpan& span = mesh.spans[i];
     const Beam& beam = structure.beams[span.beam];
+    if (beam.form == Form::virtual_work && beam.properties.axial_strain != AxialStrain::pointwise)
+      throw std::invalid_argument("a beam in form P (virtual work) has the pointwise axial strain");
     const Ends ends = span.place_a < 0 && span.place_b < 0 ? Ends::fixed : Ends::moving;
     Chart chart = choose_chart(beam, mesh.plan, span, is_arc_length_span(structure, mesh, i));
     elements.push_back(

@@ -26,53 +26,56 @@ double room_to_move(const MeshedState& at, int joint, int direction) {
   return 0.8 * (span.end(at.state.q) - span.start(at.state.q));
 }
 
-void move_place(MeshedState& at, int joint, double ds) {
-  const Mesh& mesh = at.system->mesh();
-  const MeshJoint& moved = mesh.joints[joint];
-  if (moved.place < 0 || ds == 0) return;
-  State& state = at.state;
-  const int D = mesh.dimension;
-  const double s = state.q[moved.place] + ds;
-  const SlidingJoint& sliding = at.system->model().joints[joint];
-  const MaterialPoint<3> p = material_point(*at.system, state, sliding.beam, s);
-  state.q.segment(mesh.bodies[sliding.body], D) = p.r.head(D);
-  if (moved.node >= 0) {
-    const MeshNode& node = mesh.nodes[sliding.beam][moved.node];
-    for (int slope : {node.slope_left, node.slope_right}) state.q.segment(slope, D) = p.rs.head(D);
-  }
-  state.q[moved.place] = s;
-  state.v[moved.place] = ds;  // length control looks at the direction
+// The plan of the mesh with joints held at other places.
+MeshPlan held_at(const MeshedState& at, const std::vector<double>& places) {
+  MeshPlan plan = at.system->mesh().plan;
+  plan.places = places;
+  return plan;
 }
 
-// The plan of the mesh with the joints where they have been moved.
-MeshPlan moved_plan(const MeshedState& at) {
-  MeshPlan plan = at.system->mesh().plan;
-  for (std::size_t j = 0; j < plan.places.size(); ++j)
-    if (const auto s = place(*at.system, at.state, static_cast<int>(j))) plan.places[j] = *s;
-  return plan;
+// Where the joints are; one that holds nothing where it was.
+std::vector<double> present_places(const MeshedState& at) {
+  std::vector<double> places = at.system->mesh().plan.places;
+  for (std::size_t j = 0; j < places.size(); ++j)
+    if (const auto s = place(*at.system, at.state, static_cast<int>(j))) places[j] = *s;
+  return places;
 }
 
 // A sliding body on its way to where it rests.
 struct Descent {
-  double move;          // the next one's length [m]; 0 when the body has arrived
-  double force = 0;     // that held it before the last one [N]
-  bool at_end = false;  // of the beam
+  double most;                         // of the next move [m]; 0 for one that does not move
+  double s = 0, force = 0, moved = 0;  // before the last move, that held it there [m], [N], and the move [m]
+  bool arrived = false, at_end = false;  // the latter: of the beam
 };
 
-// The next move of a body [m], down the slope: what holds it shows where it does not want to go.
+// Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it
+// shows where it does not want to go.
+double step_down(const Descent& body, double s, double force) {
+  const double downhill = force < 0 ? body.most : -body.most;
+  if (body.moved == 0) return downhill;
+  const double slope = (force - body.force) / (s - body.s);
+  return slope > 0 ? std::clamp(-force / slope, -body.most, body.most) : downhill;
+}
+
+// The next move of a body [m].
 double next_move(const MeshedState& at, int joint, Descent& body) {
-  if (body.move == 0) return 0;
-  const double now = holding_force(*at.system, at.state, joint);
-  if (body.force * now < 0) body.move /= 2;
-  body.force = now;
+  body.arrived = body.most == 0;
+  if (body.arrived) return 0;
+  const double force = holding_force(*at.system, at.state, joint), s = *place(*at.system, at.state, joint);
+  const double spacing = home_spacing(at.system->model(), joint);
+  if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) : 2 * body.most;
+  body.most = std::min(body.most, 4 * spacing);
+  double ds = force == 0 ? 0 : step_down(body, s, force);
   const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
-  const double s = *place(*at.system, at.state, joint);
   const double room = 0.4 * distance_to_others(at, joint);
-  double ds = std::clamp(now < 0 ? body.move : -body.move, -room, room);
+  ds = std::clamp(ds, -room, room);
   if (!curve.closed()) ds = std::clamp(ds, -s, curve.length() - s);
-  body.at_end = ds == 0;
-  if (now == 0) ds = 0;
-  if (ds == 0) body.move = 0;
+  body.at_end = ds == 0 && force != 0;
+  body.arrived = std::abs(ds) < 1e-6 * spacing;
+  if (body.arrived) return 0;
+  body.s = s;
+  body.force = force;
+  body.moved = ds;
   return ds;
 }
 
@@ -91,12 +94,13 @@ class RestSearch {
       return std::move(report_);
     std::vector<Descent> bodies;
     for (int j = 0; j < joints(); ++j) bodies.push_back({model().joints[j].motion ? 0 : spacing(j) / 4});
-    for (int guard = 0; still_far(bodies); ++guard) {
+    constexpr int most_moves = 2000;
+    for (int moves = 0; let_down(bodies); ++moves) {
       report_.interrupted = interrupted();
-      const bool lost = guard > 2000 && !report_.interrupted;
-      if (lost) report_.failure = Failure{.kind = Failure::Kind::resting_place};
-      if (report_.interrupted || lost || !let_down(bodies)) return std::move(report_);
+      if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
+      if (report_.interrupted || report_.failure) return std::move(report_);
     }
+    if (report_.failure) return std::move(report_);
     std::vector<bool> at_end;
     for (const Descent& body : bodies) at_end.push_back(body.at_end);
     free_bodies(at_end);
@@ -113,17 +117,13 @@ class RestSearch {
     return !report_.failure;
   }
 
-  bool still_far(const std::vector<Descent>& bodies) const {
-    for (int j = 0; j < joints(); ++j)
-      if (bodies[j].move > 1e-6 * spacing(j)) return true;
-    return false;
-  }
-
-  // One move of every body and the equilibrium after it.
+  // One move of every body and the equilibrium after it; false where all have arrived, or there is none.
   bool let_down(std::vector<Descent>& bodies) {
     std::vector<double> ds;
     for (int j = 0; j < joints(); ++j) ds.push_back(next_move(at_, j, bodies[j]));
-    return move_places(std::move(ds)) && goes_on(meeting_bodies(at_)) && hold_in_equilibrium(moved_plan(at_));
+    const bool arrived =
+        std::all_of(bodies.begin(), bodies.end(), [](const Descent& body) { return body.arrived; });
+    return !arrived && move_places(std::move(ds));
   }
 
   // Equilibrium from the state as it is, which is kept on failure.
@@ -158,18 +158,26 @@ class RestSearch {
     }
   }
 
-  // Moves held joints by ds, with the curve as it stands, and carries length control along: never past a node
-  // at once.
+  // Moves held joints by ds from equilibrium to equilibrium, never past a node at once, and carries length
+  // control along. Newton's first step takes everything along to first order.
   bool move_places(std::vector<double> ds) {
     while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
+      std::vector<double> places = present_places(at_);
       for (int j = 0; j < joints(); ++j) {
         const double part = std::clamp(ds[j], -room_to_move(at_, j, -1), room_to_move(at_, j, 1));
-        move_place(at_, j, part);
+        places[j] += part;
         ds[j] -= part;
+        const int dof = at_.system->mesh().joints[j].place;
+        if (dof >= 0) at_.state.v[dof] = part;
       }
-      if (!settle_mesh()) return false;
+      const Eigen::VectorXd directions = at_.state.v;
+      if (!hold_in_equilibrium(held_at(at_, places))) return false;
+      at_.state.v = directions;  // length control looks at them
+      const BeamSystem* const before = at_.system.get();
+      if (!settle_mesh() || !goes_on(meeting_bodies(at_))) return false;
+      at_.state.v.setZero();
+      if (at_.system.get() != before && !hold_in_equilibrium(held_at(at_, present_places(at_)))) return false;
     }
-    at_.state.v.setZero();
     return true;
   }
 

@@ -144,16 +144,19 @@ class Simulation {
   // From at_.state to the end, with the first output times behind it.
   void move(std::size_t next_output) {
     const auto& times = options_.output_times;
-    const double resolution = 1e-12 * std::max(1.0, options_.end_time);
+    // A step much shorter than the others would take the round-off of positions for velocities. What is left
+    // after an event just before an output time is not worth one.
+    const auto resolution = [&] { return std::max(1e-12 * std::max(1.0, options_.end_time), 1e-5 * step_); };
     const auto write_due = [&] {
-      while (next_output < times.size() && times[next_output] <= at_.state.t + resolution) {
+      while (next_output < times.size() && times[next_output] <= at_.state.t + resolution()) {
+        at_.state.t = std::max(at_.state.t, times[next_output]);
         take_snapshot();
         ++next_output;
       }
     };
     write_due();
     bool complete = true;
-    while (at_.state.t < options_.end_time - resolution) {
+    while (at_.state.t < options_.end_time - resolution()) {
       if (interrupted()) {
         hand_over(next_output);
         report_.status = SimulationStatus::interrupted;
@@ -167,7 +170,7 @@ class Simulation {
         complete = false;
         break;
       }
-      if (std::abs(at_.state.t - target) < resolution) at_.state.t = target;
+      if (std::abs(at_.state.t - target) < resolution()) at_.state.t = target;
       write_due();
       if (observer_.progress) observer_.progress(last_record_);
       if (observer_.checkpoint_due && observer_.checkpoint_due()) hand_over(next_output);

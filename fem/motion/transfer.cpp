@@ -45,15 +45,17 @@ class Remap {
   }
 
   // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
-  // axial strain that the old ones had not, and where these cannot bring it, their neighbours too.
+  // axial strain that the old ones had not, and where these cannot bring it, their neighbours too, ring by
+  // ring.
   void keep_energy(Transferred& next) const {
     const SystemEnergy old = energy(from_, state_);
     const double enough =
         1e-10 * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
     const auto excess = [&](const State& x) { return energy(to_, x).mechanical() - old.mechanical(); };
     double e = excess(next.state);
-    for (const bool with_neighbours : {false, true}) {
-      const std::vector<int> free = free_coordinates(with_neighbours);
+    constexpr int most_rings = 4;
+    for (int rings = 0; rings <= most_rings && std::abs(e) > enough; ++rings) {
+      const std::vector<int> free = free_coordinates(rings);
       constexpr int most_moves = 10;
       for (int i = 0; i < most_moves && std::abs(e) > enough && !free.empty(); ++i) {
         const double before = std::abs(e);
@@ -145,14 +147,14 @@ class Remap {
     return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
   }
 
-  // Positions and slopes of the nodes of new elements, and with_neighbours of the elements next to these: but
-  // for supported positions, clamped slopes and positions of bodies.
-  std::vector<int> free_coordinates(bool with_neighbours) const {
+  // Positions and slopes of the nodes of new elements, and of the given rings of neighbours: but for
+  // supported positions, clamped slopes and positions of bodies.
+  std::vector<int> free_coordinates(int rings) const {
     const Mesh& mesh = to_.mesh();
     std::set<std::pair<int, int>> nodes;  // beam, node
     for (const MeshSpan& span : mesh.spans)
       if (!was_there(span)) nodes.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
-    if (with_neighbours)
+    for (int ring = 0; ring < rings; ++ring)
       for (const std::set<std::pair<int, int>> inner = nodes; const MeshSpan& span : mesh.spans)
         if (inner.contains({span.beam, span.node_a}) || inner.contains({span.beam, span.node_b}))
           nodes.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});

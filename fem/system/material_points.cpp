@@ -96,6 +96,17 @@ ElementRecord record_element(const BeamSystem& system, const State& state, int s
       system, [&]<int D>(const Assembly<D>& a) { return record<D>(a.elements()[span], state); });
 }
 
+double position_error(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        const MeshElement<D>& e = a.elements()[span];
+        const ElementVector<D> q = gather<D>(e, state.q);
+        const double length = q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)];
+        return quartic_strain_to_error * std::abs(e.element.quartic_strain(q)) * length;
+      });
+}
+
 std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const State& state, int span) {
   return with_assembly(
       system,

@@ -154,11 +154,17 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
   return {.area = number(section, "area"), .second_moment = number(section, "second_moment")};
 }
 
-AxialStrain read_axial_strain(const Json& json, const std::string& path, Form form, Findings& findings) {
-  const AxialStrain strain = chosen<AxialStrain>(
-      json, "axial_strain",
-      {{"pointwise", AxialStrain::pointwise}, {"ends-and-mean", AxialStrain::ends_and_mean}});
-  if (strain == AxialStrain::ends_and_mean && form == Form::virtual_work)
+/// Of the papers' elements (constant weights, no metric, form P) the pointwise strain when omitted.
+AxialStrain read_axial_strain(const Json& json, const std::string& path, const CaseBeam& beam,
+                              Findings& findings) {
+  const bool papers =
+      beam.weights == WeightRule::constant || beam.metric == Metric::label || beam.form == Form::virtual_work;
+  const AxialStrain strain =
+      chosen<AxialStrain>(json, "axial_strain",
+                          {{"", papers ? AxialStrain::pointwise : AxialStrain::ends_and_mean},
+                           {"pointwise", AxialStrain::pointwise},
+                           {"ends-and-mean", AxialStrain::ends_and_mean}});
+  if (strain == AxialStrain::ends_and_mean && beam.form == Form::virtual_work)
     findings.error(child(path, "axial_strain"),
                    "is \"ends-and-mean\", but \"form\": \"virtual-work\" is the papers' element, which has "
                    "\"pointwise\"; leave one of them out");
@@ -182,6 +188,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.elements = {.count = optional_integer(elements, "count"),
                    .max_length = optional_number(elements, "max_length"),
                    .per_segment = optional_integer(elements, "per_segment"),
+                   .tolerance = optional_number(elements, "tolerance"),
                    .grading = number(elements, "grading", 0)};
   beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
   beam.ring = flag(json, "closed");
@@ -209,7 +216,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.metric = chosen<Metric>(json, "metric", {{"reference", Metric::arc_length}, {"none", Metric::label}});
   beam.form =
       chosen<Form>(json, "form", {{"variational", Form::variational}, {"virtual-work", Form::virtual_work}});
-  beam.axial_strain = read_axial_strain(json, path, beam.form, findings);
+  beam.axial_strain = read_axial_strain(json, path, beam, findings);
   return beam;
 }
 

@@ -70,7 +70,8 @@ struct CaseElements {
   std::optional<int> count;
   std::optional<double> max_length;  ///< [m]
   std::optional<int> per_segment;
-  double grading = 0;  ///< increment of length between neighbouring elements of one segment [m]
+  std::optional<double> tolerance;  ///< error of positions over the length (adapt_mesh)
+  double grading = 0;               ///< increment of length between neighbouring elements of one segment [m]
 };
 
 /// What a run can be asked for.
@@ -99,7 +100,7 @@ struct CaseBeam {
   MergeRule merge = MergeRule::standard;
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
-  AxialStrain axial_strain = AxialStrain::pointwise;
+  AxialStrain axial_strain = AxialStrain::ends_and_mean;
   Metric metric = Metric::arc_length;
   Form form = Form::variational;
 };

@@ -115,10 +115,15 @@ Shape elements() {
        {"max_length", quantity(Dimension::length, positive()), "greatest element length"},
        {"per_segment", integer(element_count()),
         "elements per cubic segment of the axis, cut at the supports"},
+       {"tolerance",
+        quantity(Dimension::number,
+                 {.lower = 1e-9, .upper = 0.1, .reason = "less is round-off, more no longer a measure"}),
+        "as many elements as the beam needs for this error of positions, over its length, estimated from the static "
+        "state in which bodies are held where they start"},
        {"grading", quantity(Dimension::length),
         "how much longer each element is than the one before it in its segment; negative: shorter", false,
         "per_segment"}},
-      {{{"count", "max_length", "per_segment"}, false}});
+      {{{"count", "max_length", "per_segment", "tolerance"}, false}});
 }
 
 Shape beam() {
@@ -150,9 +155,10 @@ Shape beam() {
         "the unstressed shape; as-drawn in planar models, straight in spatial ones when omitted"},
        {"curvature", choice({"material", "spatial"}),
         "curvature measure; spatial: the papers'; material when omitted"},
-       {"axial_strain", choice({"pointwise", "ends-and-mean"}),
-        "the axial strain that carries: that at every point, which locks in slender beams, or the quadratic with its "
-        "values at the element's ends and its mean, for cables and slender rods; pointwise when omitted"},
+       {"axial_strain", choice({"ends-and-mean", "pointwise"}),
+        "the axial strain that carries: the quadratic with its values at the element's ends and its mean, or that at "
+        "every point, as in the papers, which locks in slender beams; when omitted ends-and-mean, but pointwise with "
+        "constant weights, without metric and with form virtual-work"},
        {"form", choice({"variational", "virtual-work"}),
         "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
         "variational when omitted"},

@@ -98,6 +98,9 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
   for (const Beam& beam : model.beams) print_beam(out, beam);
   for (const Beam& beam : model.beams) print_corners(out, beam);
   print_mismatch(out, system);
+  if (const auto& adapted = report.value->adapted)
+    out << "mesh      positions off by about " << text_of(adapted->error, 2) << " of a beam's length, by the "
+        << (adapted->from_equilibrium ? "static state" : "drawing") << '\n';
   print_sections(out, *report.value);
   print_joints(out, model);
   out << "supports  " << count<Support>(model.constraints) << ", point loads "

@@ -20,6 +20,19 @@ const char* reason_of(StepStatus status) {
   return "converged";
 }
 
+std::string reason_of(StaticStatus status) {
+  switch (status) {
+    case StaticStatus::singular_matrix:
+      return "the tangent is singular (is the model held everywhere?)";
+    case StaticStatus::unstable:
+      return "only unstable ones, which the model leaves when it is touched";
+    case StaticStatus::not_converged:
+    case StaticStatus::converged:
+      break;
+  }
+  return "the solver does not converge";
+}
+
 // Where each body is and how fast it slides, each after a semicolon.
 std::string places_text(const std::vector<BodyPlace>& bodies, const BeamModel& model) {
   std::string text;
@@ -51,10 +64,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::bodies_meet:
       return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;
     case Failure::Kind::equilibrium:
-      return std::string("no static equilibrium was found: ") +
-             (failure.equilibrium.status == StaticStatus::singular_matrix
-                  ? "the tangent is singular (is the model held everywhere?)"
-                  : "the solver does not converge") +
+      return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
              "; load factor reached " + text_of(failure.equilibrium.load_factor, 8);
     case Failure::Kind::resting_place:
       break;

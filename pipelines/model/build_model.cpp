@@ -193,6 +193,29 @@ void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
   }
 }
 
+// The elements of beams that name a tolerance instead of a number; nothing where there are none.
+std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamModel& model,
+                                          Findings& findings) {
+  std::vector<std::optional<double>> tolerances;
+  std::string path;
+  for (const CaseBeam& beam : resolved.beams) {
+    tolerances.push_back(beam.elements.tolerance);
+    if (beam.elements.tolerance && path.empty()) path = beam.path + ".elements.tolerance";
+  }
+  if (path.empty()) return {};
+  const AdaptedMesh adapted = adapt_mesh(model, tolerances, most_elements);
+  if (!adapted.from_equilibrium)
+    findings.warn(
+        path,
+        "no static state was found that could say how many elements are needed; the curvature of the "
+        "drawing decided: give \"count\" instead");
+  if (!adapted.reached)
+    findings.warn(path, "is not reached with at most " + std::to_string(most_elements) +
+                            " elements in a beam; positions are off by about " + text_of(adapted.error) +
+                            " of its length");
+  return adapted;
+}
+
 // Nothing, with errors among the findings, where the case cannot be a model.
 std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findings) {
   CadFiles files;
@@ -217,6 +240,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
 
   add_loads(resolved, beams, built.frame, built.model, findings);
   add_sliding_joints(resolved, beams, joined, built.model, findings);
+  if (findings.has_errors()) return {};
+  built.adapted = adapt_elements(resolved, built.model, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
+#include "fem/motion/adapted_mesh.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/model_frame.h"
@@ -38,6 +39,7 @@ struct BuiltModel {
   ModelFrame frame;
   std::vector<BeamSource> sources;  ///< per beam
   std::vector<Probe> probes;
+  std::optional<AdaptedMesh> adapted = {};  ///< where beams name a tolerance instead of a number of elements
   std::vector<std::filesystem::path> inputs;  ///< CAD files read
   double import_seconds = 0;
 };

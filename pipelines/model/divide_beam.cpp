@@ -35,8 +35,11 @@ void too_many(const CaseBeam& from, const std::string& key, const std::string& v
                                                      std::to_string(most_elements) + "; give " + valid);
 }
 
+int fewest_in_ring(int sliding_bodies) { return 4 + 2 * sliding_bodies; }
+
 // Elements of each interval; none, with a diagnostic, when they are too many.
-std::vector<int> parts(const CaseBeam& from, const std::vector<double>& places, Findings& findings) {
+std::vector<int> parts(const CaseBeam& from, const std::vector<double>& places, int sliding_bodies,
+                       Findings& findings) {
   const int intervals = static_cast<int>(places.size()) - 1;
   const CaseElements& asked = from.elements;
   if (asked.per_segment) {
@@ -61,8 +64,8 @@ std::vector<int> parts(const CaseBeam& from, const std::vector<double>& places, 
              findings);
     return {};
   }
-  constexpr int default_count = 20;
-  return spread_elements(places, asked.count.value_or(std::max(default_count, intervals)));
+  const int first = asked.tolerance ? 4 + fewest_in_ring(sliding_bodies) : 20;  // adapt_mesh makes it finer
+  return spread_elements(places, asked.count.value_or(std::max(first, intervals)));
 }
 
 // In space the angle of a corner that hardly turns, or turns right back, has no derivative.
@@ -82,7 +85,7 @@ void check_rigid_corner(const CaseBeam& from, const ReferenceCurve& curve, doubl
 }
 
 void check_ring_elements(const CaseBeam& from, int elements, int sliders, Findings& findings) {
-  const int fewest = 4 + 2 * sliders;
+  const int fewest = fewest_in_ring(sliders);
   if (elements < fewest)
     findings.error(from.path + ".elements", "gives " + std::to_string(elements) + " elements; a ring with " +
                                                 std::to_string(sliders) + " sliding bodies needs at least " +
@@ -99,7 +102,7 @@ std::vector<HomeNode> divide_beam(const CaseBeam& from, const DrawnBeam& drawn,
   if (findings.has_errors()) return {};
   std::vector<int> counts;
   try {
-    counts = parts(from, places, findings);
+    counts = parts(from, places, sliding_bodies, findings);
   } catch (const std::invalid_argument& problem) {
     findings.error(from.path + ".elements.count", problem.what());
     return {};

@@ -18,6 +18,7 @@ void write_falling_beam(Page& page, std::ostream& progress);
 void write_suspended_beam(Page& page, std::ostream& progress);
 void write_semicircle(Page& page, std::ostream& progress);
 void write_forms(Page& page, std::ostream& progress);
+void write_axial_strain(Page& page, std::ostream& progress);
 void write_events(Page& page, std::ostream& progress);
 void write_accuracy(Page& page, std::ostream& progress);
 void write_pendulum(Page& page, std::ostream& progress);

@@ -26,14 +26,14 @@ using std::numbers::pi;
 
 // ---- Energy ----
 
-/// Largest departure of the total energy from its start until the first event that is not exact, over the
-/// peak kinetic energy until then.
+/// Largest departure of the total energy from its start until the first event on the way, over the peak
+/// kinetic energy until then.
 double relative_drift(const BeamModel& model, double end, double step) {
   const long count = std::lround(end / step);
   step = end / static_cast<double>(count);
   const RunRecord run = run_model(model, even_times(end, count), step, 1);
   for (const RunEvent& event : run.report.events)
-    if (event.kind != EventKind::split) end = std::min(end, event.time - step / 2);
+    if (event.time > 0) end = std::min(end, event.time - step / 2);
   double drift = 0, kinetic = 0;
   for (const Snapshot& frame : run.frames) {
     if (frame.time > end) break;
@@ -45,7 +45,7 @@ double relative_drift(const BeamModel& model, double end, double step) {
 
 VerifyResult energy_drift(const BeamModel& model, double end, const std::vector<double>& steps) {
   VerifyResult result;
-  ConvergenceTable table{"the energy over its peak kinetic part, without merges", "step [s]", {}};
+  ConvergenceTable table{"the energy over its peak kinetic part, before the first event", "step [s]", {}};
   for (const double step : steps) table.rows.emplace_back(step, relative_drift(model, end, step));
   result.add("energy drift over peak kinetic energy, finest step", 0, "nothing dissipates",
              table.rows.back().second, 1e-6);

@@ -34,12 +34,12 @@ Tip elastica_tip(double q) {
   return {std::sqrt(2 * (2 * p * p - 1) / q), -drop};
 }
 
-Tip stretching_elastica_tip(double EA, double q) {
+Tip stretching_elastica_tip(double EA, double q, double kappa_0) {
   constexpr int steps = 4000;
   const StringLaw law{.EA = EA, .w = 0};
   const auto rate = [&](const Eigen::Vector4d& y) {  // theta, M, x, y
     const double lambda = law.stretch(-q * std::sin(y[0]));
-    return Eigen::Vector4d(y[1], lambda * q * std::cos(y[0]), lambda * std::cos(y[0]),
+    return Eigen::Vector4d(kappa_0 + y[1], lambda * q * std::cos(y[0]), lambda * std::cos(y[0]),
                            lambda * std::sin(y[0]));
   };
   const auto end = [&](double root_moment) {

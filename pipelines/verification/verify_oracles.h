@@ -19,8 +19,9 @@ Tip elastica_tip(double q);
 
 /// A cantilever of unit length and bending stiffness that stretches, axial stiffness EA (Green's law: the
 /// force is EA lambda (lambda^2 - 1)/2 at the stretch lambda), under a dead tip load q downwards: theta' = M,
-/// M' = lambda q cos(theta), r' = lambda (cos, sin)(theta), by shooting and Runge-Kutta.
-Tip stretching_elastica_tip(double EA, double q);
+/// M' = lambda q cos(theta), r' = lambda (cos, sin)(theta), by shooting and Runge-Kutta. Drawn as an arc that
+/// turns upwards where kappa_0 [1/m] is not 0: theta' = kappa_0 + M.
+Tip stretching_elastica_tip(double EA, double q, double kappa_0 = 0);
 
 struct StringShape {
   double x = 0, y = 0, axial_energy = 0;

@@ -305,6 +305,42 @@ StaticReport find(System& system, State& state) {
   return find_static_equilibrium({}, system, state);
 }
 
+/// A rigid bar of length 1, upright at angle 0 on a hinge with a spring of stiffness 1 and a weight of 1.2 on
+/// its top: upright is an equilibrium, but above a weight of 1 not a stable one.
+class Inverted : public DenseSystem {
+ public:
+  int coordinate_count() const override { return 1; }
+  int constraint_count() const override { return 0; }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd>) const override {
+    dynamics[0] = state.a[0] + state.q[0] - state.load * weight * std::sin(state.q[0]);
+  }
+  double weight = 1.2;
+
+ protected:
+  Eigen::MatrixXd mass(const State&) const override { return Eigen::MatrixXd::Identity(1, 1); }
+  Eigen::MatrixXd stiffness(const State& state) const override {
+    return Eigen::MatrixXd::Constant(1, 1, 1 - state.load * weight * std::cos(state.q[0]));
+  }
+};
+
+TEST(StaticEquilibrium, AnUnstableEquilibriumIsLeftForAStableOne) {
+  const Inverted bar;
+  State state = resting(Eigen::VectorXd::Zero(1));
+  ASSERT_EQ(find_static_equilibrium({}, bar, state).status, StaticStatus::converged);
+  const double q = state.q[0];
+  EXPECT_NEAR(q / std::sin(q), bar.weight, 1e-9);
+  EXPECT_NEAR(std::abs(q), 1.0267, 1e-3);
+}
+
+TEST(StaticEquilibrium, BelowTheCriticalWeightTheBarStaysUpright) {
+  Inverted bar;
+  bar.weight = 0.99;
+  State state = resting(Eigen::VectorXd::Zero(1));
+  ASSERT_EQ(find_static_equilibrium({}, bar, state).status, StaticStatus::converged);
+  EXPECT_EQ(state.q[0], 0);
+}
+
 TEST(StaticEquilibrium, StiffnessesTwelveMagnitudesApartAreBothSatisfied) {
   UnlikeSprings system;
   State state = resting(Eigen::Vector2d::Zero());

@@ -1,0 +1,19 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <optional>
+
+namespace nurbeam {
+
+/// What the tangent says of an equilibrium: it is stable where K is positive definite on the null space of G.
+struct Stability {
+  int unstable_directions = 0;  ///< negative eigenvalues of K there
+  /// (n) One of them, of unit length; empty where there is none.
+  Eigen::VectorXd direction = {};
+};
+
+/// Of [[K, G'], [G, 0]] with K n x n. What round-off may have made of zero counts as zero. Nothing where K is
+/// not symmetric (follower loads): there is no energy.
+std::optional<Stability> stability(const Eigen::SparseMatrix<double>& kkt, int n);
+
+}  // namespace nurbeam

@@ -1,0 +1,113 @@
+// Slender beams on meshes on which an element that locks is wrong: case files and their known answers.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "pipelines/results/frame_reader.h"
+#include "pipelines/verification/verify_oracles.h"
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+using namespace verification;
+
+/// The state in which a static case ends.
+Snapshot at_rest(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path results = directory.path() / "results";
+  const std::filesystem::path file = std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name;
+  std::vector<std::string> words = {"run", file.string(), "--quiet", "--out", results.string()};
+  for (const std::string& override : overrides) words.insert(words.end(), {"--set", override});
+  std::ostringstream out, err;
+  EXPECT_EQ(run_command_line(words, out, err), 0) << err.str();
+  return FrameReader(results / "results.nc").read(0, 1).at(0);
+}
+
+struct Range {
+  double least, greatest;
+};
+Range axial_force(const BeamRecord& beam) {
+  Range range{INFINITY, -INFINITY};
+  for (const ElementRecord& element : beam.elements) {
+    range.least = std::min(range.least, element.axial_force.minCoeff());
+    range.greatest = std::max(range.greatest, element.axial_force.maxCoeff());
+  }
+  return range;
+}
+
+TEST(SlackCable, HasTheTensionOfTheCatenaryOnFortyElements) {
+  // 20 m of wire of 1 mm radius between pins 10 m apart, with a hundredth of its bending stiffness, which as
+  // it is takes 2.5 % from the tension at mid span.
+  const double A = std::numbers::pi * 1e-6, w = 7850 * A * 9.81;
+  const std::string section =
+      "beams[0].section={\"area\":" + std::to_string(1e6 * A) + "e-6,\"second_moment\":7.85e-15}";
+  const Snapshot rest = at_rest("d_axial_sawtooth.json", {"beams[0].elements.count=40", section});
+  double length = 0;  // unstressed
+  for (const ElementRecord& element : rest.beams[0].elements) length += element.s_end - element.s_start;
+  const Hanging exact = hang({200e9 * A, w}, length, 10, 0);
+  const Range N = axial_force(rest.beams[0]);
+  EXPECT_NEAR(N.least, exact.H, 0.01 * exact.H);
+  const double greatest = std::hypot(exact.H, w * length / 2);
+  EXPECT_NEAR(N.greatest, greatest, 0.01 * greatest);
+}
+
+TEST(SlackCable, HasTheSameTensionOnCoarseAndFineMeshes) {
+  const Range fine = axial_force(at_rest("d_axial_sawtooth.json").beams[0]);
+  for (const int elements : {40, 80}) {
+    const Range coarse = axial_force(
+        at_rest("d_axial_sawtooth.json", {"beams[0].elements.count=" + std::to_string(elements)}).beams[0]);
+    EXPECT_NEAR(coarse.least, fine.least, 0.01 * fine.least) << elements;
+    EXPECT_NEAR(coarse.greatest, fine.greatest, 0.01 * fine.greatest) << elements;
+  }
+}
+
+TEST(LoadedCantilever, HasNoAxialForceAtItsRoot) {
+  // A dead load F at the tip pulls with its part along the tangent, which at the clamp is none.
+  const Snapshot rest = at_rest("d_axial_cantilever.json");
+  const BeamRecord& beam = rest.beams[0];
+  EXPECT_NEAR(beam.elements[0].axial_force[0], 0, 1e-3);
+  double largest = 0;
+  for (const ElementRecord& element : beam.elements) {
+    const RationalCubic cubic(element.control_points);
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector3d tangent = cubic.derivatives(i / 3.0).col(1).normalized();
+      largest = std::max(largest, std::abs(element.axial_force[i] - tangent.dot(Eigen::Vector3d(0, 0, -20))));
+    }
+  }
+  EXPECT_LT(largest, 1e-2);
+}
+
+TEST(ClosedRail, HasTheSameRestShapeOnEveryMesh) {
+  // The total energy of the fine meshes is 170,458.3 J; pointwise strain ends at 171,482 J with 64 elements.
+  for (const int elements : {48, 64, 96}) {
+    const Snapshot rest =
+        at_rest("d_ring_static_spurious64.json", {"beams[0].elements.count=" + std::to_string(elements)});
+    EXPECT_NEAR(rest.energy.total, 170458.3, 4) << elements;
+  }
+}
+
+TEST(ZipLine, IsAccurateOnCoarseMeshes) {
+  // A taut cable with a kink under its trolley, to 3 s: the trolley against that of 80 elements.
+  const auto run = [](int elements) {
+    return run_file(sample("zipline/zipline.json"),
+                    {"beams[0].elements.count=" + std::to_string(elements), "analysis.end_time=3",
+                     "output.every=0.05", "output.cad=null", "output.report=false"});
+  };
+  const CaseRun fine = run(80);
+  for (const auto& [elements, error] : {std::pair{10, 2.3e-5}, {20, 7.9e-6}, {40, 3e-6}}) {
+    const CaseRun coarse = run(elements);
+    double farthest = 0;
+    for (std::size_t i = 0; i < fine.rows.size(); ++i)
+      farthest =
+          std::max(farthest, std::hypot(coarse.value(i, "trolley.x [m]") - fine.value(i, "trolley.x [m]"),
+                                        coarse.value(i, "trolley.z [m]") - fine.value(i, "trolley.z [m]")));
+    EXPECT_LT(farthest, 1.2 * error) << elements;
+  }
+}
+
+}  // namespace
+}  // namespace nurbeam::test
