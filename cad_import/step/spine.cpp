@@ -8,12 +8,16 @@
 #include <Geom_BezierCurve.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "cad_import/report/length_unit.h"
@@ -56,25 +60,31 @@ bool is_straight(const BezierPoints& points) {
   return true;
 }
 
-void check_joint(const Span& before, const Span& after) {
+/// What corner there is between two spans, in words; nothing where they meet smoothly.
+std::optional<std::string> corner_between(const Span& before, const Span& after) {
   constexpr double smooth = 1e-4;  // [rad]
-  const double sine = before.end_direction().cross(after.start_direction()).norm();
-  if (sine < smooth && before.end_direction().dot(after.start_direction()) > 0) return;
-  const double angle = std::atan2(sine, before.end_direction().dot(after.start_direction()));
-  throw std::runtime_error("it has a corner of " + text_of(angle * 180 / std::numbers::pi) + " degrees at " +
-                           text_of(after.start()) + " m, and a sweep needs a smooth curve");
+  const Eigen::Vector3d in = before.end_direction(), out = after.start_direction();
+  const double angle = std::atan2(in.cross(out).norm(), in.dot(out));
+  if (angle < smooth) return std::nullopt;
+  return "a corner of " + text_of(angle * 180 / std::numbers::pi) + " degrees at " + text_of(after.start());
 }
 
-/// The spans, those of one line as one.
-std::vector<Span> spans_of(const NurbsCurve& curve) {
+std::vector<Span> all_spans(const NurbsCurve& curve) {
   std::vector<Span> spans;
   const std::vector<double> breaks = curve.knots().breaks();
   for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
     const BezierPoints points = curve.bezier_points(curve.knots().find_span(breaks[j]));
-    const Span next{points, is_straight(points)};
-    if (!spans.empty()) check_joint(spans.back(), next);
+    spans.push_back({points, is_straight(points)});
+  }
+  return spans;
+}
+
+/// The spans, those of one line as one.
+std::vector<Span> merged_spans(const NurbsCurve& curve) {
+  std::vector<Span> spans;
+  for (const Span& next : all_spans(curve)) {
     BezierPoints both(4, 3);
-    if (!spans.empty()) both << spans.back().points.col(0), points.col(0), points.rightCols<1>();
+    if (!spans.empty()) both << spans.back().points.col(0), next.points.col(0), next.points.rightCols<1>();
     if (next.straight && !spans.empty() && spans.back().straight && is_straight(both))
       spans.back().points = both;
     else
@@ -116,17 +126,50 @@ TopoDS_Edge edge_of(const Span& span, const TopoDS_Vertex& from, const TopoDS_Ve
   const Handle(Geom_Curve) arc = arc_of(span);
   BRepBuilderAPI_MakeEdge maker(arc.IsNull() ? bezier_of(span) : arc, from, to);
   if (!maker.IsDone())
-    throw std::runtime_error("OpenCASCADE makes no edge of its span at " + text_of(span.start()) + " m");
+    throw std::runtime_error("OpenCASCADE makes no edge of its span at " + text_of(span.start()));
   return maker.Edge();
 }
 
 }  // namespace
 
+Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
+  const std::vector<double> breaks = [&] {
+    std::vector<double> values = curve.knots().knots();
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }();
+  const int break_count = static_cast<int>(breaks.size());
+  TColStd_Array1OfReal knots(1, break_count);
+  TColStd_Array1OfInteger multiplicities(1, break_count);
+  for (int i = 0; i < break_count; ++i) {
+    knots(i + 1) = breaks[i];
+    multiplicities(i + 1) = curve.knots().multiplicity(breaks[i]);
+  }
+  const Eigen::Matrix4Xd& points = curve.control_points();
+  const int count = static_cast<int>(points.cols());
+  TColgp_Array1OfPnt poles(1, count);
+  TColStd_Array1OfReal weights(1, count);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * millimetres_per_metre;
+    poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
+    weights(i + 1) = points(3, i);
+  }
+  return new Geom_BSplineCurve(poles, weights, knots, multiplicities, curve.degree());
+}
+
+std::optional<std::string> corner_of(const NurbsCurve& curve) {
+  const std::vector<Span> spans = all_spans(curve);
+  for (std::size_t i = 0; i + 1 < spans.size(); ++i)
+    if (auto corner = corner_between(spans[i], spans[i + 1])) return corner;
+  const bool closed = is_closed(curve, same_place / millimetres_per_metre);
+  return closed ? corner_between(spans.back(), spans.front()) : std::nullopt;
+}
+
 TopoDS_Wire spine(const NurbsCurve& curve) {
-  const std::vector<Span> spans = spans_of(curve);
+  if (corner_of(curve)) return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(bspline(curve)).Edge());
+  const std::vector<Span> spans = merged_spans(curve);
   const TopoDS_Vertex first = BRepBuilderAPI_MakeVertex(in_millimetres(spans.front().start()));
   const bool closed = is_closed(curve, same_place / millimetres_per_metre);
-  if (closed) check_joint(spans.back(), spans.front());
   BRepBuilderAPI_MakeWire wire;
   TopoDS_Vertex from = first;
   for (std::size_t i = 0; i < spans.size(); ++i) {

@@ -3,7 +3,6 @@
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRep_Builder.hxx>
-#include <Geom_BSplineCurve.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -20,9 +19,6 @@
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_GeometricSetSelect.hxx>
 #include <StepShape_ManifoldSolidBrep.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
-#include <TColgp_Array1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
@@ -34,6 +30,7 @@
 #include <string_view>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/spine.h"
 #include "cad_import/step/swept_pipe.h"
 
 namespace nurbeam {
@@ -75,31 +72,6 @@ void set_parameters(LengthUnit unit, bool assembly) {
   set("write.step.unit", step_unit(unit));
   set("write.step.schema", "AP214IS");
   set("write.step.assembly", assembly ? "On" : "Off");
-}
-
-Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
-  const std::vector<double> breaks = [&] {
-    std::vector<double> values = curve.knots().knots();
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
-  }();
-  const int break_count = static_cast<int>(breaks.size());
-  TColStd_Array1OfReal knots(1, break_count);
-  TColStd_Array1OfInteger multiplicities(1, break_count);
-  for (int i = 0; i < break_count; ++i) {
-    knots(i + 1) = breaks[i];
-    multiplicities(i + 1) = curve.knots().multiplicity(breaks[i]);
-  }
-  const Eigen::Matrix4Xd& points = curve.control_points();
-  const int count = static_cast<int>(points.cols());
-  TColgp_Array1OfPnt poles(1, count);
-  TColStd_Array1OfReal weights(1, count);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * millimetres_per_metre;
-    poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
-    weights(i + 1) = points(3, i);
-  }
-  return new Geom_BSplineCurve(poles, weights, knots, multiplicities, curve.degree());
 }
 
 TopoDS_Edge edge(const NamedCurve& named) {
