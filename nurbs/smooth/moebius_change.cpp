@@ -9,7 +9,7 @@ namespace nurbeam::smooth {
 namespace {
 
 /// The chart of `right` that makes it continue `left` in C1, in homogeneous coordinates if `right` has the
-/// sense of it (they share their tangent); nothing where no positive c does. Theory section 9 with the
+/// sense of it (they share their tangent); nothing where no positive c does. Theory, back to CAD, with the
 /// lengths l measured by the speeds: c_{j+1} = mu / (gamma - c_j), Delta_{j+1} = Delta_j c_j c_{j+1} / mu.
 std::optional<MoebiusChange> next_change(const Piece& left, const MoebiusChange& chart, const Piece& right) {
   constexpr double same = 1e-11;

@@ -29,7 +29,7 @@ struct Piece {
 };
 using Pieces = std::vector<Piece>;
 
-/// How a piece is run through: w_i -> c^i w_i on an interval of this length (theory.md section 9: c_j and
+/// How a piece is run through: w_i -> c^i w_i on an interval of this length (theory.md, back to CAD: c_j and
 /// Delta_j).
 struct MoebiusChange {
   double c;
