@@ -41,11 +41,14 @@ constexpr std::chrono::seconds patience{120};
 std::string reason_of(const ChildResult& result, const char* work) {
   if (result.status == ChildResult::Status::timed_out)
     return std::string(work) + " takes longer than " + std::to_string(patience.count()) + " s";
+  if (result.status == ChildResult::Status::crashed)
+    return "OpenCASCADE crashed while " + std::string(work) + " (" + result.complaint + ")";
   return result.complaint;
 }
 
 void check_pipe(const NamedPipe& pipe) {
   check_name(pipe.axis.name);
+  check_name(pipe.axis.part);
   if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
     throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + text_of(pipe.radius) +
                                 " m; it must be positive");
@@ -62,7 +65,10 @@ std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<Na
   const bool step = is_step_name(file);
   if (curves.empty())
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
-  for (const NamedCurve& curve : curves) check_name(curve.name);
+  for (const NamedCurve& curve : curves) {
+    check_name(curve.name);
+    check_name(curve.part);
+  }
   const ChildResult result = asked(WriteCurvesRequest{step, curves, unit}, {patience});
   if (result.status != ChildResult::Status::finished)
     return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing")}};

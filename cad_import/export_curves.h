@@ -17,11 +17,12 @@ namespace nurbeam {
                                                     const std::vector<NamedCurve>& curves, LengthUnit unit);
 
 /// Writes each pipe as a solid (its axis swept by a disk or an annulus, ends cut square) under its name, to a
-/// STEP file, else as export_curves does. The faces are OpenCASCADE's approximation; the volumes agree with
-/// the area of the section times the length within 1e-3. When a curve cannot be swept (a corner, a bend
-/// sharper than the radius, most rings that lie in no plane) nothing is written and a Diagnostic of severity
-/// error says why. Throws std::invalid_argument also for another extension than .step or .stp, for a radius
-/// that is not positive and for a bore that is negative or not below the radius.
+/// STEP file, else as export_curves does. Lines and arcs become cylinders and tori; other faces are
+/// OpenCASCADE's approximation, with a volume that agrees with the section times the length within 1e-5. When
+/// a curve cannot be swept (a corner, a bend sharper than the radius, most rings that lie in no plane)
+/// nothing is written and a Diagnostic of severity error says why. Throws std::invalid_argument also for
+/// another extension than .step or .stp, for a radius that is not positive and for a bore that is negative or
+/// not below the radius.
 [[nodiscard]] std::vector<Diagnostic> export_solids(const std::filesystem::path& file,
                                                     const std::vector<NamedPipe>& pipes, LengthUnit unit);
 

@@ -1,5 +1,6 @@
 #include "nurbs/hermite_approximation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -9,6 +10,7 @@
 namespace nurbeam {
 namespace {
 
+constexpr double joint_angle = 1e-4;  // a kink above is meant as a corner [rad]
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// A curve as Bezier pieces on the intervals between its breaks.
@@ -98,6 +100,32 @@ std::vector<double> fewest_breaks(const Source& source, double start, double end
   return best;
 }
 
+/// The cubic with its second control point turned, about the first, into this direction.
+RationalCubic starting_along(const RationalCubic& cubic, const Eigen::Vector3d& direction) {
+  Eigen::Matrix4d points = cubic.points();
+  const double leg = (cubic.control_point(1) - cubic.control_point(0)).norm();
+  points.col(1).head<3>() = points(3, 1) * (cubic.control_point(0) + leg * direction);
+  return RationalCubic(points);
+}
+
+/// Turns both tangents of two parts that meet without a corner midway, if that moves neither by more than the
+/// bound [m].
+void share_tangent(CubicPart& before, CubicPart& after, double bound) {
+  const RationalCubic back = before.cubic.reversed();
+  const Eigen::Vector3d in = back.control_point(0) - back.control_point(1);
+  const Eigen::Vector3d out = after.cubic.control_point(1) - after.cubic.control_point(0);
+  const Eigen::Vector3d along = (in.normalized() + out.normalized()).normalized();
+  const bool smooth = in.dot(out) > 0 && in.cross(out).norm() < joint_angle * in.norm() * out.norm();
+  if (!smooth) return;
+  const RationalCubic end = starting_along(back, -along).reversed();
+  const RationalCubic start = starting_along(after.cubic, along);
+  const double end_moved = distance_bound(before.cubic.points(), end.points());
+  const double start_moved = distance_bound(after.cubic.points(), start.points());
+  if (!(std::max(end_moved, start_moved) <= bound)) return;
+  before = {end, before.start, before.end, before.deviation + end_moved};
+  after = {start, after.start, after.end, after.deviation + start_moved};
+}
+
 }  // namespace
 
 std::vector<CubicPart> hermite_approximation(const NurbsCurve& curve, double tolerance) {
@@ -108,10 +136,11 @@ std::vector<CubicPart> hermite_approximation(const NurbsCurve& curve, double tol
     const double end = source.breaks[j + 1];
     if (end == curve.knots().end() || curve.knots().multiplicity(end) >= curve.degree()) ends.push_back(end);
   }
+  const double for_tangents = ends.size() > 1 ? 0.1 : 0;  // share of the tolerance
   std::vector<CubicPart> parts;
   double start = source.breaks.front();
   for (const double end : ends) {
-    const std::vector<double> breaks = fewest_breaks(source, start, end, tolerance);
+    const std::vector<double> breaks = fewest_breaks(source, start, end, (1 - for_tangents) * tolerance);
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
       const Approximation approximation = hermite(source, breaks[i], breaks[i + 1]);
       parts.push_back(
@@ -119,6 +148,8 @@ std::vector<CubicPart> hermite_approximation(const NurbsCurve& curve, double tol
     }
     start = end;
   }
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+    share_tangent(parts[i], parts[i + 1], 0.5 * for_tangents * tolerance);
   return parts;
 }
 

@@ -15,9 +15,10 @@ struct CubicPart {
 
 /// The fewest cubics within `tolerance` [m] > 0 of a curve of any degree, their deviations as even as that
 /// number allows: each has the homogeneous end values and end derivatives of the source on its interval. They
-/// reach across the source's knots but for those where it is only C0. The deviation is proven from Bezier
-/// points of the difference; a tolerance below the round-off of the coordinates is not reached, and it tells
-/// so.
+/// reach across the source's knots but for those where it is only C0; where tangents differ there by less
+/// than 1e-4 rad, which is no corner, both are turned midway if the tolerance allows. The deviation is proven
+/// from Bezier points of the difference; a tolerance below the round-off of the coordinates is not reached,
+/// and it tells so.
 std::vector<CubicPart> hermite_approximation(const NurbsCurve& curve, double tolerance);
 
 }  // namespace nurbeam

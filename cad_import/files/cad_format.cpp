@@ -17,6 +17,10 @@ std::string_view without_leading_space(std::string_view text) {
   return first == std::string_view::npos ? std::string_view() : text.substr(first);
 }
 
+std::string_view without_trailing_space(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+}
+
 bool has_iges_section(std::string_view line, char section) {
   return line.size() > section_column && line[section_column] == section;
 }
@@ -37,6 +41,23 @@ std::string_view terminate_line(const std::vector<std::string_view>& lines) {
   return line == lines.end() ? std::string_view() : *line;
 }
 
+// Its pairs of lines: comments, and then the first section.
+bool begins_as_dxf(std::string_view text) {
+  const auto next_line = [&] {
+    const std::string_view line =
+        without_trailing_space(without_leading_space(text.substr(0, text.find('\n'))));
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    return line;
+  };
+  while (!text.empty()) {
+    const std::string_view code = next_line();
+    if (text.empty()) return false;
+    const std::string_view value = next_line();
+    if (code != "999") return code == "0" && value == "SECTION";
+  }
+  return false;
+}
+
 // The number after the letter in "S0000001G0000004D0000016P0000020"; nothing if there is none.
 std::optional<long> declared_count(std::string_view terminate, char section) {
   const std::size_t at = terminate.substr(0, section_column).find(section);
@@ -52,12 +73,15 @@ std::optional<long> declared_count(std::string_view terminate, char section) {
 std::optional<CadFormat> format_of(const std::string& content) {
   if (without_leading_space(content).starts_with("ISO-10303-21")) return CadFormat::step;
   if (has_iges_section(first_line(content), 'S')) return CadFormat::iges;
+  if (begins_as_dxf(content)) return CadFormat::dxf;
   return std::nullopt;
 }
 
 std::optional<std::string> incompleteness(const std::string& content, CadFormat format) {
   if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos)
     return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
+  if (format == CadFormat::dxf && !without_trailing_space(content).ends_with("EOF"))
+    return "the DXF file is truncated: it does not end with EOF; export or copy it again";
   if (format == CadFormat::iges && terminate_line(lines_of(content)).empty()) {
     return "the IGES file is truncated: no line has a 'T' (Terminate section) in column 73; export or copy "
            "it again";

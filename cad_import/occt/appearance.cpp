@@ -7,6 +7,7 @@
 #include <STEPConstruct_Styles.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepVisual_ColourRgb.hxx>
+#include <StepVisual_Invisibility.hxx>
 #include <StepVisual_LayeredItem.hxx>
 #include <StepVisual_PreDefinedColour.hxx>
 #include <StepVisual_PreDefinedItem.hxx>
@@ -82,6 +83,22 @@ void add_layer(const StepVisual_PresentationLayerAssignment& layer, Appearances&
   }
 }
 
+void hide(const Handle(Standard_Transient) & item, Appearances& appearances) {
+  if (const auto styled = Handle(StepVisual_StyledItem)::DownCast(item))
+    return hide(styled->Item(), appearances);
+  if (const auto layer = Handle(StepVisual_PresentationLayerAssignment)::DownCast(item)) {
+    for (int i = 1; !layer->AssignedItems().IsNull() && i <= layer->NbAssignedItems(); ++i)
+      hide(layer->AssignedItemsValue(i).Value(), appearances);
+    return;
+  }
+  if (!item.IsNull()) appearances[item.get()].hidden = true;
+}
+
+void add_invisibility(const StepVisual_Invisibility& invisibility, Appearances& appearances) {
+  for (int i = 1; !invisibility.InvisibleItems().IsNull() && i <= invisibility.NbInvisibleItems(); ++i)
+    hide(invisibility.InvisibleItemsValue(i).Value(), appearances);
+}
+
 // -------------------------------------------------------------------------------------------------------
 // IGES
 
@@ -109,8 +126,9 @@ int iges_level(const IGESData_IGESEntity& entity) {
 
 void add_iges(const IGESData_IGESEntity& entity, Appearances& appearances) {
   const int level = iges_level(entity);
-  const Appearance own{level > 0 ? std::to_string(level) : "", iges_colour(entity)};
-  if (!own.layer.empty() || !own.colour.empty()) appearances[&entity] = own;
+  const Appearance own{level > 0 ? std::to_string(level) : "", iges_colour(entity),
+                       entity.BlankStatus() != 0 && entity.SubordinateStatus() == 0};
+  if (!own.layer.empty() || !own.colour.empty() || own.hidden) appearances[&entity] = own;
 }
 
 }  // namespace
@@ -126,6 +144,8 @@ Appearances appearances_of(XSControl_WorkSession& session) {
       add_style(styles, styled, appearances);
     if (const auto layer = Handle(StepVisual_PresentationLayerAssignment)::DownCast(entity))
       add_layer(*layer, appearances);
+    if (const auto invisibility = Handle(StepVisual_Invisibility)::DownCast(entity))
+      add_invisibility(*invisibility, appearances);
   }
   return appearances;
 }

@@ -6,6 +6,7 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <IGESData_NameEntity.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_EntityIterator.hxx>
@@ -21,6 +22,7 @@
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepData_UndefinedEntity.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
@@ -53,22 +55,16 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/files/tolerant_text.h"
 #include "cad_import/occt/spline_defect.h"
 
 namespace nurbeam {
 namespace {
 
-std::string text(const Handle(TCollection_HAsciiString) & value) {
-  if (value.IsNull()) return "";
-  std::string result = value->ToCString();
-  result.erase(0, result.find_first_not_of(' '));
-  return result.erase(result.find_last_not_of(' ') + 1);
-}
-
 std::string step_name(const Handle(Standard_Transient) & entity) {
   const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
   if (item.IsNull()) return "";
-  const std::string own = text(item->Name());
+  const std::string own = trimmed_text(item->Name());
   if (!own.empty()) return own;
   if (const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity)) return step_name(edge->EdgeGeometry());
   if (const auto curve = Handle(StepGeom_TrimmedCurve)::DownCast(entity))
@@ -76,14 +72,16 @@ std::string step_name(const Handle(Standard_Transient) & entity) {
   return "";
 }
 
+// Its name property, else its label, with the subscript if that counts: "Cable", "Cable(2)".
 std::string iges_name(const IGESData_IGESEntity& entity) {
-  if (entity.HasName()) return text(entity.NameValue());
-  return entity.HasShortLabel() ? text(entity.ShortLabel()) : "";
-}
-
-std::string entity_name(const Handle(Standard_Transient) & entity) {
-  if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity)) return iges_name(*iges);
-  return step_name(entity);
+  const Handle(Standard_Type) name = STANDARD_TYPE(IGESData_NameEntity);
+  if (entity.NbTypedProperties(name) > 0)
+    if (const auto property = Handle(IGESData_NameEntity)::DownCast(entity.TypedProperty(name)))
+      return trimmed_text(property->Value());
+  if (!entity.HasShortLabel()) return "";
+  const std::string label = trimmed_text(entity.ShortLabel());
+  const bool counts = entity.HasSubScriptNumber() && entity.SubScriptNumber() > 0;
+  return counts ? label + "(" + std::to_string(entity.SubScriptNumber()) + ")" : label;
 }
 
 void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin& origin, Origins& origins) {
@@ -95,6 +93,7 @@ void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin&
     if (known.name.empty()) known.name = origin.name;
     if (known.appearance.layer.empty()) known.appearance.layer = origin.appearance.layer;
     if (known.appearance.colour.empty()) known.appearance.colour = origin.appearance.colour;
+    known.appearance.hidden |= origin.appearance.hidden;
     known.defective |= origin.defective && shape.ShapeType() != TopAbs_COMPOUND;
   }
 }
@@ -160,9 +159,22 @@ std::vector<Translated> translated_entities(const XSControl_Reader& reader) {
 
 }  // namespace
 
+std::string trimmed_text(const Handle(TCollection_HAsciiString) & value) {
+  if (value.IsNull()) return "";
+  std::string result = value->ToCString();
+  result.erase(0, result.find_first_not_of(' '));
+  return as_utf8(result.erase(result.find_last_not_of(' ') + 1));
+}
+
+std::string entity_name(const Handle(Standard_Transient) & entity) {
+  if (const auto iges = Handle(IGESData_IGESEntity)::DownCast(entity)) return iges_name(*iges);
+  return step_name(entity);
+}
+
 std::string entity_label(const Interface_InterfaceModel& model, const Handle(Standard_Transient) & entity) {
-  const std::string_view type = entity->DynamicType()->Name();
-  return text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
+  const auto unknown = Handle(StepData_UndefinedEntity)::DownCast(entity);
+  const std::string_view type = unknown.IsNull() ? entity->DynamicType()->Name() : unknown->StepType();
+  return trimmed_text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
 }
 
 Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report) {

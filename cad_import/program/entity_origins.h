@@ -1,6 +1,7 @@
 #pragma once
 #include <Interface_InterfaceModel.hxx>
 #include <Standard_Transient.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <XSControl_Reader.hxx>
 #include <string>
 #include <unordered_map>
@@ -21,6 +22,12 @@ struct Origin {
 };
 // By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
 using Origins = std::unordered_map<const TopoDS_TShape*, Origin>;
+
+/// Without the blanks around it; "" of null.
+std::string trimmed_text(const opencascade::handle<TCollection_HAsciiString>& value);
+
+/// The entity's own name, or that of the curve it is made of.
+std::string entity_name(const opencascade::handle<Standard_Transient>& entity);
 
 /// "#17 TrimmedCurve" in STEP, "D15 BSplineCurve" in IGES.
 std::string entity_label(const Interface_InterfaceModel& model,

@@ -14,15 +14,15 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
+#include "cad_import/program/drawing_text.h"
+#include "cad_import/program/memory_file.h"
 #include "cad_import/step/step_instances.h"
 #include "cad_import/step/step_units.h"
 
@@ -215,10 +215,29 @@ void exchange(int instance, const NurbsCurve& curve, StepInstances& step) {
   }
 }
 
-void add_beside(int representation, const NurbsCurve& curve, const std::string& name, StepInstances& step) {
+/// The set of curves that holds the instance, if one does.
+std::optional<int> set_of(int instance, const StepInstances& step) {
+  for (const int user : step.users(instance)) {
+    const std::string kind = step.keyword(user);
+    if (kind == "GEOMETRIC_CURVE_SET" || kind == "GEOMETRIC_SET") return user;
+  }
+  return std::nullopt;
+}
+
+/// Adds the element to the set: at the end of the list that is its last parameter.
+void add_to_set(int element, int set, StepInstances& step) {
+  std::string value = step.value(set);
+  const std::size_t end_of_list = value.rfind(')', value.rfind(')') - 1);
+  step.replace(set, value.insert(end_of_list, ",#" + std::to_string(element)));
+}
+
+/// Into the set that holds the drawn curve, else into a representation of its own beside the part's.
+void add_beside(int instance, int representation, const NurbsCurve& curve, const std::string& name,
+                StepInstances& step) {
   const auto number = [](int n) { return "#" + std::to_string(n); };
   const std::string context = number(context_of(representation, step));
   const int geometry = step.add(bspline_value(curve, name, step));
+  if (const auto own = set_of(instance, step)) return add_to_set(geometry, *own, step);
   const int set = step.add("GEOMETRIC_CURVE_SET('" + name + "',(" + number(geometry) + "))");
   const int wires = step.add("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('" + name + "',(" +
                              number(set) + ")," + context + ")");
@@ -260,7 +279,7 @@ std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Re
   const std::string label = "#" + std::to_string(found.instance) + " '" + wanted.name + "': ";
   std::vector<std::string> warnings;
   if (const auto reason = obstacle(wanted, found, step)) {
-    add_beside(representation, curve, encoded(wanted.name), step);
+    add_beside(found.instance, representation, curve, encoded(wanted.name), step);
     warnings.push_back(label + *reason + "; the deformed curve was added beside it");
   } else {
     const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;
@@ -275,20 +294,18 @@ std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Re
 }  // namespace
 
 Exchanged exchange_curves(const std::filesystem::path& source, const std::vector<DeformedCurve>& curves) {
-  std::ifstream in(source, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  if (!in || format_of(content.str()) != CadFormat::step)
+  const std::string content = drawing_text(source);
+  if (format_of(content) != CadFormat::step)
     throw std::runtime_error("it cannot be read as a STEP file; only into one can curves be written back");
   be_silent();
   try {
     OCC_CATCH_SIGNALS
     start_step();
     STEPControl_Reader reader;
-    if (reader.ReadFile(source.c_str()) != IFSelect_RetDone)
+    if (reader.ReadFile(MemoryFile(content).path().c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");
     reader.TransferRoots();
-    StepInstances step(content.str());
+    StepInstances step(content);
     Exchanged result;
     for (const DeformedCurve& curve : curves) {
       const std::vector<std::string> warnings = place(curve, reader, reader.OneShape(), step);

@@ -1,10 +1,10 @@
-#include <fstream>
 #include <optional>
-#include <sstream>
+#include <stdexcept>
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/files/child_work.h"
 #include "cad_import/iges/iges_text.h"
+#include "cad_import/program/drawing_text.h"
 #include "cad_import/program/exchange_curves.h"
 #include "cad_import/program/read_cad_file.h"
 #include "cad_import/report/report_bytes.h"
@@ -25,17 +25,18 @@ ImportReport refusal(const fs::path& file, const std::string& message) {
 }
 
 ImportReport read_file(const fs::path& file, double tolerance) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream stream;
-  stream << in.rdbuf();
-  if (!in || !stream) return refusal(file, "the file cannot be read; check its permissions");
-  const std::string content = stream.str();
+  std::string content;
+  try {
+    content = drawing_text(file);
+  } catch (const std::runtime_error& e) {
+    return refusal(file, e.what());
+  }
   const std::optional<CadFormat> format = format_of(content);
   if (!format) {
     return refusal(
         file,
         "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
-        "first line); export the curves as STEP AP214 or IGES");
+        "first line) nor DXF (must begin with a SECTION); export the curves as STEP AP214 or IGES");
   }
   if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
   return read_cad_file(file, content, *format, tolerance);

@@ -21,6 +21,7 @@
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
@@ -53,12 +54,16 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/dxf/read_dxf.h"
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/occt/appearance.h"
 #include "cad_import/occt/centre_line.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/entity_origins.h"
+#include "cad_import/program/lost_curves.h"
+#include "cad_import/program/memory_file.h"
+#include "cad_import/program/part_names.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
 #include "nurbs/number_text.h"
@@ -84,15 +89,25 @@ void note_approximation(const ImportedCurve& curve, const std::string& label, do
                      text_of(curve.deviation / metres_per_millimetre) + " mm");
 }
 
+// What is unnamed itself goes by the name of its part, but for the many edges of a solid.
+void name_by_part(const TopoDS_Shape& shape, const PartNames& parts, ImportedCurve& curve) {
+  if (!parts.IsBound(shape)) return;
+  const PartName& part = parts.Find(shape);
+  curve.part = part.path;
+  if (curve.name.empty() && (curve.free || curve.is_centre_line())) curve.name = part.own;
+}
+
 void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, const Origin& origin,
-              double tolerance, ImportReport& report) {
+              const PartNames& parts, double tolerance, ImportReport& report) {
   try {
     OCC_CATCH_SIGNALS
     ImportedCurve curve = imported_curve(edge, tolerance);
     curve.name = origin.name;
     curve.layer = origin.appearance.layer;
     curve.colour = origin.appearance.colour;
+    curve.hidden = origin.appearance.hidden;
     curve.free = free;
+    name_by_part(edge, parts, curve);
     note_approximation(curve, label, tolerance, report);
     report.curves.push_back(std::move(curve));
   } catch (const Standard_Failure& e) {
@@ -106,8 +121,8 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
 }
 
 // Centre lines stand after the curves of the file, whose numbers they leave as they are.
-void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, double tolerance,
-                      ImportReport& report) {
+void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const PartNames& parts,
+                      double tolerance, ImportReport& report) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   CentreLines found = centre_lines(shape, tolerance);
@@ -118,16 +133,28 @@ void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, double 
       line.curve.name = known->second.name;
       line.curve.layer = known->second.appearance.layer;
       line.curve.colour = known->second.appearance.colour;
+      line.curve.hidden = known->second.appearance.hidden;
     }
+    name_by_part(faces(line.face), parts, line.curve);
     report.curves.push_back(std::move(line.curve));
   }
   for (const std::string& remark : found.remarks) add_diagnostic(report, Severity::note, "", remark);
 }
 
+void note_hidden(ImportReport& report) {
+  const auto hidden = std::count_if(report.curves.begin(), report.curves.end(),
+                                    [](const ImportedCurve& curve) { return curve.hidden; });
+  if (hidden > 0)
+    add_diagnostic(
+        report, Severity::note, "",
+        std::to_string(hidden) + " curve(s) are hidden in the file and are taken only by name or number");
+}
+
 void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
-  if (shape.IsNull()) return;
+  if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
   const Origins origins = origins_of_edges_and_faces(reader, report);
+  const PartNames parts = part_names(reader, shape);
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -136,9 +163,11 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     const auto known = origins.find(edge.TShape().get());
     const Origin origin = known == origins.end() ? Origin{} : known->second;
     if (origin.defective) continue;
-    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, tolerance, report);
+    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
   }
-  add_centre_lines(shape, origins, tolerance, report);
+  add_lost_curves(reader, tolerance, report);
+  add_centre_lines(shape, origins, parts, tolerance, report);
+  note_hidden(report);
 }
 
 // What OpenCASCADE failed to read or to translate.
@@ -183,7 +212,9 @@ void check_syntax(const Interface_InterfaceModel& model) {
 // Whether numbers of a curve may be lost with what OpenCASCADE could not read in the entity: not with a name.
 bool matters(const Standard_Transient& entity, std::string_view failure) {
   const bool step = !entity.IsKind(STANDARD_TYPE(IGESData_IGESEntity));
-  const bool geometry = std::string_view(entity.DynamicType()->Name()).starts_with("StepGeom_");
+  const std::string_view type = entity.DynamicType()->Name();
+  const bool lost = type == "StepShape_GeometricSet" || type == "StepShape_GeometricCurveSet";
+  const bool geometry = lost || type.starts_with("StepGeom_");
   return !step || (geometry && failure.find("(name)") == std::string_view::npos);
 }
 
@@ -203,10 +234,25 @@ void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& r
   }
 }
 
-void read(XSControl_Reader& reader, const std::filesystem::path& file, ImportReport& report) {
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.Model().IsNull())
+// OpenCASCADE computes for minutes with numbers that no drawing holds.
+void check_coordinates(const Interface_InterfaceModel& model) {
+  constexpr double largest = 1e15;  // in units of the file
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto point = Handle(StepGeom_CartesianPoint)::DownCast(model.Value(i));
+    for (int k = 1; !point.IsNull() && k <= point->NbCoordinates(); ++k)
+      if (!(std::abs(point->CoordinatesValue(k)) <= largest))
+        throw std::runtime_error(entity_label(model, point) + " has a coordinate of " +
+                                 text_of(point->CoordinatesValue(k)) + "; the limit is " + text_of(largest) +
+                                 ": the file is damaged; export or copy it again");
+  }
+}
+
+void read(XSControl_Reader& reader, const std::string& content, ImportReport& report) {
+  const MemoryFile file(content);
+  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone || reader.Model().IsNull())
     throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
   check_syntax(*reader.Model());
+  check_coordinates(*reader.Model());
   add_damaged_entities(*reader.Model(), report);
 }
 
@@ -269,10 +315,10 @@ void report_step_unit(const Interface_InterfaceModel& model, ImportReport& repor
   report_unit(units.empty() ? metres_per_millimetre : *units.begin(), report);
 }
 
-void read_step(const std::filesystem::path& file, double tolerance, ImportReport& report) {
+void read_step(const std::string& content, double tolerance, ImportReport& report) {
   start_step();
   STEPControl_Reader reader;
-  read(reader, file, report);
+  read(reader, content, report);
   report_step_unit(*reader.Model(), report);
   transfer(reader, tolerance, report);
 }
@@ -288,8 +334,7 @@ void compare_units(const IgesGlobal& ours, const IGESData_GlobalSection& theirs)
                            " m; correct the Global section (Hollerith counts, parameters 14 and 15)");
 }
 
-void read_iges(const std::filesystem::path& file, const std::string& content, double tolerance,
-               ImportReport& report) {
+void read_iges(const std::string& content, double tolerance, ImportReport& report) {
   const IgesGlobal global = parse_iges_global(content);
   report_unit(global.unit_in_metres, report);
   if (global.scale != 1) {
@@ -303,19 +348,32 @@ void read_iges(const std::filesystem::path& file, const std::string& content, do
   if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0))
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
   IGESControl_Reader reader;
-  read(reader, file, report);
+  read(reader, content, report);
   compare_units(global, reader.IGESModel()->GlobalSection());
   const double resolution = reader.IGESModel()->GlobalSection().Resolution();
   if (std::isfinite(resolution) && resolution > 0) report.resolution = resolution * global.unit_in_metres;
   transfer(reader, tolerance, report);
 }
 
-void read_format(const std::filesystem::path& file, const std::string& content, CadFormat format,
-                 double tolerance, ImportReport& report) {
-  if (format == CadFormat::step)
-    read_step(file, tolerance, report);
-  else
-    read_iges(file, content, tolerance, report);
+void read_drawing(const std::string& content, ImportReport& report) {
+  ImportReport drawing = read_dxf(content);
+  for (Diagnostic& diagnostic : drawing.diagnostics)
+    add_diagnostic(report, diagnostic.severity, diagnostic.where, diagnostic.message);
+  drawing.file = report.file;
+  drawing.diagnostics = std::move(report.diagnostics);
+  report = std::move(drawing);
+  note_hidden(report);
+}
+
+void read_format(const std::string& content, CadFormat format, double tolerance, ImportReport& report) {
+  switch (format) {
+    case CadFormat::step:
+      return read_step(content, tolerance, report);
+    case CadFormat::iges:
+      return read_iges(content, tolerance, report);
+    case CadFormat::dxf:
+      return read_drawing(content, report);
+  }
 }
 
 }  // namespace
@@ -327,7 +385,7 @@ ImportReport read_cad_file(const std::filesystem::path& file, const std::string&
   be_silent();
   try {
     OCC_CATCH_SIGNALS
-    read_format(file, content, format, tolerance, report);
+    read_format(content, format, tolerance, report);
   } catch (const Standard_Failure& e) {
     add_diagnostic(report, Severity::error, "",
                    std::string("OpenCASCADE failed (") + e.DynamicType()->Name() + " " +

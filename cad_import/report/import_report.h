@@ -9,12 +9,15 @@ namespace nurbeam {
 
 /// One curve of a CAD file, in metres, in world coordinates (locations and transforms applied).
 struct ImportedCurve {
-  std::string name = {};    ///< as in the file; "" if it has none there
+  std::string name = {};    ///< as in the file, else that of its part; "" for none
   std::string entity = {};  ///< kind in the file's terms: "line", "circle", "ellipse", "parabola",
                             ///< "hyperbola", "bspline", "bezier", "offset", "other"; "centre line" of a pipe
   std::string layer = {};   ///< STEP: name of its layer; IGES: number of its level; "" for none
   std::string colour = {};  ///< "#rrggbb"; "" for none
+  std::string part = {};    ///< path of the part that holds it, "bridge/cable" (STEP: names of occurrences or
+                            ///< products; IGES: of groups); "" for none
   bool free = true;         ///< no face uses it
+  bool hidden = false;      ///< not shown: STEP INVISIBILITY, IGES blank status
   bool exact = true;        ///< whether `curve` is the entity exactly
   double deviation = 0;     ///< measured distance from the entity when not exact [m]
   double pipe_radius = 0;   ///< of a centre line: the pipe's outer radius [m]; 0 for a curve of the file

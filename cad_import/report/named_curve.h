@@ -8,6 +8,7 @@ namespace nurbeam {
 struct NamedCurve {
   std::string name;
   NurbsCurve curve;
+  std::string part = {};  ///< name of its product in STEP; "" for that of the curve
 };
 
 /// A curve with a circular section, solid or hollow.

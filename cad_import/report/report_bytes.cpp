@@ -9,17 +9,20 @@ namespace nurbeam {
 namespace {
 
 void write(ByteWriter& out, const ImportedCurve& curve) {
-  for (const std::string& text : {curve.name, curve.entity, curve.layer, curve.colour}) out.text(text);
+  for (const std::string& text : {curve.name, curve.entity, curve.layer, curve.colour, curve.part})
+    out.text(text);
   out.number(curve.free);
+  out.number(curve.hidden);
   out.number(curve.exact);
   for (double number : {curve.deviation, curve.pipe_radius, curve.bore_radius}) out.number(number);
   write(out, curve.curve);
 }
 
 ImportedCurve read_imported_curve(ByteReader& in) {
-  std::array<std::string, 4> texts;
+  std::array<std::string, 5> texts;
   for (std::string& text : texts) text = in.text();
   const bool free = in.number<char>() != 0;
+  const bool hidden = in.number<char>() != 0;
   const bool exact = in.number<char>() != 0;
   std::array<double, 3> numbers{};
   for (double& number : numbers) number = in.number<double>();
@@ -27,7 +30,9 @@ ImportedCurve read_imported_curve(ByteReader& in) {
           .entity = texts[1],
           .layer = texts[2],
           .colour = texts[3],
+          .part = texts[4],
           .free = free,
+          .hidden = hidden,
           .exact = exact,
           .deviation = numbers[0],
           .pipe_radius = numbers[1],

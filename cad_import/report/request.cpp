@@ -8,10 +8,12 @@ namespace {
 void write(ByteWriter& out, const NamedCurve& curve) {
   out.text(curve.name);
   nurbeam::write(out, curve.curve);
+  out.text(curve.part);
 }
 NamedCurve read_named_curve(ByteReader& in) {
   std::string name = in.text();
-  return {std::move(name), read_nurbs_curve(in)};
+  NurbsCurve curve = read_nurbs_curve(in);
+  return {std::move(name), std::move(curve), in.text()};
 }
 
 void write(ByteWriter& out, const NamedPipe& pipe) {

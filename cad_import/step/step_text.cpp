@@ -1,56 +1,37 @@
 #include "cad_import/step/step_text.h"
 
+#include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeSolid.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
-#include <BRepCheck_Analyzer.hxx>
-#include <BRepGProp.hxx>
-#include <BRepOffsetAPI_MakePipe.hxx>
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
-#include <Eigen/Geometry>
-#include <GProp_GProps.hxx>
-#include <Geom_BSplineCurve.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_GeometricSetSelect.hxx>
 #include <StepShape_ManifoldSolidBrep.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
-#include <TColgp_Array1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Shell.hxx>
-#include <TopoDS_Solid.hxx>
-#include <TopoDS_Wire.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <gp_Ax2.hxx>
-#include <gp_Circ.hxx>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "cad_import/report/length_unit.h"
-#include "nurbs/number_text.h"
+#include "cad_import/step/spine.h"
+#include "cad_import/step/swept_pipe.h"
 
 namespace nurbeam {
 namespace {
@@ -85,38 +66,12 @@ const char* step_unit(LengthUnit unit) {
 }
 
 // Global state of OpenCASCADE, which anything in the process may have changed.
-void set_parameters(LengthUnit unit) {
+void set_parameters(LengthUnit unit, bool assembly) {
   STEPControl_Controller::Init();
   set("xstep.cascade.unit", "MM");
   set("write.step.unit", step_unit(unit));
   set("write.step.schema", "AP214IS");
-  set("write.step.assembly", "Off");
-  set("write.step.product.name", "curves");
-}
-
-Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
-  const std::vector<double> breaks = [&] {
-    std::vector<double> values = curve.knots().knots();
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
-  }();
-  const int break_count = static_cast<int>(breaks.size());
-  TColStd_Array1OfReal knots(1, break_count);
-  TColStd_Array1OfInteger multiplicities(1, break_count);
-  for (int i = 0; i < break_count; ++i) {
-    knots(i + 1) = breaks[i];
-    multiplicities(i + 1) = curve.knots().multiplicity(breaks[i]);
-  }
-  const Eigen::Matrix4Xd& points = curve.control_points();
-  const int count = static_cast<int>(points.cols());
-  TColgp_Array1OfPnt poles(1, count);
-  TColStd_Array1OfReal weights(1, count);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * millimetres_per_metre;
-    poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
-    weights(i + 1) = points(3, i);
-  }
-  return new Geom_BSplineCurve(poles, weights, knots, multiplicities, curve.degree());
+  set("write.step.assembly", assembly ? "On" : "Off");
 }
 
 TopoDS_Edge edge(const NamedCurve& named) {
@@ -126,12 +81,17 @@ TopoDS_Edge edge(const NamedCurve& named) {
   return maker.Edge();
 }
 
-TopoDS_Compound compound(const std::vector<NamedCurve>& curves) {
+TopoDS_Compound compound(const std::vector<TopoDS_Shape>& shapes) {
   TopoDS_Compound all;
   const BRep_Builder builder;
   builder.MakeCompound(all);
-  for (const NamedCurve& curve : curves) builder.Add(all, edge(curve));
+  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
   return all;
+}
+
+// One shape for all parts: a part alone, or the assembly of several.
+TopoDS_Shape assembled(const std::vector<TopoDS_Shape>& parts) {
+  return parts.size() == 1 ? parts[0] : compound(parts);
 }
 
 // Characters outside ASCII in hexadecimal, 8 digits each (ISO 10303-21, 6.4.3.3). They occur in names only,
@@ -178,6 +138,41 @@ void give_names(const StepData_StepModel& model, const std::vector<NamedCurve>& 
   }
 }
 
+Handle(TCollection_HAsciiString) ascii(const std::string& text) {
+  return new TCollection_HAsciiString(text.c_str());
+}
+
+const std::string& part_name(const NamedCurve& curve) { return curve.part.empty() ? curve.name : curve.part; }
+
+// Under their names: the products, that of an assembly first, and where it uses them.
+void name_products(const StepData_StepModel& model, const std::vector<std::string>& parts) {
+  std::vector<Handle(StepBasic_Product)> products;
+  std::vector<Handle(StepRepr_NextAssemblyUsageOccurrence)> uses;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (const auto product = Handle(StepBasic_Product)::DownCast(model.Value(i))) products.push_back(product);
+    if (const auto use = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(model.Value(i)))
+      uses.push_back(use);
+  }
+  const std::size_t above = parts.size() > 1 ? 1 : 0;
+  if (products.size() != parts.size() + above || uses.size() != above * parts.size())
+    throw std::runtime_error("OpenCASCADE did not make one product of each beam");
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    const Handle(TCollection_HAsciiString) name = ascii(i < above ? "beams" : parts[i - above]);
+    products[i]->SetId(name);
+    products[i]->SetName(name);
+  }
+  for (std::size_t i = 0; i < uses.size(); ++i) uses[i]->SetName(ascii(parts[i]));
+}
+
+void describe(const Handle(StepData_StepModel) & model, const std::string& name) {
+  APIHeaderSection_MakeHeader header(model);
+  header.SetName(ascii(name));
+  header.SetAuthorValue(1, ascii(""));
+  header.SetOrganizationValue(1, ascii(""));
+  header.SetOriginatingSystem(ascii("nurbeam"));
+  header.SetDescriptionValue(1, ascii("deformed beams"));
+}
+
 std::string text(STEPControl_Writer& writer) {
   StepData_StepWriter out(writer.Model());
   out.FloatWriter().SetFormat("%.17E");
@@ -186,68 +181,6 @@ std::string text(STEPControl_Writer& writer) {
   std::ostringstream stream;
   if (!out.Print(stream)) throw std::runtime_error("OpenCASCADE did not print the STEP model");
   return step_encoded(stream.str());
-}
-
-gp_Vec vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-// OpenCASCADE does not always say that a sweep went wrong.
-void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
-  constexpr double allowed = 1e-3;
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(solid, properties, 0.01 * allowed);
-  const double area = std::numbers::pi * (pipe.radius * pipe.radius - pipe.bore * pipe.bore);
-  // Pappus: a section whose centroid is on the curve sweeps its area times the length.
-  const double expected = area * length(pipe.axis.curve) * std::pow(millimetres_per_metre, 3);
-  if (solid.ShapeType() != TopAbs_SOLID || !BRepCheck_Analyzer(solid).IsValid() ||
-      std::abs(properties.Mass() - expected) > allowed * expected)
-    throw std::runtime_error(
-        "OpenCASCADE sweeps no valid solid of radius " + text_of(pipe.radius) + " m along the curve '" +
-        pipe.axis.name +
-        "'; it may have a corner, bend more sharply than that radius, or be a ring in space");
-}
-
-// Largest curvature |r' x r''| / |r'|^3 at 33 places of each span [1/m].
-double largest_curvature(const NurbsCurve& curve) {
-  constexpr int count = 32;
-  const std::vector<double> breaks = curve.knots().breaks();
-  double largest = 0;
-  for (std::size_t j = 0; j + 1 < breaks.size(); ++j)
-    for (int i = 0; i <= count; ++i) {
-      const double u = breaks[j] + (breaks[j + 1] - breaks[j]) * i / count;
-      const Eigen::Matrix3Xd d = curve.derivatives(u, 2);
-      const Eigen::Vector3d first = d.col(1), second = d.col(2);
-      largest = std::max(largest, first.cross(second).norm() / std::pow(first.norm(), 3));
-    }
-  return largest;
-}
-
-TopoDS_Shape swept(const NamedPipe& pipe) {
-  const NurbsCurve& curve = pipe.axis.curve;
-  if (const double curvature = largest_curvature(curve); curvature * pipe.radius >= 1)
-    throw std::runtime_error("the curve '" + pipe.axis.name + "' bends to a radius of " +
-                             text_of(1 / curvature) + " m, too sharply for a section of radius " +
-                             text_of(pipe.radius) + " m");
-  const Eigen::Matrix3Xd start = curve.derivatives(curve.knots().start(), 1);
-  const gp_Pnt centre(vector(millimetres_per_metre * start.col(0)).XYZ());
-  const gp_Ax2 square(centre, gp_Dir(vector(start.col(1))));
-  const auto rim = [&](double radius) {
-    const gp_Circ circle(square, radius * millimetres_per_metre);
-    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
-  };
-  const TopoDS_Wire spine = BRepBuilderAPI_MakeWire(edge(pipe.axis)).Wire();
-  BRepBuilderAPI_MakeFace section(rim(pipe.radius));
-  const bool hollow = pipe.bore > 0, ring = BRep_Tool::IsClosed(spine);
-  if (hollow && !ring) section.Add(TopoDS::Wire(rim(pipe.bore).Reversed()));
-  TopoDS_Shape solid = BRepOffsetAPI_MakePipe(spine, section.Face()).Shape();
-  if (hollow && ring) {  // without ends inner and outer faces are no one shell
-    const TopoDS_Face bore = BRepBuilderAPI_MakeFace(rim(pipe.bore)).Face();
-    const TopExp_Explorer core(BRepOffsetAPI_MakePipe(spine, bore).Shape(), TopAbs_SHELL);
-    BRepBuilderAPI_MakeSolid with_core(TopoDS::Solid(solid));
-    with_core.Add(TopoDS::Shell(core.Current().Reversed()));
-    solid = with_core.Solid();
-  }
-  check_pipe(solid, pipe);
-  return solid;
 }
 
 // The solids of the model stand in the order in which they were transferred.
@@ -264,26 +197,42 @@ void give_names(const StepData_StepModel& model, const std::vector<NamedPipe>& p
 std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit);
+    set_parameters(unit, pipes.size() > 1);
+    std::vector<TopoDS_Shape> parts;
+    std::vector<std::string> names;
+    for (const NamedPipe& pipe : pipes) {
+      parts.push_back(swept_pipe(pipe));
+      names.push_back(part_name(pipe.axis));
+    }
     STEPControl_Writer writer;
-    for (const NamedPipe& pipe : pipes)
-      if (writer.Transfer(swept(pipe), STEPControl_ManifoldSolidBrep) != IFSelect_RetDone)
-        throw std::runtime_error("OpenCASCADE cannot translate the solids to STEP");
+    if (writer.Transfer(assembled(parts), STEPControl_AsIs) != IFSelect_RetDone)
+      throw std::runtime_error("OpenCASCADE cannot translate the solids to STEP");
     give_names(*writer.Model(), pipes);
+    name_products(*writer.Model(), names);
+    describe(writer.Model(), names[0]);
     return text(writer);
   } catch (const Standard_Failure& e) {
-    throw std::runtime_error(std::string("OpenCASCADE cannot sweep a solid: ") + e.GetMessageString());
+    throw std::runtime_error(std::string("OpenCASCADE cannot sweep a solid (") + e.DynamicType()->Name() +
+                             " " + e.GetMessageString() + ")");
   }
 }
 
 std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit);
+    set_parameters(unit, curves.size() > 1);
+    std::vector<TopoDS_Shape> parts;
+    std::vector<std::string> names;
+    for (const NamedCurve& curve : curves) {
+      parts.push_back(edge(curve));
+      names.push_back(part_name(curve));
+    }
     STEPControl_Writer writer;
-    if (writer.Transfer(compound(curves), STEPControl_GeometricCurveSet) != IFSelect_RetDone)
+    if (writer.Transfer(assembled(parts), STEPControl_AsIs) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot translate the curves to STEP");
     give_names(*writer.Model(), curves);
+    name_products(*writer.Model(), names);
+    describe(writer.Model(), names[0]);
     return text(writer);
   } catch (const Standard_Failure& e) {
     throw std::runtime_error(std::string("OpenCASCADE cannot write a curve: ") + e.GetMessageString());

@@ -23,7 +23,8 @@ int continuity(const Piece& left, const Piece& right, double tolerance) {
   if (p < 2 || !(mismatch(left.points.col(p), between, size) <= tolerance)) return 0;
   if (p < 3) return 1;
   // f(t_j, t_{j-1}, t_{j+1}) from both sides.
-  const Eigen::Vector4d from_left = left.points.col(1) + (left.points.col(2) - left.points.col(1)) / share;
+  const Eigen::Vector4d from_left =
+      left.points.col(p - 2) + (left.points.col(p - 1) - left.points.col(p - 2)) / share;
   const Eigen::Vector4d from_right =
       right.points.col(2) + (right.points.col(1) - right.points.col(2)) / (1 - share);
   return mismatch(from_left, from_right, size) <= tolerance ? 2 : 1;

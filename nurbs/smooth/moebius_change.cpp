@@ -9,7 +9,7 @@ namespace nurbeam::smooth {
 namespace {
 
 /// The chart of `right` that makes it continue `left` in C1, in homogeneous coordinates if `right` has the
-/// sense of it (they share their tangent); nothing where no positive c does. Theory section 9 with the
+/// sense of it (they share their tangent); nothing where no positive c does. Theory, back to CAD, with the
 /// lengths l measured by the speeds: c_{j+1} = mu / (gamma - c_j), Delta_{j+1} = Delta_j c_j c_{j+1} / mu.
 std::optional<MoebiusChange> next_change(const Piece& left, const MoebiusChange& chart, const Piece& right) {
   constexpr double same = 1e-11;
@@ -21,13 +21,6 @@ std::optional<MoebiusChange> next_change(const Piece& left, const MoebiusChange&
   const bool keeps = chart.c == 1 && std::abs(mu / rest - 1) < same;
   const double c = keeps ? 1 : mu / rest;
   return MoebiusChange{c, chart.length * chart.c * c / mu};
-}
-
-/// Whether two pieces share their tangent so well that a double knot moves nothing by more than tolerance.
-bool share_tangent(const Piece& left, const Piece& right, double tolerance) {
-  const Eigen::Vector3d a = leg(left, left.degree() - 1), b = leg(right, 0);
-  const double shorter = std::min(a.norm(), b.norm());
-  return shorter > 0 && (a.normalized() - b.normalized()).norm() * shorter <= tolerance;
 }
 
 /// Charts of the pieces first..last, C1 in homogeneous coordinates, with the least ratio of weights; and the
@@ -69,6 +62,18 @@ std::optional<std::vector<MoebiusChange>> changes_of_run(const Pieces& pieces, i
     charts.push_back(*next);
   }
   return charts;
+}
+
+bool share_tangent(const Piece& left, const Piece& right, double tolerance) {
+  const Eigen::Vector3d a = leg(left, left.degree() - 1), b = leg(right, 0);
+  const double shorter = std::min(a.norm(), b.norm());
+  return shorter > 0 && (a.normalized() - b.normalized()).norm() * shorter <= tolerance;
+}
+
+std::optional<std::vector<MoebiusChange>> mild_changes(const Pieces& pieces, int first, int last) {
+  auto [spread, changes] = mildest_changes(pieces, first, last);
+  if (!(spread <= widest_spread)) return std::nullopt;
+  return std::move(changes);
 }
 
 Pieces changed(const Pieces& pieces, int first, const std::vector<MoebiusChange>& charts) {

@@ -13,8 +13,8 @@
 namespace nurbeam::smooth {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// Largest ratio of the weights of pieces that are joined: more would cost digits.
-const double widest_spread = std::log(100.0);
+/// Largest ratio of the weights of pieces that are joined: more makes the parameter uneven and costs digits.
+const double widest_spread = std::log(20.0);
 
 using Points = BezierPoints;
 
@@ -29,7 +29,7 @@ struct Piece {
 };
 using Pieces = std::vector<Piece>;
 
-/// How a piece is run through: w_i -> c^i w_i on an interval of this length (theory.md section 9: c_j and
+/// How a piece is run through: w_i -> c^i w_i on an interval of this length (theory.md, back to CAD: c_j and
 /// Delta_j).
 struct MoebiusChange {
   double c;
@@ -42,6 +42,13 @@ Eigen::Vector3d leg(const Piece& piece, Eigen::Index i);
 std::optional<std::vector<MoebiusChange>> changes_of_run(const Pieces& pieces, int first, int last,
                                                          const MoebiusChange& start,
                                                          CurveParameter parameter);
+
+/// Whether two pieces share their tangent so well that a double knot moves nothing by more than tolerance.
+bool share_tangent(const Piece& left, const Piece& right, double tolerance);
+
+/// The charts of the pieces first..last, which share their tangents, that make them C1 in homogeneous
+/// coordinates with the least ratio of weights; nothing where that is not mild.
+std::optional<std::vector<MoebiusChange>> mild_changes(const Pieces& pieces, int first, int last);
 
 /// The pieces first.. in their charts, each scaled so that its first weight is the last one before it.
 Pieces changed(const Pieces& pieces, int first, const std::vector<MoebiusChange>& charts);

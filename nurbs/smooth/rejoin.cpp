@@ -135,7 +135,8 @@ Points balanced(Points points) {
   return points;
 }
 
-Pieces rejoined(const Pieces& pieces, Eigen::Index degree, CurveParameter parameter, double tolerance) {
+Pieces rejoined(const Pieces& pieces, Eigen::Index degree, CurveParameter parameter, double widest,
+                double tolerance) {
   const int count = static_cast<int>(pieces.size());
   std::vector<bool> one(pieces.size());  // with the piece after it
   for (int j = 0; j + 1 < count; ++j) one[j] = rejoined(pieces, j, j + 1, parameter, tolerance).has_value();
@@ -144,7 +145,7 @@ Pieces rejoined(const Pieces& pieces, Eigen::Index degree, CurveParameter parame
     const auto piece = rejoined(pieces, first, last, parameter, tolerance);
     return piece ? spread(elevated(balanced(piece->points), degree).row(3)) : never;
   };
-  const std::vector<int> starts = fewest_runs(count, cost, widest_spread);
+  const std::vector<int> starts = fewest_runs(count, cost, widest);
   Pieces result;
   for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
     const int first = starts[i], last = starts[i + 1] - 1;

@@ -48,6 +48,7 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
   file.path = (directory / text(axis, "file")).lexically_normal();
   file.chain = flag(axis, "chain");
   file.layer = optional_text(axis, "layer");
+  file.part = optional_text(axis, "part");
   file.colour = optional_text(axis, "colour");
   if (has(axis, "near")) file.near = vector(axis, "near");
   file.longest = flag(axis, "longest");

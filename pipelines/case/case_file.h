@@ -29,7 +29,7 @@ struct AxisFile {
   std::optional<std::string> curve_name = {};
   std::optional<int> curve_index = {};  ///< from 1
   bool chain = false;
-  std::optional<std::string> layer = {}, colour = {};
+  std::optional<std::string> part = {}, layer = {}, colour = {};
   std::optional<Eigen::Vector3d> near = {};  ///< [m]
   bool longest = false;
   bool all_chains = false;

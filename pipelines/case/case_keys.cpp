@@ -78,6 +78,8 @@ Shape axis() {
        {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
         false, "file"},
        {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
+       {"part", text(), "only curves of this part (STEP) or group (IGES): its name, or the end of its path",
+        false, "file"},
        {"layer", text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
        {"colour", text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
        {"near", vector(Dimension::length), "the chain of curves nearest to this point", false, "file"},

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 /// One curve as the user sees it.
 struct CurveRow {
-  std::string name, entity, layer, colour;
+  std::string name, entity, part, layer, colour;
   int degree, control_points;
   bool rational, closed, exact;
   double length, deviation;    // [m]
@@ -41,7 +41,8 @@ CurveRow row_of(const ImportedCurve& imported) {
   const double curve_length = length(curve);
   constexpr double closed_tolerance = 1e-9;  // of the length
   return {.name = imported.name,
-          .entity = imported.entity + pipe_of(imported),
+          .entity = imported.entity + pipe_of(imported) + (imported.hidden ? ", hidden" : ""),
+          .part = imported.part,
           .layer = imported.layer,
           .colour = imported.colour,
           .degree = curve.degree(),
@@ -90,22 +91,25 @@ void print_curves(std::ostream& out, const ImportReport& report, const std::vect
                        [&](const ImportedCurve& curve) { return !(curve.*property).empty(); });
   };
   const bool layers = any_has(&ImportedCurve::layer), colours = any_has(&ImportedCurve::colour);
-  const auto shown = [&](std::vector<std::string> row, const std::string& layer, const std::string& colour) {
+  const bool parts = any_has(&ImportedCurve::part);
+  const auto shown = [&](std::vector<std::string> row, const std::string& part, const std::string& layer,
+                         const std::string& colour) {
     if (colours) row.insert(row.begin() + 3, colour);
     if (layers) row.insert(row.begin() + 3, layer);
+    if (parts) row.insert(row.begin() + 3, part);
     return row;
   };
   std::vector<std::vector<std::string>> cells = {
       shown({"index", "name", "entity", "degree", "rational", "control points", "length [m]", "closed",
              "start [m]", "end [m]"},
-            "layer", "colour")};
+            "part", "layer", "colour")};
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const CurveRow& row = curves[i];
     cells.push_back(
         shown({std::to_string(i + 1), dash_if_empty(row.name), row.entity, std::to_string(row.degree),
                yes_or_no(row.rational), std::to_string(row.control_points), text_of(row.length, 9),
                yes_or_no(row.closed), coordinates(row.start), coordinates(row.end)},
-              dash_if_empty(row.layer), dash_if_empty(row.colour)));
+              dash_if_empty(row.part), dash_if_empty(row.layer), dash_if_empty(row.colour)));
   }
   print_table(out, cells);
 }
@@ -171,6 +175,7 @@ Json to_json(const ImportReport& report) {
     curves.push_back({{"index", i + 1},
                       {"name", row.name},
                       {"entity", report.curves[i].entity},
+                      {"part", row.part},
                       {"layer", row.layer},
                       {"colour", row.colour},
                       {"degree", row.degree},
@@ -178,6 +183,7 @@ Json to_json(const ImportReport& report) {
                       {"control_points", row.control_points},
                       {"length [m]", row.length},
                       {"closed", row.closed},
+                      {"hidden", report.curves[i].hidden},
                       {"start [m]", to_json(row.start)},
                       {"end [m]", to_json(row.end)},
                       {"exact", row.exact},

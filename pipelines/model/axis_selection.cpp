@@ -56,7 +56,9 @@ Indices those(const ImportReport& report, const Indices& indices, Predicate want
 }
 
 // Free curves before centre lines before edges of faces.
-Indices that_count(const ImportReport& report, const Indices& candidates) {
+Indices that_count(const ImportReport& report, const Indices& all) {
+  const Indices candidates = those(
+      report, all, [](const ImportedCurve& c) { return !c.hidden; });
   const Indices free = those(report, candidates, [](const ImportedCurve& c) { return c.free; });
   if (!free.empty()) return free;
   const Indices centre = those(report, candidates, [](const ImportedCurve& c) { return c.is_centre_line(); });
@@ -182,7 +184,7 @@ std::string several_chains(const std::vector<Chain>& chains, const ImportReport&
                text_of(length_of(chains[i], report), all_digits) + " m)";
   if (chains.size() > most_listed) message += "; ...";
   message +=
-      "; choose one with \"curve\", \"layer\", \"colour\", \"near\" or \"longest\", or take \"chains\": "
+      "; choose one with \"curve\", \"part\", \"layer\", \"colour\", \"near\" or \"longest\", or take \"chains\": "
       "\"all\"";
   const std::optional<Gap> gap = narrowest_gap_between(chains, report);
   if (gap && gap->width > tolerance)
@@ -221,7 +223,7 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
                                   " curves: " + list_of_curves(report, all_curves(report)));
     if (std::find(candidates.begin(), candidates.end(), index) == candidates.end())
       return failure("curve", "index " + std::to_string(*axis.curve_index) +
-                                  " is not among the curves of the layer and colour: " +
+                                  " is not among the curves of the part, layer and colour: " +
                                   list_of_curves(report, candidates));
     found = {index};
   } else {
@@ -243,8 +245,17 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
                               "; choose one by its index");
 }
 
+// Whether the part's path is this one or ends with it.
+bool is_in_part(const ImportedCurve& curve, const std::string& part) {
+  return curve.part == part || curve.part.ends_with("/" + part);
+}
+
 AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, double tolerance) {
   Indices candidates = all_curves(report);
+  if (axis.part) {
+    candidates = those(report, candidates, [&](const ImportedCurve& c) { return is_in_part(c, *axis.part); });
+    if (candidates.empty()) return without("part", *axis.part, report, &ImportedCurve::part);
+  }
   if (axis.layer) {
     candidates = those(report, candidates, [&](const ImportedCurve& c) { return c.layer == *axis.layer; });
     if (candidates.empty()) return without("layer", *axis.layer, report, &ImportedCurve::layer);
@@ -256,6 +267,9 @@ AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, do
   }
   if (axis.curve_index || axis.curve_name) return named(axis, report, candidates, tolerance);
   const std::vector<Chain> chains = chains_among(report, that_count(report, candidates), tolerance);
+  if (chains.empty())
+    return failure("", "every curve of " + report.file + " that is left to choose from is hidden: " +
+                           list_of_curves(report, candidates) + "; name one with \"curve\"");
   if (axis.near)
     return {{least(chains, [&](const Chain& c) { return distance_to(c, *axis.near, report); })}, {}, "", ""};
   if (axis.longest)

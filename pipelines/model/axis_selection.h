@@ -28,10 +28,11 @@ struct AxisSelection {
 /// 1e-9 to 1e-3 of the size of the curves together; where the file declares none 1e-6 of that size.
 double gap_tolerance(const ImportReport& report, const std::optional<double>& asked);
 
-/// The chains that `axis` chooses: among the curves of a layer and of a colour the named one (alone, or with
-/// the tangent-continuous ones connected to it), the chain nearest to a point, the longest, all, or the only
-/// one. Where no curve is named, the curves that no face uses count; if there are none the centre lines of
-/// pipes; if there are none either the edges of faces.
+/// The chains that `axis` chooses: among the curves of a part, of a layer and of a colour the named one
+/// (alone, or with the tangent-continuous ones connected to it), the chain nearest to a point, the longest,
+/// all, or the only one. Where no curve is named, those that are not hidden count, and of them the curves
+/// that no face uses count; if there are none the centre lines of pipes; if there are none either the edges
+/// of faces.
 AxisSelection select_axis(const AxisFile& axis, const ImportReport& report);
 
 /// A place where three or more ends of curves meet.

@@ -9,6 +9,7 @@
 
 #include "nurbs/number_text.h"
 #include "nurbs/primitives.h"
+#include "nurbs/regular_segments.h"
 #include "nurbs/smooth/smooth_corners.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/model/axis_selection.h"
@@ -128,6 +129,40 @@ void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>&
                                            ": \"closed\": true makes it a ring");
 }
 
+// Where the axis comes from, for messages.
+std::string origin_of(const BeamAxis& axis) {
+  return axis.source ? "the curve " + in_quotes(axis.curve_name) + " of " + axis.source->file.string()
+                     : "the axis";
+}
+
+// The axis without what has no length or no speed.
+std::vector<RationalCubic> regular(const CaseBeam& beam, const BeamAxis& axis, Findings& findings) {
+  constexpr double sliver = 1e-7;  // of the length
+  const RegularSegments regular =
+      regular_segments(axis.segments, sliver * total_length(axis.segments), beam.approximation_tolerance);
+  if (regular.dropped + regular.replaced > 0)
+    findings.warn(beam.path + ".axis",
+                  origin_of(axis) + " was made regular: " + std::to_string(regular.dropped) +
+                      " pieces shorter than 1e-7 of it left out, " + std::to_string(regular.replaced) +
+                      " that stand still at an end made anew; largest deviation " +
+                      text_of(regular.deviation) + " m");
+  return regular.segments;
+}
+
+// The axis with one tangent at each joint where the digits of the drawing, not its author, made a kink.
+std::vector<RationalCubic> without_kinks(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
+                                         Findings& findings) {
+  constexpr double arithmetic = 1e-12, digits = 1e-6;  // [rad]
+  const std::vector<Corner> kinks = corners_of(segments, arithmetic);
+  if (std::none_of(kinks.begin(), kinks.end(), [](const Corner& kink) { return kink.angle <= digits; }))
+    return segments;
+  SmoothCorners smooth = smooth_corners(segments, digits);
+  findings.add(Severity::note, beam.path + ".axis",
+               "tangents that differed by up to " + text_of(digits) +
+                   " rad were made one; largest deviation " + text_of(smooth.deviation) + " m");
+  return smooth.segments;
+}
+
 std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                                     Findings& findings) {
   SmoothCorners smooth = smooth_corners(segments, beam.smooth_angle);
@@ -187,6 +222,8 @@ BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies,
   } catch (const std::invalid_argument& problem) {
     findings.error(beam.path + ".axis", problem.what());
   }
+  if (!findings.has_errors()) axis.segments = regular(beam, axis, findings);
+  if (!findings.has_errors()) axis.segments = without_kinks(beam, axis.segments, findings);
   if (!findings.has_errors() && beam.smooth_angle > 0)
     axis.segments = smoothed(beam, axis.segments, findings);
   if (!findings.has_errors() && beam.ring) {

@@ -54,7 +54,8 @@ std::string CadOutput::stem(const Snapshot& frame) const {
 std::vector<NamedCurve> CadOutput::curves(const Snapshot& frame, CurveParameter parameter) const {
   std::vector<NamedCurve> curves;
   for (std::size_t b = 0; b < frame.beams.size(); ++b)
-    curves.push_back({built_.sources[b].curve_name, deformed_curve(frame.beams[b].elements, parameter)});
+    curves.push_back({built_.sources[b].curve_name, deformed_curve(frame.beams[b].elements, parameter),
+                      built_.model.beams[b].name});
   return curves;
 }
 

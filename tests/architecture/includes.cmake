@@ -14,7 +14,7 @@ set(cad_import_may_include cad_import nurbs)
 set(pipelines_may_include pipelines cad_import fem nurbs solver)
 
 set(nurbs_floors . smooth)
-set(cad_import_floors report files . occt iges step program)
+set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
 set(fem_floors material element comparison structure mesh constraints forces model system motion)
 set(pipelines_floors diagnostics case section model results report run verification papers command)
@@ -28,6 +28,7 @@ set(homes
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
+  "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
   "CLI/.*"                                                                        "pipelines/command/command_line\\.cpp"
   "CGAL/.*"                                                                       "pipelines/section/with_cgal\\.cpp"

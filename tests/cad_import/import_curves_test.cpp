@@ -220,7 +220,6 @@ TEST(ImportCurves, AnOffsetCurveIsApproximatedWithItsMeasuredDeviation) {
 TEST(ImportCurves, ACurveWithoutANameTakesThatOfItsSet) {
   EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "zipline")).name, "zipline");
   EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('own',#11,1.);", "zipline")).name, "own");
-  EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('',#11,1.);")).name, "");
 }
 
 TEST(ImportCurves, EncodedLettersInStepNamesAreDecoded) {

@@ -84,6 +84,38 @@ TEST_F(CadOutputTest, AnUndeformedStraightCableIsALineAgain) {
   EXPECT_EQ(curve.control_points().cols(), 2);
 }
 
+TEST_F(CadOutputTest, AKinkOfTheDrawingsDigitsComesBackSmooth) {
+  const std::string axis =
+      R"(beams[0].axis={"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 2],)"
+      R"( "control_points": [[0, 0, 0], [0.5, 0, 0], [1, 0, 0], [1.5, 3e-8, 0], [2, 0.5, 0]],)"
+      R"( "weights": [1, 1, 1, 0.8, 1]}})";
+  ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set", axis, "--set",
+                 "analysis.end_time=0.001", "--set", R"(output.cad={"times": [0]})"}),
+            0)
+      << messages;
+  EXPECT_NE(messages.find("tangents that differed"), std::string::npos) << messages;
+  const NurbsCurve curve = only_curve(results / "deformed_t0.step");
+  const std::vector<double> breaks = curve.knots().breaks();
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i)
+    EXPECT_LT(curve.knots().multiplicity(breaks[i]), curve.degree());
+}
+
+TEST_F(CadOutputTest, AnAxisWithASliverAndWithoutSpeedAtItsEndRuns) {
+  const std::string axis =
+      R"(beams[0].axis={"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2], "control_points":)"
+      R"( [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0.3, 0.1, 0], [1, 0, 0], [1, 0, 0]],)"
+      R"( "weights": [1, 1, 1, 1, 1, 1, 1]}})";
+  ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set", axis, "--set",
+                 "analysis.end_time=0.001", "--set", R"(output.cad={"times": [0]})"}),
+            0)
+      << messages;
+  EXPECT_NE(messages.find("1 pieces shorter"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("1 that stand still"), std::string::npos) << messages;
+  const NurbsCurve curve = only_curve(results / "deformed_t0.step");
+  EXPECT_LE((curve.point(curve.knots().end()) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-15);
+  EXPECT_GT(curve.derivatives(curve.knots().end(), 1).col(1).norm(), 0.1);
+}
+
 TEST_F(CadOutputTest, MaterialParameterIsReferenceArcLength) {
   ASSERT_EQ(run_case(R"({"times": [0.05], "parameter": "material"})"), 0) << messages;
   const NurbsCurve curve = only_curve(results / "deformed_t0.05.step");

@@ -153,13 +153,13 @@ NurbsCurve closed_spline(double rise) {
                           Eigen::VectorXd::Ones(11));
 }
 
-/// Position, unit tangent and curvature vector at an end of a cubic.
+/// Position, unit tangent and curvature vector where a span of a curve begins.
 struct Contact {
   Eigen::Vector3d point, tangent, curvature;
 };
 
-Contact contact(const RationalCubic& cubic, double u) {
-  const auto r = cubic.derivatives(u);
+Contact contact(const NurbsCurve& curve, double u) {
+  const Eigen::Matrix3Xd r = curve.derivatives(u, 2);
   const Eigen::Vector3d first = r.col(1), second = r.col(2), tangent = first.normalized();
   return {r.col(0), tangent, (second - second.dot(tangent) * tangent) / first.squaredNorm()};
 }
@@ -177,13 +177,15 @@ struct Seam {
 Seam seam_of(const std::filesystem::path& file) {
   const ImportReport report = import_curves(file);
   EXPECT_EQ(report.curves.size(), 1u);
-  const std::vector<RationalCubic> pieces = BezierPath::from_nurbs(report.curves.at(0).curve, 1).segments;
-  const Contact start = contact(pieces.front(), 0), end = contact(pieces.back(), 1);
-  Seam seam{(start.point - end.point).norm(), (start.tangent - end.tangent).norm(), start.curvature.norm(),
+  const NurbsCurve curve = report.curves.at(0).curve, back = curve.reversed();
+  const std::vector<double> breaks = curve.knots().breaks(), breaks_back = back.knots().breaks();
+  const std::size_t last = breaks.size() - 1;
+  const Contact start = contact(curve, breaks.front()), end = contact(back, breaks_back.front());
+  Seam seam{(start.point - end.point).norm(), (start.tangent + end.tangent).norm(), start.curvature.norm(),
             (start.curvature - end.curvature).norm()};
   const Eigen::Vector3d opposite(-start.point.x(), start.point.y(), start.point.z());
-  for (std::size_t j = 0; j + 1 < pieces.size(); ++j) {
-    const Contact left = contact(pieces[j], 1), right = contact(pieces[j + 1], 0);
+  for (std::size_t j = 1; j < last; ++j) {
+    const Contact left = contact(back, breaks_back[last - j]), right = contact(curve, breaks[j]);
     const double jump = (left.curvature - right.curvature).norm();
     seam.largest_jump = std::max(seam.largest_jump, jump);
     if ((left.point - opposite).norm() < 1e-6) seam.jump_opposite = jump;

@@ -232,6 +232,33 @@ TEST(BezierPathTest, AToleranceBelowRoundOffStillEnds) {
   EXPECT_LT(path.segments.size(), 5000u);
 }
 
+TEST(BezierPathTest, HigherDegreesShareTheirTangentsWhereTheSourceHasAKinkThatIsNoCorner) {
+  // Two pieces of degree 5 that meet at a full knot at this angle.
+  const auto bent = [](double angle) {
+    Eigen::Matrix3Xd points(3, 11);
+    for (int i = 0; i < 11; ++i) {
+      const double x = i - 5, side = i > 5 ? std::tan(angle) * x : 0;
+      points.col(i) << x, 0.05 * x * x * x * x * (i % 3) + side, 0.02 * x * x * x;
+    }
+    points.col(4) << -1, 0, 0;
+    points.col(6) << std::cos(angle), std::sin(angle), 0;
+    return make_nurbs_curve(KnotVector(5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2}), points,
+                            Eigen::VectorXd::Ones(11));
+  };
+  const double tolerance = 1e-5;
+  for (const double angle : {1e-12, 1e-9, 1e-6}) {
+    const NurbsCurve source = bent(angle);
+    const BezierPath path = BezierPath::from_nurbs(source, tolerance);
+    EXPECT_TRUE(path.corners(1e-14).empty()) << angle;
+    EXPECT_LE(path.deviation, tolerance);
+    const auto on_source = [&](double t) { return source.point(2 * t); };
+    EXPECT_LE(largest_distance(on_source, path.segments), path.deviation);
+  }
+  const std::vector<Corner> kept = BezierPath::from_nurbs(bent(1e-3), tolerance).corners(1e-9);
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_NEAR(kept[0].angle, 1e-3, 1e-9);
+}
+
 TEST(BezierPathTest, APositiveToleranceIsAskedOfHigherDegreesOnly) {
   EXPECT_THROW(BezierPath::from_nurbs(quartic(), 0), std::invalid_argument);
   EXPECT_THROW(BezierPath::from_nurbs(quartic(), std::nan("")), std::invalid_argument);

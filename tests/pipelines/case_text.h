@@ -53,7 +53,7 @@ inline const char* const full_case = R"({
     {
       "name": "cable",
       "axis": { "file": "zipline.step", "curve": "Spline1", "chain": true,
-                "layer": "cables", "colour": "#FF8000", "gap": "0.1 mm" },
+                "part": "bridge", "layer": "cables", "colour": "#FF8000", "gap": "0.1 mm" },
       "section": { "area": "3 cm^2", "second_moment": "700 mm^4" },
       "material": { "density": "7.2 g/cm^3", "youngs_modulus": "20 MPa", "damping": "1 ms" },
       "elements": { "per_segment": 2, "grading": "-2 cm" },

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "cad_import/import_curves.h"
+#include "tests/cad_import/iges_text_of.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
@@ -56,41 +55,12 @@ TEST(Appearance, ALayerOfASetIsThatOfItsCurves) {
   EXPECT_EQ(report.curves[0].layer, "all");
 }
 
-// A line of an IGES file: 72 columns of content, the section's letter, the number.
-std::string iges_line(const std::string& content, char section, int number) {
-  std::ostringstream line;
-  line << std::left << std::setw(72) << content << section << std::right << std::setw(7) << number << '\n';
-  return line.str();
-}
-
-// Eight columns each, to the right.
-std::string fields(const std::vector<int>& values) {
-  std::ostringstream text;
-  for (int value : values) text << std::setw(8) << value;
-  return text.str();
-}
-
 // Three lines (entity 110): on level 7 in colour number 4; without either; on level 0 in a defined colour.
 std::string iges_lines() {
-  const std::string global = "1H,,1H;,4Htest,4Htest,4Htest,4Htest,32,38,6,308,15,4Htest,1.0,2,2HMM,1,1.0,";
-  std::string text = iges_line("three lines", 'S', 1) + iges_line(global.substr(0, 72), 'G', 1) +
-                     iges_line(global.substr(72) + "13H240101.000000,1D-3,10.,4Htest,4Htest,11,0;", 'G', 2);
-  const std::vector<std::vector<int>> entries{
-      {110, 1, 7, 4}, {110, 2, 0, 0}, {110, 3, 0, -7}, {314, 4, 0, 0}};
-  int line = 0;
-  for (const std::vector<int>& e : entries) {
-    text += iges_line(fields({e[0], e[1], 0, 0, e[2], 0, 0, 0, e[0] == 314 ? 200 : 0}), 'D', ++line);
-    text += iges_line(fields({e[0], 0, e[3], 1, 0}), 'D', ++line);
-  }
-  line = 0;
-  for (const char* parameters : {"110,0.,0.,0.,1.,0.,0.;", "110,0.,1.,0.,1.,1.,0.;", "110,0.,2.,0.,1.,2.,0.;",
-                                 "314,100.,40.,0.,6Horange;"}) {
-    std::ostringstream content;
-    content << std::left << std::setw(64) << parameters << std::right << std::setw(8) << 2 * line + 1;
-    text += iges_line(content.str(), 'P', line + 1);
-    ++line;
-  }
-  return text + iges_line("S      1G      2D      8P      4", 'T', 1);
+  return iges_text_of({{110, "110,0.,0.,0.,1.,0.,0.;", 0, 7, 4},
+                       {110, "110,0.,1.,0.,1.,1.,0.;"},
+                       {110, "110,0.,2.,0.,1.,2.,0.;", 0, 0, -7},
+                       {.type = 314, .parameters = "314,100.,40.,0.,6Horange;", .status = 200}});
 }
 
 TEST(Appearance, LevelsAndColoursOfIgesCurvesAreRead) {

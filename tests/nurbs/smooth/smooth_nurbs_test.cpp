@@ -90,6 +90,21 @@ int largest_interior_multiplicity(const NurbsCurve& curve) {
   return most;
 }
 
+double ratio_of_weights(const NurbsCurve& curve) {
+  const Eigen::RowVectorXd weights = curve.control_points().row(3);
+  return weights.maxCoeff() / weights.minCoeff();
+}
+
+double ratio_of_speeds(const NurbsCurve& curve) {
+  Eigen::VectorXd speeds(1001);
+  for (int i = 0; i < speeds.size(); ++i) {
+    const double share = i / double(speeds.size() - 1);
+    speeds(i) =
+        curve.derivatives(std::lerp(curve.knots().start(), curve.knots().end(), share), 1).col(1).norm();
+  }
+  return speeds.maxCoeff() / speeds.minCoeff();
+}
+
 TEST(SmoothNurbs, APieceMealSplineGetsItsOwnControlPointsBack) {
   Generator generator(70);
   for (int i = 0; i < 120; ++i) {
@@ -148,10 +163,10 @@ TEST(SmoothNurbs, AnArcIsOneRationalQuadratic) {
 
 // A quadratic on the unit circle is x + iy = z^2, w = |z|^2 with z linear in the parameter. Two of them that
 // are C1 in homogeneous coordinates share z and z z', and so z': they are one, whose angle 2 arg z stays
-// below a full turn, and on a span with positive weights below half of one. So a circle of degree 2 needs
-// three spans and a double knot between two of them: six control points, or seven if it is to be symmetric.
-// Of degree 3 it has six, symmetric, and is C1 throughout.
-TEST(SmoothNurbs, AWholeCircleHasSixControlPointsAndIsC1Throughout) {
+// below a full turn, and on a span with positive weights below half of one. So no circle of degree 2 is C1
+// throughout. Of degree 3 it is, with as many control points as three arcs of degree 2 have, or a few more
+// where the pieces it is made of lie badly.
+TEST(SmoothNurbs, AWholeCircleIsC1ThroughoutWithMildWeights) {
   Generator generator(73);
   for (const int parts : {3, 4})
     for (const int cuts : {1, 2, 3, 5, 8, 25}) {
@@ -170,13 +185,138 @@ TEST(SmoothNurbs, AWholeCircleHasSixControlPointsAndIsC1Throughout) {
       }
       const NurbsCurve circle = smooth_nurbs(arcs, CurveParameter::free, 1e-12).curve;
       EXPECT_EQ(circle.degree(), 3);
-      EXPECT_EQ(circle.control_points().cols(), 6);
+      EXPECT_LE(circle.control_points().cols(), 10);
       EXPECT_EQ(largest_interior_multiplicity(circle), 2);
-      const Eigen::RowVectorXd weights = circle.control_points().row(3);
-      EXPECT_LE((weights - weights.reverse()).norm(), 1e-9);
+      EXPECT_LE(ratio_of_weights(circle), 10);
+      EXPECT_LE(ratio_of_speeds(circle), 4);
       const double start = circle.knots().start(), all = circle.knots().end() - start;
       for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(circle.point(start + all * (0.001 * i)).norm(), 1, 2e-13);
     }
+}
+
+/// What a pipe run is made of: a line, or an arc about an axis at right angles to where it starts.
+struct RunPart {
+  double size;              // length of the line, radius of the arc [m]
+  double angle = 0;         // of the arc, at most 90 degrees [rad]; 0 is a line
+  bool same_plane = false;  // as the arc before; else its plane is turned by 90 degrees
+};
+
+/// The parts end to end with a common tangent, each cut into `cuts` cubics (arcs of more than 45 degrees
+/// twice as many).
+BezierPath pipe_run(const std::vector<RunPart>& parts, int cuts) {
+  BezierPath path{{}, {0}, 0};
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  // x runs ahead, arcs turn towards y
+  for (const RunPart& part : parts) {
+    if (part.angle > 0 && !part.same_plane) frame.rotate(Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitX()));
+    Eigen::Isometry3d here = frame, step = Eigen::Isometry3d::Identity();
+    if (part.angle > 0) {  // circular_arc() starts on its x axis and runs ahead along its y axis
+      here = frame * Eigen::Translation3d(0, part.size, 0) *
+             Eigen::AngleAxisd(-pi / 2, Eigen::Vector3d::UnitZ());
+      step = Eigen::Translation3d(0, part.size, 0) * Eigen::AngleAxisd(part.angle, Eigen::Vector3d::UnitZ()) *
+             Eigen::Translation3d(0, -part.size, 0);
+    } else {
+      step.translate(Eigen::Vector3d(part.size, 0, 0));
+    }
+    const NurbsCurve drawn =
+        part.angle > 0 ? circular_arc(part.size, part.angle) : line({0, 0, 0}, {part.size, 0, 0});
+    const int count = part.angle > pi / 4 ? 2 * cuts : cuts;
+    for (const RationalCubic& whole : BezierPath::from_nurbs(drawn, 1e-9).segments)
+      for (int i = 0; i < count; ++i) {
+        const RationalCubic cubic = whole.piece(double(i) / count, double(i + 1) / count);
+        path.segments.emplace_back(here.matrix() * cubic.points());
+        path.breaks.push_back(path.breaks.back() + length(cubic));
+      }
+    frame = frame * step;
+  }
+  return path;
+}
+
+/// The path as it may look in motion: at every joint the points around it are moved and turned together.
+BezierPath deformed(Generator& generator, const BezierPath& path, double turn) {
+  BezierPath moved = path;
+  const auto carry = [&](int segment, int first, const Eigen::Isometry3d& motion) {
+    Eigen::Matrix4d points = moved.segments[segment].points();
+    points.middleCols(first, 2) = (motion.matrix() * points.middleCols(first, 2)).eval();
+    moved.segments[segment] = RationalCubic(points);
+  };
+  const int count = int(path.segments.size());
+  for (int node = 0; node <= count; ++node) {
+    const Eigen::Vector3d about =
+        node < count ? path.segments[node].control_point(0) : path.segments[node - 1].control_point(3);
+    const Eigen::Isometry3d motion =
+        Eigen::Translation3d(about + 0.01 * random_point(generator)) *
+        Eigen::AngleAxisd(uniform(generator, -turn, turn), random_point(generator).normalized()) *
+        Eigen::Translation3d(-about);
+    if (node > 0) carry(node - 1, 2, motion);
+    if (node < count) carry(node, 0, motion);
+  }
+  return moved;
+}
+
+const std::vector<RunPart> three_bends{{0.42}, {0.08, pi / 2}, {0.24}, {0.08, pi / 2},
+                                       {0.44}, {0.08, pi / 2}, {0.32}};
+
+TEST(SmoothNurbs, ARunOfLinesAndArcsIsC1OfDegreeTwoWithMildWeights) {
+  const std::vector<RunPart> uneven{{10}, {0.1, pi / 2}, {100},  {0.1, pi / 6},
+                                    {5},  {0.3, pi / 2}, {0.01}, {0.1, 1}};
+  const std::vector<RunPart> return_bend{{1}, {0.1, pi / 2}, {0.1, pi / 2, true}, {1}};
+  std::vector<RunPart> twenty_bends;
+  for (int i = 0; i < 20; ++i) twenty_bends.insert(twenty_bends.end(), {{0.3}, {0.1, pi / 2}});
+  for (const std::vector<RunPart>& parts : {three_bends, uneven, return_bend, twenty_bends})
+    for (const int cuts : {1, 3}) {
+      SCOPED_TRACE(testing::Message() << parts.size() << " parts in " << cuts << " pieces");
+      const BezierPath path = pipe_run(parts, cuts);
+      const double tolerance = 2e-13 * path.length();
+      const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, tolerance);
+      const auto arcs =
+          std::count_if(parts.begin(), parts.end(), [](const RunPart& p) { return p.angle > 0; });
+      EXPECT_EQ(smooth.curve.degree(), 2);
+      EXPECT_EQ(largest_interior_multiplicity(smooth.curve), 1);
+      EXPECT_LE(smooth.curve.control_points().cols(), 1.5 * double(1 + int(parts.size()) + arcs));
+      EXPECT_LE(ratio_of_weights(smooth.curve), 10);
+      EXPECT_LE(ratio_of_speeds(smooth.curve), 4);
+      EXPECT_LE(smooth.deviation, tolerance);
+      EXPECT_LE(distance(smooth.curve, path), tolerance);
+    }
+}
+
+TEST(SmoothNurbs, ArcsThatMeetWithoutALineAreC1OfDegreeThree) {
+  for (const int turns : {1, 2, 5}) {  // in quarters
+    std::vector<RunPart> parts;
+    for (int i = 0; i < 4 * turns; ++i) parts.push_back({0.1 + 0.05 * (i % 2), pi / 2});
+    const BezierPath path = pipe_run(parts, 2);
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 1e-12);
+    EXPECT_EQ(smooth.curve.degree(), 3);
+    EXPECT_EQ(largest_interior_multiplicity(smooth.curve), 2);
+    EXPECT_LE(ratio_of_weights(smooth.curve), 10);
+    EXPECT_LE(ratio_of_speeds(smooth.curve), 4);
+    EXPECT_LE(distance(smooth.curve, path), 1e-12);
+  }
+}
+
+TEST(SmoothNurbs, ADeformedRunOfLinesAndArcsIsC1OfDegreeFour) {
+  // No cubic is: through arcs the slope of the weight can only grow, and a cubic that bends has no other
+  // weights (up to w_i -> c^i w_i).
+  Generator generator(81);
+  for (const int cuts : {2, 5}) {
+    const BezierPath path = deformed(generator, pipe_run(three_bends, cuts), 0.05);
+    const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, 1e-12);
+    EXPECT_EQ(smooth.curve.degree(), 4);
+    EXPECT_EQ(smooth.curve.control_points().cols(), 3 * int(path.segments.size()) + 2);
+    EXPECT_EQ(largest_interior_multiplicity(smooth.curve), 3);
+    EXPECT_LE(ratio_of_weights(smooth.curve), 10);
+    EXPECT_LE(smooth.deviation, 1e-12);
+    // Every joint of the cubics is a break of the curve, and from one to the next both are the same points.
+    const std::vector<double> breaks = smooth.curve.knots().breaks();
+    ASSERT_EQ(breaks.size(), path.segments.size() + 1);
+    for (std::size_t j = 0; j < path.segments.size(); ++j) {
+      const std::vector<RationalCubic> cubic{path.segments[j]};
+      for (double u = 0; u <= 1; u += 0.125)
+        EXPECT_LE(
+            closest_point(cubic, smooth.curve.point(breaks[j] + u * (breaks[j + 1] - breaks[j]))).distance,
+            1e-12);
+    }
+  }
 }
 
 TEST(SmoothNurbs, AMildSmoothChainGetsDoubleKnotsThroughout) {
@@ -193,36 +333,42 @@ TEST(SmoothNurbs, AMildSmoothChainGetsDoubleKnotsThroughout) {
   }
 }
 
-TEST(SmoothNurbs, AWildSmoothChainStaysWhereItIsWithTripleKnotsWhereItMust) {
+TEST(SmoothNurbs, AWildSmoothChainStaysWhereItIsWithFullKnotsWhereItMust) {
   Generator generator(75);
-  int double_knots = 0, knots = 0;
+  int smooth_joints = 0, joints = 0;
   for (int i = 0; i < 80; ++i) {
     const int count = 2 + i % 40;
     const BezierPath path = smooth_chain(generator, count, 0.3, 1.5);
     const double tolerance = 1e-13 * path.length();
     const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, tolerance);
     ASSERT_LE(smooth.deviation, tolerance);
-    ASSERT_LE(distance(smooth.curve, path), tolerance);
-    ASSERT_LE(smooth.curve.control_points().cols(), 3 * count + 1);
-    double_knots += 3 * count + 1 - int(smooth.curve.control_points().cols());
-    knots += count - 1;
+    const auto on_curve = [&](double t) {
+      return smooth.curve.point(std::lerp(smooth.curve.knots().start(), smooth.curve.knots().end(), t));
+    };
+    ASSERT_LE(largest_distance(on_curve, path.segments), tolerance);
+    const int degree = smooth.curve.degree(), poles = int(smooth.curve.control_points().cols());
+    ASSERT_LE(poles, 3 * count + (degree == 4 ? 2 : 1));
+    smooth_joints += degree == 4 ? count - 1 : 3 * count + 1 - poles;
+    joints += count - 1;
     const Eigen::RowVectorXd weights = smooth.curve.control_points().row(3);
     ASSERT_GT(weights.minCoeff(), 0);
   }
-  EXPECT_GT(double_knots, knots / 2);
+  EXPECT_GT(smooth_joints, joints / 2);
 }
 
-TEST(SmoothNurbs, TheSpeedIsContinuousEvenAcrossTripleKnots) {
+TEST(SmoothNurbs, TheSpeedIsContinuousEvenAcrossFullKnots) {
   Generator generator(76);
   for (int i = 0; i < 100; ++i) {
     const SmoothNurbs smooth =
         smooth_nurbs(smooth_chain(generator, 10, 0.3, 1.5), CurveParameter::free, 1e-12);
-    const BezierPath pieces = BezierPath::from_nurbs(smooth.curve, 0);
-    const auto speed = [&](std::size_t j, double u) -> Eigen::Vector3d {
-      return pieces.segments[j].derivatives(u).col(1) / (pieces.breaks[j + 1] - pieces.breaks[j]);
-    };
-    for (std::size_t j = 0; j + 1 < pieces.segments.size(); ++j)
-      ASSERT_LE((speed(j, 1) - speed(j + 1, 0)).norm(), 1e-9 * speed(j, 1).norm());
+    const NurbsCurve& curve = smooth.curve;
+    const NurbsCurve back = curve.reversed();  // its derivative at a knot is that from the other side
+    const std::vector<double> breaks = curve.knots().breaks(), breaks_back = back.knots().breaks();
+    for (std::size_t j = 1; j + 1 < breaks.size(); ++j) {
+      const Eigen::Vector3d after = curve.derivatives(breaks[j], 1).col(1);
+      const Eigen::Vector3d before = -back.derivatives(breaks_back[breaks.size() - 1 - j], 1).col(1);
+      ASSERT_LE((before - after).norm(), 1e-9 * after.norm());
+    }
   }
 }
 

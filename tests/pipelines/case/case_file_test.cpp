@@ -89,6 +89,7 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(axis.curve_name, "Spline1");
   EXPECT_FALSE(axis.curve_index);
   EXPECT_TRUE(axis.chain);
+  EXPECT_EQ(axis.part, "bridge");
   EXPECT_EQ(axis.layer, "cables");
   EXPECT_EQ(axis.colour, "#FF8000");
   EXPECT_DOUBLE_EQ(axis.gap.value(), 1e-4);

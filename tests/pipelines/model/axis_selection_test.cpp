@@ -59,6 +59,15 @@ TEST(AxisSelection, IsByNameIndexPointLengthLayerAndColour) {
   EXPECT_EQ(chosen({.colour = "#00FF00"}), std::vector<int>{1});
 }
 
+TEST(AxisSelection, APartIsNamedByItsPathOrTheEndOfIt) {
+  ImportReport assembly = wires();
+  assembly.curves[2].part = "bridge/left/rope";
+  assembly.curves[3].part = "bridge/right/rope";
+  EXPECT_EQ(chosen({.part = "bridge/left/rope"}, assembly), std::vector<int>{2});
+  EXPECT_EQ(chosen({.part = "right/rope"}, assembly), std::vector<int>{3});
+  expect_error({.part = "rop"}, "part", {"\"bridge/left/rope\"", "\"bridge/right/rope\""}, assembly);
+}
+
 TEST(AxisSelection, LayerAndColourNarrowWhatIsChosenFrom) {
   EXPECT_EQ(chosen({.layer = "thin", .longest = true}), (std::vector<int>{0, 1}));
   EXPECT_EQ(chosen({.layer = "thin", .colour = "#ff0000", .near = Eigen::Vector3d(0, 5, 0)}),

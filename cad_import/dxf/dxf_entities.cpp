@@ -1,0 +1,94 @@
+#include "cad_import/dxf/dxf_entities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace nurbeam {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
+double number_in(const DxfPair& pair) {
+  const std::string text(pair.value);
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw std::runtime_error("group " + std::to_string(pair.code) + " is '" + text +
+                             "'; it must be a number");
+  return value;
+}
+
+std::vector<DxfPair> pairs_of(std::string_view content) {
+  std::vector<DxfPair> pairs;
+  int line = 0;
+  const auto next_line = [&] {
+    const std::size_t end = std::min(content.find('\n'), content.size());
+    const std::string_view text = trimmed(content.substr(0, end));
+    content.remove_prefix(std::min(end + 1, content.size()));
+    ++line;
+    return text;
+  };
+  while (!content.empty()) {
+    const std::string code(next_line());
+    if (code.empty() && trimmed(content).empty()) break;
+    char* end = nullptr;
+    const long value = std::strtol(code.c_str(), &end, 10);
+    if (code.empty() || *end != '\0' || value < -10 || value > 10000)
+      throw std::runtime_error("line " + std::to_string(line) + " is '" + code.substr(0, 40) +
+                               "'; a DXF file has a group code there; export or copy it again");
+    pairs.push_back({static_cast<int>(value), next_line()});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+double DxfEntity::number_of(int code, double otherwise) const {
+  const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& p) { return p.code == code; });
+  return at == pairs.end() ? otherwise : number_in(*at);
+}
+
+std::string DxfEntity::text_of(int code) const {
+  const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& p) { return p.code == code; });
+  return at == pairs.end() ? "" : std::string(at->value);
+}
+
+std::vector<double> DxfEntity::numbers_of(int code) const {
+  std::vector<double> values;
+  for (const DxfPair& pair : pairs)
+    if (pair.code == code) values.push_back(number_in(pair));
+  return values;
+}
+
+DxfDrawing dxf_drawing(std::string_view content) {
+  DxfDrawing drawing;
+  std::string_view section, variable;
+  bool names_section = false;
+  for (const DxfPair& pair : pairs_of(content)) {
+    if (pair.code == 0) {
+      names_section = pair.value == "SECTION";
+      if (names_section || pair.value == "ENDSEC") section = {};
+      if (section == "ENTITIES")
+        drawing.entities.push_back(
+            {std::string(pair.value), static_cast<int>(drawing.entities.size()) + 1, {}});
+    } else if (names_section && pair.code == 2) {
+      section = pair.value;
+      names_section = false;
+    } else if (section == "HEADER") {
+      if (pair.code == 9) variable = pair.value;
+      if (pair.code == 70 && variable == "$INSUNITS") drawing.unit = static_cast<int>(number_in(pair));
+    } else if (section == "ENTITIES" && !drawing.entities.empty()) {
+      drawing.entities.back().pairs.push_back(pair);
+    }
+  }
+  return drawing;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nurbeam {
+
+/// One pair of a DXF file: a group code and its value.
+struct DxfPair {
+  int code;
+  std::string_view value;
+};
+
+/// What stands between two pairs of code 0: an entity, and its number in the section, from 1.
+struct DxfEntity {
+  std::string type;
+  int number;
+  std::vector<DxfPair> pairs;
+
+  /// The first value of the code; `otherwise` if there is none. Throws std::runtime_error for one that is no
+  /// number.
+  double number_of(int code, double otherwise) const;
+  std::string text_of(int code) const;
+  /// All values of the code, in order.
+  std::vector<double> numbers_of(int code) const;
+};
+
+/// A drawing: its unit and the entities of its section ENTITIES. The pairs point into the content.
+struct DxfDrawing {
+  int unit = 0;  // $INSUNITS
+  std::vector<DxfEntity> entities;
+};
+
+/// Throws std::runtime_error, naming the line, for a content that is no list of pairs.
+DxfDrawing dxf_drawing(std::string_view content);
+
+}  // namespace nurbeam

@@ -1,0 +1,15 @@
+#pragma once
+#include <XSControl_Reader.hxx>
+
+#include "cad_import/program/entity_origins.h"
+#include "cad_import/report/import_report.h"
+
+namespace nurbeam {
+
+/// Looks for the curves of the file that are in no edge and no face that OpenCASCADE made: supplemental
+/// geometry, wireframes, rational Bezier curves, degrees above 25, negative radii, poly loops. In STEP those
+/// are added to the report that have a value of their own and a place, that is where the file has no assembly
+/// and one length unit; a warning names each of the others.
+void add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report);
+
+}  // namespace nurbeam

@@ -1,0 +1,185 @@
+#include "cad_import/step/spine.h"
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <Eigen/Geometry>
+#include <GC_MakeArcOfCircle.hxx>
+#include <Geom_BezierCurve.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cad_import/report/length_unit.h"
+#include "nurbs/bezier.h"
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr double same_place = 1e-7;  // what OpenCASCADE takes for one point [mm]
+
+/// A span of the curve.
+struct Span {
+  BezierPoints points;  // [m]
+  bool straight;
+
+  Eigen::Vector3d point(Eigen::Index i) const { return points.col(i).hnormalized(); }
+  Eigen::Vector3d start() const { return point(0); }
+  Eigen::Vector3d end() const { return point(points.cols() - 1); }
+  Eigen::Vector3d start_direction() const { return (point(1) - start()).normalized(); }
+  Eigen::Vector3d end_direction() const { return (end() - point(points.cols() - 2)).normalized(); }
+  Eigen::Vector3d middle() const {
+    const BezierPoints half = halves(points).first;
+    return half.rightCols<1>().hnormalized();
+  }
+};
+
+gp_Pnt in_millimetres(const Eigen::Vector3d& point) {
+  const Eigen::Vector3d p = millimetres_per_metre * point;
+  return {p.x(), p.y(), p.z()};
+}
+
+bool is_straight(const BezierPoints& points) {
+  const Eigen::Vector3d start = points.col(0).hnormalized();
+  const Eigen::Vector3d along = (points.rightCols<1>().hnormalized() - start).normalized();
+  for (const auto& column : points.colwise()) {
+    const Eigen::Vector3d offset = column.hnormalized() - start;
+    if (along.cross(offset).norm() * millimetres_per_metre > same_place) return false;
+  }
+  return true;
+}
+
+/// What corner there is between two spans, in words; nothing where they meet smoothly.
+std::optional<std::string> corner_between(const Span& before, const Span& after) {
+  constexpr double smooth = 1e-4;  // [rad]
+  const Eigen::Vector3d in = before.end_direction(), out = after.start_direction();
+  const double angle = std::atan2(in.cross(out).norm(), in.dot(out));
+  if (angle < smooth) return std::nullopt;
+  return "a corner of " + text_of(angle * 180 / std::numbers::pi) + " degrees at " + text_of(after.start());
+}
+
+std::vector<Span> all_spans(const NurbsCurve& curve) {
+  std::vector<Span> spans;
+  const std::vector<double> breaks = curve.knots().breaks();
+  for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
+    const BezierPoints points = curve.bezier_points(curve.knots().find_span(breaks[j]));
+    spans.push_back({points, is_straight(points)});
+  }
+  return spans;
+}
+
+/// The spans, those of one line as one.
+std::vector<Span> merged_spans(const NurbsCurve& curve) {
+  std::vector<Span> spans;
+  for (const Span& next : all_spans(curve)) {
+    BezierPoints both(4, 3);
+    if (!spans.empty()) both << spans.back().points.col(0), next.points.col(0), next.points.rightCols<1>();
+    if (next.straight && !spans.empty() && spans.back().straight && is_straight(both))
+      spans.back().points = both;
+    else
+      spans.push_back(next);
+  }
+  return spans;
+}
+
+/// The arc of a circle that the span is, or null.
+Handle(Geom_Curve) arc_of(const Span& span) {
+  constexpr int samples = 16;
+  const GC_MakeArcOfCircle maker(in_millimetres(span.start()), in_millimetres(span.middle()),
+                                 in_millimetres(span.end()));
+  if (!maker.IsDone()) return nullptr;
+  const auto circle = Handle(Geom_Circle)::DownCast(maker.Value()->BasisCurve());
+  const gp_Dir normal = circle->Axis().Direction();
+  for (int i = 1; i < samples; ++i) {
+    const BezierPoints rest = part(span.points, double(i) / samples, 1);
+    const gp_Vec out(circle->Location(), in_millimetres(rest.col(0).hnormalized()));
+    if (std::abs(out.Magnitude() - circle->Radius()) > same_place || std::abs(out.Dot(normal)) > same_place)
+      return nullptr;
+  }
+  return Handle(Geom_Curve)(maker.Value());
+}
+
+Handle(Geom_Curve) bezier_of(const Span& span) {
+  const int count = static_cast<int>(span.points.cols());
+  TColgp_Array1OfPnt poles(1, count);
+  TColStd_Array1OfReal weights(1, count);
+  for (int i = 0; i < count; ++i) {
+    poles(i + 1) = in_millimetres(span.point(i));
+    weights(i + 1) = span.points(3, i) / span.points(3, 0);
+  }
+  return new Geom_BezierCurve(poles, weights);
+}
+
+TopoDS_Edge edge_of(const Span& span, const TopoDS_Vertex& from, const TopoDS_Vertex& to) {
+  if (span.straight) return BRepBuilderAPI_MakeEdge(from, to);
+  const Handle(Geom_Curve) arc = arc_of(span);
+  BRepBuilderAPI_MakeEdge maker(arc.IsNull() ? bezier_of(span) : arc, from, to);
+  if (!maker.IsDone())
+    throw std::runtime_error("OpenCASCADE makes no edge of its span at " + text_of(span.start()));
+  return maker.Edge();
+}
+
+}  // namespace
+
+Handle(Geom_BSplineCurve) bspline(const NurbsCurve& curve) {
+  const std::vector<double> breaks = [&] {
+    std::vector<double> values = curve.knots().knots();
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }();
+  const int break_count = static_cast<int>(breaks.size());
+  TColStd_Array1OfReal knots(1, break_count);
+  TColStd_Array1OfInteger multiplicities(1, break_count);
+  for (int i = 0; i < break_count; ++i) {
+    knots(i + 1) = breaks[i];
+    multiplicities(i + 1) = curve.knots().multiplicity(breaks[i]);
+  }
+  const Eigen::Matrix4Xd& points = curve.control_points();
+  const int count = static_cast<int>(points.cols());
+  TColgp_Array1OfPnt poles(1, count);
+  TColStd_Array1OfReal weights(1, count);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d millimetres = points.col(i).head<3>() / points(3, i) * millimetres_per_metre;
+    poles(i + 1) = gp_Pnt(millimetres.x(), millimetres.y(), millimetres.z());
+    weights(i + 1) = points(3, i);
+  }
+  return new Geom_BSplineCurve(poles, weights, knots, multiplicities, curve.degree());
+}
+
+std::optional<std::string> corner_of(const NurbsCurve& curve) {
+  const std::vector<Span> spans = all_spans(curve);
+  for (std::size_t i = 0; i + 1 < spans.size(); ++i)
+    if (auto corner = corner_between(spans[i], spans[i + 1])) return corner;
+  const bool closed = is_closed(curve, same_place / millimetres_per_metre);
+  return closed ? corner_between(spans.back(), spans.front()) : std::nullopt;
+}
+
+TopoDS_Wire spine(const NurbsCurve& curve) {
+  if (corner_of(curve)) return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(bspline(curve)).Edge());
+  const std::vector<Span> spans = merged_spans(curve);
+  const TopoDS_Vertex first = BRepBuilderAPI_MakeVertex(in_millimetres(spans.front().start()));
+  const bool closed = is_closed(curve, same_place / millimetres_per_metre);
+  BRepBuilderAPI_MakeWire wire;
+  TopoDS_Vertex from = first;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const bool back = closed && i + 1 == spans.size();
+    const TopoDS_Vertex to =
+        back ? first : TopoDS_Vertex(BRepBuilderAPI_MakeVertex(in_millimetres(spans[i].end())));
+    wire.Add(edge_of(spans[i], from, to));
+    from = to;
+  }
+  return wire.Wire();
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,152 @@
+// Curves that OpenCASCADE makes no shape of: read by other ways where they can be, else named.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "cad_import/import_curves.h"
+#include "nurbs/arc_length.h"
+#include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_text_of.h"
+
+namespace nurbeam {
+namespace {
+
+ImportReport import_text(const std::string& text) {
+  const ScratchDirectory scratch;
+  return import_curves(scratch.file("drawing.cad", text));
+}
+
+/// The file with a circle that is read anyhow, and these entities, which are in no set of curves.
+ImportReport import_beside_a_circle(const std::string& entities, const std::string& in_set = "",
+                                    const std::string& unit = millimetres) {
+  return import_text(step_text_of("#100" + in_set, "#100 = CIRCLE('good',#11,1.);\n" + entities, "", unit));
+}
+
+const std::string inch =
+    "( CONVERSION_BASED_UNIT('INCH',#31) LENGTH_UNIT() NAMED_UNIT(#33) );\n"
+    "#31 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#32);\n"
+    "#32 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\n"
+    "#33 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)";
+
+std::string points(const std::string& first_number, const std::vector<Eigen::Vector3d>& places) {
+  std::string text;
+  int number = std::stoi(first_number);
+  for (const Eigen::Vector3d& p : places)
+    text += "#" + std::to_string(number++) + " = CARTESIAN_POINT('',(" + std::to_string(p.x()) + "," +
+            std::to_string(p.y()) + "," + std::to_string(p.z()) + "));\n";
+  return text;
+}
+
+const ImportedCurve* named(const ImportReport& report, const std::string& name) {
+  const auto at = std::find_if(report.curves.begin(), report.curves.end(),
+                               [&](const ImportedCurve& curve) { return curve.name == name; });
+  return at == report.curves.end() ? nullptr : &*at;
+}
+
+TEST(LostCurves, ARationalBezierCurveIsReadExactly) {
+  // A quarter of the unit circle.
+  const std::string arc =
+      points("200", {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}) +
+      "#110 = ( BEZIER_CURVE() BOUNDED_CURVE() B_SPLINE_CURVE(2,(#200,#201,#202),.UNSPECIFIED.,.F.,.F.) CURVE() "
+      "GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((1.,0.70710678118654752,1.)) "
+      "REPRESENTATION_ITEM('arc') );\n";
+  for (const auto& [unit, size] : {std::pair{millimetres, 1e-3}, {inch, 0.0254}}) {
+    const ImportReport report = import_beside_a_circle(arc, ",#110", unit);
+    EXPECT_TRUE(report.diagnostics.empty());
+    const ImportedCurve* curve = named(report, "arc");
+    ASSERT_NE(curve, nullptr);
+    EXPECT_TRUE(curve->exact);
+    for (double u = 0; u <= 1; u += 0.125) EXPECT_NEAR(curve->curve.point(u).norm(), size, 1e-16);
+  }
+}
+
+TEST(LostCurves, ADegreeAboveTwentyFiveIsRead) {
+  std::vector<Eigen::Vector3d> places;
+  std::string list;
+  for (int i = 0; i <= 30; ++i) {
+    places.emplace_back(i, i % 2, 0);
+    list += (i > 0 ? ",#" : "#") + std::to_string(200 + i);
+  }
+  const ImportReport report =
+      import_beside_a_circle(points("200", places) + "#110 = B_SPLINE_CURVE_WITH_KNOTS('steep',30,(" + list +
+                                 "),.UNSPECIFIED.,.F.,.F.,(31,31),(0.,1.),.UNSPECIFIED.);\n",
+                             ",#110");
+  EXPECT_TRUE(report.diagnostics.empty());
+  const ImportedCurve* curve = named(report, "steep");
+  ASSERT_NE(curve, nullptr);
+  EXPECT_EQ(curve->curve.degree(), 30);
+  // Bernstein polynomials reproduce x = 30 u / 30 of evenly spread points.
+  EXPECT_NEAR(curve->curve.point(0.3).x(), 0.3 * 30e-3, 1e-16);
+}
+
+TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {
+  const std::string line = points("200", {{0, 0, 0}, {3, 0, 0}, {3, 4, 0}});
+  const ImportReport supplemental = import_beside_a_circle(
+      "#110 = ELLIPSE('rim',#11,3.,1.);\n"
+      "#150 = CONSTRUCTIVE_GEOMETRY_REPRESENTATION('supplemental geometry',(#110),#26);\n"
+      "#151 = CONSTRUCTIVE_GEOMETRY_REPRESENTATION_RELATIONSHIP('supplemental geometry','',#10,#150);\n");
+  ASSERT_NE(named(supplemental, "rim"), nullptr);
+  EXPECT_NEAR(length(named(supplemental, "rim")->curve), 13.364893220555258e-3, 1e-12);
+  const ImportReport wireframe = import_beside_a_circle(
+      line +
+      "#120 = VERTEX_POINT('',#200);\n#121 = VERTEX_POINT('',#201);\n#122 = DIRECTION('',(1.,0.,0.));\n"
+      "#123 = VECTOR('',#122,1.);\n#124 = LINE('',#200,#123);\n"
+      "#125 = EDGE_CURVE('side',#120,#121,#124,.T.);\n#126 = ORIENTED_EDGE('',*,*,#125,.T.);\n"
+      "#127 = EDGE_LOOP('',(#126));\n#128 = WIRE_SHELL('',(#127));\n"
+      "#129 = SHELL_BASED_WIREFRAME_MODEL('',(#128));\n"
+      "#130 = SHELL_BASED_WIREFRAME_SHAPE_REPRESENTATION('',(#129),#26);\n"
+      "#131 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#10,#130);\n");
+  ASSERT_NE(named(wireframe, "side"), nullptr);
+  EXPECT_NEAR(length(named(wireframe, "side")->curve), 3e-3, 1e-15);
+  const ImportReport loop =
+      import_beside_a_circle(line + "#110 = POLY_LOOP('triangle',(#200,#201,#202));\n", ",#110");
+  ASSERT_NE(named(loop, "triangle"), nullptr);
+  EXPECT_NEAR(length(named(loop, "triangle")->curve), 12e-3, 1e-15);
+}
+
+/// The one warning, and that the circle was read all the same.
+std::string only_warning(const ImportReport& report) {
+  EXPECT_NE(named(report, "good"), nullptr);
+  EXPECT_EQ(report.diagnostics.size(), 1U);
+  if (report.diagnostics.empty()) return "";
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  return report.diagnostics[0].where + ": " + report.diagnostics[0].message;
+}
+
+TEST(LostCurves, WhatCannotBeReadIsNamed) {
+  const auto told = [](const ImportReport& report, const std::string& what) {
+    const std::string warning = only_warning(report);
+    EXPECT_NE(warning.find(what), std::string::npos) << warning;
+  };
+  told(import_beside_a_circle("#110 = CIRCLE('inside out',#11,-2.);\n", ",#110"), "#110 Circle 'inside out'");
+  told(import_beside_a_circle("#160 = COORDINATES_LIST('',2,((0.,0.,0.),(3.,4.,0.)));\n"
+                              "#161 = TESSELLATED_CURVE_SET('mesh',#160,((1,2)));\n"
+                              "#162 = TESSELLATED_GEOMETRIC_SET('',(#161));\n"
+                              "#163 = TESSELLATED_SHAPE_REPRESENTATION('',(#162),#26);\n"
+                              "#164 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#10,#163);\n"),
+       "#161 TessellatedCurveSet 'mesh'");
+  told(import_beside_a_circle("#110 = CLOTHOID('spiral',#11,5.);\n"), "CLOTHOID");
+  told(import_beside_a_circle("#110 = CIRCLE('loose',#11,2.);\n"), "no representation holds it");
+}
+
+TEST(LostCurves, HiddenCurvesAreMarked) {
+  const ImportReport report = import_beside_a_circle(
+      "#110 = CIRCLE('construction',#11,2.);\n#170 = INVISIBILITY((#171));\n"
+      "#171 = STYLED_ITEM('',(#172),#110);\n#172 = PRESENTATION_STYLE_ASSIGNMENT((.NULL.));\n",
+      ",#110");
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_TRUE(named(report, "construction")->hidden);
+  EXPECT_FALSE(named(report, "good")->hidden);
+  const ImportReport iges =
+      import_text(iges_text_of({{.type = 110, .parameters = "110,0.,0.,0.,1.,0.,0.;", .status = 1000000},
+                                {.type = 110, .parameters = "110,0.,1.,0.,1.,1.,0.;"}}));
+  ASSERT_EQ(iges.curves.size(), 2U);
+  EXPECT_TRUE(iges.curves[0].hidden);
+  EXPECT_FALSE(iges.curves[1].hidden);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,158 @@
+// Curves of DXF drawings, against what their entities say they are.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cad_import/import_curves.h"
+#include "nurbs/arc_length.h"
+#include "tests/cad_import/scratch_directory.h"
+
+namespace nurbeam {
+namespace {
+
+using std::numbers::pi;
+
+/// A drawing of these entities, written "0 LINE 10 1.5 ...", in the unit of this $INSUNITS.
+std::string dxf_of(const std::string& entities, int insunits = 4) {
+  std::string text = "0 SECTION 2 HEADER 9 $INSUNITS 70 " + std::to_string(insunits) +
+                     " 0 ENDSEC 0 SECTION 2 ENTITIES " + entities + " 0 ENDSEC 0 EOF";
+  std::replace(text.begin(), text.end(), ' ', '\n');
+  return text + "\n";
+}
+
+ImportReport import_dxf(const std::string& text) {
+  const ScratchDirectory scratch;
+  return import_curves(scratch.file("drawing.dxf", text));
+}
+
+NurbsCurve only_curve(const std::string& entities, int insunits = 4) {
+  const ImportReport report = import_dxf(dxf_of(entities, insunits));
+  EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
+  EXPECT_EQ(report.curves.size(), 1U);
+  return report.curves.at(0).curve;
+}
+
+Eigen::Vector3d start_of(const NurbsCurve& curve) { return curve.point(curve.knots().start()); }
+Eigen::Vector3d end_of(const NurbsCurve& curve) { return curve.point(curve.knots().end()); }
+Eigen::Vector3d middle_of(const NurbsCurve& curve) {
+  return curve.point(0.5 * (curve.knots().start() + curve.knots().end()));
+}
+
+void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { EXPECT_LE((a - b).norm(), 1e-15); }
+
+TEST(ReadDxf, LinesHaveTheUnitOfTheDrawing) {
+  const std::string line = "0 LINE 8 0 10 1 20 2 30 3 11 4 21 6 31 3";
+  for (const auto& [insunits, metres] : {std::pair{1, 0.0254}, {4, 1e-3}, {5, 1e-2}, {6, 1.0}}) {
+    const NurbsCurve curve = only_curve(line, insunits);
+    expect_near(start_of(curve), metres * Eigen::Vector3d(1, 2, 3));
+    expect_near(end_of(curve), metres * Eigen::Vector3d(4, 6, 3));
+  }
+  const ImportReport without = import_dxf(dxf_of(line, 0));
+  ASSERT_EQ(without.diagnostics.size(), 1U);
+  EXPECT_NE(without.diagnostics[0].message.find("$INSUNITS"), std::string::npos);
+  EXPECT_EQ(without.unit, "mm");
+}
+
+TEST(ReadDxf, ArcsRunCounterclockwiseAboutTheirNormal) {
+  const NurbsCurve arc = only_curve("0 ARC 10 5 20 0 30 1 40 2 50 300 51 60", 6);
+  const double root = std::sqrt(3.0);
+  expect_near(start_of(arc), {6, -root, 1});
+  expect_near(middle_of(arc), {7, 0, 1});
+  expect_near(end_of(arc), {6, root, 1});
+  EXPECT_NEAR(length(arc), 2 * 2 * pi / 3, 1e-14);
+  // Seen from behind its x axis points the other way (the arbitrary axis algorithm).
+  const NurbsCurve behind = only_curve("0 ARC 10 5 20 0 30 1 40 2 50 0 51 90 210 0 220 0 230 -1", 6);
+  expect_near(start_of(behind), {-7, 0, -1});
+  expect_near(end_of(behind), {-5, 2, -1});
+  const NurbsCurve circle = only_curve("0 CIRCLE 10 1 20 1 30 0 40 0.5", 6);
+  EXPECT_NEAR(length(circle), pi, 1e-14);
+  for (double u = 0; u <= 4; u += 0.25)
+    EXPECT_NEAR((circle.point(u) - Eigen::Vector3d(1, 1, 0)).norm(), 0.5, 1e-15);
+}
+
+TEST(ReadDxf, EllipsesRunFromTheirMajorAxis) {
+  const NurbsCurve quarter =
+      only_curve("0 ELLIPSE 10 1 20 0 30 0 11 0 21 3 31 0 40 0.5 41 0 42 1.5707963267948966", 6);
+  expect_near(start_of(quarter), {1, 3, 0});
+  EXPECT_LE((end_of(quarter) - Eigen::Vector3d(-0.5, 0, 0)).norm(), 1e-15);
+  const NurbsCurve whole = only_curve("0 ELLIPSE 10 0 20 0 30 0 11 3 21 0 31 0 40 0.33333333333333333", 6);
+  EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12);
+}
+
+TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
+  // A quarter of the unit circle.
+  const NurbsCurve arc = only_curve(
+      "0 SPLINE 70 4 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.70710678118654752 41 1 "
+      "10 1 20 0 30 0 10 1 20 1 30 0 10 0 20 1 30 0",
+      6);
+  for (double u = 0; u <= 1; u += 0.125) EXPECT_NEAR(arc.point(u).norm(), 1, 1e-15);
+}
+
+TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
+  const NurbsCurve square =
+      only_curve("0 LWPOLYLINE 90 4 70 1 38 2 10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1", 6);
+  EXPECT_EQ(square.degree(), 1);
+  EXPECT_EQ(square.control_points().cols(), 5);
+  EXPECT_NEAR(length(square), 4, 1e-15);
+  EXPECT_EQ(start_of(square).z(), 2);
+  // A slot: two lines, two half circles that bulge outwards, and again clockwise.
+  for (const double turn : {1.0, -1.0}) {
+    const std::string b = std::to_string(turn), top = std::to_string(turn * 1);
+    const ImportReport slot = import_dxf(dxf_of(
+        "0 LWPOLYLINE 70 1 10 0 20 0 10 2 20 0 42 " + b + " 10 2 20 " + top + " 10 0 20 " + top + " 42 " + b,
+        6));
+    ASSERT_EQ(slot.curves.size(), 4U);
+    double sum = 0;
+    for (const ImportedCurve& curve : slot.curves) sum += length(curve.curve);
+    EXPECT_NEAR(sum, 4 + pi, 1e-14);
+    expect_near(middle_of(slot.curves[1].curve), {2.5, 0.5 * turn, 0});
+    expect_near(middle_of(slot.curves[3].curve), {-0.5, 0.5 * turn, 0});
+    for (int i = 0; i < 4; ++i)
+      expect_near(end_of(slot.curves[i].curve), start_of(slot.curves[(i + 1) % 4].curve));
+  }
+  const NurbsCurve in_space = only_curve(
+      "0 POLYLINE 66 1 70 8 0 VERTEX 70 32 10 0 20 0 30 0 0 VERTEX 70 32 10 1 20 2 30 2 0 VERTEX 70 32 10 1 20 2 30 3 "
+      "0 SEQEND",
+      6);
+  EXPECT_NEAR(length(in_space), 4, 1e-15);
+  EXPECT_EQ(end_of(in_space), Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
+  const ImportReport report = import_dxf(
+      dxf_of("0 LINE 8 cables 62 3 11 1 0 LINE 8 frame 420 16744448 60 1 11 2 0 TEXT 1 note 10 0 20 0"));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_EQ(report.curves[0].layer, "cables");
+  EXPECT_EQ(report.curves[0].colour, "#00ff00");
+  EXPECT_EQ(report.curves[1].colour, "#ff8000");
+  EXPECT_TRUE(report.curves[1].hidden);
+}
+
+TEST(ReadDxf, WhatCannotBeReadIsNamedAndHarmsNothing) {
+  for (const auto& [entity, reason] : {std::pair{"0 INSERT 2 block", "INSERT"},
+                                       {"0 ARC 40 -1", "radius"},
+                                       {"0 SPLINE 71 3 11 0 11 1", "fit points"},
+                                       {"0 LINE 10 x 11 1", "'x'"},
+                                       {"0 LINE 11 0", "length"},
+                                       {"0 SPLINE 71 2 40 1 40 0 10 0 20 0 30 0", "not read"},
+                                       {"0 LWPOLYLINE 10 0 20 0", "corners"},
+                                       {"0 CIRCLE 40 1 210 0 220 0 230 0", "normal"}}) {
+    const ImportReport report = import_dxf(dxf_of(std::string(entity) + " 0 LINE 11 1"));
+    EXPECT_EQ(report.curves.size(), 1U) << entity;
+    ASSERT_EQ(report.diagnostics.size(), 1U) << entity;
+    EXPECT_NE((report.diagnostics[0].where + report.diagnostics[0].message).find(reason), std::string::npos)
+        << report.diagnostics[0].where << report.diagnostics[0].message;
+  }
+  const std::string whole = dxf_of("0 LINE 11 1");
+  EXPECT_NE(import_dxf(whole.substr(0, whole.size() - 5)).diagnostics.at(0).message.find("EOF"),
+            std::string::npos);
+  EXPECT_NE(import_dxf(with(whole, "11\n1", "eleven\n1")).diagnostics.at(0).message.find("group code"),
+            std::string::npos);
+  EXPECT_EQ(import_dxf("999\nmade by hand\n" + whole).curves.size(), 1U);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,129 @@
+// What CAD systems read in spite of it: packed files, edition 3, stray commas, marks and bytes.
+
+#include "cad_import/files/tolerant_text.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "cad_import/import_curves.h"
+#include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_text_of.h"
+
+namespace nurbeam {
+namespace {
+
+const std::string circle =
+    step_text_of("#100", "#100 = CIRCLE('rim, (1,) /* no comment */ ; DATA;',#11,1.);");
+
+ImportReport import_text(const std::string& text) {
+  const ScratchDirectory scratch;
+  return import_curves(scratch.file("drawing.cad", text));
+}
+
+void expect_the_circle(const std::string& text) {
+  const ImportReport report = import_text(text);
+  EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
+  ASSERT_EQ(report.curves.size(), 1U);
+  EXPECT_EQ(report.curves[0].name, "rim, (1,) /* no comment */ ; DATA;");
+}
+
+TEST(TolerantText, LeavesWhatNeedsNothingAsItIs) {
+  EXPECT_EQ(tolerant_text(circle), circle);
+  const std::string iges = iges_text_of({{110, "110,0.,0.,0.,1.,0.,0.;"}});
+  EXPECT_EQ(tolerant_text(iges), iges);
+  for (const char* name : {"ideas-dm1.stp", "inventor-issue153.stp", "iges-126-bsplines.igs"})
+    EXPECT_TRUE(tolerant_text(content_of(corpus_file(name))) == content_of(corpus_file(name))) << name;
+}
+
+TEST(TolerantText, AByteOrderMarkAndTrailingCommasAreNoHindrance) {
+  expect_the_circle("\xEF\xBB\xBF" + circle);
+  expect_the_circle(with(circle, "(#100)", "(#100, )"));
+}
+
+TEST(TolerantText, TheSectionsOfEditionThreeAreRead) {
+  expect_the_circle(with(circle, "ENDSEC;\nDATA;",
+                         "ENDSEC;\nANCHOR;\n<a> = #100;\nENDSEC;\nREFERENCE;\n#900 = <x.stp#b>;\nENDSEC;\n"
+                         "DATA('one',('AUTOMOTIVE_DESIGN'));"));
+  expect_the_circle(with(circle, "#100 = CIRCLE", "ENDSEC;\n/* more */\nDATA ;\n#100 = CIRCLE"));
+  expect_the_circle(circle + "SIGNATURE;\nTUlJ\nENDSEC;\n");
+}
+
+TEST(TolerantText, BytesThatAreNoUtf8AreLatin1) {
+  EXPECT_EQ(as_utf8("Tr\xE4ger"), "Tr\xC3\xA4ger");
+  EXPECT_EQ(as_utf8("Tr\xC3\xA4ger"), "Tr\xC3\xA4ger");
+  EXPECT_EQ(import_text(step_text_of("#100", "#100 = CIRCLE('Tr\xE4ger',#11,1.);")).curves.at(0).name,
+            "Tr\xC3\xA4ger");
+  const std::string labelled =
+      iges_text_of({{.type = 110, .parameters = "110,0.,0.,0.,1.,0.,0.;", .label = "Tr\xE4ger"}});
+  EXPECT_EQ(import_text(labelled).curves.at(0).name, "Tr\xC3\xA4ger");
+}
+
+TEST(TolerantText, IgesWithoutLineEndsIsRead) {
+  std::string text = iges_text_of({{110, "110,0.,0.,0.,1.,0.,0.;"}});
+  std::erase(text, '\n');
+  EXPECT_EQ(import_text(text).curves.size(), 1U);
+  EXPECT_EQ(import_text("\xEF\xBB\xBF" + iges_text_of({{110, "110,0.,0.,0.,1.,0.,0.;"}})).curves.size(), 1U);
+}
+
+std::string deflated(const std::string& text, int window_bits) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, window_bits, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+/// An archive of one file, "a.step", without the directory at its end.
+std::string zipped(const std::string& text, bool deflate) {
+  const std::string data = deflate ? deflated(text, -15) : text;
+  const auto little_endian = [](std::size_t value, int count) {
+    std::string bytes;
+    for (int i = 0; i < count; ++i, value >>= 8) bytes += static_cast<char>(value & 0xFF);
+    return bytes;
+  };
+  return "PK\x03\x04" + little_endian(20, 2) + little_endian(0, 2) + little_endian(deflate ? 8 : 0, 2) +
+         little_endian(0, 8) + little_endian(data.size(), 4) + little_endian(text.size(), 4) +
+         little_endian(6, 2) + little_endian(0, 2) + "a.step" + data;
+}
+
+TEST(TolerantText, PackedFilesAreUnpacked) {
+  const std::string packed = deflated(circle, 15 + 16);
+  EXPECT_LT(packed.size(), circle.size());
+  expect_the_circle(packed);
+  expect_the_circle(zipped(circle, true));
+  expect_the_circle(zipped(circle, false));
+}
+
+TEST(TolerantText, DamagedAndMonstrousPackedFilesAreRefused) {
+  const std::string gzip = deflated(circle, 15 + 16), zip = zipped(circle, true);
+  for (const std::string& damaged :
+       {gzip.substr(0, gzip.size() / 2), zip.substr(0, zip.size() / 2), zip.substr(0, 20),
+        gzip.substr(0, 12) + "xxxxxxxxxx" + gzip.substr(22), zipped(circle, false).substr(0, 200)}) {
+    const ImportReport report = import_text(damaged);
+    EXPECT_FALSE(report.ok());
+    ASSERT_EQ(report.diagnostics.size(), 1U);
+    EXPECT_NE(report.diagnostics[0].message.find("unpack it by hand"), std::string::npos)
+        << report.diagnostics[0].message;
+  }
+  std::string bomb = deflated(std::string(std::size_t{600} << 20, ' '), 15 + 16);
+  EXPECT_LT(bomb.size(), std::size_t{1} << 20);
+  EXPECT_NE(import_text(bomb).diagnostics.at(0).message.find("more than 512 MiB"), std::string::npos);
+}
+
+TEST(TolerantText, AbsurdCoordinatesAreRefusedAtOnce) {
+  const ImportReport report =
+      import_text(with(circle, "CARTESIAN_POINT('',(0.,0.,0.))", "CARTESIAN_POINT('',(0.,1.E200,0.))"));
+  EXPECT_FALSE(report.ok());
+  EXPECT_NE(report.diagnostics.at(0).message.find("1e+200"), std::string::npos)
+      << report.diagnostics[0].message;
+}
+
+}  // namespace
+}  // namespace nurbeam
