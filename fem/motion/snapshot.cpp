@@ -60,7 +60,11 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
   }
   snapshot.beams = record_beams(system, state);
   const SystemEnergy e = energy(system, state);
-  snapshot.energy = {e.kinetic, e.gravity, e.axial, e.bending, 0, e.mechanical()};
+  snapshot.energy = {.kinetic = e.kinetic,
+                     .gravity = e.gravity,
+                     .axial = e.axial,
+                     .bending = e.bending,
+                     .total = e.mechanical()};
   return snapshot;
 }
 

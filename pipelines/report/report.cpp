@@ -90,7 +90,8 @@ void append_values(const Snapshot& frame, std::vector<Column>& columns) {
   }
   for (const BeamRecord& beam : frame.beams) add(beam.length);
   const EnergyRecord& e = frame.energy;
-  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total, e.input}) add(energy);
+  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total, e.input})
+    add(energy);
 }
 
 // ---- shapes ----
