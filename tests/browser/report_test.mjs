@@ -255,7 +255,7 @@ for (const scheme of ['light', 'dark']) {
     { colorScheme: scheme }, async (page) => {
       const colours = await page.evaluate(() => {
         const style = getComputedStyle(document.documentElement);
-        const lines = [0, 1, 2, 3, 4, 5].map((i) => `--line-${i}`);
+        const lines = [0, 1, 2, 3, 4, 5, 6].map((i) => `--line-${i}`);
         const names = ['--page', '--card', '--scene', '--control', '--text', '--quiet', '--accent', '--warning',
           '--warning-back', '--good', '--good-back', '--control-edge', '--scene-body', '--scene-support',
           '--scene-outline', ...lines];
@@ -272,7 +272,7 @@ for (const scheme of ['light', 'dark']) {
         ['--quiet', back, 4.5]]), ['--accent', '--card', 4.5], ['--warning', '--warning-back', 4.5],
       ['--warning', '--card', 4.5], ['--good', '--good-back', 4.5], ['--scene-body', '--scene', 3],
       ['--scene-support', '--scene', 3], ['--scene-outline', '--scene', 3],
-      ...[0, 1, 2, 3, 4, 5].map((i) => [`--line-${i}`, '--card', 3]), ['--control-edge', '--card', 3]];
+      ...[0, 1, 2, 3, 4, 5, 6].map((i) => [`--line-${i}`, '--card', 3]), ['--control-edge', '--card', 3]];
       for (const [front, back, least] of pairs) {
         assert.ok(contrast(front, back) >= least, `${front} on ${back}: ${contrast(front, back).toFixed(2)}`);
       }

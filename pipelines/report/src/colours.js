@@ -35,6 +35,6 @@ export function field_colours(field) {
 
 export const css_gradient = (stops) => `linear-gradient(to right, ${stops.map((s) => '#' + s).join(', ')})`;
 
-/** Six line styles: colours are CSS variables of both schemes, dashes tell them apart without colour. */
-const dashes = ['', '7 3', '2 2.5', '9 3 2 3', '5 2 1.5 2 1.5 2', '12 4'];
-export const line_style = (i) => ({ colour: `var(--line-${i % 6})`, dash: dashes[i % 6] });
+/** Seven line styles: colours are CSS variables of both schemes, dashes tell them apart without colour. */
+const dashes = ['', '7 3', '2 2.5', '9 3 2 3', '5 2 1.5 2 1.5 2', '12 4', '1 3 6 3'];
+export const line_style = (i) => ({ colour: `var(--line-${i % dashes.length})`, dash: dashes[i % dashes.length] });

@@ -243,7 +243,7 @@ TEST_F(CaseFileTest, StepsAndStoredFramesHaveALimitThatIsNamed) {
 }
 
 TEST_F(CaseFileTest, ASlidingBodyWithoutMassIsExplained) {
-  expect_error({"bodies[0].mass=0"}, "bodies[0].mass", {"0 kg", "between 1e-09 and 1e+09", "no inertia"},
+  expect_error({"bodies[0].mass=0"}, "bodies[0].mass", {"0 kg", "between 1e-09 and 1e+12", "no inertia"},
                full_case);
 }
 
