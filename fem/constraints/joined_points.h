@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/mesh/point_on_beam.h"
@@ -13,6 +15,7 @@ struct BeamJoint {
   int beam_b;
   double s_b;          ///< [m]
   bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle); else a hinge
+  std::string name = {};
 };
 
 /// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
 #include "fem/mesh/point_on_beam.h"
@@ -10,6 +12,7 @@ struct Support {
   int beam;
   double s;              ///< [m]
   bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
+  std::string name = {};
 };
 
 /// r(s) = r_0(s): D rows.

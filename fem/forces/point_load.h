@@ -1,7 +1,9 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "fem/forces/turned_vector.h"
+#include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
@@ -20,6 +22,7 @@ struct LoadAtPlace {
 template <int D>
 struct LoadedPoint {
   int element;
+  double s;  ///< as the element counts it [m]
   PointShape<D> shape;
   PointField<D> rs;
   TurnedVector vector;  ///< without its factor
@@ -67,6 +70,9 @@ struct PointLoad : LoadAtPlace {
   /// Done between two states on one mesh [J].
   template <int D>
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  /// Adds what it does to the beam at a moment.
+  template <int D>
+  void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if (const auto added = tangent(at, state, w)) sink.element(added->element, added->matrix);

@@ -151,7 +151,9 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
             .radius = r};
   }
   if (has(section, "from")) return {.from_cad = true};
-  return {.area = number(section, "area"), .second_moment = number(section, "second_moment")};
+  return {.area = number(section, "area"),
+          .second_moment = number(section, "second_moment"),
+          .extreme_fibre = optional_number(section, "extreme_fibre")};
 }
 
 /// Of the papers' elements (constant weights, no metric, form P) the pointwise strain when omitted.

@@ -52,12 +52,13 @@ struct CaseProfile {
 };
 
 struct CaseSection {
-  double area = 0;                          ///< [m^2]
-  double second_moment = 0;                 ///< [m^4]
-  std::optional<double> radius = {};        ///< of a disk or a pipe [m]
-  std::optional<double> bore = {};          ///< inner radius of a pipe [m]
-  std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
-  bool from_cad = false;                    ///< all are those of the pipe whose centre line the axis is
+  double area = 0;                           ///< [m^2]
+  double second_moment = 0;                  ///< [m^4]
+  std::optional<double> radius = {};         ///< of a disk or a pipe [m]
+  std::optional<double> bore = {};           ///< inner radius of a pipe [m]
+  std::optional<double> extreme_fibre = {};  ///< greatest distance from the axis of bending [m]
+  std::optional<CaseProfile> profile = {};   ///< what gives area and second moment
+  bool from_cad = false;                     ///< all are those of the pipe whose centre line the axis is
 };
 
 struct CaseMaterial {
@@ -123,6 +124,7 @@ struct CaseLoad {
 
 struct CaseSupport {
   enum class Type { clamped, pinned } type = Type::pinned;
+  std::string name;  ///< heads the columns of its reaction; may be empty
   std::string path;
   std::string beam;
   Place at;
@@ -141,6 +143,7 @@ struct CaseSlidingJoint {
 
 /// Beams that meet at one place.
 struct CaseBeamJoint {
+  std::string name;  ///< heads the columns of its forces; may be empty
   std::string path;
   std::vector<std::string> beams;       ///< two or more; each is joined to the first
   bool rigid = false;                   ///< else hinged

@@ -105,6 +105,9 @@ Shape section() {
         "second_moment"},
        {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
         false, "area"},
+       {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
+        "greatest distance of the section from its axis of bending; without it no stress is given", false,
+        "area"},
        {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
       {{{"radius", "area", "profile", "from"}, required}});
@@ -194,7 +197,8 @@ Shape support() {
   return object({{"beam", name(), "the supported beam", required},
                  {"at", place(), "where", required},
                  {"type", choice({"clamped", "pinned"}),
-                  "clamped: position and direction are held; pinned: the position", required}});
+                  "clamped: position and direction are held; pinned: the position", required},
+                 {"name", name(), "heads the columns of its reaction"}});
 }
 
 Shape sliding_joint() {
@@ -218,7 +222,8 @@ Shape beam_joint() {
   return object({{"beams", array(name(), 2), "the beams that meet", required},
                  {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
                  {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
-                  "where, if not at an end of one of them"}});
+                  "where, if not at an end of one of them"},
+                 {"name", name(), "heads the columns of its forces"}});
 }
 
 Shape analysis() {

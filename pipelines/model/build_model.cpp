@@ -72,7 +72,11 @@ void check_without_metric(const CaseBeam& beam, const std::vector<CaseSlidingJoi
 Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& curve,
              const CaseSection& section, Findings& findings) {
   if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
-  const Section sizes{section.area, section.second_moment, {}, section.radius, section.bore};
+  const Section sizes{.area = section.area,
+                      .second_moment = section.second_moment,
+                      .radius = section.radius,
+                      .bore = section.bore,
+                      .extreme_fibre = section.radius ? section.radius : section.extreme_fibre};
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
@@ -104,7 +108,7 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
     places.push_back(s);
     paths.push_back(support.path);
     model.constraints.push_back(
-        Support{b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped});
+        Support{b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped, support.name});
   }
   return places;
 }
