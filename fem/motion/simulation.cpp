@@ -388,15 +388,40 @@ class Simulation {
     const bool observed = static_cast<bool>(observer_.mesh_changed);
     const std::vector<BeamRecord> before =
         observed ? record_beams(*at_.system, at_.state) : std::vector<BeamRecord>{};
+    const MeshPlan plan = at_.system->mesh().plan;
+    const State state = at_.state;
     const MeshChangeReport changed = change_mesh(at_, next, false);
     if (!goes_on(changed.failure) || !restart()) return false;
     at_.state = integrator_->state();
     event.support_impulse = support_impulse(at_, changed.impulse);
     finish_event(at_, event);
+    if (!goes_on(energy_of_change(event, next.joint))) {
+      at_ = {std::make_unique<BeamSystem>(model_, plan), state};
+      return false;
+    }
     report_.events.push_back(std::move(event));
     if (observed) observer_.mesh_changed(report_.events.back(), before, record_beams(*at_.system, at_.state));
     report_.length_control_seconds += seconds_since(start);
     return true;
+  }
+
+  // A change of the mesh that changes the energy by too much is undone and ends the run: what came after it
+  // would be another motion. The elements and rules of the papers, which are there for comparison, do as they
+  // do.
+  std::optional<Failure> energy_of_change(const RunEvent& event, int joint) const {
+    constexpr double most = 1e-3;
+    const Beam& beam = model_->beams[event.beam];
+    if (beam.merge != MergeRule::standard || beam.properties.axial_strain == AxialStrain::pointwise)
+      return {};
+    const SystemEnergy now = energy(*at_.system, at_.state);
+    const double jump = event.energy_after - event.energy_before;
+    if (std::abs(jump) <= most * std::max(now.kinetic, now.axial + now.bending) + report_.energy_round_off())
+      return {};
+    return Failure{.kind = Failure::Kind::mesh_energy,
+                   .time = at_.state.t,
+                   .places = places_of(at_),
+                   .joint = joint,
+                   .energy = jump};
   }
 
   // --- Output

@@ -29,6 +29,7 @@ struct Failure {
     impact,              ///< of the joint's body at the end of its beam is singular
     projection,          ///< of velocities on a new mesh is singular
     mesh,                ///< length control finds none
+    mesh_energy,         ///< a change of the mesh for the joint's body would change the energy by `energy`
     bodies_meet,         ///< sliding bodies on one beam
     equilibrium,         ///< is not found: `equilibrium`
     resting_place        ///< of a sliding body is not found
@@ -39,6 +40,7 @@ struct Failure {
   int joint = -1;
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};
+  double energy = 0;  ///< [J]
 };
 
 /// The least and the greatest of an energy in the frames so far [J].

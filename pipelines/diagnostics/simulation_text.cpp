@@ -61,6 +61,14 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "velocities cannot be projected at t = " + time + places;
     case Failure::Kind::mesh:
       return "length control finds no mesh at t = " + time + places;
+    case Failure::Kind::mesh_energy:
+      return "at t = " + time + " the mesh would have to change beside \"" +
+             model.body_of(model.joints[failure.joint]).name + "\", and its energy by " +
+             text_of(failure.energy, 3) + " J, more than a thousandth of what moves" + places +
+             "; take more elements" +
+             (model.joints[failure.joint].continuous_slope
+                  ? ""
+                  : ", or \"slope\": \"continuous\": a beam that resists bending cannot give up a kink");
     case Failure::Kind::bodies_meet:
       return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;
     case Failure::Kind::equilibrium:

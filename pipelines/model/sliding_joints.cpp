@@ -59,6 +59,22 @@ void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurv
                      " supported: there \"leave\" acts like \"stop\"");
 }
 
+// A discontinuous slope is a hinge that moves with the body. Where bending reaches further along the beam
+// than an element, sqrt(EI/T) > l, the beam resists the kink.
+void warn_of_stiff_hinge(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
+                         Findings& findings) {
+  const Beam& beam = model.beam_of(joint);
+  const double mass = model.bodies[joint.body].mass + beam.properties.mass_per_length * beam.curve.length();
+  const double weight = mass * model.gravity.norm(), l = beam.curve.length() / beam.home_intervals();
+  if (joint.continuous_slope || weight == 0 || beam.properties.bending_stiffness <= weight * l * l) return;
+  findings.warn(
+      from.path + ".slope",
+      "\"discontinuous\" makes a hinge that moves with the body, but beam \"" + from.beam +
+          "\" is stiff: EI = " + text_of(beam.properties.bending_stiffness, 3) +
+          " N m^2 is more than its and the body's weight times the square of an element's length, " +
+          text_of(weight * l * l, 3) + " N m^2; use \"continuous\"");
+}
+
 // Two bodies on one beam must be apart: contact between them is not modelled.
 void check_apart(const std::vector<CaseSlidingJoint>& from, const BeamModel& model, Findings& findings) {
   for (std::size_t j = 0; j < model.joints.size(); ++j)
@@ -113,6 +129,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       added.motion = steady_motion(added.s, *joint.motion_speed, curve, resolved.analysis.end_time);
     if (joint.leave_at_end && resolved.analysis.type != CaseAnalysis::Type::statics)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
+    warn_of_stiff_hinge(joint, added, model, findings);
     model.joints.push_back(std::move(added));
   }
   check_apart(resolved.sliding_joints, model, findings);

@@ -1,0 +1,44 @@
+// A body under which a stiff curved bar may have a kink: what it asks of the mesh cannot be done without
+// energy.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+std::filesystem::path case_file(const std::string& name) {
+  return std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name;
+}
+
+TEST(StiffHinge, IsWarnedOfAndEndsTheRunBeforeItsMeshMakesEnergy) {
+  for (const char* name : {"b5_cycloid_discontinuous.json", "d_disc_24.json"}) {
+    const CaseRun run = run_file(case_file(name), {"output.report=false"});
+    EXPECT_EQ(run.code, 3) << name;
+    EXPECT_TRUE(run.says("sliding_joints[0].slope: \"discontinuous\" makes a hinge")) << run.messages;
+    EXPECT_TRUE(run.says("the mesh would have to change beside \"m\"")) << run.messages;
+    EXPECT_TRUE(run.says("\"slope\": \"continuous\"")) << run.messages;
+    EXPECT_FALSE(run.says("do not trust")) << run.messages;
+    EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 1e-3) << name;
+    EXPECT_FALSE(run.left_half_files());
+  }
+}
+
+// The bead on its cycloid arrives at 1.00303 s, by the integral of ds/v.
+TEST(StiffHinge, IsNoneWhereTheSlopeIsContinuous) {
+  const CaseRun run = run_file(case_file("b5_cycloid_continuous.json"), {"output.report=false"});
+  EXPECT_EQ(run.code, 0) << run.messages;
+  EXPECT_FALSE(run.says("hinge")) << run.messages;
+  std::size_t row = 0;
+  while (row + 1 < run.rows.size() && run.value(row, "time [s]") < 1.00303) ++row;
+  const double s = run.value(row - 1, "m.s [m]"), end = run.last("m.s [m]");
+  const double speed = std::hypot(run.value(row - 1, "m.vx [m/s]"), run.value(row - 1, "m.vz [m/s]"));
+  EXPECT_NEAR(run.value(row - 1, "time [s]") + (end - s) / speed, 1.00303, 1e-4);
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 2e-3);
+}
+
+}  // namespace
+}  // namespace nurbeam::test
