@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -42,6 +43,23 @@ std::optional<std::size_t> as_index(const std::string& text) {
   const bool digits =
       !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
   return digits ? std::optional<std::size_t>(std::stoul(text)) : std::nullopt;
+}
+
+/// The item of an array that a path names by its number or by its "name"; nothing where there is none.
+std::optional<std::size_t> item_of(const Json& array, const std::string& part) {
+  if (const auto index = as_index(part)) return *index < array.size() ? index : std::nullopt;
+  for (std::size_t i = 0; i < array.size(); ++i)
+    if (array[i].is_object() && array[i].contains("name") && array[i]["name"] == part) return i;
+  return std::nullopt;
+}
+
+/// What an item of an array may be called instead.
+std::string known_items(const Json& array, const std::string& part) {
+  std::vector<std::string> names;
+  for (const Json& item : array)
+    if (item.is_object() && item.contains("name") && item["name"].is_string())
+      names.push_back(item["name"].get<std::string>());
+  return names.empty() || as_index(part) ? std::string() : known_names(part, names);
 }
 
 /// Whether the brackets of a path hold indices behind names, as in beams[0].section.radius.
@@ -81,11 +99,10 @@ std::string apply_override(Json& root, const std::string& path, const Json& new_
     if (holder.kind != Kind::object && !value->is_array())
       return here + " has no parts here; set it as a whole";
     if (value->is_array()) {
-      const auto index = as_index(part);
-      if (!index || *index >= value->size()) {
+      const auto index = item_of(*value, part);
+      if (!index)
         return here + " has " + std::to_string(value->size()) + " item(s), counted from 0; there is no [" +
-               part + "]";
-      }
+               part + "]" + known_items(*value, part);
       walked = child(walked, *index);
       shape = holder.kind == Kind::array ? &holder.items[0] : shape;
       value = &(*value)[*index];
@@ -123,6 +140,8 @@ std::string apply_override(Json& root, const std::string& text) {
     value = value_text;  // what does not read as JSON is a text
   }
   Json changed = root;
+  if (path.starts_with("gravity[") && changed.is_object() && !changed.contains("gravity"))  // a part of what it is when omitted
+    for (const double g : CaseFile{}.gravity) changed["gravity"].push_back(g);
   const std::string problem = apply_override(changed, path, value);
   if (problem.empty()) root = std::move(changed);
   return problem;

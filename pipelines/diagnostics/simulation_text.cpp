@@ -1,5 +1,7 @@
 #include "pipelines/diagnostics/simulation_text.h"
 
+#include <algorithm>
+
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
@@ -44,6 +46,15 @@ std::string places_text(const std::vector<BodyPlace>& bodies, const BeamModel& m
   return text;
 }
 
+// What may help where a body hangs in a slack beam.
+std::string slope_hint(const BeamModel& model) {
+  const bool bends = std::any_of(model.joints.begin(), model.joints.end(),
+                                 [](const SlidingJoint& joint) { return joint.continuous_slope; });
+  return bends
+             ? "; for a cable that hardly resists bending, give its sliding joint \"slope\": \"discontinuous\""
+             : "";
+}
+
 std::string failure_text(const Failure& failure, const BeamModel& model) {
   const std::string time = text_of(failure.time, 8) + " s", places = places_text(failure.places, model);
   switch (failure.kind) {
@@ -73,11 +84,11 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
-             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8);
+             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) + slope_hint(model);
     case Failure::Kind::resting_place:
       break;
   }
-  return "a sliding body finds no resting place";
+  return "a sliding body finds no resting place" + slope_hint(model);
 }
 
 }  // namespace

@@ -75,6 +75,24 @@ void warn_of_stiff_hinge(const CaseSlidingJoint& from, const SlidingJoint& joint
           text_of(weight * l * l, 3) + " N m^2; use \"continuous\"");
 }
 
+// Nothing on a beam runs faster than the waves along it.
+void warn_of_speed(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
+                   Findings& findings) {
+  const BeamProperties& p = model.beam_of(joint).properties;
+  const double waves = std::sqrt(p.axial_stiffness / p.mass_per_length);
+  double fastest = std::abs(joint.speed);
+  if (joint.motion)
+    for (std::size_t i = 0; i + 1 < joint.motion->size(); ++i) {
+      const auto &a = (*joint.motion)[i], &b = (*joint.motion)[i + 1];
+      fastest = std::max(fastest, std::abs((b.second - a.second) / (b.first - a.first)));
+    }
+  if (fastest > waves)
+    findings.warn(from.path + (joint.motion ? ".motion" : ".speed"),
+                  "moves body \"" + from.body + "\" at " + text_of(fastest, 6) +
+                      " m/s, faster than waves run along beam \"" + from.beam + "\", " + text_of(waves, 6) +
+                      " m/s: is the unit right? Such a motion is not followed with any accuracy");
+}
+
 // Two bodies on one beam must be apart: contact between them is not modelled.
 void check_apart(const std::vector<CaseSlidingJoint>& from, const BeamModel& model, Findings& findings) {
   for (std::size_t j = 0; j < model.joints.size(); ++j)
@@ -130,6 +148,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     if (joint.leave_at_end && resolved.analysis.type != CaseAnalysis::Type::statics)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     warn_of_stiff_hinge(joint, added, model, findings);
+    warn_of_speed(joint, added, model, findings);
     model.joints.push_back(std::move(added));
   }
   check_apart(resolved.sliding_joints, model, findings);

@@ -385,6 +385,17 @@ TEST_F(CaseFileTest, OverridesReplaceAddAndRemoveValues) {
   EXPECT_TRUE(c.supports.empty());
 }
 
+TEST_F(CaseFileTest, OverridesNameItemsByNumberOrName) {
+  const CaseFile c = read_valid(full_case, {"bodies[trolley].mass=7"});
+  EXPECT_EQ(c.bodies.at(0).mass, 7);
+  check_error(read(full_case, {"bodies[troley].mass=7"}), "--set bodies[troley].mass=7",
+              {"there is no [troley]", "trolley"});
+}
+
+TEST_F(CaseFileTest, APartOfGravityThatIsOmittedIsThatOfItsDefault) {
+  EXPECT_EQ(read_valid(smallest_case, {"gravity[0]=1"}).gravity, Eigen::Vector3d(1, 0, -9.81));
+}
+
 TEST_F(CaseFileTest, OverridesOfUnknownPathsAreRefused) {
   const auto refuse = [&](const std::string& text, const std::vector<std::string>& parts) {
     check_error(read(smallest_case, {text}), "--set " + text, parts);
@@ -393,7 +404,7 @@ TEST_F(CaseFileTest, OverridesOfUnknownPathsAreRefused) {
   refuse("beams[1].name=x", {"beams has 1 item(s)", "[1]"});
   refuse("beams[x].name=x", {"[x]"});
   refuse("name.x=1", {"name has no parts"});
-  refuse("gravity[2]=1", {"gravity has no parts", "as a whole"});
+  refuse("gravity[3]=1", {"gravity has 3 item(s)", "[3]"});
   refuse("analysis", {"path=value"});
   refuse("=1", {"the case file"});
   for (const char* path :
