@@ -4,6 +4,7 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "cad_import/files/ask_program.h"
@@ -21,12 +22,13 @@ std::string lower(std::string text) {
   return text;
 }
 
-bool is_step_name(const fs::path& file) {
-  const std::string extension = lower(file.extension().string());
-  if (extension == ".step" || extension == ".stp") return true;
-  if (extension == ".igs" || extension == ".iges") return false;
-  throw std::invalid_argument("the extension '" + extension + "' of " + file.string() +
-                              " names no CAD format; known are .step .stp .igs .iges");
+// BREP declares no unit: what reads it takes it for millimetres.
+void check_unit(const fs::path& file, CadFormat format, LengthUnit unit) {
+  if (format == CadFormat::brep && unit != LengthUnit::millimetre)
+    throw std::invalid_argument(
+        file.string() +
+        ": BREP declares no length unit and is read in millimetres; write it in mm, or "
+        "STEP, IGES or DXF");
 }
 
 // A control character would break a line of the file, and with it the columns of IGES.
@@ -60,29 +62,46 @@ void check_pipe(const NamedPipe& pipe) {
 
 }  // namespace
 
+CadFormat written_format(const fs::path& file) {
+  static const std::map<std::string, CadFormat> known{{".step", CadFormat::step}, {".stp", CadFormat::step},
+                                                      {".igs", CadFormat::iges},  {".iges", CadFormat::iges},
+                                                      {".dxf", CadFormat::dxf},   {".brep", CadFormat::brep},
+                                                      {".brp", CadFormat::brep}};
+  const std::string extension = lower(file.extension().string());
+  const auto at = known.find(extension);
+  if (at == known.end())
+    throw std::invalid_argument("the extension '" + extension + "' of " + file.string() +
+                                " names no CAD format; known are .step .stp .igs .iges .dxf .brep .brp");
+  return at->second;
+}
+
 std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<NamedCurve>& curves,
-                                      LengthUnit unit) {
-  const bool step = is_step_name(file);
+                                      LengthUnit unit, StepSchema schema) {
+  const CadFormat format = written_format(file);
+  check_unit(file, format, unit);
   if (curves.empty())
     throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
   for (const NamedCurve& curve : curves) {
     check_name(curve.name);
     check_name(curve.part);
   }
-  const ChildResult result = asked(WriteCurvesRequest{step, curves, unit}, {patience});
+  const ChildResult result = asked(WriteCurvesRequest{format, curves, unit, schema}, {patience});
   if (result.status != ChildResult::Status::finished)
     return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing")}};
   return write_at_once(file, result.output);
 }
 
 std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
-                                      LengthUnit unit) {
-  if (!is_step_name(file))
-    throw std::invalid_argument("solids are written to STEP only; name " + file.string() + " .step");
+                                      LengthUnit unit, StepSchema schema) {
+  const CadFormat format = written_format(file);
+  if (format != CadFormat::step && format != CadFormat::brep)
+    throw std::invalid_argument("solids are written to STEP and BREP only; name " + file.string() +
+                                " .step or .brep");
+  check_unit(file, format, unit);
   if (pipes.empty())
     throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
   for (const NamedPipe& pipe : pipes) check_pipe(pipe);
-  const ChildResult result = asked(WriteSolidsRequest{pipes, unit}, {patience});
+  const ChildResult result = asked(WriteSolidsRequest{format, pipes, unit, schema}, {patience});
   if (result.status == ChildResult::Status::finished) return write_at_once(file, result.output);
   return {{Severity::error, file.string(),
            "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"}};

@@ -25,7 +25,7 @@ std::string megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20)
 
 // Why the path cannot hold a CAD file at all; nothing if it may.
 std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit) {
-  constexpr const char* expected = "; expected a STEP, IGES or DXF file";
+  constexpr const char* expected = "; expected a STEP, IGES, DXF or BREP file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) return std::string("there is no such file") + expected;

@@ -15,8 +15,8 @@ struct ImportOptions {
   double tolerance = 1e-7;                                ///< for entities that have no exact NURBS form [m]
 };
 
-/// All curves of a STEP, IGES or DXF file (by its content, not its name): edges of shapes and free curves,
-/// each once.
+/// All curves of a STEP, IGES, DXF or BREP file (by its content, not its name): edges of shapes and free
+/// curves, each once.
 ///
 /// Read by OpenCASCADE in a child process under the limits; a crash, a time-out or an unreadable file is a
 /// Diagnostic of severity error in the report (never an exception, never harm to this process). Every curve

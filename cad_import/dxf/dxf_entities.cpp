@@ -19,9 +19,10 @@ double number_in(const DxfPair& pair) {
   const std::string text(pair.value);
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value))
+  constexpr double largest = 1e15;  // lengths of what is drawn far beyond that take for ever
+  if (text.empty() || *end != '\0' || !(std::abs(value) <= largest))
     throw std::runtime_error("group " + std::to_string(pair.code) + " is '" + text +
-                             "'; it must be a number");
+                             "'; it must be a number from -1e15 to 1e15");
   return value;
 }
 

@@ -74,6 +74,9 @@ std::optional<CadFormat> format_of(const std::string& content) {
   if (without_leading_space(content).starts_with("ISO-10303-21")) return CadFormat::step;
   if (has_iges_section(first_line(content), 'S')) return CadFormat::iges;
   if (begins_as_dxf(content)) return CadFormat::dxf;
+  if (const std::string_view text = without_leading_space(content);
+      text.starts_with("DBRep_DrawableShape") || text.starts_with("CASCADE Topology V"))
+    return CadFormat::brep;
   return std::nullopt;
 }
 
@@ -82,6 +85,8 @@ std::optional<std::string> incompleteness(const std::string& content, CadFormat 
     return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
   if (format == CadFormat::dxf && !without_trailing_space(content).ends_with("EOF"))
     return "the DXF file is truncated: it does not end with EOF; export or copy it again";
+  if (format == CadFormat::brep && content.find("\nTShapes ") == std::string::npos)
+    return "the BREP file is truncated: it has no section TShapes; export or copy it again";
   if (format == CadFormat::iges && terminate_line(lines_of(content)).empty()) {
     return "the IGES file is truncated: no line has a 'T' (Terminate section) in column 73; export or copy "
            "it again";

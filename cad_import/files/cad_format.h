@@ -2,17 +2,17 @@
 #include <optional>
 #include <string>
 
+#include "cad_import/report/format.h"
+
 namespace nurbeam {
 
-enum class CadFormat { step, iges, dxf };
-
 /// The format of a file with this content: STEP begins with "ISO-10303-21", IGES has an 'S' in column 73 of
-/// its first line, DXF begins with the pair "0", "SECTION", perhaps behind comments ("999"); nothing for any
-/// other content.
+/// its first line, DXF begins with the pair "0", "SECTION", perhaps behind comments ("999"), BREP with
+/// "DBRep_DrawableShape" or "CASCADE Topology V"; nothing for any other content.
 std::optional<CadFormat> format_of(const std::string& content);
 
 /// Why the content is not a whole file of the format (nothing if it is): STEP ends with END-ISO-10303-21,
-/// IGES with a line that has a 'T' in column 73, DXF with EOF.
+/// IGES with a line that has a 'T' in column 73, DXF with EOF; BREP has a section TShapes.
 std::optional<std::string> incompleteness(const std::string& content, CadFormat format);
 
 /// How the lines of an IGES file differ from the numbers of lines in its Terminate section (nothing if

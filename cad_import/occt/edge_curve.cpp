@@ -37,6 +37,28 @@ struct Approximation {
   double deviation = 0;  // [mm]
 };
 
+// What an offset of the curve is exactly: of a line one beside it, of a circle in its plane one about its
+// centre. The curve itself where it is no such offset.
+Handle(Geom_Curve) plain_form(const Handle(Geom_Curve) & curve) {
+  const auto offset = Handle(Geom_OffsetCurve)::DownCast(curve);
+  if (offset.IsNull()) return curve;
+  Handle(Geom_Curve) basis = offset->BasisCurve();
+  while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(basis)) basis = trimmed->BasisCurve();
+  const gp_Dir normal = offset->Direction();
+  if (const auto line = Handle(Geom_Line)::DownCast(basis)) {
+    const gp_Dir along = line->Position().Direction();
+    if (along.IsParallel(normal, Precision::Angular())) return curve;
+    const gp_Vec shift = offset->Offset() * gp_Vec(along.Crossed(normal));
+    return new Geom_Line(line->Position().Location().Translated(shift), along);
+  }
+  const auto circle = Handle(Geom_Circle)::DownCast(basis);
+  if (circle.IsNull() || !circle->Axis().Direction().IsParallel(normal, Precision::Angular())) return curve;
+  const double outwards = circle->Axis().Direction().Dot(normal) > 0 ? 1 : -1;
+  const double radius = circle->Radius() + outwards * offset->Offset();
+  return radius > Precision::Confusion() ? Handle(Geom_Curve)(new Geom_Circle(circle->Position(), radius))
+                                         : curve;
+}
+
 TrimmedCurve curve_of(TopoDS_Edge edge) {
   TrimmedCurve trimmed{};
   trimmed.curve = BRep_Tool::Curve(edge, trimmed.first, trimmed.last);
@@ -45,6 +67,7 @@ TrimmedCurve curve_of(TopoDS_Edge edge) {
   if (trimmed.curve.IsNull()) throw std::runtime_error("the edge has no 3D curve");
   while (const auto inner = Handle(Geom_TrimmedCurve)::DownCast(trimmed.curve))
     trimmed.curve = inner->BasisCurve();
+  trimmed.curve = plain_form(trimmed.curve);
   if (Precision::IsInfinite(trimmed.first) || Precision::IsInfinite(trimmed.last))
     throw std::runtime_error("the curve is unbounded; trim it in the CAD system");
   if (!(trimmed.first < trimmed.last)) throw std::runtime_error("the parameter range of the curve is empty");
@@ -117,7 +140,11 @@ NurbsCurve nurbs_curve(const Geom_BSplineCurve& source) {
   return NurbsCurve(KnotVector(source.Degree(), std::move(knots)), std::move(points));
 }
 
-void check_length(const NurbsCurve& curve) {
+void check_size(const NurbsCurve& curve) {
+  constexpr double largest = 1e15;  // [m]: the lengths of larger ones take for ever
+  if (const double size = curve.control_points().cwiseAbs().maxCoeff(); !(size <= largest))
+    throw std::runtime_error("it has a coordinate or weight of " + text_of(size) + "; the limit is " +
+                             text_of(largest));
   const double l = length(curve);
   if (!(std::isfinite(l) && l > 0))
     throw std::runtime_error("its length is " + text_of(l) + " m; it must be finite and positive");
@@ -132,7 +159,7 @@ ImportedCurve imported_curve(const TopoDS_Edge& edge, double tolerance) {
   const Approximation result =
       exact ? Approximation{exact_bspline(source)} : approximated(source, tolerance * millimetres_per_metre);
   NurbsCurve curve = nurbs_curve(*result.curve);
-  check_length(curve);
+  check_size(curve);
   if (edge.Orientation() == TopAbs_REVERSED) curve = curve.reversed();
   return {.entity = entity,
           .exact = exact,

@@ -23,6 +23,7 @@
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/drawing_text.h"
 #include "cad_import/program/memory_file.h"
+#include "cad_import/step/encoded_text.h"
 #include "cad_import/step/step_instances.h"
 #include "cad_import/step/step_units.h"
 
@@ -245,18 +246,6 @@ void add_beside(int instance, int representation, const NurbsCurve& curve, const
            "," + number(wires) + ")");
 }
 
-/// A name as it stands in a STEP file, if it is of ASCII letters only; others are left out, as the curve's
-/// own name is known from where it stands.
-std::string encoded(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (static_cast<unsigned char>(c) >= 0x80) continue;
-    text += c;
-    if (c == '\'' || c == '\\') text += c;
-  }
-  return text;
-}
-
 /// Why the curve cannot change where it stands; nothing if it can.
 std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundEdge& found,
                                     const StepInstances& step) {
@@ -279,7 +268,7 @@ std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Re
   const std::string label = "#" + std::to_string(found.instance) + " '" + wanted.name + "': ";
   std::vector<std::string> warnings;
   if (const auto reason = obstacle(wanted, found, step)) {
-    add_beside(found.instance, representation, curve, encoded(wanted.name), step);
+    add_beside(found.instance, representation, curve, step_string(wanted.name), step);
     warnings.push_back(label + *reason + "; the deformed curve was added beside it");
   } else {
     const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;

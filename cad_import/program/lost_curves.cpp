@@ -1,6 +1,7 @@
 #include "cad_import/program/lost_curves.h"
 
 #include <IGESData_IGESEntity.hxx>
+#include <IGESGeom_ConicArc.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
@@ -27,6 +28,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "cad_import/iges/hyperbola.h"
 #include "cad_import/occt/spline_defect.h"
 #include "cad_import/program/step_curve.h"
 
@@ -92,6 +94,12 @@ std::vector<Entity> origins_of_shapes(const XSControl_Reader& reader) {
   return found;
 }
 
+// Of which there is a curve all the same.
+Handle(IGESGeom_ConicArc) hyperbola_of(const Entity& entity) {
+  const auto conic = Handle(IGESGeom_ConicArc)::DownCast(entity);
+  return !conic.IsNull() && conic->IsFromHyperbola() ? conic : nullptr;
+}
+
 bool failed_to_translate(const Entity& entity, const XSControl_Reader& reader) {
   const Handle(Transfer_Binder) result = reader.WS()->TransferReader()->TransientProcess()->Find(entity);
   return !result.IsNull() && result->Check()->HasFailed();
@@ -107,7 +115,7 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader) {
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Entity entity = model.Value(i);
     const bool told = spline_defect(*entity) || model.Check(i, /*syntactic=*/Standard_True)->HasFailed() ||
-                      failed_to_translate(entity, reader);
+                      (failed_to_translate(entity, reader) && hyperbola_of(entity).IsNull());
     if (is_curve(entity) && !used.contains(entity.get()) && !told) lost.push_back(entity);
   }
   Entities below;
@@ -128,14 +136,20 @@ bool is_one_part(const Interface_InterfaceModel& model) {
 // Why the curve was not added; nothing if it was.
 std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph& graph, double tolerance,
                                     ImportReport& report) {
-  if (graph.Sharings(entity).NbEntities() == 0) return "no representation holds it";
+  const Handle(IGESGeom_ConicArc) hyperbola = hyperbola_of(entity);
+  const bool iges = entity->IsKind(STANDARD_TYPE(IGESData_IGESEntity));
+  if (!iges && graph.Sharings(entity).NbEntities() == 0) return "no representation holds it";
   if (entity->IsKind(STANDARD_TYPE(StepGeom_Pcurve))) return "it lies in the parameters of a surface";
-  if (!entity->IsKind(STANDARD_TYPE(StepGeom_Curve)) && !entity->IsKind(STANDARD_TYPE(StepShape_PolyLoop)) &&
+  if (hyperbola.IsNull() && !entity->IsKind(STANDARD_TYPE(StepGeom_Curve)) &&
+      !entity->IsKind(STANDARD_TYPE(StepShape_PolyLoop)) &&
       !entity->IsKind(STANDARD_TYPE(StepShape_EdgeCurve)))
     return "OpenCASCADE makes nothing of its kind";
   try {
     OCC_CATCH_SIGNALS
-    ImportedCurve curve = step_curve(entity, report.unit_in_metres, tolerance);
+    ImportedCurve curve =
+        hyperbola.IsNull()
+            ? step_curve(entity, report.unit_in_metres, tolerance)
+            : ImportedCurve{.entity = "hyperbola", .curve = hyperbola_arc(*hyperbola, report.unit_in_metres)};
     curve.name = entity_name(entity);
     report.curves.push_back(std::move(curve));
     return std::nullopt;
@@ -151,14 +165,18 @@ std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph&
 
 }  // namespace
 
-void add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+Recovered add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
   const bool placed = is_one_part(model);
   int unnamed = 0, named = 0;
+  Recovered recovered;
   for (const Entity& entity : lost_curves(reader)) {
     const std::optional<std::string> why = placed ? obstacle(entity, reader.WS()->Graph(), tolerance, report)
                                                   : "its place in the assembly is not known";
-    if (!why) continue;
+    if (!why) {
+      recovered.insert(entity.get());
+      continue;
+    }
     if (++named > most_named) {
       ++unnamed;
       continue;
@@ -170,6 +188,7 @@ void add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportRep
   }
   if (unnamed > 0)
     add_diagnostic(report, Severity::warning, "", std::to_string(unnamed) + " more curves were not read");
+  return recovered;
 }
 
 }  // namespace nurbeam

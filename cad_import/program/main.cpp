@@ -1,9 +1,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cad_import/dxf/dxf_text.h"
 #include "cad_import/files/cad_format.h"
 #include "cad_import/files/child_work.h"
 #include "cad_import/iges/iges_text.h"
+#include "cad_import/program/brep_text.h"
 #include "cad_import/program/drawing_text.h"
 #include "cad_import/program/exchange_curves.h"
 #include "cad_import/program/read_cad_file.h"
@@ -36,7 +38,8 @@ ImportReport read_file(const fs::path& file, double tolerance) {
     return refusal(
         file,
         "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
-        "first line) nor DXF (must begin with a SECTION); export the curves as STEP AP214 or IGES");
+        "first line) nor DXF (must begin with a SECTION) nor OpenCASCADE's BREP (must begin with "
+        "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
   }
   if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
   return read_cad_file(file, content, *format, tolerance);
@@ -46,9 +49,22 @@ std::string answer(const ReadRequest& request) {
   return to_bytes(read_file(request.file, request.tolerance));
 }
 std::string answer(const WriteCurvesRequest& request) {
-  return request.step ? step_text(request.curves, request.unit) : iges_text(request.curves, request.unit);
+  switch (request.format) {
+    case CadFormat::step:
+      return step_text(request.curves, request.unit, request.schema);
+    case CadFormat::iges:
+      return iges_text(request.curves, request.unit);
+    case CadFormat::dxf:
+      return dxf_text(request.curves, request.unit);
+    case CadFormat::brep:
+      return brep_text(request.curves);
+  }
+  throw std::runtime_error("unknown format");
 }
-std::string answer(const WriteSolidsRequest& request) { return step_solid_text(request.pipes, request.unit); }
+std::string answer(const WriteSolidsRequest& request) {
+  return request.format == CadFormat::brep ? brep_solid_text(request.pipes)
+                                           : step_solid_text(request.pipes, request.unit, request.schema);
+}
 std::string answer(const ExchangeRequest& request) {
   return to_bytes(exchange_curves(request.source, request.curves));
 }

@@ -2,7 +2,6 @@
 
 #include <IGESBasic_Group.hxx>
 #include <StepBasic_Product.hxx>
-#include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <TopExp.hxx>
@@ -19,13 +18,6 @@
 
 namespace nurbeam {
 namespace {
-
-std::string product_name(const StepBasic_ProductDefinition& definition) {
-  if (definition.Formation().IsNull() || definition.Formation()->OfProduct().IsNull()) return "";
-  const Handle(StepBasic_Product) product = definition.Formation()->OfProduct();
-  const std::string name = trimmed_text(product->Name());
-  return name.empty() ? trimmed_text(product->Id()) : name;
-}
 
 /// What the file calls the shapes that were made of its products, occurrences and groups.
 struct ShapeNames {
@@ -50,7 +42,7 @@ ShapeNames shape_names(const XSControl_Reader& reader) {
     if (const auto used = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity)) {
       if (const std::string name = trimmed_text(used->Name()); !name.empty()) names.placed.Bind(shape, name);
     } else if (const auto definition = Handle(StepBasic_ProductDefinition)::DownCast(entity)) {
-      names.shared.emplace(shape.TShape().get(), product_name(*definition));
+      names.shared.emplace(shape.TShape().get(), product_name(definition));
     } else if (entity->IsKind(STANDARD_TYPE(IGESBasic_Group))) {
       names.shared.emplace(shape.TShape().get(), entity_name(entity));
     }
@@ -80,6 +72,15 @@ void name_below(const TopoDS_Shape& own, const TopoDS_Shape& placed, PartName na
 }
 
 }  // namespace
+
+std::string product_name(const Handle(StepBasic_ProductDefinition) & definition) {
+  if (definition.IsNull() || definition->Formation().IsNull() ||
+      definition->Formation()->OfProduct().IsNull())
+    return "";
+  const Handle(StepBasic_Product) product = definition->Formation()->OfProduct();
+  const std::string name = trimmed_text(product->Name());
+  return name.empty() ? trimmed_text(product->Id()) : name;
+}
 
 PartNames part_names(const XSControl_Reader& reader, const TopoDS_Shape& root) {
   PartNames parts;

@@ -1,5 +1,6 @@
 #pragma once
 #include <NCollection_DataMap.hxx>
+#include <StepBasic_ProductDefinition.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Shape.hxx>
 #include <XSControl_Reader.hxx>
@@ -14,6 +15,9 @@ struct PartName {
 };
 /// By shape and location.
 using PartNames = NCollection_DataMap<TopoDS_Shape, PartName, TopTools_ShapeMapHasher>;
+
+/// The product's name, else its id; "" without.
+std::string product_name(const opencascade::handle<StepBasic_ProductDefinition>& definition);
 
 /// Those of all edges and faces in `root`, the reader's shape. An occurrence goes by its own name, without
 /// one by that of its product (PRODUCT's name, else its id); in IGES a group (402) by its name.

@@ -15,6 +15,7 @@
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 #include <OSD.hxx>
+#include <STEPConstruct_ExternRefs.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
@@ -55,11 +56,13 @@
 #include <vector>
 
 #include "cad_import/dxf/read_dxf.h"
+#include "cad_import/files/tolerant_text.h"
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/occt/appearance.h"
 #include "cad_import/occt/centre_line.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
+#include "cad_import/program/brep_text.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
@@ -81,7 +84,8 @@ std::string edge_label(int number, const Origin& origin) {
 
 void note_approximation(const ImportedCurve& curve, const std::string& label, double tolerance,
                         ImportReport& report) {
-  if (curve.exact) return;
+  constexpr double round_off = 1e-12;  // of the length
+  if (curve.exact || curve.deviation <= round_off * length(curve.curve)) return;
   const Severity severity = curve.deviation <= tolerance ? Severity::note : Severity::warning;
   add_diagnostic(report, severity, label,
                  "a curve of kind '" + curve.entity +
@@ -150,11 +154,8 @@ void note_hidden(ImportReport& report) {
         std::to_string(hidden) + " curve(s) are hidden in the file and are taken only by name or number");
 }
 
-void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
-  const TopoDS_Shape shape = reader.OneShape();
-  if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
-  const Origins origins = origins_of_edges_and_faces(reader, report);
-  const PartNames parts = part_names(reader, shape);
+void add_edges_of(const TopoDS_Shape& shape, const Origins& origins, const PartNames& parts, double tolerance,
+                  ImportReport& report) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -165,21 +166,30 @@ void add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& r
     if (origin.defective) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
   }
-  add_lost_curves(reader, tolerance, report);
-  add_centre_lines(shape, origins, parts, tolerance, report);
-  note_hidden(report);
 }
 
-// What OpenCASCADE failed to read or to translate.
+Recovered add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+  const TopoDS_Shape shape = reader.OneShape();
+  if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
+  const Origins origins = origins_of_edges_and_faces(reader, report);
+  const PartNames parts = part_names(reader, shape);
+  add_edges_of(shape, origins, parts, tolerance, report);
+  Recovered recovered = add_lost_curves(reader, tolerance, report);
+  add_centre_lines(shape, origins, parts, tolerance, report);
+  note_hidden(report);
+  return recovered;
+}
+
+// What OpenCASCADE failed to read or to translate, and nobody else made a curve of.
 void add_failures(const Interface_CheckIterator& checks, const Interface_InterfaceModel& model,
-                  ImportReport& report) {
+                  const Recovered& recovered, ImportReport& report) {
   Interface_CheckIterator failures = checks.Extract(Interface_CheckFail);
   int count = 0;
   for (failures.Start(); failures.More(); failures.Next()) {
-    if (++count > most_reported_failures) continue;
     const auto entity = model.NbEntities() >= failures.Number() && failures.Number() > 0
                             ? model.Value(failures.Number())
                             : Handle(Standard_Transient)();
+    if (recovered.contains(entity.get()) || ++count > most_reported_failures) continue;
     add_diagnostic(report, Severity::warning, entity.IsNull() ? "" : entity_label(model, entity),
                    std::string("OpenCASCADE: ") + failures.Value()->CFail(1));
   }
@@ -191,10 +201,10 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
 
 void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
   reader.TransferRoots();
-  add_edges(reader, tolerance, report);
+  const Recovered recovered = add_edges(reader, tolerance, report);
   const Handle(XSControl_WorkSession) session = reader.WS();
   add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(),
-               report);
+               recovered, report);
 }
 
 // OpenCASCADE goes on after an error of syntax, with other numbers than those of the file.
@@ -315,12 +325,26 @@ void report_step_unit(const Interface_InterfaceModel& model, ImportReport& repor
   report_unit(units.empty() ? metres_per_millimetre : *units.begin(), report);
 }
 
+// The parts of an assembly that lie in other files.
+void add_external_files(const XSControl_Reader& reader, ImportReport& report) {
+  STEPConstruct_ExternRefs files(reader.WS());
+  if (!files.LoadExternRefs()) return;
+  for (int i = 1; i <= files.NbExternRefs(); ++i) {
+    const std::string part = product_name(files.ProdDef(i));
+    add_diagnostic(report, Severity::warning, "",
+                   (part.empty() ? "a part" : "the part '" + part + "'") + " lies in the file '" +
+                       as_utf8(files.FileName(i)) +
+                       "', which is not read; name that file, or export the assembly as one");
+  }
+}
+
 void read_step(const std::string& content, double tolerance, ImportReport& report) {
   start_step();
   STEPControl_Reader reader;
   read(reader, content, report);
   report_step_unit(*reader.Model(), report);
   transfer(reader, tolerance, report);
+  add_external_files(reader, report);
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -355,6 +379,9 @@ void read_iges(const std::string& content, double tolerance, ImportReport& repor
   transfer(reader, tolerance, report);
 }
 
+// -------------------------------------------------------------------------------------------------------
+// DXF and BREP
+
 void read_drawing(const std::string& content, ImportReport& report) {
   ImportReport drawing = read_dxf(content);
   for (Diagnostic& diagnostic : drawing.diagnostics)
@@ -365,6 +392,14 @@ void read_drawing(const std::string& content, ImportReport& report) {
   note_hidden(report);
 }
 
+void read_brep(const std::string& content, double tolerance, ImportReport& report) {
+  const TopoDS_Shape shape = brep_shape(content);
+  report_unit(metres_per_millimetre, report);
+  add_diagnostic(report, Severity::note, "", "BREP files declare no length unit; millimetres are assumed");
+  add_edges_of(shape, {}, {}, tolerance, report);
+  add_centre_lines(shape, {}, {}, tolerance, report);
+}
+
 void read_format(const std::string& content, CadFormat format, double tolerance, ImportReport& report) {
   switch (format) {
     case CadFormat::step:
@@ -373,6 +408,8 @@ void read_format(const std::string& content, CadFormat format, double tolerance,
       return read_iges(content, tolerance, report);
     case CadFormat::dxf:
       return read_drawing(content, report);
+    case CadFormat::brep:
+      return read_brep(content, tolerance, report);
   }
 }
 

@@ -57,12 +57,15 @@ void write(ByteWriter& out, const ReadRequest& request) {
   out.number(request.tolerance);
 }
 void write(ByteWriter& out, const WriteCurvesRequest& request) {
-  out.number(request.step);
+  out.number(static_cast<int>(request.format));
   out.number(static_cast<int>(request.unit));
+  out.number(static_cast<int>(request.schema));
   write_list(out, request.curves);
 }
 void write(ByteWriter& out, const WriteSolidsRequest& request) {
+  out.number(static_cast<int>(request.format));
   out.number(static_cast<int>(request.unit));
+  out.number(static_cast<int>(request.schema));
   write_list(out, request.pipes);
 }
 void write(ByteWriter& out, const ExchangeRequest& request) {
@@ -70,10 +73,11 @@ void write(ByteWriter& out, const ExchangeRequest& request) {
   write_list(out, request.curves);
 }
 
-LengthUnit read_unit(ByteReader& in) {
-  const int unit = in.number<int>();
-  if (unit < 0 || unit > static_cast<int>(LengthUnit::inch)) ByteReader::fail();
-  return static_cast<LengthUnit>(unit);
+template <class Choice>
+Choice read_choice(ByteReader& in, Choice last) {
+  const int choice = in.number<int>();
+  if (choice < 0 || choice > static_cast<int>(last)) ByteReader::fail();
+  return static_cast<Choice>(choice);
 }
 
 }  // namespace
@@ -93,13 +97,16 @@ CadRequest request_from_bytes(const std::string& bytes) {
       return ReadRequest{std::move(file), in.number<double>()};
     }
     case 1: {
-      const bool step = in.number<char>() != 0;
-      const LengthUnit unit = read_unit(in);
-      return WriteCurvesRequest{step, read_list(in, read_named_curve), unit};
+      const CadFormat format = read_choice(in, CadFormat::brep);
+      const LengthUnit unit = read_choice(in, LengthUnit::inch);
+      const StepSchema schema = read_choice(in, StepSchema::ap242);
+      return WriteCurvesRequest{format, read_list(in, read_named_curve), unit, schema};
     }
     case 2: {
-      const LengthUnit unit = read_unit(in);
-      return WriteSolidsRequest{read_list(in, read_named_pipe), unit};
+      const CadFormat format = read_choice(in, CadFormat::brep);
+      const LengthUnit unit = read_choice(in, LengthUnit::inch);
+      const StepSchema schema = read_choice(in, StepSchema::ap242);
+      return WriteSolidsRequest{format, read_list(in, read_named_pipe), unit, schema};
     }
     case 3: {
       std::string source = in.text();

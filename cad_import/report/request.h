@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "cad_import/report/format.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/report/named_curve.h"
 
@@ -26,13 +27,16 @@ struct ReadRequest {
 
 /// Answered by the text of the file.
 struct WriteCurvesRequest {
-  bool step;  ///< else IGES
+  CadFormat format;
   std::vector<NamedCurve> curves;
-  LengthUnit unit;
+  LengthUnit unit;    ///< millimetre in BREP
+  StepSchema schema;  ///< of STEP
 };
 struct WriteSolidsRequest {
+  CadFormat format;  ///< STEP or BREP
   std::vector<NamedPipe> pipes;
   LengthUnit unit;
+  StepSchema schema;
 };
 
 /// Answered by an Exchanged.

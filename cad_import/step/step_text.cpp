@@ -24,12 +24,11 @@
 #include <TopoDS_Edge.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <cstdint>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/encoded_text.h"
 #include "cad_import/step/spine.h"
 #include "cad_import/step/swept_pipe.h"
 
@@ -66,19 +65,12 @@ const char* step_unit(LengthUnit unit) {
 }
 
 // Global state of OpenCASCADE, which anything in the process may have changed.
-void set_parameters(LengthUnit unit, bool assembly) {
+void set_parameters(LengthUnit unit, StepSchema schema, bool assembly) {
   STEPControl_Controller::Init();
   set("xstep.cascade.unit", "MM");
   set("write.step.unit", step_unit(unit));
-  set("write.step.schema", "AP214IS");
+  set("write.step.schema", schema == StepSchema::ap242 ? "AP242DIS" : "AP214IS");
   set("write.step.assembly", assembly ? "On" : "Off");
-}
-
-TopoDS_Edge edge(const NamedCurve& named) {
-  BRepBuilderAPI_MakeEdge maker(bspline(named.curve));
-  if (!maker.IsDone())
-    throw std::runtime_error("OpenCASCADE makes no edge of the curve '" + named.name + "'");
-  return maker.Edge();
 }
 
 TopoDS_Compound compound(const std::vector<TopoDS_Shape>& shapes) {
@@ -92,26 +84,6 @@ TopoDS_Compound compound(const std::vector<TopoDS_Shape>& shapes) {
 // One shape for all parts: a part alone, or the assembly of several.
 TopoDS_Shape assembled(const std::vector<TopoDS_Shape>& parts) {
   return parts.size() == 1 ? parts[0] : compound(parts);
-}
-
-// Characters outside ASCII in hexadecimal, 8 digits each (ISO 10303-21, 6.4.3.3). They occur in names only,
-// whose backslashes OpenCASCADE has doubled by then.
-std::string step_encoded(std::string_view utf8) {
-  std::ostringstream out;
-  for (std::size_t i = 0; i < utf8.size();) {
-    const auto lead = static_cast<unsigned char>(utf8[i++]);
-    if (lead < 0x80) {
-      out << static_cast<char>(lead);
-      continue;
-    }
-    std::uint32_t code = lead & (lead >= 0xF0 ? 0x07U : lead >= 0xE0 ? 0x0FU : 0x1FU);
-    for (; i < utf8.size() && (utf8[i] & 0xC0) == 0x80; ++i) code = code << 6 | (utf8[i] & 0x3FU);
-    out << "\\X4\\" << std::hex << std::uppercase;
-    out.width(8);
-    out.fill('0');
-    out << code << "\\X0\\";
-  }
-  return out.str();
 }
 
 // The translated curves, in order: OpenCASCADE makes one set of curves of each edge.
@@ -170,6 +142,7 @@ void describe(const Handle(StepData_StepModel) & model, const std::string& name)
   header.SetAuthorValue(1, ascii(""));
   header.SetOrganizationValue(1, ascii(""));
   header.SetOriginatingSystem(ascii("nurbeam"));
+  header.SetPreprocessorVersion(ascii("nurbeam"));
   header.SetDescriptionValue(1, ascii("deformed beams"));
 }
 
@@ -180,7 +153,7 @@ std::string text(STEPControl_Writer& writer) {
   out.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
   std::ostringstream stream;
   if (!out.Print(stream)) throw std::runtime_error("OpenCASCADE did not print the STEP model");
-  return step_encoded(stream.str());
+  return step_encoded(stream.str());  // names, whose backslashes OpenCASCADE has doubled
 }
 
 // The solids of the model stand in the order in which they were transferred.
@@ -194,10 +167,10 @@ void give_names(const StepData_StepModel& model, const std::vector<NamedPipe>& p
 
 }  // namespace
 
-std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit) {
+std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit, StepSchema schema) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit, pipes.size() > 1);
+    set_parameters(unit, schema, pipes.size() > 1);
     std::vector<TopoDS_Shape> parts;
     std::vector<std::string> names;
     for (const NamedPipe& pipe : pipes) {
@@ -217,10 +190,10 @@ std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit
   }
 }
 
-std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
+std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit, StepSchema schema) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit, curves.size() > 1);
+    set_parameters(unit, schema, curves.size() > 1);
     std::vector<TopoDS_Shape> parts;
     std::vector<std::string> names;
     for (const NamedCurve& curve : curves) {

@@ -1,5 +1,7 @@
 #include "nurbs/smooth/smooth_corners.h"
 
+#include <algorithm>
+
 #include "nurbs/bezier_path.h"
 #include "nurbs/closest_point.h"
 
@@ -17,7 +19,6 @@ RationalCubic with_second_point(const RationalCubic& cubic, const Eigen::Vector3
 
 SmoothCorners smooth_corners(std::span<const RationalCubic> segments, double angle) {
   SmoothCorners smooth{{segments.begin(), segments.end()}};
-  bool moved = false;
   for (const Corner& corner : corners_of(segments, 0)) {
     if (corner.angle > angle) continue;
     RationalCubic& before = smooth.segments[corner.after_segment];
@@ -28,9 +29,11 @@ SmoothCorners smooth_corners(std::span<const RationalCubic> segments, double ang
     const Eigen::Vector3d along = (in.normalized() + out.normalized()).normalized();
     before = with_second_point(before.reversed(), corner.point - in.norm() * along).reversed();
     after = with_second_point(after, after.control_point(0) + out.norm() * along);
-    moved = true;
   }
-  if (moved) smooth.deviation = hausdorff_distance(smooth.segments, segments);
+  for (std::size_t j = 0; j < segments.size(); ++j)
+    if (smooth.segments[j].points() != segments[j].points())
+      smooth.deviation =
+          std::max(smooth.deviation, hausdorff_distance({&smooth.segments[j], 1}, {&segments[j], 1}));
   return smooth;
 }
 

@@ -125,6 +125,8 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
     output.cad_formats = {"step"};
     output.cad_times = {analysis.end_time};
     output.cad_unit = text(cad, "unit", output.cad_unit);
+    output.cad_schema =
+        chosen<StepSchema>(cad, "schema", {{"ap214", StepSchema::ap214}, {"ap242", StepSchema::ap242}});
     output.cad_parameter = chosen<CurveParameter>(
         cad, "parameter", {{"free", CurveParameter::free}, {"material", CurveParameter::material}});
     if (has(cad, "formats")) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cad_import/report/diagnostic.h"
+#include "cad_import/report/format.h"
 #include "fem/motion/integrators.h"
 #include "fem/motion/mesh_rules.h"
 #include "fem/structure/structure.h"
@@ -169,10 +170,11 @@ struct CaseProbe {
 
 struct CaseOutput {
   std::optional<double> every;           ///< [s]; always there in a dynamic analysis
-  std::vector<std::string> cad_formats;  ///< "step", "iges", "step-solid", "step-source"
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "dxf", "brep", "step-solid", "step-source"
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   bool cad_at_all_times = false;         ///< every stored frame, numbered
   std::string cad_unit = "mm";
+  StepSchema cad_schema = StepSchema::ap214;
   CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
   bool paraview = false;  ///< a series of files for ParaView

@@ -257,15 +257,16 @@ Shape analysis() {
 }
 
 Shape output() {
-  const Shape cad =
-      object({{"formats", array(choice({"step", "iges", "step-solid", "step-source"}), 1),
-               "file formats; step when omitted"},
-              {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
-               "times to write, or all stored frames as a numbered sequence; the end time when omitted"},
-              {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files; mm when omitted"},
-              {"parameter", choice({"free", "material"}),
-               "parameter of the curves: free for the fewest control points, or reference arc length; free "
-               "when omitted"}});
+  const Shape cad = object(
+      {{"formats", array(choice({"step", "iges", "dxf", "brep", "step-solid", "step-source"}), 1),
+        "file formats; step when omitted"},
+       {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
+        "times to write, or all stored frames as a numbered sequence; the end time when omitted"},
+       {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files; mm when omitted"},
+       {"schema", choice({"ap214", "ap242"}), "application protocol of STEP files; ap214 when omitted"},
+       {"parameter", choice({"free", "material"}),
+        "parameter of the curves: free for the fewest control points, or reference arc length; free "
+        "when omitted"}});
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});

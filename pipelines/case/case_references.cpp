@@ -165,6 +165,14 @@ void check_solids(const CaseFile& c, Findings& findings) {
                          " has no radius; give it one, or use \"step\" for the curve");
 }
 
+void check_brep(const CaseFile& c, Findings& findings) {
+  const std::vector<std::string>& formats = c.output.cad_formats;
+  if (std::find(formats.begin(), formats.end(), "brep") != formats.end() && c.output.cad_unit != "mm")
+    findings.error("output.cad.unit", "is " + in_quotes(c.output.cad_unit) +
+                                          ", but \"brep\" declares no length unit and is read in "
+                                          "millimetres; use \"mm\", or another format");
+}
+
 bool is_step_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string head(1000, '\0');
@@ -196,6 +204,7 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_bodies(json, case_file, findings);
   check_times(json, case_file, findings);
   check_solids(case_file, findings);
+  check_brep(case_file, findings);
   check_source(case_file, findings);
 }
 

@@ -19,7 +19,7 @@ constexpr int place_digits = 9, size_digits = 6;
 
 std::string place(double s) { return "s = " + text_of(s, place_digits) + " m"; }
 
-void print_beam(std::ostream& out, const Beam& beam) {
+void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   const double L = beam.curve.length();
   double shortest = L, longest = 0;
   for (std::size_t i = 1; i < beam.home.size(); ++i) {
@@ -34,7 +34,9 @@ void print_beam(std::ostream& out, const Beam& beam) {
       << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
       << size(shortest) << " to " << size(longest) << " m, EA " << size(p.axial_stiffness) << " N, EI "
       << size(p.bending_stiffness) << " N m^2, stress-free "
-      << (beam.curve.straight() ? "straight" : "as drawn") << '\n';
+      << (beam.curve.straight() ? "straight" : "as drawn");
+  if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
+  out << '\n';
 }
 
 void print_corners(std::ostream& out, const Beam& beam) {
@@ -95,7 +97,8 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
   const BeamSystem system(model);
   out << "model     " << (model.dimension == 2 ? "planar" : "spatial") << ", " << system.coordinate_count()
       << " coordinates\n";
-  for (const Beam& beam : model.beams) print_beam(out, beam);
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+    print_beam(out, model.beams[b], report.value->sources[b].drawn_bending);
   for (const Beam& beam : model.beams) print_corners(out, beam);
   print_mismatch(out, system);
   if (const auto& adapted = report.value->adapted)

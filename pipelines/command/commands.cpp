@@ -83,11 +83,18 @@ CurveParameter curve_parameter(const std::string& name) {
   throw UsageError("--parameter: there is no " + in_quotes(name) + known_names(name, {"free", "material"}));
 }
 
+StepSchema step_schema(const std::string& name) {
+  if (name == "ap214") return StepSchema::ap214;
+  if (name == "ap242") return StepSchema::ap242;
+  throw UsageError("--schema: there is no " + in_quotes(name) + known_names(name, {"ap214", "ap242"}));
+}
+
 int export_command(const Arguments& arguments, Streams streams) {
   const double time = quantity_argument("--time", arguments.value("--time", ""), Dimension::time);
   const std::string file = arguments.value("--to", "");
   const LengthUnit unit = parse_length_unit(arguments.value("--unit", "mm"));
   const CurveParameter parameter = curve_parameter(arguments.value("--parameter", "free"));
+  const StepSchema schema = step_schema(arguments.value("--schema", "ap214"));
   const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
   std::vector<Diagnostic> found;
   if (arguments.has("--solid")) {
@@ -95,11 +102,11 @@ int export_command(const Arguments& arguments, Streams streams) {
     const double bore = quantity_argument("--bore", arguments.value("--bore", "0"), Dimension::length);
     std::vector<NamedPipe> pipes;
     for (const NamedCurve& curve : curves) pipes.push_back({curve, radius, bore});
-    found = export_solids(file, pipes, unit);
+    found = export_solids(file, pipes, unit, schema);
   } else if (arguments.has("--bore")) {
     throw UsageError("--bore: is the bore of a solid; give its radius with --solid");
   } else {
-    found = export_curves(file, curves, unit);
+    found = export_curves(file, curves, unit, schema);
   }
   print_diagnostics(streams.err, found);
   if (has_errors(found)) return exit_not_written;
@@ -109,9 +116,10 @@ int export_command(const Arguments& arguments, Streams streams) {
 }
 
 int compare_command(const Arguments& arguments, Streams streams) {
-  const double tolerance =
-      quantity_argument("--tolerance", arguments.value("--tolerance", "1e-6"), Dimension::length);
-  if (!(tolerance > 0))
+  std::optional<double> tolerance;
+  if (arguments.has("--tolerance"))
+    tolerance = quantity_argument("--tolerance", arguments.value("--tolerance", ""), Dimension::length);
+  if (tolerance && !(*tolerance > 0))
     throw UsageError("--tolerance: is " + arguments.value("--tolerance", "") + "; must be greater than 0");
   return compare_files(arguments.positional[0], arguments.positional[1], tolerance, streams.out, streams.err);
 }
@@ -173,7 +181,7 @@ const CommandOption set_option{"--set", "path=value",
 const Command inspect_entry{
     "inspect",
     "FILE...",
-    "lists the curves of STEP and IGES files; with --profile: the section that they draw",
+    "lists the curves of STEP, IGES, DXF and BREP files; with --profile: the section that they draw",
     1,
     any_number,
     {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
@@ -202,21 +210,23 @@ const Command export_entry{
     1,
     1,
     {{"--time", "T", "the nearest stored one is taken", true},
-     {"--to", "FILE.step|.igs", "STEP or IGES by its ending", true},
+     {"--to", "FILE", "STEP, IGES, DXF or BREP by its ending: .step, .igs, .dxf, .brep", true},
      {"--unit", "mm|m|inch", "of the file; otherwise mm"},
      {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
-     {"--solid", "RADIUS", "solids instead of curves"},
+     {"--schema", "ap214|ap242", "of a STEP file; otherwise ap214"},
+     {"--solid", "RADIUS", "solids instead of curves, in STEP or BREP"},
      {"--bore", "RADIUS", "makes the solids pipes"}},
     export_command,
     exit_not_written};
 
-const Command compare_entry{"compare",
-                            "A B",
-                            "largest distance between the curves of two CAD files",
-                            2,
-                            2,
-                            {{"--tolerance", "1e-6", "above which they differ [m]"}},
-                            compare_command};
+const Command compare_entry{
+    "compare",
+    "A B",
+    "largest distance between the curves of two CAD files",
+    2,
+    2,
+    {{"--tolerance", "LENGTH", "above which they differ [m]; otherwise 1e-6 of their size"}},
+    compare_command};
 
 const Command schema_entry{"schema", "[case]",      "prints the JSON schema of the case file", 0, 1,
                            {},       schema_command};

@@ -1,5 +1,6 @@
 #include "pipelines/command/compare.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <ostream>
 
@@ -28,6 +29,15 @@ std::string name_of(const ImportReport& report, std::size_t curve) {
          report.file;
 }
 
+/// The diagonal of the box of all control points [m].
+double size_of(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b) {
+  Eigen::AlignedBox3d box;
+  for (const auto* curves : {&a, &b})
+    for (const ImportedCurve& curve : *curves)
+      for (const auto& point : curve.curve.control_points().colwise()) box.extend(point.hnormalized());
+  return box.diagonal().norm();
+}
+
 }  // namespace
 
 FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b,
@@ -43,8 +53,8 @@ FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vec
   return farthest;
 }
 
-int compare_files(const std::filesystem::path& a, const std::filesystem::path& b, double tolerance,
-                  std::ostream& out, std::ostream& err) {
+int compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                  std::optional<double> given_tolerance, std::ostream& out, std::ostream& err) {
   const ImportReport reports[] = {import_curves(a), import_curves(b)};
   for (const ImportReport& report : reports) {
     print_diagnostics(err, report.diagnostics);
@@ -54,6 +64,8 @@ int compare_files(const std::filesystem::path& a, const std::filesystem::path& b
       return 2;
     }
   }
+  const double size = size_of(reports[0].curves, reports[1].curves);
+  const double tolerance = given_tolerance.value_or(1e-6 * size);
   const double approximation = 0.01 * tolerance;
   double largest = 0;
   for (const int from : {0, 1}) {
@@ -63,7 +75,8 @@ int compare_files(const std::filesystem::path& a, const std::filesystem::path& b
     out << "from " << source.file << " to " << target.file << ": " << farthest.distance << " m ("
         << name_of(source, farthest.curve) << ")\n";
   }
-  out << "largest distance: " << largest << " m; tolerance: " << tolerance << " m\n";
+  out << "largest distance: " << largest << " m, " << largest / size
+      << " of the size; tolerance: " << tolerance << " m\n";
   return largest <= tolerance ? 0 : 1;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,9 @@ FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vec
                              double tolerance);
 
 /// Prints the largest distance between the curves of two CAD files, both ways. Returns the exit code: 0 up to
-/// the tolerance [m], 1 above it, 2 when a file cannot be read or holds no curve.
-int compare_files(const std::filesystem::path& a, const std::filesystem::path& b, double tolerance,
-                  std::ostream& out, std::ostream& err);
+/// the tolerance [m] (a millionth of the size of all curves, if none is given), 1 above it, 2 when a file
+/// cannot be read or holds no curve.
+int compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                  std::optional<double> tolerance, std::ostream& out, std::ostream& err);
 
 }  // namespace nurbeam

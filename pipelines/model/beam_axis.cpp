@@ -18,6 +18,9 @@ namespace nurbeam {
 
 namespace {
 
+// A deviation that is none, a part of the length.
+constexpr double round_off = 1e-12;
+
 // A closed axis has its end on its start, to this part of its length.
 constexpr double closed_gap = 1e-6;
 
@@ -30,7 +33,7 @@ BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain&
   const BezierPath path = join(curves, chain, beam.approximation_tolerance);
   const bool approximated =
       std::any_of(chain.curves.begin(), chain.curves.end(), [&](int i) { return curves[i].degree() > 3; });
-  if (approximated)
+  if (approximated && path.deviation > round_off * total_length(path.segments))
     findings.warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
                                            text_of(path.deviation) + " m");
   const int first = chain.curves.front();
@@ -157,6 +160,7 @@ std::vector<RationalCubic> without_kinks(const CaseBeam& beam, const std::vector
   if (std::none_of(kinks.begin(), kinks.end(), [](const Corner& kink) { return kink.angle <= digits; }))
     return segments;
   SmoothCorners smooth = smooth_corners(segments, digits);
+  if (smooth.deviation <= round_off * total_length(segments)) return smooth.segments;
   findings.add(Severity::note, beam.path + ".axis",
                "tangents that differed by up to " + text_of(digits) +
                    " rad were made one; largest deviation " + text_of(smooth.deviation) + " m");

@@ -12,6 +12,7 @@
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
+#include "pipelines/model/drawn_bending.h"
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
@@ -54,6 +55,27 @@ bool is_straight(const CaseBeam& from, const ReferenceCurve& curve, Findings& fi
         "use \"straight\" (exact for cables) or \"as-drawn-without-torsion\" (the limit of no torsional "
         "stiffness)");
   return true;
+}
+
+// The energy that a curved drawing holds of a beam which is straight when it is free [J]; said where the case
+// does not ask for that.
+double bending_as_drawn(const CaseBeam& from, const ReferenceCurve& drawn, const Beam& beam,
+                        const ModelFrame& frame, Findings& findings) {
+  if (!beam.curve.straight()) return 0;
+  const DrawnBending bending = drawn_bending(drawn, beam.properties.bending_stiffness);
+  if (!(bending.curvature * drawn.length() > 1e-9)) return 0;
+  constexpr int digits = 4;
+  if (from.stress_free != StressFree::straight)
+    findings.warn(
+        from.path + ".stress_free",
+        "is not given: in space a beam is straight when it is free, but this one is drawn curved; as "
+        "drawn it holds " +
+            text_of(bending.energy, digits) + " J of bending, its tightest bend having a radius of " +
+            text_of(1 / bending.curvature, digits) + " m at s = " + text_of(bending.s, digits) + " m, " +
+            text_of(frame.to_world(drawn.position(bending.s))) +
+            ". For a cable that was straight, say so with \"straight\"; for a pipe, rail or spring "
+            "that was made as it is drawn, give \"as-drawn-without-torsion\"");
+  return bending.energy;
 }
 
 // The comparison of the subdivision paper: its strain law and measure, no sliding.
@@ -179,6 +201,8 @@ std::vector<DrawnBeam> add_beams(const ResolvedCase& resolved, const std::vector
     if (!drawn || !section) break;
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, section->section, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
+    built.sources.back().drawn_bending =
+        bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);
     if (section->profile) built.sources.back().profile = {from.section.profile->path, *section->profile};
     beams.push_back(*drawn);
   }

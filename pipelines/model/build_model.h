@@ -31,6 +31,7 @@ struct BeamSource {
   std::string curve_name;               ///< for export
   std::optional<AxisSource> axis = {};  ///< empty where the axis is in no file
   std::optional<BeamProfile> profile = {};
+  double drawn_bending = 0;  ///< energy that the drawing holds against the stress-free shape [J]
 };
 
 /// A case as a model: everything resolved and in place.

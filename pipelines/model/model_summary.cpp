@@ -22,7 +22,7 @@ std::string name_of(WeightRule rule) {
   return {};
 }
 
-Json to_json(const Beam& beam) {
+Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
   return {{"name", beam.name},
           {"length [m]", beam.curve.length()},
@@ -31,6 +31,7 @@ Json to_json(const Beam& beam) {
           {"CAD segments", beam.curve.segment_count()},
           {"element", name_of(beam.weights)},
           {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
+          {"bending as drawn [J]", source.drawn_bending},
           {"EA [N]", p.axial_stiffness},
           {"EI [N m^2]", p.bending_stiffness},
           {"damping [s]", p.damping}};
@@ -89,7 +90,8 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
       {"supports", Json::array()},
       {"joints", Json::array()},
       {"loads", Json::array()}};
-  for (const Beam& beam : model.beams) json["beams"].push_back(to_json(beam));
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+    json["beams"].push_back(to_json(model.beams[b], built.sources[b]));
   for (const Body& body : model.bodies)
     json["bodies"].push_back({{"name", body.name}, {"mass [kg]", body.mass}});
   for (const Constraint& constraint : model.constraints)

@@ -47,10 +47,13 @@ std::vector<Chain> chosen_chains(const CaseBeam& beam, const AxisFile& axis, Cad
     findings.error(selection.key.empty() ? where : where + "." + selection.key, selection.error);
     return {{}};
   }
-  for (const Gap& gap : selection.gaps)
+  constexpr double round_off = 1e-10;  // of a length: the digits of a file
+  for (const Gap& gap : selection.gaps) {
+    if (gap.width <= round_off * length(report.curves[gap.curve_a].curve)) continue;
     findings.warn(where, "the gap of " + text_of(gap.width) + " m between curves " +
                              std::to_string(gap.curve_a + 1) + " and " + std::to_string(gap.curve_b + 1) +
                              " of " + report.file + " at " + text_of(gap.point) + " was closed");
+  }
   note_junctions(where, selection.chains, report, gap_tolerance(report, axis.gap), findings);
   return selection.chains;
 }

@@ -18,6 +18,8 @@ namespace {
 
 std::string ending_of(const std::string& format) {
   if (format == "iges") return ".igs";
+  if (format == "dxf") return ".dxf";
+  if (format == "brep") return ".brep";
   if (format == "step-solid") return "_solid.step";
   if (format == "step-source") return "_source.step";
   return ".step";
@@ -61,7 +63,8 @@ std::vector<NamedCurve> CadOutput::curves(const Snapshot& frame, CurveParameter 
 
 void CadOutput::write_curves(const Snapshot& frame, const std::filesystem::path& file) const {
   const LengthUnit unit = parse_length_unit(case_.output.cad_unit);
-  for (const Diagnostic& problem : export_curves(file, curves(frame, case_.output.cad_parameter), unit))
+  const std::vector<NamedCurve> shapes = curves(frame, case_.output.cad_parameter);
+  for (const Diagnostic& problem : export_curves(file, shapes, unit, case_.output.cad_schema))
     throw std::runtime_error(problem.where + ": " + problem.message);  // every shape can be written so
 }
 
@@ -73,7 +76,7 @@ std::vector<Diagnostic> CadOutput::write_solids(const Snapshot& frame,
     const Section& section = built_.model.beams[b].section;
     pipes.push_back({std::move(axis), section.radius.value(), section.bore.value_or(0)});
   }
-  return export_solids(file, pipes, parse_length_unit(case_.output.cad_unit));
+  return export_solids(file, pipes, parse_length_unit(case_.output.cad_unit), case_.output.cad_schema);
 }
 
 std::vector<Diagnostic> CadOutput::write_into_source(const Snapshot& frame,

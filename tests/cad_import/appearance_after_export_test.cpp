@@ -8,7 +8,6 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom_BezierCurve.hxx>
-#include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Quantity_Color.hxx>
@@ -38,6 +37,7 @@
 #include "cad_import/import_curves.h"
 #include "cad_import/step/step_instances.h"
 #include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_parameter.h"
 #include "tests/cad_import/step_text_of.h"
 
 namespace nurbeam {
@@ -211,11 +211,9 @@ void write_rig(const fs::path& file) {
   place(bracket, "bracket right", 2.7);
   shapes->UpdateAssemblies();
   STEPCAFControl_Writer writer;
-  Interface_Static::SetCVal("write.step.unit", "INCH");
-  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  const StepParameter unit("write.step.unit", "INCH"), names("write.stepcaf.subshapes.name", "1");
   ASSERT_TRUE(writer.Transfer(document, STEPControl_AsIs));
   ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
-  Interface_Static::SetCVal("write.step.unit", "MM");  // as other tests of this process expect it
 }
 
 NurbsCurve stretched(const NurbsCurve& curve) {

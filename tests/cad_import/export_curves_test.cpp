@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <iterator>
 #include <stdexcept>
 
@@ -154,12 +156,110 @@ TEST(ExportCurves, LeavesNoPartOfAFileWhenItFails) {
 
 TEST(ExportCurves, RefusesAnUnknownExtensionAndNamesTheKnownOnes) {
   try {
-    (void)export_curves("curve.dxf", {{"a", quarter_circle(1)}}, LengthUnit::metre);
+    (void)export_curves("curve.dwg", {{"a", quarter_circle(1)}}, LengthUnit::metre);
     FAIL();
   } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find(".dxf"), std::string::npos);
-    EXPECT_NE(std::string(e.what()).find(".step .stp .igs .iges"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find(".dwg"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find(".step .stp .igs .iges .dxf .brep .brp"), std::string::npos);
   }
+}
+
+std::string content_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A curve that comes back: the same knots, control points within `digits` of its size.
+void expect_same(const NurbsCurve& after, const NurbsCurve& before, double digits, const std::string& name) {
+  ASSERT_EQ(after.knots().knots().size(), before.knots().knots().size()) << name;
+  const double size = before.control_points().cwiseAbs().maxCoeff();
+  EXPECT_LE((after.control_points() - before.control_points()).cwiseAbs().maxCoeff(), digits * size) << name;
+  for (std::size_t i = 0; i < before.knots().knots().size(); ++i)
+    EXPECT_NEAR(after.knots().knots()[i], before.knots().knots()[i],
+                digits * std::max(1.0, std::abs(before.knots().knots()[i])))
+        << name;
+}
+
+TEST(ExportCurves, DxfGivesEveryCubicOfTheCorpusBackOnALayerOfItsName) {
+  const std::vector<NamedCurve> written = corpus_curves();
+  for (const auto& [unit, name] :
+       {std::pair{LengthUnit::metre, "m"}, {LengthUnit::millimetre, "mm"}, {LengthUnit::inch, "inch"}}) {
+    const ScratchDirectory scratch;
+    const fs::path file = scratch.path() / "curves.dxf";
+    ASSERT_TRUE(export_curves(file, written, unit).empty());
+    const ImportReport report = import_curves(file);
+    EXPECT_TRUE(report.diagnostics.empty());
+    EXPECT_EQ(report.unit, name);
+    ASSERT_EQ(report.curves.size(), written.size());
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      EXPECT_EQ(report.curves[i].layer, written[i].name);
+      if (written[i].curve.control_points().cols() > 2)  // a line has the parameter of a line
+        expect_same(report.curves[i].curve, written[i].curve, 1e-15, written[i].name);
+      else
+        EXPECT_LE((report.curves[i].curve.point(report.curves[i].curve.knots().end()) -
+                   written[i].curve.point(written[i].curve.knots().end()))
+                      .norm(),
+                  1e-15 * length(written[i].curve) + 1e-15);
+    }
+  }
+}
+
+TEST(ExportCurves, DxfLayersHaveNoForbiddenLetters) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curves.dxf";
+  ASSERT_TRUE(
+      export_curves(
+          file,
+          {{"a/b:c*", quarter_circle(1)}, {"", quarter_circle(2)}, {"Drahtseil \xC3\x84", quarter_circle(3)}},
+          LengthUnit::metre)
+          .empty());
+  const ImportReport report = import_curves(file);
+  ASSERT_EQ(report.curves.size(), 3U);
+  EXPECT_EQ(report.curves[0].layer, "a_b_c_");
+  EXPECT_EQ(report.curves[1].layer, "0");
+  EXPECT_EQ(report.curves[2].layer, "Drahtseil \xC3\x84");
+}
+
+TEST(ExportCurves, BrepGivesEveryCubicOfTheCorpusBackInMillimetresOnly) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curves.brep";
+  const std::vector<NamedCurve> written = corpus_curves();
+  ASSERT_TRUE(export_curves(file, written, LengthUnit::millimetre).empty());
+  const ImportReport report = import_curves(file);
+  ASSERT_EQ(report.diagnostics.size(), 1U);  // no unit is declared
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
+  ASSERT_EQ(report.curves.size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i)
+    expect_same(report.curves[i].curve, written[i].curve, 2e-15, written[i].name);
+  EXPECT_THROW((void)export_curves(file, written, LengthUnit::metre), std::invalid_argument);
+}
+
+TEST(ExportCurves, TheSchemaOfAStepFileIsTheOneAskedFor) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curve.step";
+  for (const auto& [schema, words] :
+       {std::pair{StepSchema::ap214, "AUTOMOTIVE_DESIGN"},
+        {StepSchema::ap242, "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"}}) {
+    ASSERT_TRUE(export_curves(file, {{"left", quarter_circle(1)}, {"right", quarter_circle(2)}},
+                              LengthUnit::metre, schema)
+                    .empty());
+    EXPECT_NE(content_of_file(file).find(words), std::string::npos);
+    const ImportReport report = import_curves(file);
+    EXPECT_TRUE(report.diagnostics.empty());
+    ASSERT_EQ(report.curves.size(), 2U);
+    EXPECT_EQ(report.curves[1].name, "right");
+    EXPECT_EQ(report.curves[1].part, "beams/right");
+    expect_same(report.curves[1].curve, quarter_circle(2), 1e-15, "right");
+  }
+}
+
+TEST(ExportCurves, TheHeaderOfAStepFileNamesWhatWroteIt) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curve.step";
+  ASSERT_TRUE(export_curves(file, {{"a", quarter_circle(1)}}, LengthUnit::metre).empty());
+  const std::string text = content_of_file(file);
+  EXPECT_EQ(text.find("Open CASCADE"), std::string::npos);
+  EXPECT_NE(text.find("'nurbeam','nurbeam'"), std::string::npos);
 }
 
 TEST(ExportCurves, RefusesNoCurvesAndNamesWithControlCharacters) {

@@ -7,7 +7,6 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom_BezierCurve.hxx>
-#include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Controller.hxx>
@@ -29,6 +28,7 @@
 #include "cad_import/import_curves.h"
 #include "cad_import/step/step_instances.h"
 #include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_parameter.h"
 #include "tests/cad_import/step_text_of.h"
 
 namespace nurbeam {
@@ -107,9 +107,7 @@ TopoDS_Compound assembly(const TopoDS_Shape& shape, int copies) {
 
 void write_assembly(const fs::path& file, const TopoDS_Shape& shape) {
   Message::DefaultMessenger()->ChangePrinters().Clear();
-  STEPControl_Controller::Init();
-  Interface_Static::SetCVal("write.step.assembly", "On");
-  Interface_Static::SetCVal("write.step.unit", "INCH");
+  const StepParameter assembly("write.step.assembly", "On"), unit("write.step.unit", "INCH");
   STEPControl_Writer writer;
   ASSERT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
   ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);

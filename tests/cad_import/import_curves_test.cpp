@@ -217,6 +217,40 @@ TEST(ImportCurves, AnOffsetCurveIsApproximatedWithItsMeasuredDeviation) {
   EXPECT_NE(report.diagnostics[0].where.find("wide"), std::string::npos);
 }
 
+TEST(ImportCurves, TheOffsetOfALineOrOfACircleInItsPlaneIsExact) {
+  const std::string circle = "#101 = CIRCLE('',#11,3000.);";
+  const ImportedCurve wide =
+      only_curve(step_text_of("#100", "#100 = OFFSET_CURVE_3D('',#101,250.,.F.,#13);\n" + circle));
+  EXPECT_TRUE(wide.exact);
+  EXPECT_EQ(wide.entity, "circle");
+  // Along direction x tangent (ISO 10303-42): inwards, and to the left.
+  for (int i = 0; i <= 16; ++i) {
+    const double u =
+        wide.curve.knots().start() + (wide.curve.knots().end() - wide.curve.knots().start()) * i / 16;
+    EXPECT_NEAR(wide.curve.point(u).norm(), 2.75, 1e-14);
+  }
+  const ImportedCurve beside =
+      only_curve(step_text_of("#100", trimmed("OFFSET_CURVE_3D('',#110,5.,.F.,#13)", 0, 40) +
+                                          "#110 = LINE('',#12,#111);\n#111 = VECTOR('',#14,1.);\n"));
+  EXPECT_TRUE(beside.exact);
+  EXPECT_EQ(beside.entity, "line");
+  EXPECT_LE((start_of(beside.curve) - Eigen::Vector3d(0, 0.005, 0)).norm(), 1e-17);
+  EXPECT_LE((end_of(beside.curve) - Eigen::Vector3d(0.04, 0.005, 0)).norm(), 1e-16);
+}
+
+TEST(ImportCurves, APartInAnotherFileIsNamed) {
+  const std::string reference =
+      "#100 = CIRCLE('good',#11,1.);\n"
+      "#200 = DOCUMENT_TYPE('');\n#201 = DOCUMENT_FILE('bolt.stp','','',#200,'',$);\n"
+      "#202 = APPLIED_DOCUMENT_REFERENCE(#201,'',(#5));\n#203 = DOCUMENT_REPRESENTATION_TYPE('digital',#201);\n";
+  const ImportReport report = import_text(step_text_of("#100", reference));
+  EXPECT_EQ(report.curves.size(), 1U);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  for (const char* part : {"'curves'", "'bolt.stp'", "not read"})
+    EXPECT_NE(report.diagnostics[0].message.find(part), std::string::npos) << report.diagnostics[0].message;
+}
+
 TEST(ImportCurves, ACurveWithoutANameTakesThatOfItsSet) {
   EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "zipline")).name, "zipline");
   EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('own',#11,1.);", "zipline")).name, "own");

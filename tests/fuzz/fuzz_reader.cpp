@@ -1,7 +1,7 @@
-// Reads mutated corpus files, each in a child process forked from this one with OpenCASCADE warm, and checks
-// that every one of them ends in curves or in a diagnostic that names the file.
+// Reads mutated files of tests/corpus and tests/fuzz/seeds, each in a child process forked from this one with
+// OpenCASCADE warm, and checks that every one of them ends in curves or in a diagnostic that names the file.
 //
-//   fuzz_reader step|iges [--seconds N] [--cases N] [--seed N] [--counts FILE] [--keep DIRECTORY]
+//   fuzz_reader step|iges|dxf|brep [--seconds N] [--cases N] [--seed N] [--counts FILE] [--keep DIRECTORY]
 //
 // Without --seed it is the date, 20240521. --counts adds up the outcomes of many runs in a file; --keep keeps
 // each input that crashed the reader or ran out of time. Exit code 1 when a case was not survived.
@@ -66,11 +66,13 @@ std::uint64_t today() {
 Options read_arguments(int count, char** arguments) {
   Options options;
   options.seed = today();
-  if (count < 2) throw std::invalid_argument("expected step or iges");
-  const std::string format = arguments[1];
-  if (format != "step" && format != "iges")
-    throw std::invalid_argument("unknown format '" + format + "'; expected step or iges");
-  options.format = format == "step" ? CadFormat::step : CadFormat::iges;
+  static const std::map<std::string, CadFormat> formats{{"step", CadFormat::step},
+                                                        {"iges", CadFormat::iges},
+                                                        {"dxf", CadFormat::dxf},
+                                                        {"brep", CadFormat::brep}};
+  const auto format = formats.find(count < 2 ? "" : arguments[1]);
+  if (format == formats.end()) throw std::invalid_argument("expected step, iges, dxf or brep");
+  options.format = format->second;
   for (int i = 2; i + 1 < count; i += 2) {
     const std::string key = arguments[i], value = arguments[i + 1];
     if (key == "--seconds")
@@ -97,11 +99,12 @@ std::string content_of(const fs::path& file) {
 // The corpus files of the format with the curves that each holds, the smallest first.
 std::vector<CorpusText> corpus_of(CadFormat format) {
   std::vector<CorpusText> corpus;
-  for (const auto& entry : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests" / "corpus")) {
-    const std::string content = content_of(entry.path());
-    if (format_of(content) != format) continue;
-    corpus.push_back({entry.path(), content, import_curves(entry.path()).curves.size()});
-  }
+  for (const char* directory : {"corpus", "fuzz/seeds"})
+    for (const auto& entry : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests" / directory)) {
+      const std::string content = content_of(entry.path());
+      if (format_of(content) != format) continue;
+      corpus.push_back({entry.path(), content, import_curves(entry.path()).curves.size()});
+    }
   std::sort(corpus.begin(), corpus.end(), [](const CorpusText& a, const CorpusText& b) {
     return std::pair(a.content.size(), a.name) < std::pair(b.content.size(), b.name);
   });

@@ -97,7 +97,8 @@ inline const char* const full_case = R"({
                 "integrator": { "type": "generalized-alpha", "rho_infinity": 0.7 },
                 "length_control": { "min": 0.4, "max": 1.6 } },
   "output": { "every": 0.01,
-              "cad": { "formats": ["step", "iges"], "times": [0, "350 ms", 0.7], "unit": "inch", "parameter": "material" },
+              "cad": { "formats": ["step", "iges"], "times": [0, "350 ms", 0.7], "unit": "inch", "schema": "ap242",
+                       "parameter": "material" },
               "probes": [{ "name": "tip", "beam": "cable", "at": "end" }],
               "paraview": true, "report": true }
 })";

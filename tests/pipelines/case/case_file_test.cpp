@@ -160,6 +160,7 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(c.output.cad_formats, (std::vector<std::string>{"step", "iges"}));
   EXPECT_EQ(c.output.cad_times, (std::vector<double>{0, 0.35, 0.7}));
   EXPECT_EQ(c.output.cad_unit, "inch");
+  EXPECT_EQ(c.output.cad_schema, StepSchema::ap242);
   EXPECT_FALSE(c.output.cad_at_all_times);
   EXPECT_EQ(c.output.cad_parameter, CurveParameter::material);
   EXPECT_EQ(c.output.probes.at(0).name, "tip");

@@ -150,6 +150,13 @@ TEST(CommandLine, CompareMeasuresBothWaysAgainstAllCurves) {
     EXPECT_EQ(run({"compare", first, second, "--tolerance=1001 mm"}).code, 0);
   }
   EXPECT_EQ(run({"compare", whole, (directory.path() / "absent.step").string()}).code, 2);
+  // Without a tolerance it is a millionth of the size, here of 2 m.
+  const std::string near = write("near.step", {{"whole", line({0, 0, 1.9e-6}, {2, 0, 1.9e-6})}});
+  const std::string off = write("off.step", {{"whole", line({0, 0, 2.1e-6}, {2, 0, 2.1e-6})}});
+  EXPECT_EQ(run({"compare", whole, near}).code, 0);
+  const Outcome differs = run({"compare", whole, off});
+  EXPECT_EQ(differs.code, 1);
+  EXPECT_TRUE(holds(differs.out, "1.05e-06 of the size; tolerance: 2e-06 m")) << differs.out;
 }
 
 TEST(CommandLine, ExportWritesTheStoredCurveExactly) {

@@ -15,11 +15,12 @@ namespace {
 const std::vector<std::string> half_circle = {
     R"(beams[0].axis={"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [-1, 0, 0], "normal": [0, 0, 1]}})",
     R"(supports=[{"beam": "cable", "at": {"fraction": 0.7}, "type": "clamped"}])"};
+const std::string straight = "beams[0].stress_free=straight";
 
 BuildReport build(const std::string& elements) {
   const test::TemporaryDirectory directory;
   std::vector<std::string> overrides = half_circle;
-  overrides.push_back("beams[0].elements=" + elements);
+  overrides.insert(overrides.end(), {straight, "beams[0].elements=" + elements});
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
   return build_model(report.value.value());
 }
@@ -60,6 +61,46 @@ TEST(BuildModel, AGradingWithoutEffectIsMentioned) {
   ASSERT_EQ(report.diagnostics.size(), 1u);
   EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
   EXPECT_NE(report.diagnostics[0].message.find("no effect"), std::string::npos);
+}
+
+/// The half circle as a cable of EI = 20 MPa pi (0.01 m)^4 / 4, out of the plane of gravity, with one more
+/// override.
+BuildReport build_in_space(const std::string& override) {
+  const test::TemporaryDirectory directory;
+  std::vector<std::string> overrides = half_circle;
+  overrides.insert(overrides.end(), {"gravity=[0, -3, -9]", "beams[0].section={\"radius\": 0.01}",
+                                     "beams[0].material={\"density\": 7200, \"youngs_modulus\": 2e7}"});
+  if (!override.empty()) overrides.push_back(override);
+  const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
+  return build_model(report.value.value());
+}
+
+TEST(BuildModel, ABentDrawingOfAStraightBeamIsToldWithItsEnergy) {
+  const double pi = std::numbers::pi;
+  const double energy = 0.5 * 2e7 * pi * 1e-8 / 4 * pi;  // EI kappa^2 L / 2 with kappa = 1 / m
+  const BuildReport report = build_in_space("");
+  ASSERT_EQ(report.value.value().model.dimension, 3);
+  EXPECT_NEAR(report.value->sources[0].drawn_bending, energy, 1e-9 * energy);
+  ASSERT_EQ(report.diagnostics.size(), 1u);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].where.find("beams[0].stress_free"), std::string::npos);
+  for (const char* part : {"0.2467 J", "radius of 1 m", "\"straight\"", "\"as-drawn-without-torsion\""})
+    EXPECT_NE(report.diagnostics[0].message.find(part), std::string::npos) << report.diagnostics[0].message;
+}
+
+TEST(BuildModel, ABentDrawingThatIsSaidToBeStraightKeepsItsEnergyWithoutAWarning) {
+  const BuildReport report = build_in_space(straight);
+  EXPECT_TRUE(report.diagnostics.empty());
+  EXPECT_NEAR(report.value.value().sources[0].drawn_bending, 0.2467, 1e-4);
+}
+
+TEST(BuildModel, ADrawingThatHoldsNothingIsNotTold) {
+  const BuildReport as_drawn = build_in_space("beams[0].stress_free=as-drawn-without-torsion");
+  EXPECT_TRUE(as_drawn.diagnostics.empty());
+  EXPECT_EQ(as_drawn.value.value().sources[0].drawn_bending, 0);
+  const BuildReport straight = build_in_space(R"(beams[0].axis={"polyline": [[0, 0, 0], [1, 1, 1]]})");
+  EXPECT_TRUE(straight.diagnostics.empty());
+  EXPECT_EQ(straight.value.value().sources[0].drawn_bending, 0);
 }
 
 }  // namespace

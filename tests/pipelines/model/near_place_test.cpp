@@ -17,7 +17,7 @@ class NearPlace : public ::testing::Test {
     const CaseFileReport report = read_case_file(
         directory_.write("case.json", test::smallest_case),
         {R"(beams[0].axis={"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [0, 1, 0], "normal": [0, 0, 1]}})",
-         "supports=" + supports, R"(output={"probes": )" + probes + "}"});
+         "beams[0].stress_free=straight", "supports=" + supports, R"(output={"probes": )" + probes + "}"});
     return build_model(report.value.value());
   }
   test::TemporaryDirectory directory_;

@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace nurbeam {
+
+/// The text with its characters outside ASCII in hexadecimal, 8 digits each (ISO 10303-21, 6.4.3.3).
+std::string step_encoded(std::string_view utf8);
+
+/// The text as a string of a STEP file holds it, without the apostrophes around it: theirs and backslashes
+/// doubled, and step_encoded().
+std::string step_string(std::string_view utf8);
+
+}  // namespace nurbeam
