@@ -42,6 +42,7 @@ class Simulation {
   }
 
   SimulationReport run() {
+    report_.strain_noise = strain_noise();
     at_ = MeshedState::drawn(model_);
     step_ = options_.step.value_or(step_);
     if (options_.statics)
@@ -127,6 +128,7 @@ class Simulation {
     iterations_written_ = point.iterations_in_snapshots;
     steps_ = point.steps;
     report_ = point.report;
+    report_.strain_noise = strain_noise();
     seconds_before_ = report_.motion_seconds + report_.length_control_seconds;
   }
 
@@ -266,7 +268,7 @@ class Simulation {
     if (driven()) gained -= input_work(*at_.system, before, after);
     const double strain = old.axial + old.bending, fallen = std::abs(now.gravity - old.gravity);
     const double scale = std::max({report_.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
-    return gained > most * scale + round_off * (scale + std::abs(old.gravity));
+    return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report_.strain_noise;
   }
 
   // At a moment where the speeds of prescribed motions jump: bodies that have come to a free end and are to
@@ -329,6 +331,12 @@ class Simulation {
     middle.q = (from.q + to.q) / 2;
     middle.v = (to.q - from.q) / h;
     return h * energy(*at_.system, middle).dissipation;
+  }
+
+  double strain_noise() const {
+    double stiffness = 0;
+    for (const Beam& beam : model_->beams) stiffness += beam.properties.axial_stiffness * beam.curve.length();
+    return stiffness * 1e-22 / 2;
   }
 
   bool damped() const {
@@ -412,13 +420,14 @@ class Simulation {
   // would be another motion. The elements and rules of the papers, which are there for comparison, do as they
   // do.
   std::optional<Failure> energy_of_change(const RunEvent& event, int joint) const {
-    constexpr double most = 1e-3;
+    constexpr double most = 1e-3, round_off = 1e-10;
     const Beam& beam = model_->beams[event.beam];
     if (beam.merge != MergeRule::standard || beam.properties.axial_strain == AxialStrain::pointwise)
       return {};
     const SystemEnergy now = energy(*at_.system, at_.state);
     const double jump = event.energy_after - event.energy_before;
-    if (std::abs(jump) <= most * std::max(now.kinetic, now.axial + now.bending) + report_.energy_round_off())
+    const double moves = std::max(now.kinetic, now.axial + now.bending);
+    if (std::abs(jump) <= most * moves + round_off * (moves + std::abs(now.gravity)) + report_.strain_noise)
       return {};
     return Failure{.kind = Failure::Kind::mesh_energy,
                    .time = at_.state.t,

@@ -64,6 +64,7 @@ struct SimulationReport {
   double integration_error = 0;    ///< the same without what events changed [J]
   double peak_kinetic_energy = 0;  ///< [J]
   EnergyRange strain_energy, gravity_energy;
+  double strain_noise = 0;  ///< energy of strains that are round-off, 1e-11, in all beams [J]
   std::vector<RunEvent> events;
 
   /// What an error of the energy is to be compared with: the largest of the kinetic energy and of the changes
@@ -78,7 +79,7 @@ struct SimulationReport {
                  ? std::max(std::abs(range.least), std::abs(range.greatest))
                  : 0;
     };
-    return 1e-11 * (peak_kinetic_energy + size(strain_energy) + size(gravity_energy));
+    return strain_noise + 1e-11 * (peak_kinetic_energy + size(strain_energy) + size(gravity_energy));
   }
 
   void fail(Failure why) {
