@@ -53,6 +53,9 @@ double load_work(const std::optional<LoadedField<D>>& from, const std::optional<
 
 template <int D>
 double PointLoad::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  if constexpr (D == 3)
+    if (works_on_section(*this, on_section, at.structure))
+      return section_load_work(*this, on_section, at, from, to);
   const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
     const auto p = LoadedPoint<D>::of(*this, at, state);
     if (!p) return std::nullopt;
@@ -64,6 +67,12 @@ double PointLoad::work(const MeshedBeams<D>& at, const State& from, const State&
 template <int D>
 void PointLoad::add_force(const MeshedBeams<D>& at, const State& state,
                           Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  if constexpr (D == 3)
+    if (works_on_section(*this, on_section, at.structure)) {
+      if (const auto load = SectionLoad::of(*this, on_section, at, state, false))
+        load->add_force(at, dynamics);
+      return;
+    }
   if (const auto p = LoadedPoint<D>::of(*this, at, state))
     p->add_force(at, p->shape.position(), p->vector, dynamics);
 }

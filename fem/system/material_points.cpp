@@ -1,6 +1,7 @@
 #include "fem/system/material_points.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
@@ -89,6 +90,14 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s) {
   return material_point_in(system, state, find_span(system.model(), system.mesh(), state.q, beam, s), s);
+}
+
+SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s) {
+  const Beam& of = system.model().beams.at(beam);
+  if (!of.has_torsion()) throw std::invalid_argument("beam \"" + of.name + "\" has no torsion");
+  const MeshElement<3>& e =
+      system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
+  return e.twist->element.section(gather_twist(e, state.q), of.curve.unrolled(s, (e.s_a + e.s_b) / 2));
 }
 
 ElementRecord record_element(const BeamSystem& system, const State& state, int span) {

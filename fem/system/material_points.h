@@ -13,6 +13,11 @@ MaterialPoint<3> material_point(const BeamSystem& system, const State& state, in
 /// The same, as the element in span `span` has it: at a node, from its side.
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s);
 
+/// The section at material point s of a beam with torsion, and what it carries; at a node as the element
+/// after it has it (the last one at the end of a beam that is no ring). Throws std::invalid_argument where
+/// the beam has none.
+SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s);
+
 /// The element in a span as a rational cubic, and what it carries at the parameters u = 0, 1/3, 2/3, 1
 /// (`sample`).
 struct ElementRecord {
