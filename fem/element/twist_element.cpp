@@ -416,23 +416,31 @@ double TwistElement::spin(const TwistState& x, int end) const {
          spin_row<double>(charts_[end], rs).dot(x.v.segment<3>(TwistLayout::slope(end)));
 }
 
-double TwistElement::turn(const Coordinates& q) const {
-  const Reduced<double> x = reduced_of(q);
-  return SectionTurn<double>(section_at_node<double>(charts_[0], x.segment<3>(slope_a), x[angle_a]),
-                             section_at_node<double>(charts_[1], x.segment<3>(slope_b), x[angle_b]), turn_)
-      .angle;
+SectionTriad<double> TwistElement::end_section(const Coordinates& q, int end) const {
+  return section_at_node<double>(charts_[end], q.segment<3>(TwistLayout::slope(end)),
+                                 q[TwistLayout::angle(end)]);
 }
 
-bool TwistElement::admissible(const Coordinates& q) const {
-  const Reduced<double> x = reduced_of(q);
-  const auto tangent = [&](int end) { return x.segment<3>(slope_of(end)).normalized(); };
+double TwistElement::turn(const Coordinates& q) const {
+  return SectionTurn<double>(end_section(q, 0), end_section(q, 1), turn_).angle;
+}
+
+// Whether the tangents are within that cosine of their charts', and the turn that near to its reference.
+bool TwistElement::near_charts(const Coordinates& q, double cosine, double turn_reach) const {
   for (const int end : {0, 1})
-    if (!(tangent(end).dot(charts_[end].col(2)) > smallest_cosine)) return false;
-  const Eigen::Vector3d t_a = tangent(0);
-  if (!(t_a.dot(tangent(1)) > smallest_cosine)) return false;
-  for (const Point& p : points_)
-    if (!(axis_at<double>(p, x, t_a).t.dot(t_a) > smallest_cosine)) return false;
-  return std::abs(turn(q) - turn_) < largest_turn;
+    if (!(end_section(q, end).t.dot(charts_[end].col(2)) > cosine)) return false;
+  return std::abs(turn(q) - turn_) < turn_reach;
+}
+
+bool TwistElement::should_recentre(const Coordinates& q) const { return !near_charts(q, 0.5, 2); }
+
+bool TwistElement::admissible(const Coordinates& q) const {
+  if (!near_charts(q, smallest_cosine, largest_turn)) return false;
+  const Reduced<double> x = reduced_of(q);
+  const Eigen::Vector3d t_a = end_section(q, 0).t;
+  if (!(t_a.dot(end_section(q, 1).t) > smallest_cosine)) return false;
+  return std::all_of(points_.begin(), points_.end(),
+                     [&](const Point& p) { return axis_at<double>(p, x, t_a).t.dot(t_a) > smallest_cosine; });
 }
 
 SectionPoint TwistElement::section(const Coordinates& q, double s) const {

@@ -75,6 +75,10 @@ class TwistElement {
   /// Whether a step may end here: no tangent near the opposite of its chart's or of the tangent at A, and no
   /// turn near the one that its reference does not tell from the next.
   bool admissible(const Coordinates& q) const;
+  /// Whether the charts should be exchanged for those of the present sections before long.
+  bool should_recentre(const Coordinates& q) const;
+  /// The section of an end.
+  SectionTriad<double> end_section(const Coordinates& q, int end) const;
   /// The turn of the section at B against that at A [rad].
   double turn(const Coordinates& q) const;
   /// Spin of the section at an end about its tangent [rad/s].
@@ -115,6 +119,7 @@ class TwistElement {
   template <class T>
   struct Fields;
 
+  bool near_charts(const Coordinates& q, double cosine, double turn_reach) const;
   Point point_at(double s) const;
   Eigen::Vector3d drawn_components(double s, const Eigen::Vector3d& vector) const;
   template <class T>

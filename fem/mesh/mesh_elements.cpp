@@ -61,6 +61,11 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
   dofs[TwistLayout::angle(0)] = mesh.node_a(e).angle_right;
   dofs[TwistLayout::angle(1)] = mesh.node_b(e).angle_left;
   dofs[TwistLayout::bubble] = e.bubble;
+  for (const MeshPlan::SectionCharts& now : mesh.plan.section_charts)
+    if (now.beam == e.beam && now.s_a == e.s_a && now.s_b == e.s_b)
+      return std::make_unique<const MeshTwist>(MeshTwist{
+          dofs,
+          TwistElement(beam.curve, beam.properties, e.element.chart(), e.s_a, e.s_b, now.charts, now.turn)});
   return std::make_unique<const MeshTwist>(
       MeshTwist{dofs, TwistElement(beam.curve, beam.properties, e.element.chart(), e.s_a, e.s_b)});
 }

@@ -48,6 +48,14 @@ ElementRecord record(const MeshElement<D>& e, const State& state) {
     record.curvature[i] = carried.curvature;
     record.axial_force[i] = carried.axial_force;
     record.bending_moment[i] = carried.bending_moment;
+    record.torque[i] = 0;
+    if constexpr (D == 3)
+      if (e.twist) {
+        const SectionMoments<double> moments =
+            e.twist->element.section(gather_twist(e, state.q), e.local(q, s)).moments;
+        record.bending_moment[i] = std::hypot(moments.bending_1, moments.bending_2);
+        record.torque[i] = moments.torque;
+      }
     record.velocity.col(i) = widened<D>(p.velocity);
   }
   return record;

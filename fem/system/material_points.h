@@ -28,6 +28,7 @@ struct ElementRecord {
   Eigen::Vector4d curvature;       ///< [1/m], by the model's measure; signed in a planar model
   Eigen::Vector4d axial_force;     ///< elastic, tension positive [N]
   Eigen::Vector4d bending_moment;  ///< elastic [N m]; signed in a planar model
+  Eigen::Vector4d torque;          ///< elastic, about the tangent [N m]; 0 without torsion
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
 };
 ElementRecord record_element(const BeamSystem& system, const State& state, int span);
