@@ -80,6 +80,42 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   return ds;
 }
 
+// A system whose load factor 0 is the share `from` of its loads: on the way from an equilibrium under them.
+class LoadedFrom final : public SecondOrderSystem {
+ public:
+  LoadedFrom(const SecondOrderSystem& system, double from) : system_(system), from_(from) {}
+
+  double load(double factor) const { return from_ + (1 - from_) * factor; }
+
+  int coordinate_count() const override { return system_.coordinate_count(); }
+  int constraint_count() const override { return system_.constraint_count(); }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const override {
+    system_.residual(loaded(state), dynamics, constraints);
+  }
+  Eigen::SparseMatrix<double> tangent_pattern() const override { return system_.tangent_pattern(); }
+  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
+    system_.tangent(loaded(state), w, kkt);
+  }
+  Eigen::VectorXd constraint_rate(const State& state) const override {
+    return system_.constraint_rate(state);
+  }
+  Eigen::VectorXd constraint_curvature(const State& state) const override {
+    return system_.constraint_curvature(state);
+  }
+  bool admissible(const State& state) const override { return system_.admissible(state); }
+  Eigen::VectorXd coordinate_scale() const override { return system_.coordinate_scale(); }
+
+ private:
+  State loaded(State state) const {
+    state.load = load(state.load);
+    return state;
+  }
+
+  const SecondOrderSystem& system_;
+  double from_;
+};
+
 // Brings `at` to rest.
 class RestSearch {
  public:
@@ -138,7 +174,9 @@ class RestSearch {
                         turns < most_recentrings;
          ++turns) {
       at = recentred(*at.system, at.state, held);
-      found = find_static_equilibrium(StaticEquilibrium{}, *at.system, at.state);
+      const LoadedFrom rest(*at.system, at.state.load);
+      found = find_static_equilibrium(StaticEquilibrium{}, rest, at.state);
+      at.state.load = found.load_factor = rest.load(found.load_factor);
     }
     report_.newton_iterations += found.newton_iterations;
     report_.load_steps += found.load_steps;
