@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,18 +53,23 @@ struct CaseProfile {
 };
 
 struct CaseSection {
-  double area = 0;                          ///< [m^2]
-  double second_moment = 0;                 ///< [m^4]
-  std::optional<double> radius = {};        ///< of a disk or a pipe [m]
-  std::optional<double> bore = {};          ///< inner radius of a pipe [m]
-  std::optional<CaseProfile> profile = {};  ///< what gives area and second moment
-  bool from_cad = false;                    ///< all are those of the pipe whose centre line the axis is
+  double area = 0;                                           ///< [m^2]
+  double second_moment = 0;                                  ///< [m^4]
+  std::optional<double> radius = {};                         ///< of a disk or a pipe [m]
+  std::optional<double> bore = {};                           ///< inner radius of a pipe [m]
+  std::optional<std::array<double, 2>> second_moments = {};  ///< I_x, I_y, where they may differ [m^4]
+  double product = 0;                                        ///< I_xy [m^4]
+  std::optional<double> torsion_constant = {};               ///< [m^4]
+  std::optional<CaseProfile> profile = {};                   ///< what gives area and second moment
+  bool from_cad = false;  ///< all are those of the pipe whose centre line the axis is
 };
 
 struct CaseMaterial {
-  double density = 0;         ///< [kg/m^3]
-  double youngs_modulus = 0;  ///< [Pa]
-  double damping = 0;         ///< [s], theory c
+  double density = 0;                         ///< [kg/m^3]
+  double youngs_modulus = 0;                  ///< [Pa]
+  double damping = 0;                         ///< [s], theory c
+  std::optional<double> shear_modulus = {};   ///< [Pa]
+  std::optional<double> poissons_ratio = {};  ///< one of them at most
 };
 
 struct CaseElements {
@@ -98,6 +104,8 @@ struct CaseBeam {
   ElementKind element = ElementKind::ale_rancf;
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
+  bool torsion = false;
+  Orientation orientation = {};  ///< with torsion
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
@@ -122,7 +130,7 @@ struct CaseLoad {
 };
 
 struct CaseSupport {
-  enum class Type { clamped, pinned } type = Type::pinned;
+  enum class Type { clamped, pinned, fork } type = Type::pinned;
   std::string path;
   std::string beam;
   Place at;
