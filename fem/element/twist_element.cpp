@@ -88,20 +88,40 @@ TwistLayout::Coordinates spread_out(const Eigen::Matrix<double, 12, 1>& x) {
   return q;
 }
 
-// The derivatives that a reduced vector carries.
-TwistLayout::Matrix spread_derivatives(const Eigen::Matrix<Dual<12>, 12, 1>& x) {
+TwistLayout::Matrix spread_out(const Eigen::Matrix<double, 12, 12>& reduced) {
   TwistLayout::Matrix K = TwistLayout::Matrix::Zero();
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j < 12; ++j)
       for (const auto& [row, sign] : spread(i))
-        for (const auto& [column, other_sign] : spread(j)) K(row, column) += sign * other_sign * x[i].d[j];
+        for (const auto& [column, other_sign] : spread(j))
+          K(row, column) += sign * other_sign * reduced(i, j);
   return K;
 }
 
-template <class T>
-Eigen::Matrix<Dual<12, T>, 12, 1> variables(const Eigen::Matrix<T, 12, 1>& x, double seed = 1) {
-  Eigen::Matrix<Dual<12, T>, 12, 1> y;
-  for (int i = 0; i < 12; ++i) y[i] = Dual<12, T>::variable(x[i], i, T(seed));
+/// The derivatives that a vector carries.
+template <int N>
+Eigen::Matrix<double, N, N> derivatives(const Eigen::Matrix<Dual<N>, N, 1>& x) {
+  Eigen::Matrix<double, N, N> gradient;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) gradient(i, j) = x[i].d[j];
+  return gradient;
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  A(2, 1) = a.x();
+  A(1, 2) = -a.x();
+  A(0, 2) = a.y();
+  A(2, 0) = -a.y();
+  A(1, 0) = a.z();
+  A(0, 1) = -a.z();
+  return A;
+}
+
+template <int N, class T>
+Eigen::Matrix<Dual<N, T>, N, 1> variables(const Eigen::Matrix<T, N, 1>& x, double seed = 1) {
+  Eigen::Matrix<Dual<N, T>, N, 1> y;
+  for (int i = 0; i < N; ++i) y[i] = Dual<N, T>::variable(x[i], i, T(seed));
   return y;
 }
 
@@ -111,6 +131,95 @@ Eigen::Matrix<Dual<1, T>, 12, 1> moving(const Eigen::Matrix<T, 12, 1>& x, const 
   Eigen::Matrix<Dual<1, T>, 12, 1> y;
   for (int i = 0; i < 12; ++i) y[i] = Dual<1, T>::variable(x[i], 0, v[i]);
   return y;
+}
+
+using ReducedMatrix = Eigen::Matrix<double, 12, 12>;
+
+// Of the turn of section b against a, by their spins.
+template <class T>
+struct TurnGradient {
+  Vector3<T> on_a, on_b;
+
+  TurnGradient(const SectionTriad<T>& a, const SectionTriad<T>& b) {
+    const T S = a.d2.dot(b.d1) - a.d1.dot(b.d2), C = a.d1.dot(b.d1) + a.d2.dot(b.d2);
+    const T square = S * S + C * C, by_S = C / square, by_C = -S / square;
+    on_a = a.d1.cross(by_C * b.d1 - by_S * b.d2) + a.d2.cross(by_S * b.d1 + by_C * b.d2);
+    on_b = b.d1.cross(by_S * a.d2 + by_C * a.d1) + b.d2.cross(by_C * a.d2 - by_S * a.d1);
+  }
+};
+
+// (r_s, angle) of an end.
+Eigen::Vector4d node_part(const Eigen::Matrix<double, 12, 1>& x, int end) {
+  const int i = slope_of(end);
+  return {x[i], x[i + 1], x[i + 2], x[angle_of(end)]};
+}
+
+// The spin w = theta' + c . r_s' of a node about its tangent, its rate and turn = (dt/dt x t)/|r_s|, with
+// their derivatives: c = -(m x r_s)/d, d = |r_s|^2 + |r_s| r_s . m.
+struct NodeSpin {
+  double rate, second;
+  Eigen::Vector3d c, turn;
+  Eigen::Vector3d rate_rs, second_rs,
+      second_v;  // by r_s and r_s'; by the angles' rates they are 1, and c by r_s''
+  Eigen::Matrix3d c_rs, turn_rs, turn_v;
+
+  NodeSpin(const Eigen::Matrix3d& chart, const Eigen::Vector4d& q, const Eigen::Vector4d& velocity,
+           const Eigen::Vector4d& acceleration) {
+    const Eigen::Vector3d m = chart.col(2), rs = q.head<3>(), v = velocity.head<3>(),
+                          a = acceleration.head<3>();
+    const double square = rs.squaredNorm(), n = std::sqrt(square), cubed = square * n, along = rs.dot(m);
+    const Eigen::Vector3d t = rs / n;
+    const double d = square + n * along;
+    const Eigen::Vector3d d_rs = 2 * rs + along * t + n * m;
+    const double d_v = d_rs.dot(v);
+    const Eigen::Vector3d d_rs_v = 2 * v + t.dot(v) * m + along / n * (v - t.dot(v) * t) + m.dot(v) * t;
+    c = rs.cross(m) / d;
+    c_rs = -(cross_matrix(m) + c * d_rs.transpose()) / d;
+    const double c_v = c.dot(v);
+    rate = velocity[3] + c_v;
+    rate_rs = c_rs.transpose() * v;
+    second = acceleration[3] + c.dot(a) - c_v * d_v / d;
+    second_rs = c_rs.transpose() * a - (d_v * rate_rs + c_v * d_rs_v - c_v * d_v / d * d_rs) / d;
+    second_v = c_rs * v + rate_rs;
+    turn = v.cross(rs) / cubed;
+    turn_rs = cross_matrix(v) / cubed - 3 / square * turn * rs.transpose();
+    turn_v = -cross_matrix(rs) / cubed;
+  }
+};
+
+// That of the inertia of spin (spin_force) with `mass` on both spins and the bubble's rate.
+ReducedMatrix spin_tangent(const std::array<Eigen::Matrix3d, 2>& charts, const Eigen::Matrix3d& mass,
+                           const Eigen::Matrix<double, 12, 1>& q, const Eigen::Matrix<double, 12, 1>& v,
+                           const Eigen::Matrix<double, 12, 1>& a, const TangentWeights& w) {
+  using Rows = Eigen::Matrix<double, 3, 12>;
+  const std::array<NodeSpin, 2> nodes{NodeSpin(charts[0], node_part(q, 0), node_part(v, 0), node_part(a, 0)),
+                                      NodeSpin(charts[1], node_part(q, 1), node_part(v, 1), node_part(a, 1))};
+  Rows spins_x = Rows::Zero(), second_x = Rows::Zero();
+  for (const int end : {0, 1}) {
+    const NodeSpin& node = nodes[end];
+    const int i = slope_of(end), k = angle_of(end);
+    spins_x.block<1, 3>(end, i) = (w.stiffness * node.rate_rs + w.damping * node.c).transpose();
+    spins_x(end, k) = w.damping;
+    second_x.block<1, 3>(end, i) =
+        (w.stiffness * node.second_rs + w.damping * node.second_v + w.mass * node.c).transpose();
+    second_x(end, k) = w.mass;
+  }
+  spins_x(2, bubble_amount) = w.damping;
+  second_x(2, bubble_amount) = w.mass;
+  const Eigen::Vector3d p = mass * Eigen::Vector3d(nodes[0].rate, nodes[1].rate, v[bubble_amount]);
+  const Eigen::Vector3d p_rate = mass * Eigen::Vector3d(nodes[0].second, nodes[1].second, a[bubble_amount]);
+  const Rows p_x = mass * spins_x, p_rate_x = mass * second_x;
+  ReducedMatrix K = ReducedMatrix::Zero();
+  for (const int end : {0, 1}) {
+    const NodeSpin& node = nodes[end];
+    const int i = slope_of(end);
+    K.middleRows<3>(i) = node.c * p_rate_x.row(end) + node.turn * p_x.row(end);
+    K.block<3, 3>(i, i) +=
+        w.stiffness * (p_rate[end] * node.c_rs + p[end] * node.turn_rs) + w.damping * p[end] * node.turn_v;
+    K.row(angle_of(end)) = p_rate_x.row(end);
+  }
+  K.row(bubble_amount) = p_rate_x.row(2);
+  return K;
 }
 
 template <class T>
@@ -137,10 +246,13 @@ template <class T>
 struct TwistElement::Fields {
   Reduced<T> x;
   SectionTriad<T> a, b;
-  T S, C;
   Eigen::Matrix<T, points, 1> rates;  // of transport
   T twist;                            // theta_B
   std::array<PointField<T>, points> at;
+
+  ReducedMatrix stiffness(const TwistElement& element) const;
+  void add_node_stiffness(const TwistElement& element, const Eigen::Vector3d& moment, double twist_force,
+                          ReducedMatrix& H) const;
 };
 
 TwistElement::TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart,
@@ -249,8 +361,6 @@ TwistElement::Fields<T> TwistElement::fields(const Reduced<T>& x) const {
     transport += GaussRule::weights[g] * fields.rates[g];
   }
   const SectionTurn<T> turn(fields.a, fields.b, turn_);
-  fields.S = turn.S;
-  fields.C = turn.C;
   fields.twist = turn.angle - drawn_turn_ - (h_ * transport - drawn_transport_);
   for (int g = 0; g < points; ++g) set_strain<T>(points_[g], fields, x[bubble_amount], fields.at[g]);
   return fields;
@@ -292,13 +402,10 @@ TwistElement::Reduced<T> TwistElement::gradient(const Fields<T>& fields,
     on_d2 += F2[j] * u;
     on_t += y * u;
   }
-  const T square = fields.S * fields.S + fields.C * fields.C;
-  const T on_S = twist_force * fields.C / square, on_C = -twist_force * fields.S / square;
-  on_d1 += on_C * b.d1 - on_S * b.d2;
-  on_d2 += on_S * b.d1 + on_C * b.d2;
-  const Vector3<T> on_d1_b = on_S * a.d2 + on_C * a.d1, on_d2_b = on_C * a.d2 - on_S * a.d1;
-  add_node_force<T>(charts_[0], 0, a.d1.cross(on_d1) + a.d2.cross(on_d2) + a.t.cross(on_t), fields.x, force);
-  add_node_force<T>(charts_[1], 1, b.d1.cross(on_d1_b) + b.d2.cross(on_d2_b), fields.x, force);
+  const TurnGradient<T> turn(a, b);
+  const Vector3<T> on_a = a.d1.cross(on_d1) + a.d2.cross(on_d2) + a.t.cross(on_t) + twist_force * turn.on_a;
+  add_node_force<T>(charts_[0], 0, on_a, fields.x, force);
+  add_node_force<T>(charts_[1], 1, twist_force * turn.on_b, fields.x, force);
   return force;
 }
 
@@ -370,20 +477,160 @@ TwistElement::Reduced<T> TwistElement::spin_force(const Reduced<T>& q, const Red
   return force;
 }
 
+// Second derivatives at fixed forces: of the spin at A under `moment`, and of the turn times its force.
+template <>
+void TwistElement::Fields<double>::add_node_stiffness(const TwistElement& element,
+                                                      const Eigen::Vector3d& moment, double twist_force,
+                                                      ReducedMatrix& H) const {
+  const std::array<SectionChart, 2>& charts = element.charts_;
+  Eigen::Matrix<double, 8, 1> nodes;
+  nodes << node_part(x, 0), node_part(x, 1);
+  const auto nodes_x = variables<8, double>(nodes);
+  using T = Dual<8>;
+  const Eigen::Matrix<T, 4, 1> node_a = nodes_x.head<4>(), node_b = nodes_x.tail<4>();
+  const TurnGradient<T> turn(section_at_node<T>(charts[0], node_a.head<3>(), node_a[3]),
+                             section_at_node<T>(charts[1], node_b.head<3>(), node_b[3]));
+  const Vector3<T> on_a = twist_force * turn.on_a + moment.cast<T>(), on_b = twist_force * turn.on_b;
+  Eigen::Matrix<T, 8, 1> force;
+  force << node_force<T>(charts[0], node_a.head<3>(), on_a), node_force<T>(charts[1], node_b.head<3>(), on_b);
+  constexpr std::array<int, 8> where{slope_a, slope_a + 1, slope_a + 2, angle_a,
+                                     slope_b, slope_b + 1, slope_b + 2, angle_b};
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) H(where[i], where[j]) += force[i].d[j];
+}
+
+// d2U/dx2 without damping, in the steps of `gradient`: second derivatives of the strains in the curvatures
+// (P1, P2) along the axes of the section at A, in the rates of transport f, in the turn Theta and the bubble;
+// those of P1, P2, f in r_s and r_ss as seen from that section; and what its spin adds.
+template <>
+ReducedMatrix TwistElement::Fields<double>::stiffness(const TwistElement& element) const {
+  using Row = Eigen::Matrix<double, 1, reduced>;
+  using Rows = Eigen::Matrix<double, 3, reduced>;
+  const double h = element.h_;
+  const std::array<Point, points>& places = element.points_;
+  const SectionStiffness& section = *element.properties_->sections;
+
+  // Spins of both ends by x, and the turn by them.
+  std::array<Rows, 2> N{Rows::Zero(), Rows::Zero()};
+  for (const int end : {0, 1}) {
+    const Eigen::Vector3d rs = x.segment<3>(slope_of(end)), t = end == 0 ? a.t : b.t;
+    N[end].middleCols<3>(slope_of(end)) =
+        cross_matrix(rs) / rs.squaredNorm() + t * spin_row<double>(element.charts_[end], rs).transpose();
+    N[end].col(angle_of(end)) = t;
+  }
+  const TurnGradient<double> turn(a, b);
+  const Row turn_x = turn.on_a.transpose() * N[0] + turn.on_b.transpose() * N[1];
+
+  std::array<Eigen::Matrix<double, 6, reduced>, points> V;  // of (r_s, r_ss), as seen from the section at A
+  std::array<Row, points> P1_x, P2_x, f_x;
+  std::array<Eigen::Matrix3d, points> T, K_rs;  // derivatives of t and K in r_s
+  Row twist_x = turn_x;
+  for (int g = 0; g < points; ++g) {
+    const PointField<double>& p = at[g];
+    V[g].topRows<3>() = cross_matrix(p.rs) * N[0];
+    V[g].bottomRows<3>() = cross_matrix(p.rss) * N[0];
+    for (int k = 0; k < 3; ++k) {
+      V[g].block<3, 3>(0, 3 * k).diagonal().array() += places[g].S1[k];
+      V[g].block<3, 3>(3, 3 * k).diagonal().array() += places[g].S2[k];
+    }
+    T[g] = (Eigen::Matrix3d::Identity() - p.t * p.t.transpose()) / p.n;
+    K_rs[g] = (-cross_matrix(p.rss) - 2 * p.K * p.rs.transpose()) / p.a;
+    const Rows z_x =
+        (K_rs[g] - p.f * T[g]) * V[g].topRows<3>() + cross_matrix(p.rs) / p.a * V[g].bottomRows<3>();
+    f_x[g] = a.t.transpose() * z_x / (1 + p.t.dot(a.t));
+    P1_x[g] = a.d1.transpose() * z_x - p.t.dot(a.d1) * f_x[g];
+    P2_x[g] = a.d2.transpose() * z_x - p.t.dot(a.d2) * f_x[g];
+    twist_x -= h * GaussRule::weights[g] * f_x[g];
+  }
+
+  ReducedMatrix H = ReducedMatrix::Zero();
+  std::array<double, points> F1, F2, Q;
+  double twist_force = 0;
+  for (int g = 0; g < points; ++g) {
+    const PointField<double>& p = at[g];
+    const double w = h * GaussRule::weights[g], xi = GaussRule::points[g];
+    const auto [M1, M2, Mt] =
+        section_moments<double>(section, {p.k1 - places[g].k1, p.k2 - places[g].k2, p.gamma});
+    F1[g] = w * (M1 * p.cosine - M2 * p.sine);
+    F2[g] = w * (M1 * p.sine + M2 * p.cosine);
+    Q[g] = w * (M1 * p.k2 - M2 * p.k1);
+    twist_force += xi * Q[g] + w / h * Mt;
+    Row alpha_x = xi * twist_x, gamma_x = twist_x / h;
+    alpha_x[bubble_amount] += bubble(xi);
+    gamma_x[bubble_amount] += bubble_slope(xi) / h;
+    for (int j = 0; j < points; ++j) alpha_x += h * places[g].transport[j] * f_x[j];
+    Rows strain_x;
+    strain_x.row(0) = p.cosine * P1_x[g] + p.sine * P2_x[g] + p.k2 * alpha_x;
+    strain_x.row(1) = p.cosine * P2_x[g] - p.sine * P1_x[g] - p.k1 * alpha_x;
+    strain_x.row(2) = gamma_x;
+    Eigen::Matrix3d C;
+    C << section.bending_1, section.bending_product, 0, section.bending_product, section.bending_2, 0, 0, 0,
+        section.torsion;
+    const Row turned = F1[g] * P2_x[g] - F2[g] * P1_x[g] - w / 2 * (M1 * p.k1 + M2 * p.k2) * alpha_x;
+    const Rows moments_x = w * C * strain_x;
+    H += strain_x.transpose().lazyProduct(moments_x);
+    H += alpha_x.transpose() * turned + turned.transpose() * alpha_x;
+  }
+
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // on the section at A, of all that turns with it
+  Eigen::Matrix3d by_spin = Eigen::Matrix3d::Zero();
+  Rows swept = Rows::Zero();
+  for (int j = 0; j < points; ++j) {
+    const PointField<double>& p = at[j];
+    const double opening = 1 + p.t.dot(a.t);
+    double y = -GaussRule::weights[j] * twist_force;
+    for (int g = 0; g < points; ++g) y += places[g].transport[j] * Q[g];
+    y = (h * y - F1[j] * p.t.dot(a.d1) - F2[j] * p.t.dot(a.d2)) / opening;
+    const Eigen::Vector3d on_K = F1[j] * a.d1 + F2[j] * a.d2 + y * a.t;
+    const double kappa = p.K.dot(on_K);
+    const Eigen::Vector3d by_K = (p.rss.cross(on_K) - 2 * kappa * p.rs) / p.a, by_t = -p.f * T[j] * on_K;
+    const Eigen::Vector3d on_rs = by_K + by_t, on_rss = on_K.cross(p.rs) / p.a;
+    const Eigen::Vector3d y_rs = -T[j] * on_K / opening;
+    const Eigen::Vector3d f_rs = (K_rs[j] - p.f * T[j]).transpose() * a.t / opening;
+    const Eigen::Vector3d kappa_rs = K_rs[j].transpose() * on_K + p.K.dot(a.t) * y_rs;
+    const double on_t_along = -p.f * on_K.dot(p.t);
+    Eigen::Matrix<double, 6, 6> second = Eigen::Matrix<double, 6, 6>::Zero();
+    second.topLeftCorner<3, 3>() = (p.rss.cross(a.t) * y_rs.transpose() - 2 * p.rs * kappa_rs.transpose() -
+                                    2 * by_K * p.rs.transpose()) /
+                                       p.a -
+                                   T[j] * (on_K * f_rs.transpose() + p.f * a.t * y_rs.transpose()) -
+                                   (on_t_along * T[j] + p.t * by_t.transpose()) / p.n -
+                                   by_t * p.rs.transpose() / p.a;
+    second.topLeftCorner<3, 3>().diagonal().array() -= 2 * kappa / p.a;
+    second.bottomLeftCorner<3, 3>() =
+        (a.t.cross(p.rs) * y_rs.transpose() + cross_matrix(on_K) - 2 * on_rss * p.rs.transpose()) / p.a;
+    second.topRightCorner<3, 3>() = second.bottomLeftCorner<3, 3>().transpose();
+    const Eigen::Matrix<double, 6, reduced> forces_x = second.lazyProduct(V[j]);
+    H += V[j].transpose().lazyProduct(forces_x);
+    moment -= p.rs.cross(on_rs) + p.rss.cross(on_rss);
+    by_spin += cross_matrix(p.rs) * cross_matrix(on_rs) + cross_matrix(p.rss) * cross_matrix(on_rss);
+    for (int k = 0; k < 3; ++k)
+      swept.middleCols<3>(3 * k) +=
+          places[j].S1[k] * cross_matrix(on_rs) + places[j].S2[k] * cross_matrix(on_rss);
+  }
+  const Rows turned_x = by_spin * N[0];
+  const ReducedMatrix crossed = N[0].transpose().lazyProduct(swept);
+  H += crossed + crossed.transpose();
+  H += N[0].transpose().lazyProduct(turned_x);
+  add_node_stiffness(element, moment, twist_force, H);
+  return H;
+}
+
 TwistElement::Coordinates TwistElement::force(const TwistState& x) const {
   const Reduced<double> q = reduced_of(x.q), v = reduced_of(x.v), a = reduced_of(x.a);
-  return spread_out(section_force<double>(q, v) + spin_force<double>(q, v, a));
+  const Reduced<double> force = section_force<double>(q, v) + spin_force<double>(q, v, a);
+  return spread_out(force);
 }
 
 TwistElement::Matrix TwistElement::tangent(const TwistState& x, const TangentWeights& w) const {
-  using T = Dual<reduced>;
-  const auto seeded = [](const Coordinates& y, double seed) {
-    return variables<double>(reduced_of(y), seed);
-  };
-  const Reduced<T> q = seeded(x.q, w.stiffness), v = seeded(x.v, w.damping), a = seeded(x.a, w.mass);
-  Reduced<T> force = spin_force<T>(q, v, a);
-  if (w.stiffness != 0 || (w.damping != 0 && properties_->damping > 0)) force += section_force<T>(q, v);
-  return spread_derivatives(force);
+  const Reduced<double> q = reduced_of(x.q), v = reduced_of(x.v), a = reduced_of(x.a);
+  ReducedMatrix K = spin_tangent(charts_, spin_mass_, q, v, a, w);
+  if (properties_->damping > 0 && (w.stiffness != 0 || w.damping != 0))
+    K += derivatives<reduced>(section_force<Dual<reduced>>(variables<reduced, double>(q, w.stiffness),
+                                                           variables<reduced, double>(v, w.damping)));
+  else if (w.stiffness != 0)
+    K += w.stiffness * fields<double>(q).stiffness(*this);
+  return spread_out(K);
 }
 
 TwistEnergy TwistElement::energy(const TwistState& x) const {
@@ -460,7 +707,7 @@ template <class T>
 TwistElement::Reduced<T> TwistElement::moment_on(const Point& p, const Reduced<T>& q,
                                                  const Eigen::Vector3d& components, bool follower) const {
   using D = Dual<reduced, T>;
-  const Reduced<D> x = variables<T>(q);
+  const Reduced<D> x = variables<reduced, T>(q);
   const Fields<D> all = fields<D>(x);
   PointField<D> at = axis_at<D>(p, x, all.a.t);
   set_strain<D>(p, all, x[bubble_amount], at);
@@ -496,7 +743,7 @@ TwistElement::TurnedWithSection TwistElement::turned(const Coordinates& q, doubl
                                                      const Eigen::Vector3d& drawn) const {
   using T = Dual<reduced>;
   const Point p = point_at(s);
-  const Reduced<T> x = variables<double>(reduced_of(q));
+  const Reduced<T> x = variables<reduced, double>(reduced_of(q));
   const Fields<T> all = fields<T>(x);
   PointField<T> at = axis_at<T>(p, x, all.a.t);
   set_strain<T>(p, all, x[bubble_amount], at);
@@ -505,7 +752,7 @@ TwistElement::TurnedWithSection TwistElement::turned(const Coordinates& q, doubl
   TurnedWithSection result{Eigen::Vector3d::Zero(), Eigen::Matrix<double, 3, TwistLayout::size>::Zero()};
   for (int d = 0; d < 3; ++d) {
     result.value[d] = turned[d].value;
-    result.gradient.row(d) = spread_out(Eigen::Map<const Reduced<double>>(turned[d].d.data())).transpose();
+    result.gradient.row(d) = spread_out(Reduced<double>(turned[d].d.data())).transpose();
   }
   return result;
 }
@@ -519,8 +766,8 @@ TwistElement::Coordinates TwistElement::moment_force(const Coordinates& q, doubl
 TwistElement::Matrix TwistElement::moment_gradient(const Coordinates& q, double s,
                                                    const Eigen::Vector3d& moment, bool follower) const {
   const Eigen::Vector3d components = follower ? drawn_components(s, moment) : moment;
-  return spread_derivatives(
-      moment_on<Dual<reduced>>(point_at(s), variables<double>(reduced_of(q)), components, follower));
+  return spread_out(derivatives<reduced>(moment_on<Dual<reduced>>(
+      point_at(s), variables<reduced, double>(reduced_of(q)), components, follower)));
 }
 
 }  // namespace nurbeam
