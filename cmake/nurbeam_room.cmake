@@ -3,7 +3,8 @@
 # ("nurbs/knot_vector.h"). Each public header must compile alone: one beside a source file, which begins with it
 # (the architecture test sees to that), does so there, the others in target all_verify_interface_header_sets; PRIVATE
 # headers, which show a library that the room hides, are not installed.
-set(nurbeam_warnings -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+set(nurbeam_warnings -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -Wzero-as-null-pointer-constant -Wsuggest-override -Wlogical-op -Wduplicated-cond -Wcatch-value=3)
 
 function(nurbeam_room name)
   cmake_parse_arguments(PARSE_ARGV 1 room "" EXCEPT PRIVATE)

@@ -45,10 +45,16 @@ class FactorisedKkt {
   bool regular_ = false;
 };
 
-/// (n) f(q, v, t): what is left of minus the dynamics without acceleration and multipliers.
-Eigen::VectorXd force(const SecondOrderSystem& system, State state) {
+/// The state without accelerations and multipliers.
+State unloaded(const SecondOrderSystem& system, State state) {
   state.a.setZero(system.coordinate_count());
   state.lambda.setZero(system.constraint_count());
+  return state;
+}
+
+/// (n) f(q, v, t): what is left of minus the dynamics without acceleration and multipliers.
+Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
+  const State state = unloaded(system, moving);
   Eigen::VectorXd dynamics(system.coordinate_count());
   Eigen::VectorXd constraints(system.constraint_count());
   system.residual(state, dynamics, constraints);
@@ -58,10 +64,7 @@ Eigen::VectorXd force(const SecondOrderSystem& system, State state) {
 }  // namespace
 
 ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
-  State at_rest = state;
-  at_rest.a.setZero(system.coordinate_count());
-  at_rest.lambda.setZero(system.constraint_count());
-  const FactorisedKkt kkt(system, at_rest, h);
+  const FactorisedKkt kkt(system, unloaded(system, state), h);
   if (!kkt.regular()) return ConsistencyStatus::singular;
   const Eigen::VectorXd solution = kkt.solve(force(system, state), -system.constraint_curvature(state));
   if (!solution.allFinite()) return ConsistencyStatus::singular;
@@ -74,8 +77,8 @@ ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system,
   return make_accelerations_smooth(system, 0, state);
 }
 
-Projection project_velocities(const SecondOrderSystem& system, State& state) {
-  const FactorisedKkt kkt(system, state);
+Projection project_velocities(const SecondOrderSystem& system, State& state, double h) {
+  const FactorisedKkt kkt(system, unloaded(system, state), h);
   if (!kkt.regular()) return {ConsistencyStatus::singular, {}};
   const Eigen::VectorXd excess = kkt.constraint_product(state.v) + system.constraint_rate(state);
   const Eigen::VectorXd solution = kkt.solve(Eigen::VectorXd::Zero(state.v.size()), -excess);

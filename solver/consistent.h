@@ -24,8 +24,11 @@ struct Projection {
 };
 
 /// The velocity nearest to `v` in the mass norm with G v + rate = 0; the impulse makes it so: M (v_new - v) +
-/// G' impulse = 0.
-[[nodiscard]] Projection project_velocities(const SecondOrderSystem& system, State& state);
+/// G' impulse = 0. As in an impact that lasts a time h, elastic and damping forces work against it: M + (h/2)
+/// D
+/// + (h^2/4) K stands for M. Waves much faster than h, which steps of that length could not follow, then
+/// carry the impulse away at once instead of being left behind.
+[[nodiscard]] Projection project_velocities(const SecondOrderSystem& system, State& state, double h = 0);
 
 /// The velocity with M v + G' impulse = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,

@@ -1,7 +1,9 @@
 #pragma once
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_place.h"
+#include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
+#include "fem/mesh/widened.h"
 
 namespace nurbeam {
 
@@ -22,6 +24,14 @@ class BodyOnPoint {
 
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
+  /// What it does to the beam.
+  PointAction action(const MeshedBeams<D>& at, const State& state,
+                     const typename ConstraintTerms<D>::Multipliers& y) const {
+    const MeshElement<D>& e = at.elements[element_];
+    return {.element = element_,
+            .s = e.local(gather<D>(e, state.q), state.q[dofs_.back()]),
+            .force = -widened<D>(y)};
+  }
 
   ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
                            const typename ConstraintTerms<D>::Multipliers* y) const {

@@ -19,6 +19,14 @@ class HeldDirection {
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
 
+  /// The couple of the clamp on the beam [N m] for its multipliers.
+  Eigen::Vector3d couple(const MeshedBeams<D>& at, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    const Eigen::Matrix<double, D, 1> on_slope = -across_.transpose() * y;
+    const Eigen::Matrix<double, D, 1> rs = point_.shape(at, state.q).slope().value;
+    return widened<D>(rs).cross(widened<D>(on_slope));
+  }
+
   ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
                            const typename ConstraintTerms<D>::Multipliers* y) const {
     ConstraintTerms<D> terms(rows, y != nullptr);

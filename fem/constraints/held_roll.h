@@ -8,7 +8,7 @@ namespace nurbeam {
 /// the direction of the slope, which is held too, that is its drawn triad.
 class ClampedRoll {
  public:
-  explicit ClampedRoll(const NodeSection& node) : dofs_{node.dofs[3]} {}
+  explicit ClampedRoll(const NodeSection& node) : tangent_(node.drawn.col(2)), dofs_{node.dofs[3]} {}
 
   static constexpr int rows = 1;
   static constexpr bool linear = true;  ///< no Hessian
@@ -21,8 +21,14 @@ class ClampedRoll {
     terms.gradient(0, 0) = 1;
     return terms;
   }
+  /// On the beam [N m], for its multiplier.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State&,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return -y[0] * tangent_;
+  }
 
  private:
+  Eigen::Vector3d tangent_;
   std::vector<int> dofs_;
 };
 
@@ -48,6 +54,11 @@ class ForkedRoll {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) terms.hessian(i, j) = (*y)[0] * g[i].d[j];
     return terms;
+  }
+  /// On the beam [N m], for its multiplier.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return -y[0] * node_.triad<double>(node_.coordinates(state.q)).d2.cross(node_.drawn.col(0));
   }
 
  private:

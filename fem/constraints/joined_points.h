@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/joined_sections.h"
 #include "fem/constraints/joined_slopes.h"
@@ -15,6 +17,7 @@ struct BeamJoint {
   double s_b;          ///< [m]
   bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle), or where both beams have
                        ///< torsion the orientation of their sections (JoinedSections); else a hinge
+  std::string name = {};
 };
 
 /// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.

@@ -38,6 +38,13 @@ class JoinedSections {
       for (int j = 0; j < 8; ++j) terms.hessian(i, j) = g[i].d[j];
     return terms;
   }
+  /// On the first of the two [N m], for its multipliers.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    Vector8<double> x;
+    x << a_.coordinates(state.q), b_.coordinates(state.q);
+    return -moments<double>(triads<double>(x), Eigen::Vector3d(y)).a;
+  }
 
  private:
   template <class T>
@@ -51,19 +58,29 @@ class JoinedSections {
     return {a_.triad<T>(x.template head<4>()).matrix(),
             b_.triad<T>(x.template tail<4>()).matrix() * relative_.transpose().cast<T>()};
   }
+  // What y . g changes by with the spins of both.
+  template <class T>
+  struct Moments {
+    Vector3<T> a, b;
+  };
+  template <class T>
+  Moments<T> moments(const Triads<T>& both, const Eigen::Vector3d& y) const {
+    const Vector3<T> direction = y.cast<T>();
+    Moments<T> on{Vector3<T>::Zero(), Vector3<T>::Zero()};
+    for (int i = 0; i < 3; ++i) {
+      const Vector3<T> a = both.a.col(i), b = both.b.col(i);
+      on.a += a.cross(b.cross(direction)) / 2.0;
+      on.b += b.cross(direction.cross(a)) / 2.0;
+    }
+    return on;
+  }
   // Of y . g.
   template <class T>
   Vector8<T> gradient(const Vector8<T>& x, const Eigen::Vector3d& y) const {
     const Triads<T> both = triads<T>(x);
-    const Vector3<T> direction = y.cast<T>();
-    Vector3<T> on_a = Vector3<T>::Zero(), on_b = Vector3<T>::Zero();
-    for (int i = 0; i < 3; ++i) {
-      const Vector3<T> a = both.a.col(i), b = both.b.col(i);
-      on_a += a.cross(b.cross(direction)) / 2.0;
-      on_b += b.cross(direction.cross(a)) / 2.0;
-    }
+    const Moments<T> on = moments<T>(both, y);
     Vector8<T> g;
-    g << a_.force<T>(x.template head<4>(), on_a), b_.force<T>(x.template tail<4>(), on_b);
+    g << a_.force<T>(x.template head<4>(), on.a), b_.force<T>(x.template tail<4>(), on.b);
     return g;
   }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Geometry>
+
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_angle.h"
 #include "fem/mesh/point_on_beam.h"
@@ -27,6 +29,15 @@ class JoinedSlopes {
 
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return points_.dofs; }
+
+  /// The couple on the first beam [N m] for its multiplier.
+  Eigen::Vector3d couple(const MeshedBeams<D>& at, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    const Eigen::Matrix<double, D, 1> a = points_.a.shape(at, state.q).slope().value,
+                                      b = points_.b.shape(at, state.q).slope().value;
+    const Eigen::Matrix<double, D, 1> on_slope = -y[0] * angle_.terms(a, b).gradient.template head<D>();
+    return widened<D>(a).cross(widened<D>(on_slope));
+  }
 
   ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
                            const typename ConstraintTerms<D>::Multipliers* y) const {

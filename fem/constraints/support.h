@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_roll.h"
@@ -12,6 +14,7 @@ struct Support {
   double s;              ///< [m]
   bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
   bool fork = false;     ///< position and roll of the section, of a beam with torsion
+  std::string name = {};
 };
 
 /// r(s) = r_0(s): D rows.

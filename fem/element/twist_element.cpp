@@ -668,6 +668,13 @@ SectionTriad<double> TwistElement::end_section(const Coordinates& q, int end) co
                                  q[TwistLayout::angle(end)]);
 }
 
+// The inverse of node_force: on_slope = (mu x r_s)/|r_s|^2 + (mu . t) c, on_angle = mu . t.
+Eigen::Vector3d TwistElement::end_moment(const Coordinates& q, int end, const Eigen::Vector3d& on_slope,
+                                         double on_angle) const {
+  const Eigen::Vector3d rs = q.segment<3>(TwistLayout::slope(end));
+  return rs.cross(on_slope - on_angle * spin_row<double>(charts_[end], rs)) + on_angle * rs.normalized();
+}
+
 double TwistElement::turn(const Coordinates& q) const {
   return SectionTurn<double>(end_section(q, 0), end_section(q, 1), turn_).angle;
 }

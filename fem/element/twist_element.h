@@ -79,6 +79,9 @@ class TwistElement {
   bool should_recentre(const Coordinates& q) const;
   /// The section of an end.
   SectionTriad<double> end_section(const Coordinates& q, int end) const;
+  /// The moment [N m] that forces conjugate to r_s and the angle of an end are.
+  Eigen::Vector3d end_moment(const Coordinates& q, int end, const Eigen::Vector3d& on_slope,
+                             double on_angle) const;
   /// The turn of the section at B against that at A [rad].
   double turn(const Coordinates& q) const;
   /// Spin of the section at an end about its tangent [rad/s].

@@ -108,6 +108,20 @@ double BoundCustomForce<D>::work(const MeshedBeams<D>& at, const State& from, co
 }
 
 template <int D>
+void BoundCustomForce<D>::add_actions(const MeshedBeams<D>& at, const State& state,
+                                      std::vector<PointAction>& actions) const {
+  const Points p = points(at, state);
+  const Eigen::Matrix3Xd f = state.load * force_->law(state.t, p.r, p.v).force;
+  for (std::size_t i = 0; i < p.curved.size(); ++i) {
+    if (!p.curved[i]) continue;
+    const MeshElement<D>& e = at.elements[p.curved[i]->element];
+    const double s = e.local(gather<D>(e, state.q), force_->points[i].s);
+    actions.push_back(
+        {.element = p.curved[i]->element, .s = s, .force = f.col(static_cast<Eigen::Index>(i))});
+  }
+}
+
+template <int D>
 void BoundCustomForce<D>::add_force(const MeshedBeams<D>& at, const State& state,
                                     Eigen::Ref<Eigen::VectorXd> dynamics) const {
   const Points p = points(at, state);

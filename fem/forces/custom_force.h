@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
@@ -47,6 +48,8 @@ class BoundCustomForce {
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   /// Done between two states on one mesh [J]: the mean forces on the way.
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  /// Adds what it does to beams at a moment.
+  void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if (w.stiffness != 0 || w.damping != 0) sink.own(tangent(at, state, w));

@@ -13,8 +13,9 @@
 /// A force in a mesh may offer: add_force(at, state, dynamics) (dynamics is inertia less forces) with
 /// add_tangent(at, state, weights, sink), which hands matrices to sink.element(index, K) or, in its own
 /// dofs(), to sink.own(K); per_length(beam, t), which the elements carry; add_energy(at, state, sum);
-/// momentum(state); work(at, from, to), but for weight, between two states on one mesh [J]. State::load
-/// scales all forces. A description that is not itself such a force needs bind_force.
+/// momentum(state); work(at, from, to), but for weight, between two states on one mesh [J]; add_actions(at,
+/// state, actions), what it does to points of beams. State::load scales all forces. A description that is not
+/// itself such a force needs bind_force.
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, CustomForce>;

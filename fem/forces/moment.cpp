@@ -50,6 +50,15 @@ std::optional<LoadTangent<D>> Moment::tangent(const MeshedBeams<D>& at, const St
   return LoadTangent<D>{p->element, p->stiffness(p->rs, f, w.stiffness)};
 }
 
+template <int D>
+void Moment::add_actions(const MeshedBeams<D>& at, const State& state,
+                         std::vector<PointAction>& actions) const {
+  if (const auto p = LoadedPoint<D>::of(*this, at, state))
+    actions.push_back({.element = p->element, .s = p->s, .couple = p->factor * p->vector.value});
+}
+
+template void Moment::add_actions(const MeshedBeams<2>&, const State&, std::vector<PointAction>&) const;
+template void Moment::add_actions(const MeshedBeams<3>&, const State&, std::vector<PointAction>&) const;
 template double Moment::work(const MeshedBeams<2>&, const State&, const State&) const;
 template double Moment::work(const MeshedBeams<3>&, const State&, const State&) const;
 template void Moment::add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;

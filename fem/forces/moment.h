@@ -18,6 +18,9 @@ struct Moment : LoadAtPlace {
   /// Done between two states on one mesh [J].
   template <int D>
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  /// Adds what it does to the beam at a moment.
+  template <int D>
+  void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if constexpr (D == 3)

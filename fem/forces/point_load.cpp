@@ -9,11 +9,16 @@ std::optional<LoadedPoint<D>> LoadedPoint<D>::of(const LoadAtPlace& load, const 
   const double s = load.s + load.speed * state.t;
   if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) return std::nullopt;
   const int index = find_span(at.structure, at.mesh, state.q, load.beam, s);
-  const PointShape<D> shape = point_shape<D>(at.elements[index], state.q, s);
+  const MeshElement<D>& e = at.elements[index];
+  const PointShape<D> shape = point_shape<D>(e, state.q, s);
   const PointField<D> rs = shape.slope();
   TurnedVector vector{load.value, Eigen::Matrix3d::Zero()};
   if (load.follower) vector = turned_with_tangent(load.value, beam.curve.tangent(s), widened<D>(rs.value));
-  return LoadedPoint{index, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
+  const double local = e.local(gather<D>(e, state.q), s);
+  if constexpr (D == 3)
+    if (load.follower && e.twist)
+      vector.value = e.twist->element.turned(gather_twist(e, state.q), local, load.value).value;
+  return LoadedPoint{index, local, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
 }
 
 template <int D>
@@ -86,6 +91,13 @@ std::optional<LoadTangent<D>> PointLoad::tangent(const MeshedBeams<D>& at, const
   return LoadTangent<D>{p->element, p->stiffness(p->shape.position(), p->vector, w.stiffness)};
 }
 
+template <int D>
+void PointLoad::add_actions(const MeshedBeams<D>& at, const State& state,
+                            std::vector<PointAction>& actions) const {
+  if (const auto p = LoadedPoint<D>::of(*this, at, state))
+    actions.push_back({.element = p->element, .s = p->s, .force = p->factor * p->vector.value});
+}
+
 template struct LoadedPoint<2>;
 template struct LoadedPoint<3>;
 template struct LoadedField<2>;
@@ -98,6 +110,8 @@ template double PointLoad::work(const MeshedBeams<2>&, const State&, const State
 template double PointLoad::work(const MeshedBeams<3>&, const State&, const State&) const;
 template void PointLoad::add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
 template void PointLoad::add_force(const MeshedBeams<3>&, const State&, Eigen::Ref<Eigen::VectorXd>) const;
+template void PointLoad::add_actions(const MeshedBeams<2>&, const State&, std::vector<PointAction>&) const;
+template void PointLoad::add_actions(const MeshedBeams<3>&, const State&, std::vector<PointAction>&) const;
 template std::optional<LoadTangent<2>> PointLoad::tangent(const MeshedBeams<2>&, const State&,
                                                           const TangentWeights&) const;
 template std::optional<LoadTangent<3>> PointLoad::tangent(const MeshedBeams<3>&, const State&,

@@ -1,8 +1,10 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "fem/forces/section_load.h"
 #include "fem/forces/turned_vector.h"
+#include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
@@ -11,6 +13,7 @@ namespace nurbeam {
 template <int D>
 struct LoadedPoint {
   int element;
+  double s;  ///< as the element counts it [m]
   PointShape<D> shape;
   PointField<D> rs;
   TurnedVector vector;  ///< without its factor
@@ -59,6 +62,9 @@ struct PointLoad : LoadAtPlace {
   /// Done between two states on one mesh [J].
   template <int D>
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  /// Adds what it does to the beam at a moment.
+  template <int D>
+  void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
     if constexpr (D == 3)

@@ -13,6 +13,12 @@ struct Section {
   double second_moment = 0;                      ///< I [m^4]
   std::optional<double> torsion_constant = {};   ///< J [m^4], where it is known
   std::optional<double> radius = {}, bore = {};  ///< of a disk or a pipe, outer and inner [m]
+  /// Greatest distance of the section from the axis that bending turns it about [m], where it is known.
+  std::optional<double> extreme_fibre = {};
+
+  /// Where it is largest, of an axial force [N] and a bending moment [N m], with the sign of the force:
+  /// N/A + M c/I [Pa].
+  std::optional<double> fibre_stress(double axial_force, double bending_moment) const;
 
   /// A disk, or with a bore a pipe. Throws std::invalid_argument unless 0 <= bore < radius.
   static Section round(double radius, double bore = 0);

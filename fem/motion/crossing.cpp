@@ -49,11 +49,18 @@ std::optional<Crossing> first_crossing(const BeamSystem& system, const State& be
   return first;
 }
 
+std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int joint, bool forward) {
+  const ReferenceCurve& curve = system.model().beam_of(system.model().joints[joint]).curve;
+  const double end = forward ? curve.length() : 0;
+  if (curve.closed() || std::abs(*place(system, state, joint) - end) > 1e-9 * curve.length()) return {};
+  return Crossing{joint, end, forward};
+}
+
 std::optional<Crossing> end_passed(const BeamSystem& system, const State& state) {
   const BeamModel& model = system.model();
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
-    if (curve.closed() || system.mesh().plan.modes[j] != JointMode::point) continue;
+    if (curve.closed() || model.joints[j].motion || system.mesh().plan.modes[j] != JointMode::point) continue;
     const double s = *place(system, state, j);
     if (s < 0) return Crossing{j, 0, false};
     if (s > curve.length()) return Crossing{j, curve.length(), true};
@@ -76,6 +83,15 @@ State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& 
   return land_before(
       integrator, taken, [&](const State& state) { return distance_beyond(system, state, crossing); },
       landing_tolerance(system.model(), crossing.joint));
+}
+
+State between(const State& from, const State& to, double part) {
+  const double h = to.t - from.t, x = part, y = 1 - part;
+  State state = to;
+  state.t = from.t + part * h;
+  state.q = y * y * (1 + 2 * x) * from.q + x * x * (1 + 2 * y) * to.q + h * x * y * (y * from.v - x * to.v);
+  state.v = y * from.v + x * to.v;
+  return state;
 }
 
 State carried_over(const BeamSystem& system, State state, double step, const Crossing& crossing) {

@@ -19,7 +19,10 @@ struct Crossing {
 /// drifts at first order.
 std::optional<Crossing> first_crossing(const BeamSystem& system, const State& before, const State& after);
 
-/// The first joint whose body has come beyond an end of its beam, at that end.
+/// The end of its beam, the last one or the first, that a joint's body has come to; nothing elsewhere.
+std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int joint, bool forward);
+
+/// The first joint whose body has come beyond an end of its beam, at that end. A prescribed motion does not.
 std::optional<Crossing> end_passed(const BeamSystem& system, const State& state);
 
 /// Whether a beam's end is held, by a support or by another beam.
@@ -31,6 +34,9 @@ double landing_tolerance(const BeamModel& model, int joint);
 /// The state to which a step of another length leads, for which the body lands just before the place.
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
              const Crossing& crossing);
+
+/// The cubic through two states of one mesh and their rates, at a part of the time between them.
+State between(const State& from, const State& to, double part);
 
 /// A landed state on the other side of the place, after a time of 1e-6 `step` at most in which nothing else
 /// happens.

@@ -43,12 +43,13 @@ void finish_event(const MeshedState& at, RunEvent& event) {
   event.length_after = beam_length(*at.system, at.state, event.beam);
 }
 
-Eigen::Vector3d support_impulse(const BeamSystem& system, const Eigen::VectorXd& impulse) {
+Eigen::Vector3d support_impulse(const MeshedState& at, const Eigen::VectorXd& impulse) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   if (impulse.size() == 0) return sum;
-  const auto& constraints = system.model().constraints;
+  const auto& constraints = at.system->model().constraints;
   for (int i = 0; i < static_cast<int>(constraints.size()); ++i)
-    if (std::holds_alternative<Support>(constraints[i])) sum += support_force(system, impulse, i);
+    if (std::holds_alternative<Support>(constraints[i]))
+      sum += reaction(*at.system, at.state, impulse, i).force;
   return sum;
 }
 

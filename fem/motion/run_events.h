@@ -14,6 +14,6 @@ void finish_event(const MeshedState& at, RunEvent& event);
 
 /// What a constraint impulse [N s] gives to the momentum through the supports' positions [kg m/s]; the other
 /// constraints (directions, bodies on the beam) give none. An empty impulse is none.
-Eigen::Vector3d support_impulse(const BeamSystem& system, const Eigen::VectorXd& impulse);
+Eigen::Vector3d support_impulse(const MeshedState& at, const Eigen::VectorXd& impulse);
 
 }  // namespace nurbeam

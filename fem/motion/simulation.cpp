@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fem/motion/crossing.h"
+#include "fem/motion/kinks.h"
 #include "fem/motion/meshed_state.h"
 #include "fem/motion/recentring.h"
 #include "fem/motion/resting_place.h"
@@ -29,7 +30,11 @@ class Simulation {
  public:
   Simulation(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
              const SimulationOptions& options, const SimulationObserver& observer)
-      : model_(std::move(model)), probes_(probes), options_(options), observer_(observer) {}
+      : model_(std::move(model)),
+        probes_(probes),
+        options_(options),
+        observer_(observer),
+        kinks_(kink_times(*model_)) {}
 
   SimulationReport resume(const Checkpoint& from) {
     go_on_from(from);
@@ -126,13 +131,17 @@ class Simulation {
     seconds_before_ = report_.motion_seconds + report_.length_control_seconds;
   }
 
+  // Shorter than this nothing is followed: the steps of a method for stiff systems.
+  double shortest_time() const {
+    return std::holds_alternative<GeneralizedAlpha>(options_.integrator) ? step_ : 0;
+  }
+
   // New integrator from at_.state, with consistent accelerations.
   bool restart() {
-    const bool stiff = std::holds_alternative<GeneralizedAlpha>(options_.integrator);
-    const ConsistencyStatus status = stiff ? make_accelerations_smooth(*at_.system, step_, at_.state)
-                                           : make_accelerations_consistent(*at_.system, at_.state);
+    const ConsistencyStatus status = make_accelerations_smooth(*at_.system, shortest_time(), at_.state);
     if (status != ConsistencyStatus::done) return fail(Failure::Kind::mass_matrix);
     integrator_ = start_integrator(options_.integrator, *at_.system, at_.state);
+    restarted_ = true;
     return true;
   }
 
@@ -157,6 +166,10 @@ class Simulation {
         ++next_output;
       }
     };
+    const auto next_kink = [&] {
+      const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), at_.state.t + resolution());
+      return kink != kinks_.end() ? *kink : options_.end_time;
+    };
     write_due();
     bool complete = true;
     while (at_.state.t < options_.end_time - resolution()) {
@@ -166,7 +179,8 @@ class Simulation {
         complete = false;
         break;
       }
-      const double target = next_output < times.size() ? times[next_output] : options_.end_time;
+      const double output = next_output < times.size() ? times[next_output] : options_.end_time;
+      const double kink = next_kink(), target = std::min({output, kink, options_.end_time});
       const double rest = target - at_.state.t;
       const double step = rest / std::max(1.0, std::ceil(rest / step_ - 1e-9));
       if (!advance(step)) {
@@ -174,6 +188,10 @@ class Simulation {
         break;
       }
       if (std::abs(at_.state.t - target) < resolution()) at_.state.t = target;
+      if (at_.state.t == kink && !pass_kink()) {
+        complete = false;
+        break;
+      }
       write_due();
       if (observer_.progress) observer_.progress(last_record_);
       if (observer_.checkpoint_due && observer_.checkpoint_due()) hand_over(next_output);
@@ -186,7 +204,7 @@ class Simulation {
   bool advance(double step) {
     const State before = at_.state;
     const IntegratorHistory history = integrator_->history();
-    const StepReport taken = integrator_->advance(step);
+    const StepReport taken = step_keeping_energy(before, history, step);
     report_.newton_iterations += taken.newton_iterations;
     report_.rejected_steps += taken.rejected;
     if (taken.status != StepStatus::converged)
@@ -196,6 +214,8 @@ class Simulation {
     ++report_.steps;
     last_step_ = taken.step;
     at_.state = integrator_->state();
+    restarted_ = false;
+    const double end = at_.state.t;
     const std::optional<Crossing> crossing = first_crossing(*at_.system, before, at_.state);
     if (crossing) {
       land({before, history, at_.state, taken.step}, *crossing);
@@ -203,7 +223,8 @@ class Simulation {
     }
     const std::optional<Crossing> ending = end_passed(*at_.system, at_.state);
     if (ending) land({before, history, at_.state, at_.state.t - before.t}, *ending);
-    const double length = crossing || ending ? at_.state.t - before.t : taken.step;
+    if (!crossing && !ending && !options_.step) land_on_change({before, history, at_.state, taken.step});
+    const double length = at_.state.t == end ? taken.step : at_.state.t - before.t;
     last_record_ = {at_.state.t, length, taken.newton_iterations, taken.rejected};
     steps_.push_back(last_record_);
     if (damped()) dissipated_ += dissipated_between(before, at_.state);
@@ -224,10 +245,88 @@ class Simulation {
     return true;
   }
 
+  // A step of at most that length. Under error control one that creates energy, as a wrong root of a snap
+  // does, counts as failed.
+  StepReport step_keeping_energy(const State& before, const IntegratorHistory& history, double step) {
+    constexpr int most_halvings = 12;
+    StepReport taken = integrator_->advance(step);
+    for (int i = 0; taken.status == StepStatus::converged && !options_.step; ++i) {
+      if (!creates_energy(before, integrator_->state())) break;
+      const StepReport refused = taken;
+      integrator_->restore(before, history);
+      if (i < most_halvings)
+        taken = integrator_->advance(refused.step / 2);
+      else
+        taken.status = StepStatus::not_converged;
+      taken.newton_iterations += refused.newton_iterations;
+      taken.rejected += refused.rejected + 1;
+    }
+    return taken;
+  }
+
+  // By more than error control leaves: a part of the kinetic and strain energy, or of what gravity gave.
+  bool creates_energy(const State& before, const State& after) const {
+    constexpr double most = 0.05, round_off = 1e-10;
+    const SystemEnergy old = energy(*at_.system, before), now = energy(*at_.system, after);
+    double gained = now.mechanical() - old.mechanical();
+    if (damped()) gained += dissipated_between(before, after);
+    if (driven()) gained -= input_work(*at_.system, before, after);
+    const double strain = old.axial + old.bending, fallen = std::abs(now.gravity - old.gravity);
+    const double scale = std::max({report_.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
+    return gained > most * scale + round_off * (scale + std::abs(old.gravity));
+  }
+
+  // At a moment where the speeds of prescribed motions jump: bodies that have come to a free end and are to
+  // leave it do; the others take their new speeds, as in an impact, whose work is that of the drives.
+  bool pass_kink() {
+    int jumping = -1;
+    for (const MotionKink& kink : motion_kinks(*model_, at_.state.t)) {
+      if (at_.system->mesh().plan.modes[kink.joint] == JointMode::free) continue;
+      const std::optional<Crossing> end = end_reached(*at_.system, at_.state, kink.joint, kink.before > 0);
+      const bool leaves = end && kink.before != 0 && model_->joints[kink.joint].leave_at_end;
+      if (!leaves || is_held(*model_, *end))
+        jumping = kink.joint;
+      else if (!end_sliding(*end))
+        return false;
+    }
+    if (jumping < 0) return true;
+    const double before = energy(*at_.system, at_.state).mechanical();
+    if (project_velocities(*at_.system, at_.state, shortest_time()).status != ConsistencyStatus::done)
+      return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = jumping});
+    input_ += energy(*at_.system, at_.state).mechanical() - before;
+    return restart();
+  }
+
   // Repeats the step that was taken so that it ends just before a place.
   void land(const StepTaken& taken, const Crossing& crossing) {
     State landing = landed(*at_.system, *integrator_, taken, crossing);
     at_.state = std::move(landing);
+  }
+
+  // Under error control: repeats a step at whose end a change of the mesh is due so that it ends where it
+  // falls due. Else when it comes would depend on the steps, and with it how the mesh goes on.
+  void land_on_change(const StepTaken& taken) {
+    const auto due = [&](const State& state) {
+      return next_plan(*at_.system, state, options_.length_control).change != MeshChange::none;
+    };
+    if (!due(taken.after)) return;
+    double before = 0, after = 1;  // in parts of the step
+    while (after - before > 1e-9) {
+      const double middle = (before + after) / 2;
+      (due(between(taken.before, taken.after, middle)) ? after : before) = middle;
+    }
+    constexpr double shortest = 1e-3;
+    if (after < shortest || after > 1 - shortest) return;
+    const IntegratorHistory whole = integrator_->history();
+    // A repeated step misses what was interpolated by a little.
+    for (double miss = 1e-8; miss < 1e-2; miss *= 10) {
+      const double length = (after + miss) * taken.length;
+      if (integrator_->repeat(taken.before, taken.history, length).status != StepStatus::converged) break;
+      if (!due(integrator_->state())) continue;
+      at_.state = integrator_->state();
+      return;
+    }
+    integrator_->restore(at_.state, whole);
   }
 
   // Midpoint rule with the mean rates of the step: what a transient shorter than the step does not falsify.
@@ -271,7 +370,7 @@ class Simulation {
     State moved = interpolated(*at_.system, at_.state, *next);
     if (!leaves) {
       moved.q[next->mesh().joints[joint].place] = ending.s;
-      if (project_velocities(*next, moved).status != ConsistencyStatus::done)
+      if (project_velocities(*next, moved, shortest_time()).status != ConsistencyStatus::done)
         return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = joint});
     }
     at_ = {std::move(next), std::move(moved)};
@@ -302,7 +401,7 @@ class Simulation {
     const MeshChangeReport changed = change_mesh(at_, next, false);
     if (!goes_on(changed.failure) || !restart()) return false;
     at_.state = integrator_->state();
-    event.support_impulse = support_impulse(*at_.system, changed.impulse);
+    event.support_impulse = support_impulse(at_, changed.impulse);
     finish_event(at_, event);
     report_.events.push_back(std::move(event));
     if (observed) observer_.mesh_changed(report_.events.back(), before, record_beams(*at_.system, at_.state));
@@ -312,8 +411,17 @@ class Simulation {
 
   // --- Output
 
+  // The present state; right after a restart with the accelerations and multipliers of the moment, of which
+  // an integrator may have taken means over its first step.
+  State recorded_state() const {
+    State state = at_.state;
+    if (restarted_ && make_accelerations_consistent(*at_.system, state) == ConsistencyStatus::done)
+      return state;
+    return at_.state;
+  }
+
   void take_snapshot() {
-    Snapshot snapshot = record_snapshot(*at_.system, at_.state, probes_);
+    Snapshot snapshot = record_snapshot(*at_.system, recorded_state(), probes_);
     snapshot.steps = std::exchange(steps_, {});
     snapshot.energy.dissipated = dissipated_;
     snapshot.energy.input = input_;
@@ -340,11 +448,13 @@ class Simulation {
   const SimulationOptions& options_;
   const SimulationObserver& observer_;
   const Clock::time_point start_ = Clock::now();
-  double seconds_before_ = 0;  // of the run that was interrupted
+  double seconds_before_ = 0;        // of the run that was interrupted
+  const std::vector<double> kinks_;  // of tables: steps end there
   SimulationReport report_;
   MeshedState at_;
   std::unique_ptr<Integrator> integrator_;
-  double step_ = 1e-4;  // asked for next: fixed, or what error control suggests [s]
+  double step_ = 1e-4;      // asked for next: fixed, or what error control suggests [s]
+  bool restarted_ = false;  // and no step since
   StepRecord last_record_;
   std::vector<StepRecord> steps_;  // since the last frame
   double dissipated_ = 0, input_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;

@@ -1,5 +1,8 @@
 #include "fem/motion/snapshot.h"
 
+#include <cmath>
+#include <utility>
+
 #include "fem/system/observables.h"
 
 namespace nurbeam {
@@ -13,19 +16,77 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& x, in
   return y;
 }
 
-BeamRecord record_beam(const BeamSystem& system, const State& state, int b) {
+// Takes over a value where it is larger by `size`, or the first.
+void keep(Extreme& extreme, double value, double s, double (*size)(double)) {
+  if (std::isnan(value)) return;
+  if (std::isnan(extreme.value) || size(value) > size(extreme.value)) extreme = {value, s};
+}
+
+double itself(double x) { return x; }
+double negative(double x) { return -x; }
+double magnitude(double x) { return std::abs(x); }
+
+void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
+  for (const ElementRecord& e : record.elements)
+    for (int i = 0; i < 4; ++i) {
+      const double s = curve.wrapped(e.s_start + (e.s_end - e.s_start) * i / 3);
+      keep(record.axial_force_min, e.axial_force[i], s, negative);
+      keep(record.axial_force_max, e.axial_force[i], s, itself);
+      keep(record.moment_max, e.bending_moment[i], s, magnitude);
+      keep(record.shear_force_max, e.shear_force[i], s, magnitude);
+      keep(record.stress_max, e.stress[i], s, magnitude);
+    }
+  for (std::size_t i = 0; i < record.node_s.size(); ++i) {
+    const double s = record.node_s[i];
+    keep(record.displacement_max, (record.node_positions[i] - curve.position(s)).norm(), s, itself);
+  }
+}
+
+std::pair<int, double> first_place(const Support& support) { return {support.beam, support.s}; }
+std::pair<int, double> first_place(const BeamJoint& joint) { return {joint.beam_a, joint.s_a}; }
+
+BeamRecord record_beam(const BeamSystem& system, const State& state,
+                       const std::vector<SpanResultants>& carried, int b) {
   const Mesh& mesh = system.mesh();
   const ReferenceCurve& curve = system.model().beams[b].curve;
   BeamRecord record;
   for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i)
-    record.elements.push_back(record_element(system, state, i));
+    record.elements.push_back(record_element(system, state, i, carried[i]));
   for (const MeshNode& node : mesh.nodes[b]) {
     record.node_positions.push_back(vector_at(system, state.q, node.r));
     record.node_slopes.push_back(vector_at(system, state.q, node.slope_left));
     record.node_s.push_back(node.place >= 0 ? curve.wrapped(state.q[node.place]) : node.s);
   }
   record.length = beam_length(system, state, b);
+  find_extremes(curve, record);
   return record;
+}
+
+std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state,
+                                     const std::vector<SpanResultants>& carried) {
+  std::vector<BeamRecord> records;
+  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b)
+    records.push_back(record_beam(system, state, carried, b));
+  return records;
+}
+
+ProbeRecord record_probe(const BeamSystem& system, const State& state,
+                         const std::vector<SpanResultants>& carried, const ProbePlace& probe) {
+  const MaterialPoint<3> p = material_point(system, state, probe.beam, probe.s);
+  const int span = find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
+  ProbeRecord record;
+  record.position = p.r;
+  record.velocity = p.velocity;
+  record.displacement = p.r - system.model().beams[probe.beam].curve.position(probe.s);
+  record.section = section_at(system, state, span, carried[span], probe.s);
+  return record;
+}
+
+ReactionRecord record_reaction(const BeamSystem& system, const State& state, int i) {
+  const Constraint& constraint = system.model().constraints[i];
+  const auto [beam, s] = std::visit([](const auto& c) { return first_place(c); }, constraint);
+  const Reaction given = reaction(system, state, state.lambda, i);
+  return {material_point(system, state, beam, s).r, given.force, given.couple};
 }
 
 PointRecord record_body(const BeamSystem& system, const State& state, int body) {
@@ -36,10 +97,7 @@ PointRecord record_body(const BeamSystem& system, const State& state, int body) 
 }  // namespace
 
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state) {
-  std::vector<BeamRecord> records;
-  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b)
-    records.push_back(record_beam(system, state, b));
-  return records;
+  return record_beams(system, state, stress_resultants(system, state));
 }
 
 Snapshot record_snapshot(const BeamSystem& system, const State& state,
@@ -47,18 +105,20 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
   const BeamModel& model = system.model();
   Snapshot snapshot;
   snapshot.time = state.t;
-  for (const ProbePlace& probe : probes) {
-    const MaterialPoint<3> p = material_point(system, state, probe.beam, probe.s);
-    snapshot.probes.push_back({p.r, p.velocity});
-  }
+  const std::vector<SpanResultants> carried = stress_resultants(system, state);
+  for (const ProbePlace& probe : probes)
+    snapshot.probes.push_back(record_probe(system, state, carried, probe));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     BodyRecord& body = snapshot.bodies[model.joints[j].body];
     if (const auto s = place(system, state, j)) body.s = model.beam_of(model.joints[j]).curve.wrapped(*s);
     body.joint_force = joint_force(system, state, j);
+    body.holding_force = holding_force(system, state, j);
   }
-  snapshot.beams = record_beams(system, state);
+  snapshot.beams = record_beams(system, state, carried);
+  for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i)
+    snapshot.reactions.push_back(record_reaction(system, state, i));
   const SystemEnergy e = energy(system, state);
   snapshot.energy = {.kinetic = e.kinetic,
                      .gravity = e.gravity,

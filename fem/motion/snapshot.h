@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,21 +9,44 @@
 
 namespace nurbeam {
 
+/// The least or the greatest value along a beam, and its place.
+struct Extreme {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double s = std::numeric_limits<double>::quiet_NaN();  ///< reference arc length [m]
+};
+
 struct BeamRecord {
   std::vector<ElementRecord> elements;
   std::vector<Eigen::Vector3d> node_positions, node_slopes;  ///< [m], [-] (left slope at a kink)
   std::vector<double> node_s;                                ///< [m]
   double length = 0;                                         ///< deformed [m]
+  Extreme axial_force_min, axial_force_max;                  ///< [N]
+  Extreme moment_max, shear_force_max;                       ///< the largest magnitude [N m], [N]
+  Extreme stress_max;        ///< likewise [Pa]; NaN where the section does not say
+  Extreme displacement_max;  ///< of a node from the drawing [m]
 };
 
 struct PointRecord {
   Eigen::Vector3d position, velocity;  ///< [m], [m/s]
 };
 
+/// A material point of a beam.
+struct ProbeRecord : PointRecord {
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< from the drawing [m]
+  SectionRecord section;
+};
+
 struct BodyRecord {
   PointRecord point;
   std::optional<double> s;      ///< empty after it has left its beam [m]
   Eigen::Vector3d joint_force;  ///< of the beam on the body [N]
+  double holding_force = 0;     ///< along the beam, where its place is prescribed or it has stopped [N]
+};
+
+/// What a support gives to its beam, or the second of two joined beams to the first.
+struct ReactionRecord {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();                                 ///< [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = Eigen::Vector3d::Zero();  ///< [N], [N m]
 };
 
 struct EnergyRecord {
@@ -43,9 +67,10 @@ struct StepRecord {
 /// Everything that is stored at one output time, in the model's own coordinates or in those of the world.
 struct Snapshot {
   double time = 0;
-  std::vector<PointRecord> probes;
+  std::vector<ProbeRecord> probes;
   std::vector<BodyRecord> bodies;
   std::vector<BeamRecord> beams;
+  std::vector<ReactionRecord> reactions;  ///< of the model's constraints, in order
   EnergyRecord energy;
   std::vector<StepRecord> steps;  ///< since the previous frame
   double step = 0;                ///< last step size [s]
@@ -60,7 +85,7 @@ struct ProbePlace {
 
 /// Names in the order of the vectors of a Snapshot.
 struct SnapshotNames {
-  std::vector<std::string> probes, bodies, beams;
+  std::vector<std::string> probes, bodies, beams, reactions;
 };
 
 /// The beams of a state.

@@ -46,11 +46,6 @@ void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eig
     if (e.twist->dofs[k] >= 0) dynamics[e.twist->dofs[k]] += f[k];
 }
 
-template <int D>
-bool is_form_p(const Structure& structure, const MeshElement<D>& e) {
-  return !e.element.fixed() && structure.beams[e.beam].form == Form::virtual_work;
-}
-
 }  // namespace
 
 // Takes the tangent matrices of one force.
@@ -193,6 +188,65 @@ typename Assembly<D>::Vector Assembly<D>::line_load(int beam, const State& state
 }
 
 template <int D>
+ElementVector<D> Assembly<D>::element_force(const MeshElement<D>& e, const State& state,
+                                            const Vector& load) const {
+  const ElementState<D> x = gather<D>(e, state);
+  return is_form_p(e) ? virtual_work::force<D>(e.element, x, load) : e.element.force(x, load);
+}
+
+template <int D>
+std::vector<ElementVector<D>> Assembly<D>::element_forces(const State& state) const {
+  std::vector<ElementVector<D>> forces;
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    const Vector load = line_load(b, state);
+    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i)
+      forces.push_back(element_force(elements_[i], state, load));
+  }
+  return forces;
+}
+
+template <int D>
+std::vector<PointAction> Assembly<D>::actions(const State& state) const {
+  const MeshedBeams<D> at = beams();
+  std::vector<PointAction> actions;
+  for (const BoundForce<D>& force : forces_)
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.template add_actions<D>(at, state, actions); })
+            f.template add_actions<D>(at, state, actions);
+          else if constexpr (requires { f.add_actions(at, state, actions); })
+            f.add_actions(at, state, actions);
+        },
+        force);
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (const auto* body = std::get_if<BodyOnPoint<D>>(&constraints_[i]))
+      actions.push_back(body->action(at, state, state.lambda.segment<D>(constraint_blocks_[i].row)));
+  return actions;
+}
+
+template <int D>
+std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const State& state,
+                                                                  const Eigen::VectorXd& multipliers) const {
+  const MeshedBeams<D> at = beams();
+  const Rows rows = constraint_rows_[i];
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = force;
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    const int row = constraint_blocks_[c].row;
+    if (row < rows.first || row >= rows.first + rows.count) continue;
+    std::visit(
+        [&](const auto& constraint) {
+          const auto y = multipliers.segment(row, constraint.rows);
+          if constexpr (requires { constraint.couple(at, state, y); })
+            couple += constraint.couple(at, state, y);
+          else
+            force.head(constraint.rows) -= y;
+        },
+        constraints_[c]);
+  }
+  return {force, couple};
+}
+
+template <int D>
 void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                            Eigen::Ref<Eigen::VectorXd> constraints) const {
   const MeshedBeams<D> at = beams();
@@ -201,9 +255,7 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
     const Vector load = line_load(b, state);
     for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
       const MeshElement<D>& e = elements_[i];
-      const ElementState<D> x = gather<D>(e, state);
-      const ElementVector<D> f =
-          is_form_p<D>(*model_, e) ? virtual_work::force<D>(e.element, x, load) : e.element.force(x, load);
+      const ElementVector<D> f = element_force(e, state, load);
       for (int k = 0; k < element_size<D>; ++k)
         if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
       if constexpr (D == 3)
@@ -245,8 +297,7 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
       const MeshElement<D>& e = elements_[i];
       const ElementState<D> x = gather<D>(e, state);
       scatter(element_blocks_[i].values, element_size<D>,
-              is_form_p<D>(*model_, e) ? virtual_work::tangent<D>(e.element, x, load, w)
-                                       : e.element.tangent(x, load, w),
+              is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
               values);
       if constexpr (D == 3)
         if (e.twist)

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fem/model/beam_model.h"
@@ -37,6 +38,19 @@ class Assembly final : public SecondOrderSystem {
   Rows rows_of_constraint(int i) const { return constraint_rows_[i]; }
   Rows rows_of_place(int j) const { return place_rows_[j]; }
 
+  /// The multipliers' force and couple on the beam that constraint i of the model holds, on the first of two
+  /// [N], [N m]; impulses where `multipliers` are.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
+                                                       const Eigen::VectorXd& multipliers) const;
+  /// Inertia less forces of every element alone, in its own coordinates.
+  std::vector<ElementVector<D>> element_forces(const State& state) const;
+  /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
+  std::vector<PointAction> actions(const State& state) const;
+  /// Whether the forces of an element are those of form P, for comparison.
+  bool is_form_p(const MeshElement<D>& e) const {
+    return !e.element.fixed() && model_->beams[e.beam].form == Form::virtual_work;
+  }
+
   int coordinate_count() const override { return mesh_.coordinate_count; }
   int constraint_count() const override { return constraint_count_; }
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
@@ -66,6 +80,7 @@ class Assembly final : public SecondOrderSystem {
   void bind_forces();
   void build_pattern();
   Vector line_load(int beam, const State& state) const;
+  ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
 
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;

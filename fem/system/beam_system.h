@@ -17,7 +17,7 @@ class Assembly;
 ///
 /// Coordinates: per beam and node r (D), r_s (D; twice at a hinge, at a corner and where a joint's slope is
 /// discontinuous), s (moving nodes), then position (D) and sigma of bodies carried as points or flying free.
-/// The order of the multipliers is its own affair: support_force and holding_force ask for them.
+/// The order of the multipliers is its own affair: reaction and holding_force ask for them.
 class BeamSystem final : public SecondOrderSystem {
  public:
   /// `held`: joints whose s is held at its value in the plan (for statics).

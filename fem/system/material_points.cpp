@@ -1,6 +1,8 @@
 #include "fem/system/material_points.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
@@ -26,8 +28,55 @@ Eigen::Matrix4d control_points(const MeshElement<D>& e, const ElementVector<D>& 
   return to_bezier(nodal, e.element.bezier_weights(q), l).points();
 }
 
+// The couple as one number: in the plane about its normal; in space, where a beam without torsion carries
+// none along itself, positive where it bends more than the stress-free shape.
 template <int D>
-ElementRecord record(const MeshElement<D>& e, const State& state) {
+double bending_moment(const Eigen::Vector3d& couple, const MaterialPoint<3>& p) {
+  if constexpr (D == 2) return couple.z();
+  const Eigen::Vector3d t = p.rs.normalized(), across = couple - couple.dot(t) * t;
+  const bool less = p.kappa0 > 0 && across.dot(p.rs.cross(p.rss)) < 0;
+  return less ? -across.norm() : across.norm();
+}
+
+template <int D>
+double shear_force(const Eigen::Vector3d& force, const Eigen::Vector3d& rs) {
+  if constexpr (D == 2) return force.dot(Eigen::Vector3d::UnitZ().cross(rs.normalized()));
+  return force.norm();
+}
+
+template <int D>
+SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
+                         const SpanResultants& carried, double s) {
+  using Layout = ElementLayout<D>;
+  const ElementVector<D> q = gather<D>(e, state.q);
+  const double s_a = q[Layout::place(0)], s_b = q[Layout::place(1)];
+  const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+  const MaterialPoint<3> point = widened_point<D>(p);
+  const double drawn = e.element.curve().strain(s);
+  const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
+  const double strain =
+      assumed ? drawn + assumed->carried((s - s_a) / (s_b - s_a)) : axial_strain<D>(p.rs).value;
+  const SectionForces elastic =
+      section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn);
+  const StressResultants resultants = carried.at(s, point.r, point.rs);
+  SectionRecord record;
+  record.strain = elastic.strain;
+  record.curvature = elastic.curvature;
+  record.axial_force = elastic.axial_force;
+  record.bending_moment = bending_moment<D>(resultants.couple, point);
+  if constexpr (D == 3)
+    if (e.twist) record.torque = resultants.couple.dot(point.rs.normalized());
+  record.shear_force = shear_force<D>(resultants.force, point.rs);
+  record.stress = a.model()
+                      ->beams[e.beam]
+                      .section.fibre_stress(record.axial_force, record.bending_moment)
+                      .value_or(std::numeric_limits<double>::quiet_NaN());
+  return record;
+}
+
+template <int D>
+ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
+                         const SpanResultants& carried) {
   using Layout = ElementLayout<D>;
   const ElementVector<D> q = gather<D>(e, state.q);
   ElementRecord record;
@@ -35,28 +84,17 @@ ElementRecord record(const MeshElement<D>& e, const State& state) {
   record.s_start = q[Layout::place(0)];
   record.s_end = q[Layout::place(1)];
   record.axial_mismatch = e.element.axial_mismatch(q);
-  const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
   for (int i = 0; i < 4; ++i) {
     const double s = e.element.place(q, i / 3.0);
-    const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
-    const double drawn = e.element.curve().strain(s),
-                 xi = (s - record.s_start) / (record.s_end - record.s_start);
-    const double strain = assumed ? drawn + assumed->carried(xi) : axial_strain<D>(p.rs).value;
-    const SectionForces carried =
-        section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn);
-    record.strain[i] = carried.strain;
-    record.curvature[i] = carried.curvature;
-    record.axial_force[i] = carried.axial_force;
-    record.bending_moment[i] = carried.bending_moment;
-    record.torque[i] = 0;
-    if constexpr (D == 3)
-      if (e.twist) {
-        const SectionMoments<double> moments =
-            e.twist->element.section(gather_twist(e, state.q), e.local(q, s)).moments;
-        record.bending_moment[i] = std::hypot(moments.bending_1, moments.bending_2);
-        record.torque[i] = moments.torque;
-      }
-    record.velocity.col(i) = widened<D>(p.velocity);
+    const SectionRecord section = section_of<D>(a, e, state, carried, s);
+    record.strain[i] = section.strain;
+    record.curvature[i] = section.curvature;
+    record.axial_force[i] = section.axial_force;
+    record.bending_moment[i] = section.bending_moment;
+    record.torque[i] = section.torque;
+    record.shear_force[i] = section.shear_force;
+    record.stress[i] = section.stress;
+    record.velocity.col(i) = widened<D>(material_point<D>(e, state.q, state.v, s).velocity);
   }
   return record;
 }
@@ -108,9 +146,21 @@ SectionPoint section_point(const BeamSystem& system, const State& state, int bea
   return e.twist->element.section(gather_twist(e, state.q), of.curve.unrolled(s, (e.s_a + e.s_b) / 2));
 }
 
-ElementRecord record_element(const BeamSystem& system, const State& state, int span) {
+SectionRecord section_at(const BeamSystem& system, const State& state, int span,
+                         const SpanResultants& carried, double s) {
   return with_assembly(
-      system, [&]<int D>(const Assembly<D>& a) { return record<D>(a.elements()[span], state); });
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        const MeshElement<D>& e = a.elements()[span];
+        return section_of<D>(a, e, state, carried, e.local(gather<D>(e, state.q), s));
+      });
+}
+
+ElementRecord record_element(const BeamSystem& system, const State& state, int span,
+                             const SpanResultants& carried) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) { return element_of<D>(a, a.elements()[span], state, carried); });
 }
 
 double position_error(const BeamSystem& system, const State& state, int span) {

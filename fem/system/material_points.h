@@ -5,6 +5,7 @@
 
 #include "fem/mesh/mesh_elements.h"
 #include "fem/system/beam_system.h"
+#include "fem/system/stress_resultants.h"
 
 namespace nurbeam {
 
@@ -17,21 +18,34 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 /// after it has it (the last one at the end of a beam that is no ring). Throws std::invalid_argument where
 /// the beam has none.
 SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s);
+/// What one section of a beam carries.
+struct SectionRecord {
+  double strain = 0;          ///< Green's axial strain that carries [-]
+  double curvature = 0;       ///< [1/m], by the model's measure; signed in a planar model
+  double axial_force = 0;     ///< elastic, tension positive [N]
+  double bending_moment = 0;  ///< [N m]; signed in a planar model, in space as the change of curvature is
+  double torque = 0;          ///< about the tangent [N m]; 0 without torsion
+  double shear_force = 0;  ///< [N]; in a planar model that of the part beyond the section, along the normal n
+                           ///< = e_z x t; in space its magnitude
+  double stress = 0;       ///< of the fibre that it is largest in [Pa]; NaN where the section does not say
+};
+/// At material point s [m] of the element in a span, whose stress resultants are `carried`.
+SectionRecord section_at(const BeamSystem& system, const State& state, int span,
+                         const SpanResultants& carried, double s);
 
 /// The element in a span as a rational cubic, and what it carries at the parameters u = 0, 1/3, 2/3, 1
-/// (`sample`).
+/// (`sample`), as in SectionRecord.
 struct ElementRecord {
   Eigen::Matrix4d control_points;  ///< homogeneous, deformed [m]
   double s_start = 0, s_end = 0;   ///< reference arc length [m]
   double axial_mismatch = 0;       ///< pointwise less assumed axial strain, the largest: a coarse mesh [-]
-  Eigen::Vector4d strain;          ///< Green's axial strain that carries [-]
-  Eigen::Vector4d curvature;       ///< [1/m], by the model's measure; signed in a planar model
-  Eigen::Vector4d axial_force;     ///< elastic, tension positive [N]
-  Eigen::Vector4d bending_moment;  ///< elastic [N m]; signed in a planar model
-  Eigen::Vector4d torque;          ///< elastic, about the tangent [N m]; 0 without torsion
+  Eigen::Vector4d strain, curvature, axial_force, bending_moment, torque = Eigen::Vector4d::Zero(),
+                                                                  shear_force = Eigen::Vector4d::Zero(),
+                                                                  stress = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
 };
-ElementRecord record_element(const BeamSystem& system, const State& state, int span);
+ElementRecord record_element(const BeamSystem& system, const State& state, int span,
+                             const SpanResultants& carried);
 
 /// What the element in a span contributes to the estimated error of positions [m]: its length times its
 /// quartic strain times quartic_strain_to_error. Measured, with the mean over the elements: cantilevers under

@@ -1,7 +1,5 @@
 #include "fem/system/observables.h"
 
-#include <stdexcept>
-
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
 
@@ -142,13 +140,14 @@ double place_rate(const BeamSystem& system, const State& state, int joint) {
   return dof >= 0 ? state.v[dof] : 0;
 }
 
-Eigen::Vector3d support_force(const BeamSystem& system, const Eigen::VectorXd& multipliers, int constraint) {
-  if (!std::holds_alternative<Support>(system.model().constraints.at(constraint)))
-    throw std::invalid_argument("constraint " + std::to_string(constraint) + " of the model is no support");
-  return with_assembly(system, [&]<int D>(const Assembly<D>& a) {
-    const int first = a.rows_of_constraint(constraint).first;
-    return Eigen::Vector3d(-widened<D>(multipliers.segment<D>(first)));
-  });
+Reaction reaction(const BeamSystem& system, const State& state, const Eigen::VectorXd& multipliers,
+                  int constraint) {
+  return with_assembly(
+      system,
+      [&](const auto& a) {
+        const auto [force, couple] = a.reaction(constraint, state, multipliers);
+        return Reaction{force, couple};
+      });
 }
 
 }  // namespace nurbeam

@@ -23,9 +23,13 @@ double holding_force(const BeamSystem& system, const State& state, int joint);
 std::optional<double> place(const BeamSystem& system, const State& state, int joint);
 double place_rate(const BeamSystem& system, const State& state, int joint);
 
-/// Force of constraint i of the model, a Support, on the beam [N], or its impulse [N s] where `multipliers`
-/// (those of the state or of a projection) are impulses. Throws std::invalid_argument when constraint i is no
-/// support.
-Eigen::Vector3d support_force(const BeamSystem& system, const Eigen::VectorXd& multipliers, int constraint);
+/// What a support gives to its beam, or the second of two joined beams to the first: [N], [N m].
+struct Reaction {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = Eigen::Vector3d::Zero();
+};
+/// That of constraint i of the model; impulses [N s], [N m s] where `multipliers` (those of the state or of a
+/// projection of velocities) are. Without torsion there is no couple along the beam.
+Reaction reaction(const BeamSystem& system, const State& state, const Eigen::VectorXd& multipliers,
+                  int constraint);
 
 }  // namespace nurbeam

@@ -156,6 +156,7 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
     return {.torsion_constant = optional_number(section, "torsion_constant"), .from_cad = true};
   CaseSection sizes{.area = number(section, "area"),
                     .second_moment = number(section, "second_moment"),
+                    .extreme_fibre = optional_number(section, "extreme_fibre"),
                     .torsion_constant = optional_number(section, "torsion_constant")};
   if (has(section, "second_moments")) {
     const std::vector<double> moments = numbers(section, "second_moments");

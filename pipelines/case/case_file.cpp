@@ -38,6 +38,7 @@ CaseSupport read_support(const Json& json, const std::string& path) {
                                             {{"clamped", CaseSupport::Type::clamped},
                                              {"pinned", CaseSupport::Type::pinned},
                                              {"fork", CaseSupport::Type::fork}}),
+          .name = text(json, "name"),
           .path = path,
           .beam = text(json, "beam"),
           .at = read_place(json)};
@@ -57,7 +58,11 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
 }
 
 CaseBeamJoint read_beam_joint(const Json& json, const std::string& path) {
-  CaseBeamJoint joint{.path = path, .beams = {}, .rigid = text(json, "type") == "rigid", .near = {}};
+  CaseBeamJoint joint{.name = text(json, "name"),
+                      .path = path,
+                      .beams = {},
+                      .rigid = text(json, "type") == "rigid",
+                      .near = {}};
   for (const Json& name : part(json, "beams"))
     if (!name.is_null()) joint.beams.push_back(name.get<std::string>());
   if (has(part(json, "at"), "near")) joint.near = vector(json["at"], "near");

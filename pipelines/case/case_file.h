@@ -53,10 +53,11 @@ struct CaseProfile {
 };
 
 struct CaseSection {
-  double area = 0;                                           ///< [m^2]
-  double second_moment = 0;                                  ///< [m^4]
-  std::optional<double> radius = {};                         ///< of a disk or a pipe [m]
-  std::optional<double> bore = {};                           ///< inner radius of a pipe [m]
+  double area = 0;                           ///< [m^2]
+  double second_moment = 0;                  ///< [m^4]
+  std::optional<double> radius = {};         ///< of a disk or a pipe [m]
+  std::optional<double> bore = {};           ///< inner radius of a pipe [m]
+  std::optional<double> extreme_fibre = {};  ///< greatest distance from the axis of bending [m]
   std::optional<std::array<double, 2>> second_moments = {};  ///< I_x, I_y, where they may differ [m^4]
   double product = 0;                                        ///< I_xy [m^4]
   std::optional<double> torsion_constant = {};               ///< [m^4]
@@ -131,6 +132,7 @@ struct CaseLoad {
 
 struct CaseSupport {
   enum class Type { clamped, pinned, fork } type = Type::pinned;
+  std::string name;  ///< heads the columns of its reaction; may be empty
   std::string path;
   std::string beam;
   Place at;
@@ -149,6 +151,7 @@ struct CaseSlidingJoint {
 
 /// Beams that meet at one place.
 struct CaseBeamJoint {
+  std::string name;  ///< heads the columns of its forces; may be empty
   std::string path;
   std::vector<std::string> beams;       ///< two or more; each is joined to the first
   bool rigid = false;                   ///< else hinged

@@ -116,6 +116,9 @@ Shape section() {
         "second_moments"},
        {"torsion_constant", quantity(Dimension::second_moment, plausible(1e-36, 1e16)),
         "St Venant's; when omitted that of the profile, or I_x + I_y of a round section"},
+       {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
+        "greatest distance of the section from its axis of bending; without it no stress is given", false,
+        "area"},
        {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
       {{{"radius", "area", "profile", "from"}, required}, {{"second_moment", "second_moments"}, false}});
@@ -228,7 +231,8 @@ Shape support() {
        {"type", choice({"clamped", "pinned", "fork"}),
         "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
         "position and roll of a beam with torsion",
-        required}});
+        required},
+       {"name", name(), "heads the columns of its reaction"}});
 }
 
 Shape sliding_joint() {
@@ -252,7 +256,8 @@ Shape beam_joint() {
   return object({{"beams", array(name(), 2), "the beams that meet", required},
                  {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
                  {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
-                  "where, if not at an end of one of them"}});
+                  "where, if not at an end of one of them"},
+                 {"name", name(), "heads the columns of its forces"}});
 }
 
 Shape analysis() {

@@ -38,9 +38,10 @@ void check_names(const Json& json, Findings& findings) {
     return names;
   };
   check_unique(collect(json, "beams", ""), findings);
-  auto columns = collect(json, "bodies", "");  // bodies and probes head columns of the same table
+  auto columns = collect(json, "bodies", "");  // these head columns of the same table
   const auto probes = collect(part(json, "output"), "probes", "output");
-  columns.insert(columns.end(), probes.begin(), probes.end());
+  const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
+  for (const auto& more : {probes, supports, joints}) columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
 }
 

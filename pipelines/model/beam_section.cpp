@@ -1,5 +1,6 @@
 #include "pipelines/model/beam_section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -25,6 +26,18 @@ void check_isotropy(const std::string& where, const SectionProfile& profile, Fin
                        "keep axes, loads and gravity in one plane");
 }
 
+// The greatest value of `distance` over the outline.
+template <class Distance>
+double farthest(const SectionProfile& profile, Distance distance) {
+  constexpr int samples = 200;  // of one cubic: exact at its ends, to 1e-5 between them
+  double greatest = 0;
+  for (const Loop& loop : profile.loops)
+    for (const RationalCubic& cubic : loop)
+      for (int i = 0; i <= samples; ++i)
+        greatest = std::max(greatest, distance(cubic.point(static_cast<double>(i) / samples)));
+  return greatest;
+}
+
 }  // namespace
 
 std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
@@ -45,8 +58,12 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
     section.torsion_constant = beam.section.torsion_constant;
   } else if (dimension == 3) {
     check_isotropy(where, profile, findings);
+    section.extreme_fibre = farthest(profile, [](const Eigen::Vector3d& p) { return p.norm(); });
   } else {
-    if (beam.section.profile->x_in_plane) section.second_moment = profile.second_y;
+    const bool x_in_plane = beam.section.profile->x_in_plane;
+    if (x_in_plane) section.second_moment = profile.second_y;
+    section.extreme_fibre =
+        farthest(profile, [&](const Eigen::Vector3d& p) { return std::abs(x_in_plane ? p.x() : p.y()); });
     if (std::abs(profile.product) > 1e-6 * profile.principal_1())
       findings.warn(where,
                     "the principal axes of the profile are turned by " +

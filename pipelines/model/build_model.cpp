@@ -97,7 +97,13 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
              const BeamSection& drawn, Findings& findings) {
   const CaseSection& section = drawn.section;
   if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
-  const Section sizes{section.area, section.second_moment, {}, section.radius, section.bore};
+  const Section sizes{.area = section.area,
+                      .second_moment = section.second_moment,
+                      .radius = section.radius,
+                      .bore = section.bore,
+                      .extreme_fibre = section.radius           ? section.radius
+                                       : section.second_moments ? std::nullopt
+                                                                : section.extreme_fibre};
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
@@ -138,8 +144,8 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
       findings.error(support.path + ".type",
                      "\"fork\" holds the roll of a section; beam \"" + support.beam +
                          "\" has no torsion: give it \"torsion\": true, or use \"pinned\"");
-    model.constraints.push_back(
-        Support{b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped, fork});
+    model.constraints.push_back(Support{b, beam.material_coordinate(s),
+                                        support.type == CaseSupport::Type::clamped, fork, support.name});
   }
   return places;
 }

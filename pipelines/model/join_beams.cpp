@@ -131,8 +131,8 @@ void join_two(const ResolvedCase& resolved, const CaseBeamJoint& joint, int a, i
     std::vector<double>& own = joined.places[place.beam];
     if (std::find(own.begin(), own.end(), place.s) == own.end()) own.push_back(place.s);
   }
-  joined.joints.push_back(
-      {a, beams[a].material_coordinate(at_a.s), b, beams[b].material_coordinate(at_b.s), joint.rigid});
+  joined.joints.push_back({a, beams[a].material_coordinate(at_a.s), b, beams[b].material_coordinate(at_b.s),
+                           joint.rigid, joint.name});
 }
 
 }  // namespace

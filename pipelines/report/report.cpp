@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/report/report_template.h"
 #include "pipelines/results/base64.h"
+#include "pipelines/results/history_columns.h"
 #include "pipelines/results/results.h"
 
 namespace nurbeam {
@@ -43,55 +43,18 @@ std::string base64_of(const std::vector<Number>& numbers) {
 
 // ---- histories ----
 
-/// One history: `of` is run, probe, body, beam or energy, `index` counts within it.
+/// A history and its values.
 struct Column {
-  std::string of;
-  std::size_t index;
-  std::string name, unit;
-  std::vector<double> values;
+  HistoryColumn what;
+  std::vector<double> values = {};
 };
 
-constexpr std::array point_parts = {std::pair{"x", "m"},    std::pair{"y", "m"},    std::pair{"z", "m"},
-                                    std::pair{"vx", "m/s"}, std::pair{"vy", "m/s"}, std::pair{"vz", "m/s"}};
-
 std::vector<Column> empty_columns(const SnapshotNames& names) {
-  std::vector<Column> columns = {{"run", 0, "time", "s", {}}, {"run", 0, "step", "s", {}}};
-  const auto add_point = [&](const char* of, std::size_t index) {
-    for (const auto& [name, unit] : point_parts) columns.push_back({of, index, name, unit, {}});
-  };
-  for (std::size_t i = 0; i < names.probes.size(); ++i) add_point("probe", i);
-  for (std::size_t i = 0; i < names.bodies.size(); ++i) {
-    add_point("body", i);
-    columns.push_back({"body", i, "s", "m", {}});
-    for (const char* part : {"fx", "fy", "fz"}) columns.push_back({"body", i, part, "N", {}});
-  }
-  for (std::size_t i = 0; i < names.beams.size(); ++i) columns.push_back({"beam", i, "length", "m", {}});
-  for (const char* part : {"kinetic", "gravity", "axial", "bending", "dissipated", "total", "input"})
-    columns.push_back({"energy", 0, part, "J", {}});
+  std::vector<Column> columns = {
+      {{"run", 0, "run", "time", "s", [](const Snapshot& frame) { return frame.time; }}},
+      {{"run", 0, "run", "step", "s", [](const Snapshot& frame) { return frame.step; }}}};
+  for (HistoryColumn& column : history_columns(names)) columns.push_back({std::move(column)});
   return columns;
-}
-
-/// Appends one value of the frame to each column, in the order of empty_columns().
-void append_values(const Snapshot& frame, std::vector<Column>& columns) {
-  auto column = columns.begin();
-  const auto add = [&](double value) { (column++)->values.push_back(value); };
-  const auto add_vector = [&](const Eigen::Vector3d& v) { std::for_each(v.begin(), v.end(), add); };
-  const auto add_point = [&](const PointRecord& point) {
-    add_vector(point.position);
-    add_vector(point.velocity);
-  };
-  add(frame.time);
-  add(frame.step);
-  std::for_each(frame.probes.begin(), frame.probes.end(), add_point);
-  for (const BodyRecord& body : frame.bodies) {
-    add_point(body.point);
-    add(body.s.value_or(std::numeric_limits<double>::quiet_NaN()));
-    add_vector(body.joint_force);
-  }
-  for (const BeamRecord& beam : frame.beams) add(beam.length);
-  const EnergyRecord& e = frame.energy;
-  for (const double energy : {e.kinetic, e.gravity, e.axial, e.bending, e.dissipated, e.total, e.input})
-    add(energy);
 }
 
 // ---- shapes ----
@@ -104,7 +67,7 @@ struct Field {
 
   /// A value as a byte: 0 is min, 255 is max.
   unsigned char byte_of(double value) const {
-    const double part = max > min ? (value - min) / (max - min) : 0;
+    const double part = max > min && !std::isnan(value) ? (value - min) / (max - min) : 0;
     return static_cast<unsigned char>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
   }
 };
@@ -115,6 +78,8 @@ std::vector<Field> all_fields() {
       {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
       {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
       {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
+      {"shear force", "N", [](const ElementRecord& e) { return e.shear_force; }},
+      {"stress", "Pa", [](const ElementRecord& e) { return e.stress; }},
       {"speed", "m/s", [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }},
       {"axial mismatch", "1",
        [](const ElementRecord& e) -> Eigen::Vector4d {
@@ -131,7 +96,7 @@ struct Survey {
   std::vector<Column> columns;
 
   void add(const Snapshot& frame) {
-    append_values(frame, columns);
+    for (Column& column : columns) column.values.push_back(column.what.value(frame));
     std::vector<std::uint32_t>& counts = element_counts.emplace_back();
     for (const BeamRecord& beam : frame.beams) {
       counts.push_back(static_cast<std::uint32_t>(beam.elements.size()));
@@ -157,8 +122,11 @@ struct Survey {
     rational = rational || weights.minCoeff() != weights.maxCoeff();
     for (Field& field : fields) {
       const Eigen::Vector4d values = field.values(element);
-      field.min = std::min(field.min, values.minCoeff());
-      field.max = std::max(field.max, values.maxCoeff());
+      for (const double value : values) {
+        if (std::isnan(value)) continue;
+        field.min = std::min(field.min, value);
+        field.max = std::max(field.max, value);
+      }
     }
   }
 };
@@ -222,8 +190,10 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
   for (const Column& column : survey.columns) {
     kept_values.clear();
     for (const std::size_t i : kept) kept_values.push_back(column.values[i]);
-    columns.push_back(
-        {{"of", column.of}, {"index", column.index}, {"name", column.name}, {"unit", column.unit}});
+    columns.push_back({{"of", column.what.of},
+                       {"index", column.what.index},
+                       {"name", column.what.quantity},
+                       {"unit", column.what.unit}});
     values.push_back(base64_of(kept_values));
   }
   for (const Field& field : survey.fields)
@@ -233,7 +203,10 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
     counts.insert(counts.end(), survey.element_counts[i].begin(), survey.element_counts[i].end());
   return {{"title", frames.title},
           {"names",
-           {{"probes", frames.names.probes}, {"bodies", frames.names.bodies}, {"beams", frames.names.beams}}},
+           {{"probes", frames.names.probes},
+            {"bodies", frames.names.bodies},
+            {"beams", frames.names.beams},
+            {"reactions", frames.names.reactions}}},
           {"stored_frames", frames.times.size()},
           {"box", {to_json(survey.box.min()), to_json(survey.box.max())}},
           {"columns", columns},
@@ -290,7 +263,9 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   if (frames.times.empty()) throw std::invalid_argument("there is no stored frame to report");
   Survey survey;
   survey.columns = empty_columns(frames.names);
-  for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
+  for_each_frame(
+      frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
+  std::erase_if(survey.fields, [](const Field& field) { return field.min > field.max; });  // in no frame
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);
   data["run"] = run;

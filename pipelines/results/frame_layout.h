@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -28,6 +30,44 @@ inline constexpr EnergyPart energy_parts[] = {{"kinetic", &EnergyRecord::kinetic
                                               {"total", &EnergyRecord::total},
                                               {"input", &EnergyRecord::input}};
 
+/// What a probe knows of its section: variables probe_NAME, columns NAME.COLUMN.
+struct SectionPart {
+  const char* name;
+  const char* column;
+  const char* unit;
+  const char* long_name;
+  double SectionRecord::*value;
+};
+inline constexpr SectionPart section_parts[] = {
+    {"axial_force", "axial_force", "N", "elastic axial force, tension positive", &SectionRecord::axial_force},
+    {"bending_moment", "moment", "N m", "bending moment, signed in a planar model",
+     &SectionRecord::bending_moment},
+    {"shear_force", "shear_force", "N", "shear force, signed in a planar model", &SectionRecord::shear_force},
+    {"stress", "stress", "Pa", "stress of the fibre where it is largest", &SectionRecord::stress}};
+
+/// An extreme value along a beam: variables beam_NAME and, its place, beam_NAME_s; columns NAME.COLUMN.
+struct BeamExtreme {
+  const char* name;
+  const char* column;
+  const char* unit;
+  const char* long_name;
+  Extreme BeamRecord::*value;
+  bool least;  ///< of a run the least counts, else the largest magnitude
+};
+inline constexpr BeamExtreme beam_extremes[] = {
+    {"axial_force_min", "axial_force.min", "N", "least axial force along the beam",
+     &BeamRecord::axial_force_min, true},
+    {"axial_force_max", "axial_force.max", "N", "greatest axial force along the beam",
+     &BeamRecord::axial_force_max, false},
+    {"moment_max", "moment.max", "N m", "bending moment of the largest magnitude", &BeamRecord::moment_max,
+     false},
+    {"shear_force_max", "shear_force.max", "N", "shear force of the largest magnitude",
+     &BeamRecord::shear_force_max, false},
+    {"stress_max", "stress.max", "Pa", "fibre stress of the largest magnitude", &BeamRecord::stress_max,
+     false},
+    {"displacement_max", "displacement.max", "m", "largest displacement of a node from the drawing",
+     &BeamRecord::displacement_max, false}};
+
 struct ElementField {
   const char* name;
   const char* unit;
@@ -50,8 +90,16 @@ inline constexpr SampledField sampled_fields[] = {
     {"strain", "1", "Green's axial strain that carries", &ElementRecord::strain},
     {"curvature", "m-1", "curvature, signed in a planar model", &ElementRecord::curvature},
     {"axial_force", "N", "elastic axial force, tension positive", &ElementRecord::axial_force},
-    {"bending_moment", "N m", "elastic bending moment, signed in a planar model",
-     &ElementRecord::bending_moment}};
+    {"bending_moment", "N m", "bending moment, signed in a planar model", &ElementRecord::bending_moment},
+    {"shear_force", "N", "shear force, signed in a planar model", &ElementRecord::shear_force},
+    {"stress", "Pa", "stress of the fibre where it is largest; missing where the section does not say",
+     &ElementRecord::stress}};
+
+/// Files hold the fill value where there is no number.
+inline double filled(double value) { return std::isnan(value) ? NetcdfFile::fill : value; }
+inline double unfilled(double value) {
+  return value == NetcdfFile::fill ? std::numeric_limits<double>::quiet_NaN() : value;
+}
 
 template <class Array>
 void append(Doubles& values, const Array& array) {

@@ -11,6 +11,7 @@ FrameReader::FrameReader(const std::filesystem::path& file)
     : file_(NetcdfFile::open(file)), title_(file_.attribute("", "title")) {
   if (file_.has_dimension("probe")) names_.probes = file_.texts("probe_name");
   if (file_.has_dimension("body")) names_.bodies = file_.texts("body_name");
+  if (file_.has_dimension("reaction")) names_.reactions = file_.texts("reaction_name");
   names_.beams = file_.texts("beam_name");
   const std::size_t n = file_.size("time"), beams = names_.beams.size();
   if (n == 0) return;
@@ -28,9 +29,11 @@ std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) co
     frame.probes.resize(names_.probes.size());
     frame.bodies.resize(names_.bodies.size());
     frame.beams.resize(names_.beams.size());
+    frame.reactions.resize(names_.reactions.size());
   }
   read_scalars(first, frames);
   read_points(first, frames);
+  read_forces(first, frames);
   read_elements(first, frames);
   read_nodes(first, frames);
   read_steps(first, frames);
@@ -86,6 +89,53 @@ void FrameReader::read_points(std::size_t first, std::vector<Snapshot>& frames) 
       if (s[i * bodies + j] != NetcdfFile::fill) frames[i].bodies[j].s = s[i * bodies + j];
 }
 
+// Results of earlier versions have fewer of these.
+void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) const {
+  const std::size_t n = frames.size();
+  const auto numbers = [&](const std::string& name, std::size_t count, auto target) {
+    if (count == 0 || !file_.has_variable(name)) return;
+    const Doubles values = file_.doubles(name, {first, 0}, {n, count});
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < count; ++j) target(frames[i], j) = unfilled(values[i * count + j]);
+  };
+  const auto vectors = [&](const std::string& name, std::size_t count, auto target) {
+    if (count == 0 || !file_.has_variable(name)) return;
+    const Doubles values = file_.doubles(name, {first, 0, 0}, {n, count, 3});
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < count; ++j)
+        target(frames[i], j) = Eigen::Vector3d(values.data() + 3 * (i * count + j));
+  };
+  const std::size_t probes = names_.probes.size(), reactions = names_.reactions.size();
+  vectors(
+      "probe_displacement", probes,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].displacement; });
+  for (const SectionPart& part : section_parts)
+    numbers(
+        std::string("probe_") + part.name,
+        probes, [&](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].section.*part.value; });
+  numbers(
+      "body_holding_force", names_.bodies.size(),
+      [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].holding_force; });
+  for (const BeamExtreme& extreme : beam_extremes) {
+    const std::string variable = std::string("beam_") + extreme.name;
+    numbers(
+        variable, names_.beams.size(),
+        [&](Snapshot & f, std::size_t j) -> auto& { return (f.beams[j].*extreme.value).value; });
+    numbers(
+        variable + "_s", names_.beams.size(), [&](Snapshot & f, std::size_t j) -> auto& {
+          return (f.beams[j].*extreme.value).s;
+        });
+  }
+  vectors(
+      "reaction_position", reactions,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].position; });
+  vectors(
+      "reaction_force", reactions, [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].force; });
+  vectors(
+      "reaction_couple", reactions,
+      [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].couple; });
+}
+
 void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames) const {
   const std::size_t beams = names_.beams.size();
   const auto counts = element_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
@@ -102,14 +152,17 @@ void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames
     scalars.push_back(file_.has_variable(field.name) ? file_.doubles(field.name, {start}, {count})
                                                      : Doubles(count, 0));
   for (const SampledField& field : sampled_fields)
-    fields.push_back(file_.doubles(field.name, {start, 0}, {count, sample_count}));
+    fields.push_back(file_.has_variable(field.name)
+                         ? file_.doubles(field.name, {start, 0}, {count, sample_count})
+                         : Doubles(count * sample_count, NetcdfFile::fill));
   std::size_t i = 0;
   for_each_element(frames, [&](ElementRecord& e) {
     e.control_points = Eigen::Map<const Eigen::Matrix4d>(points.data() + 16 * i);
     for (std::size_t k = 0; k < scalars.size(); ++k) e.*element_fields[k].value = scalars[k][i];
     e.velocity = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(velocity.data() + 12 * i);
     for (std::size_t k = 0; k < fields.size(); ++k)
-      e.*sampled_fields[k].values = Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i);
+      e.*sampled_fields[k].values =
+          Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i).unaryExpr(&unfilled);
     ++i;
   });
 }

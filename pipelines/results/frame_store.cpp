@@ -12,7 +12,8 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
     : file_(NetcdfFile::create(file)),
       probe_count_(names.probes.size()),
       body_count_(names.bodies.size()),
-      beam_count_(names.beams.size()) {
+      beam_count_(names.beams.size()),
+      reaction_count_(names.reactions.size()) {
   file_.put_attribute("", "Conventions", "CF-1.8");
   file_.put_attribute("", "title", title);
   file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
@@ -24,8 +25,16 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
   if (body_count_ > 0) {
     define_of_time("body_joint_force", {"body", "xyz"}, "N", "force of the beam on the body");
     define_of_time("body_s", {"body"}, "m", "reference arc length of the body from the start of its beam");
+    define_of_time("body_holding_force", {"body"}, "N",
+                   "force along the beam that keeps the body where it is prescribed or has stopped");
+  }
+  if (probe_count_ > 0) {
+    define_of_time("probe_displacement", {"probe", "xyz"}, "m", "displacement from the drawing");
+    for (const SectionPart& part : section_parts)
+      define_of_time(std::string("probe_") + part.name, {"probe"}, part.unit, part.long_name);
   }
   define_beams(names.beams);
+  define_reactions(names.reactions);
   define_steps();
 }
 
@@ -62,6 +71,11 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   file_.define_dimension("sample", sample_count);
   file_.define_texts("beam_name", "beam", names);
   define_of_time("beam_length", {"beam"}, "m", "deformed length of the beam");
+  for (const BeamExtreme& extreme : beam_extremes) {
+    const std::string variable = std::string("beam_") + extreme.name;
+    define_of_time(variable, {"beam"}, extreme.unit, extreme.long_name);
+    define_of_time(variable + "_s", {"beam"}, "m", "where: reference arc length");
+  }
   define_of_time("element_count", {"beam"}, "1", "number of elements of the beam", Type::integer);
   define_of_time("node_count", {"beam"}, "1", "number of nodes of the beam", Type::integer);
   file_.put_attribute("element_count", "sample_dimension", "element");
@@ -77,12 +91,23 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   for (const SampledField& field : sampled_fields)
     define(field.name, {"element", "sample"}, field.unit, field.long_name);
   define("velocity", {"element", "sample", "xyz"}, "m s-1", "velocity of the material");
-  for (const char* field : {"strain", "curvature", "axial_force", "bending_moment", "velocity"})
-    file_.put_attribute(field, "comment", "samples at u = 0, 1/3, 2/3, 1 of the element's cubic");
+  const std::string samples = "samples at u = 0, 1/3, 2/3, 1 of the element's cubic";
+  for (const SampledField& field : sampled_fields) file_.put_attribute(field.name, "comment", samples);
+  file_.put_attribute("velocity", "comment", samples);
   define("node_position", {"node", "xyz"}, "m", "position of the node");
   define("node_slope", {"node", "xyz"}, "1",
          "derivative of position by reference arc length, left at a kink");
   define("node_s", {"node"}, "m", "reference arc length of the node");
+}
+
+void FrameStore::define_reactions(const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  file_.define_dimension("reaction", names.size());
+  file_.define_texts("reaction_name", "reaction", names);
+  define_of_time("reaction_position", {"reaction", "xyz"}, "m", "where the support or joint is");
+  define_of_time("reaction_force", {"reaction", "xyz"}, "N",
+                 "force of the support on its beam, of the second of two joined beams on the first");
+  define_of_time("reaction_couple", {"reaction", "xyz"}, "N m", "likewise the couple");
 }
 
 void FrameStore::define_steps() {
@@ -127,6 +152,13 @@ void FrameStore::write(std::span<const Snapshot> frames) {
     put("probe_velocity", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const PointRecord& probe : f.probes) append(x, probe.velocity);
         }));
+    put("probe_displacement", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
+          for (const ProbeRecord& probe : f.probes) append(x, probe.displacement);
+        }));
+    for (const SectionPart& part : section_parts)
+      put(std::string("probe_") + part.name, {probe_count_}, reals([&](const Snapshot& f, Doubles& x) {
+            for (const ProbeRecord& probe : f.probes) x.push_back(filled(probe.section.*part.value));
+          }));
   }
   if (body_count_ > 0) {
     put("body_position", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
@@ -141,10 +173,33 @@ void FrameStore::write(std::span<const Snapshot> frames) {
     put("body_s", {body_count_}, reals([](const Snapshot& f, Doubles& x) {
           for (const BodyRecord& body : f.bodies) x.push_back(body.s.value_or(NetcdfFile::fill));
         }));
+    put("body_holding_force", {body_count_}, reals([](const Snapshot& f, Doubles& x) {
+          for (const BodyRecord& body : f.bodies) x.push_back(body.holding_force);
+        }));
   }
   put("beam_length", {beam_count_}, reals([](const Snapshot& f, Doubles& x) {
         for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
       }));
+  for (const BeamExtreme& extreme : beam_extremes) {
+    const std::string variable = std::string("beam_") + extreme.name;
+    const auto of_beams = [&](double Extreme::*part) {
+      return reals([&](const Snapshot& f, Doubles& x) {
+        for (const BeamRecord& beam : f.beams) x.push_back(filled(beam.*extreme.value.*part));
+      });
+    };
+    put(variable, {beam_count_}, of_beams(&Extreme::value));
+    put(variable + "_s", {beam_count_}, of_beams(&Extreme::s));
+  }
+  if (reaction_count_ > 0) {
+    const auto of_reactions = [&](Eigen::Vector3d ReactionRecord::*part) {
+      return reals([&](const Snapshot& f, Doubles& x) {
+        for (const ReactionRecord& reaction : f.reactions) append(x, reaction.*part);
+      });
+    };
+    put("reaction_position", {reaction_count_, 3}, of_reactions(&ReactionRecord::position));
+    put("reaction_force", {reaction_count_, 3}, of_reactions(&ReactionRecord::force));
+    put("reaction_couple", {reaction_count_, 3}, of_reactions(&ReactionRecord::couple));
+  }
   Integers element_counts, node_counts;
   for (const Snapshot& frame : frames)
     for (const BeamRecord& beam : frame.beams) {
@@ -167,7 +222,8 @@ void FrameStore::write_elements(std::span<const Snapshot> frames) {
     // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
     append(points, e.control_points);
     for (std::size_t i = 0; i < scalars.size(); ++i) scalars[i].push_back(e.*element_fields[i].value);
-    for (std::size_t i = 0; i < fields.size(); ++i) append(fields[i], e.*sampled_fields[i].values);
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      for (const double value : e.*sampled_fields[i].values) fields[i].push_back(filled(value));
     append(velocity, e.velocity);
     ++count;
   });

@@ -13,15 +13,17 @@ namespace nurbeam {
 ///   time(time), step(time), newton_iterations(time), energy_*(time)
 ///   probe_position, probe_velocity (time, probe, xyz); body_position, body_velocity, body_joint_force (time,
 ///   body, xyz); body_s (time, body), the fill value after a body has left; beam_length (time, beam)
-///   probe_name, body_name, beam_name
+///   probe_displacement, probe_* of section_parts; body_holding_force; beam_* and beam_*_s of beam_extremes;
+///   reaction_position, reaction_force, reaction_couple (time, reaction, xyz)
+///   probe_name, body_name, beam_name, reaction_name
 /// and, because the elements of a beam and the steps between two frames change in number, contiguous ragged
 /// arrays (CF conventions, 9.3.3): the elements of the first beam at the first time, of the second beam, ...,
 /// of the first beam at the second time, ...:
 ///   element_count, node_count (time, beam): how many of the rows below belong to a beam at a time
 ///   control_points (element, control_point, homogeneous): (w x, w y, w z, w); element_s_start, element_s_end
-///   (element); strain, curvature, axial_force, bending_moment (element, sample), velocity (element, sample,
-///   xyz); node_position, node_slope (node, xyz); node_s (node)
-///   solver_step_count (time); solver_step_time, _size, _newton_iterations, _rejected (solver_step)
+///   (element); the sampled_fields (element, sample), velocity (element, sample, xyz); node_position,
+///   node_slope (node, xyz); node_s (node) solver_step_count (time); solver_step_time, _size,
+///   _newton_iterations, _rejected (solver_step)
 class FrameStore {
  public:
   /// Makes the file, without frames. This and the others throw std::runtime_error (file and reason).
@@ -36,13 +38,14 @@ class FrameStore {
   void define_scalars();
   void define_points(const std::string& kind, const std::vector<std::string>& names);
   void define_beams(const std::vector<std::string>& names);
+  void define_reactions(const std::vector<std::string>& names);
   void define_steps();
   void write_elements(std::span<const Snapshot> frames);
   void write_nodes(std::span<const Snapshot> frames);
   void write_steps(std::span<const Snapshot> frames);
 
   NetcdfFile file_;
-  std::size_t probe_count_, body_count_, beam_count_;
+  std::size_t probe_count_, body_count_, beam_count_, reaction_count_;
   std::size_t frames_ = 0, elements_ = 0, nodes_ = 0, steps_ = 0;
 };
 

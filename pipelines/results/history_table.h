@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "fem/motion/snapshot.h"
+#include "pipelines/results/history_columns.h"
 
 namespace nurbeam {
 
@@ -18,14 +18,13 @@ class HistoryTable {
   void close();
 
  private:
-  void add_point_columns(const std::string& name);
-  void add_point(const PointRecord& point);
   void add_number(double value);
   void write_row();
   void check_stream() const;
 
   std::filesystem::path file_;
   std::ofstream stream_;
+  std::vector<HistoryColumn> columns_;
   std::string row_;
 };
 

@@ -13,6 +13,7 @@
 
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/results/base64.h"
+#include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {
 
@@ -114,26 +115,26 @@ constexpr int vtk_order[] = {0, 3, 1, 2};
 
 Grid beam_grid(const std::vector<BeamRecord>& beams) {
   Grid grid{.cell_type = bezier_curve_cell, .points_per_cell = 4};
-  grid.point_data = {{"RationalWeights", 1, {}}, {"strain", 1, {}},         {"curvature", 1, {}},
-                     {"axial_force", 1, {}},     {"bending_moment", 1, {}}, {"velocity", 3, {}}};
+  grid.point_data = {{"RationalWeights", 1, {}}};
+  for (const SampledField& field : sampled_fields) grid.point_data.push_back({field.name, 1, {}});
+  grid.point_data.push_back({"velocity", 3, {}});
+  constexpr int scalars = std::size(sampled_fields);
   grid.cell_data = {
       {"beam", 1, {}}, {"element", 1, {}}, {"s_start", 1, {}}, {"s_end", 1, {}}, {"axial_mismatch", 1, {}}};
   for (std::size_t b = 0; b < beams.size(); ++b)
     for (std::size_t i = 0; i < beams[b].elements.size(); ++i) {
       const ElementRecord& e = beams[b].elements[i];
       const Eigen::Vector4d weights = e.control_points.row(3);
-      Eigen::Matrix<double, 4, 7> values;  // by control point, in the order of point_data after the weights
-      values << rational_coefficients(e.strain, weights), rational_coefficients(e.curvature, weights),
-          rational_coefficients(e.axial_force, weights), rational_coefficients(e.bending_moment, weights),
-          rational_coefficients(e.velocity.row(0), weights),
-          rational_coefficients(e.velocity.row(1), weights),
-          rational_coefficients(e.velocity.row(2), weights);
+      Eigen::Matrix<double, 4, scalars + 3> values;  // by control point, as point_data after the weights
+      for (int k = 0; k < scalars; ++k)
+        values.col(k) = rational_coefficients(e.*sampled_fields[k].values, weights);
+      for (int k = 0; k < 3; ++k) values.col(scalars + k) = rational_coefficients(e.velocity.row(k), weights);
       for (const int k : vtk_order) {
         const Eigen::Vector3d p = e.control_points.col(k).head<3>() / weights[k];
         grid.points.insert(grid.points.end(), p.begin(), p.end());
         grid.point_data[0].values.push_back(weights[k]);
-        for (int column = 0; column < 7; ++column)
-          grid.point_data[std::min(1 + column, 5)].values.push_back(values(k, column));
+        for (int column = 0; column < scalars + 3; ++column)
+          grid.point_data[1 + std::min(column, scalars)].values.push_back(values(k, column));
       }
       const double of_cell[] = {static_cast<double>(b), static_cast<double>(i), e.s_start, e.s_end,
                                 e.axial_mismatch};
@@ -142,13 +143,27 @@ Grid beam_grid(const std::vector<BeamRecord>& beams) {
   return grid;
 }
 
+void append(std::vector<double>& values, const Eigen::Vector3d& x) {
+  values.insert(values.end(), x.begin(), x.end());
+}
+
+Grid reaction_grid(const std::vector<ReactionRecord>& reactions) {
+  Grid grid{.cell_type = vertex_cell, .points_per_cell = 1};
+  grid.point_data = {{"force", 3, {}}, {"couple", 3, {}}};
+  grid.cell_data = {{"reaction", 1, {}}};
+  for (const ReactionRecord& reaction : reactions) {
+    append(grid.points, reaction.position);
+    append(grid.point_data[0].values, reaction.force);
+    append(grid.point_data[1].values, reaction.couple);
+    grid.cell_data[0].values.push_back(static_cast<double>(grid.cell_data[0].values.size()));
+  }
+  return grid;
+}
+
 Grid body_grid(const std::vector<BodyRecord>& bodies) {
   Grid grid{.cell_type = vertex_cell, .points_per_cell = 1};
   grid.point_data = {{"velocity", 3, {}}, {"joint_force", 3, {}}, {"s", 1, {}}};
   grid.cell_data = {{"body", 1, {}}};
-  const auto append = [](std::vector<double>& values, const Eigen::Vector3d& x) {
-    values.insert(values.end(), x.begin(), x.end());
-  };
   for (const BodyRecord& body : bodies) {
     append(grid.points, body.point.position);
     append(grid.point_data[0].values, body.point.velocity);
@@ -194,6 +209,8 @@ void ParaviewSeries::write(const Snapshot& frame) {
   write_grid(directory_ / frame_file("beams", i), frame.time, beam_grid(frame.beams));
   if (!names_.bodies.empty())
     write_grid(directory_ / frame_file("bodies", i), frame.time, body_grid(frame.bodies));
+  if (!names_.reactions.empty())
+    write_grid(directory_ / frame_file("reactions", i), frame.time, reaction_grid(frame.reactions));
   times_.push_back(frame.time);
 }
 
@@ -209,6 +226,7 @@ void ParaviewSeries::write_index() const {
         for (std::size_t i = 0; i < times_.size(); ++i) {
           entry(i, 0, "beams");
           if (!names_.bodies.empty()) entry(i, 1, "bodies");
+          if (!names_.reactions.empty()) entry(i, 2, "reactions");
         }
         out << "</Collection>\n</VTKFile>\n";
       });

@@ -7,7 +7,7 @@
 namespace nurbeam {
 
 /// Writes frames for ParaView: frames.pvd, which names the time of each file, and frames/beams_000000.vtu,
-/// frames/bodies_000000.vtu, ...
+/// frames/bodies_000000.vtu, frames/reactions_000000.vtu, ...
 ///
 /// Each element is one cell VTK_BEZIER_CURVE of degree 3 with its own four points and the point data
 /// `RationalWeights`: the exact curve. Strain, curvature, axial force, bending moment and velocity are point

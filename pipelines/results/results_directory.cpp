@@ -33,7 +33,7 @@ constexpr const char* frames_directory = "frames";
 
 /// The names that a run gives to the files in frames/.
 bool is_a_frame(const std::string& name) {
-  static const std::regex ours(R"((beams|bodies)_[0-9]+\.vtu(\.part)?)");
+  static const std::regex ours(R"((beams|bodies|reactions)_[0-9]+\.vtu(\.part)?)");
   return std::regex_match(name, ours);
 }
 

@@ -44,6 +44,14 @@ Json to_json(const Mismatch& mismatch) {
           {"time [s]", mismatch.time}};
 }
 
+Json to_json(const RunExtreme& extreme) {
+  return {{"quantity", extreme.quantity},
+          {"unit", extreme.unit},
+          {"value", extreme.value},
+          {"s [m]", extreme.s ? Json(*extreme.s) : Json()},
+          {"time [s]", extreme.time}};
+}
+
 template <class Item>
 Json list(const std::vector<Item>& items) {
   Json list = Json::array();
@@ -65,6 +73,7 @@ Json to_json(const RunSummary& summary) {
           {"newton_iterations", summary.newton_iterations},
           {"energy_drift [J]", summary.energy_drift},
           {"axial_mismatch", to_json(summary.axial_mismatch)},
+          {"extremes", list(summary.extremes)},
           {"wall_times [s]",
            {{"import", wall.import},
             {"model", wall.model},

@@ -7,6 +7,7 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/run_event.h"
 #include "fem/motion/snapshot.h"
+#include "pipelines/results/run_extremes.h"
 
 namespace nurbeam {
 
@@ -50,6 +51,7 @@ struct RunSummary {
   double energy_drift =
       0;  ///< largest departure of the total energy, with the dissipated, from its start [J]
   Mismatch axial_mismatch;
+  std::vector<RunExtreme> extremes;
   std::vector<Diagnostic> diagnostics;
   std::vector<std::filesystem::path> files;  ///< written, relative to the results directory
 };

@@ -205,6 +205,7 @@ class Run {
     summary_.newton_iterations = simulated.newton_iterations;
     summary_.energy_drift = simulated.energy_drift;
     summary_.axial_mismatch = outputs.axial_mismatch();
+    summary_.extremes = outputs.extremes();
     summary_.events = simulated.events;
     const SnapshotNames names = snapshot_names(built_);
     summary_.beams = names.beams;

@@ -1,5 +1,9 @@
 #include "pipelines/run/run_outputs.h"
 
+#include <algorithm>
+
+#include "nurbs/number_text.h"
+
 namespace nurbeam {
 
 namespace {
@@ -13,7 +17,15 @@ void to_world(const ModelFrame& f, PointRecord& p) {
 }
 
 Snapshot to_world(const ModelFrame& f, Snapshot frame) {
-  for (PointRecord& p : frame.probes) to_world(f, p);
+  for (ProbeRecord& p : frame.probes) {
+    to_world(f, p);
+    p.displacement = f.direction_to_world(p.displacement);
+  }
+  for (ReactionRecord& reaction : frame.reactions) {
+    reaction.position = f.to_world(reaction.position);
+    reaction.force = f.direction_to_world(reaction.force);
+    reaction.couple = f.direction_to_world(reaction.couple);
+  }
   for (BodyRecord& body : frame.bodies) {
     to_world(f, body.point);
     body.joint_force = f.direction_to_world(body.joint_force);
@@ -34,6 +46,29 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
   return frame;
 }
 
+// "reaction.cable.start", where the support has no name of its own.
+std::string reaction_name(const BeamModel& model, const Support& support) {
+  if (!support.name.empty()) return support.name;
+  const Beam& beam = model.beams[support.beam];
+  const bool open = !beam.is_ring();
+  const std::string place = open && support.s == 0                     ? ".start"
+                            : open && support.s == beam.curve.length() ? ".end"
+                                                                       : "@" + text_of(support.s);
+  return "reaction." + beam.name + place;
+}
+std::string reaction_name(const BeamModel& model, const BeamJoint& joint) {
+  if (!joint.name.empty()) return joint.name;
+  return "joint." + model.beams[joint.beam_a].name + "." + model.beams[joint.beam_b].name;
+}
+
+// With a number behind it where others have the name.
+std::string distinct(const std::string& name, const std::vector<std::string>& others) {
+  std::string free = name;
+  for (int i = 2; std::find(others.begin(), others.end(), free) != others.end(); ++i)
+    free = name + " " + std::to_string(i);
+  return free;
+}
+
 ResultsWriter results_writer(const std::string& title, const BuiltModel& built,
                              const std::filesystem::path& directory, const Checkpoint* from) {
   if (from) return ResultsWriter::resume(directory, snapshot_names(built), title, from->snapshots);
@@ -51,6 +86,10 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
   for (const Beam& beam : built.model.beams) names.beams.push_back(beam.name);
+  for (const Constraint& constraint : built.model.constraints)
+    names.reactions.push_back(
+        std::visit([&](const auto& of) { return distinct(reaction_name(built.model, of), names.reactions); },
+                   constraint));
   return names;
 }
 
@@ -65,8 +104,13 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
   if (!from || from->snapshots == 0) return;
   const StoredFrames stored(directory);
-  for (std::size_t i = 0; i < from->snapshots; ++i)
-    mismatch_.look_at(stored.read(i, 1)[0], stored.names().beams);
+  for (std::size_t i = 0; i < from->snapshots; ++i) look_at(stored.read(i, 1)[0]);
+}
+
+void RunOutputs::look_at(const Snapshot& frame) {
+  const SnapshotNames names = snapshot_names(built_);
+  mismatch_.look_at(frame, names.beams);
+  extremes_.look_at(frame, names);
 }
 
 template <class Work>
@@ -81,7 +125,7 @@ void RunOutputs::write(const Snapshot& local) {
     const Snapshot frame = to_world(built_.frame, local);
     results_.write(frame);
     if (paraview_) paraview_->write(frame);
-    mismatch_.look_at(frame, snapshot_names(built_).beams);
+    look_at(frame);
     cad_.write(frame, diagnostics_);
   });
 }

@@ -35,6 +35,7 @@ class RunOutputs {
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   /// The largest over all frames.
   const Mismatch& axial_mismatch() const { return mismatch_; }
+  const std::vector<RunExtreme>& extremes() const { return extremes_.list(); }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
 
@@ -42,6 +43,7 @@ class RunOutputs {
   using Clock = std::chrono::steady_clock;
   template <class Work>
   void timed(Work work);
+  void look_at(const Snapshot& frame);
 
   const BuiltModel& built_;
   std::filesystem::path directory_;
@@ -53,6 +55,7 @@ class RunOutputs {
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;
+  RunExtremes extremes_;
 };
 
 }  // namespace nurbeam

@@ -195,7 +195,7 @@ VerifyResult pendulum_accuracy() {
     const RunRecord run = swing(CurvatureMeasure::spatial, elements, times, step);
     double distance = 0, AB = 0;
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const std::vector<PointRecord>&p = run.frames[i].probes, &q = fine.frames[i].probes;
+      const std::vector<ProbeRecord>&p = run.frames[i].probes, &q = fine.frames[i].probes;
       distance = std::max(distance, (p[1].position - q[1].position).norm());
       AB = std::max(
           AB, std::abs((p[1].position - p[0].position).norm() - (q[1].position - q[0].position).norm()));

@@ -34,7 +34,7 @@ class Rest {
   Eigen::Vector2d position(double s) const { return material_point(system_, state_, 0, s).r.head<2>(); }
   double length() const { return beam_length(system_, state_, 0); }
   /// Pull of the first support on the beam, along the first axis, outwards [N].
-  double pull() const { return -support_force(system_, state_.lambda, 0).x(); }
+  double pull() const { return -reaction(system_, state_, state_.lambda, 0).force.x(); }
 
  private:
   BeamSystem system_;

@@ -1,6 +1,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fem/motion/snapshot.h"
 
 namespace nurbeam::test {
@@ -10,6 +12,10 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   const auto equal = [](const PointRecord& x, const PointRecord& y) {
     return x.position == y.position && x.velocity == y.velocity;
   };
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  const auto alike = [&](const Extreme& x, const Extreme& y) {
+    return same(x.value, y.value) && same(x.s, y.s);
+  };
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.newton_iterations, b.newton_iterations);
@@ -18,16 +24,32 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   EXPECT_EQ(a.energy.input, b.energy.input);
   EXPECT_EQ(a.energy.total, b.energy.total);
   ASSERT_EQ(a.probes.size(), b.probes.size());
-  for (std::size_t i = 0; i < a.probes.size(); ++i) EXPECT_TRUE(equal(a.probes[i], b.probes[i]));
+  for (std::size_t i = 0; i < a.probes.size(); ++i) {
+    EXPECT_TRUE(equal(a.probes[i], b.probes[i]));
+    EXPECT_EQ(a.probes[i].displacement, b.probes[i].displacement);
+    const SectionRecord &x = a.probes[i].section, &y = b.probes[i].section;
+    EXPECT_EQ(x.axial_force, y.axial_force);
+    EXPECT_EQ(x.bending_moment, y.bending_moment);
+    EXPECT_EQ(x.shear_force, y.shear_force);
+    EXPECT_TRUE(same(x.stress, y.stress));
+  }
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
     EXPECT_TRUE(equal(a.bodies[i].point, b.bodies[i].point));
     EXPECT_EQ(a.bodies[i].s, b.bodies[i].s);
     EXPECT_EQ(a.bodies[i].joint_force, b.bodies[i].joint_force);
+    EXPECT_EQ(a.bodies[i].holding_force, b.bodies[i].holding_force);
   }
   ASSERT_EQ(a.beams.size(), b.beams.size());
   for (std::size_t i = 0; i < a.beams.size(); ++i) {
-    EXPECT_EQ(a.beams[i].length, b.beams[i].length);
+    const BeamRecord &one = a.beams[i], &other = b.beams[i];
+    EXPECT_EQ(one.length, other.length);
+    EXPECT_TRUE(alike(one.axial_force_min, other.axial_force_min));
+    EXPECT_TRUE(alike(one.axial_force_max, other.axial_force_max));
+    EXPECT_TRUE(alike(one.moment_max, other.moment_max));
+    EXPECT_TRUE(alike(one.shear_force_max, other.shear_force_max));
+    EXPECT_TRUE(alike(one.stress_max, other.stress_max));
+    EXPECT_TRUE(alike(one.displacement_max, other.displacement_max));
     EXPECT_EQ(a.beams[i].node_positions, b.beams[i].node_positions);
     EXPECT_EQ(a.beams[i].node_slopes, b.beams[i].node_slopes);
     EXPECT_EQ(a.beams[i].node_s, b.beams[i].node_s);
@@ -42,8 +64,16 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
       EXPECT_EQ(x.axial_force, y.axial_force);
       EXPECT_EQ(x.axial_mismatch, y.axial_mismatch);
       EXPECT_EQ(x.bending_moment, y.bending_moment);
+      EXPECT_EQ(x.shear_force, y.shear_force);
+      for (int k = 0; k < 4; ++k) EXPECT_TRUE(same(x.stress[k], y.stress[k]));
       EXPECT_EQ(x.velocity, y.velocity);
     }
+  }
+  ASSERT_EQ(a.reactions.size(), b.reactions.size());
+  for (std::size_t i = 0; i < a.reactions.size(); ++i) {
+    EXPECT_EQ(a.reactions[i].position, b.reactions[i].position);
+    EXPECT_EQ(a.reactions[i].force, b.reactions[i].force);
+    EXPECT_EQ(a.reactions[i].couple, b.reactions[i].couple);
   }
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i) {

@@ -4,7 +4,7 @@ import { read_data } from './data.js';
 import { common_exponent, element, number, scaled_unit } from './format.js';
 import { Player, speeds } from './player.js';
 import { Plot, plots_of } from './plots.js';
-import { diagnostics_list, energy_table, events_table, model_tables, run_tables, values_tables } from './tables.js';
+import { diagnostics_list, energy_table, events_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
 import { View } from './view.js';
 
 const $ = (id) => document.getElementById(id);
@@ -238,6 +238,7 @@ function start_plots() {
 function fill_tables() {
   const fill = (id, ...parts) => $(id).append(...parts.flat().filter(Boolean));
   fill('model', model_tables(run));
+  fill('extremes', [extremes_table(run, (time) => player.go_to_time(time))]);
   fill('balance', energy_table(data));
   fill('events', events_table(events, (t) => player.go_to_time(t)));
   fill('warnings', diagnostics_list(run?.diagnostics ?? []));

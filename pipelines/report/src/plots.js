@@ -220,10 +220,29 @@ export function plots_of(data) {
     plots.push({ title: 'Place on the beam s', unit: 'm', id: 's',
       series: names.bodies.map((name, i) => ({ name, values: values('body', i, 's') })) });
     plots.push({ title: 'Joint force', unit: 'N', id: 'joint-force',
-      series: names.bodies.map((name, i) => ({ name, values: length_of('body', i, ['fx', 'fy', 'fz']) })) });
+      series: names.bodies.map((name, i) => ({ name, values: length_of('body', i, ['joint_force.x', 'joint_force.y', 'joint_force.z']) })) });
   }
   plots.push({ title: 'Length of the beam', unit: 'm', id: 'length',
     series: names.beams.map((name, i) => ({ name, values: values('beam', i, 'length') })) });
+  if (names.reactions.length) {
+    plots.push({ title: 'Reactions', unit: 'N', id: 'reactions',
+      series: names.reactions.map((name, i) => ({ name, values: length_of('reaction', i, ['fx', 'fy', 'fz']) })) });
+  }
+  const along = (title, unit, id, of_beams, of_probes) => {
+    const series = names.beams.flatMap((name, i) => of_beams.map(([key, word]) => (
+      { name: word ? `${name}, ${word}` : name, values: values('beam', i, key) })));
+    if (of_probes) {
+      series.push(...names.probes.map((name, i) => ({ name, values: values('probe', i, of_probes) })));
+    }
+    const there = series.filter((one) => one.values.some((value) => !Number.isNaN(value)));
+    if (there.length) {
+      plots.push({ title, unit, id, series: there });
+    }
+  };
+  along('Axial force', 'N', 'axial-force', [['axial_force.min', 'least'], ['axial_force.max', 'greatest']], 'axial_force');
+  along('Bending moment', 'N m', 'moment', [['moment.max', 'largest']], 'moment');
+  along('Stress', 'Pa', 'stress', [['stress.max', 'largest']], 'stress');
+  along('Displacement from the drawing', 'm', 'displacement', [['displacement.max', 'largest']], null);
   const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'];
   plots.push({ title: 'Energy', unit: 'J', id: 'energy',
     series: energies.map((name) => ({ name, values: values('energy', 0, name) })) });

@@ -8,7 +8,7 @@ function name_and_unit(key) {
 }
 
 function cell_text(value) {
-  if (value === null || value === undefined || value === '') {
+  if (value === null || value === undefined || value === '' || Number.isNaN(value)) {
     return '–';
   }
   if (Array.isArray(value)) {
@@ -101,6 +101,26 @@ export function energy_table(data) {
   ];
 }
 
+/** The extremes of the run; a button shows their time. */
+export function extremes_table(run, go_to_time) {
+  const extremes = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
+  if (!extremes.length) {
+    return element('p', { class: 'none' }, 'run.json of these results does not name any.');
+  }
+  const moving = extremes.some((extreme) => extreme['time [s]'] > 0);
+  const rows = extremes.map((extreme) => element('tr', {},
+    element('th', { scope: 'row' }, extreme.quantity),
+    element('td', { class: 'number' }, number(extreme.value)),
+    element('td', {}, unit_text(extreme.unit)),
+    element('td', { class: 'number' }, cell_text(extreme['s [m]'])),
+    moving ? element('td', { class: 'number' }, button_to(extreme['time [s]'], go_to_time)) : null));
+  const head = (name, unit) => element('th', { scope: 'col', class: unit ? 'number' : null }, name,
+    unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
+  return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': 'Extremes' },
+    element('table', {}, element('thead', {}, element('tr', {}, head('quantity'), element('th', { scope: 'col', class: 'number' }, 'value'),
+      head('unit'), head('at s', 'm'), moving ? head('at time', 's') : null)), element('tbody', {}, ...rows)));
+}
+
 /** Events with a button that shows their time. */
 export function events_table(events, go_to_time) {
   if (!events.length) {
@@ -166,7 +186,12 @@ export function values_tables(data) {
   return [
     table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),
       ...rows('probe', data.names.probes, place)]),
-    table_of('Joint forces', rows('body', data.names.bodies, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz']])),
+    table_of('Joint forces', rows('body', data.names.bodies, [['Fx [N]', 'joint_force.x'], ['Fy [N]', 'joint_force.y'], ['Fz [N]', 'joint_force.z']])),
+    table_of('Reactions', rows('reaction', data.names.reactions, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz'],
+      ['Mx [N m]', 'mx'], ['My [N m]', 'my'], ['Mz [N m]', 'mz']])),
+    table_of('Sections at probes', rows('probe', data.names.probes, [['axial force [N]', 'axial_force'],
+      ['bending moment [N m]', 'moment'], ['shear force [N]', 'shear_force'], ['stress [Pa]', 'stress'],
+      ['ux [m]', 'ux'], ['uy [m]', 'uy'], ['uz [m]', 'uz']])),
     table_of('Beams', rows('beam', data.names.beams, [['deformed length [m]', 'length']])),
   ];
 }

@@ -33,6 +33,8 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
       element.axial_force = four();
       element.axial_mismatch = four()[0];
       element.bending_moment = four();
+      element.shear_force = four();
+      element.stress = four();
       element.velocity = Eigen::Matrix<double, 3, 4>::NullaryExpr([&] { return number(); });
       record.elements.push_back(element);
     }
@@ -42,6 +44,9 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
       record.node_s.push_back(number());
     }
     record.length = number();
+    for (Extreme* extreme : {&record.axial_force_min, &record.axial_force_max, &record.moment_max,
+                             &record.shear_force_max, &record.stress_max, &record.displacement_max})
+      *extreme = {number(), number()};
     return record;
   };
   Snapshot frame{};
@@ -49,15 +54,24 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
   frame.step = 1e-3;
   frame.newton_iterations = 7;
   for (int i = 0; i < elements; ++i) frame.steps.push_back({number(), number(), i, 2 * i});
-  frame.probes = {point()};
-  frame.bodies = {{point(), number(), vector()}};
+  ProbeRecord probe;
+  static_cast<PointRecord&>(probe) = point();
+  probe.displacement = vector();
+  probe.section = {0, 0, number(), number(), number(), number()};
+  frame.probes = {probe};
+  frame.bodies = {{point(), number(), vector(), number()}};
   if (body_has_left) frame.bodies[0].s.reset();
   frame.beams = {beam(elements), beam(2)};
+  frame.beams[1].stress_max = {};  // its section does not say
+  frame.reactions = {{vector(), vector(), vector()}, {vector(), vector(), vector()}};
   frame.energy = {number(), number(), number(), number(), number(), number()};
   return frame;
 }
 
-const SnapshotNames names = {.probes = {"tip"}, .bodies = {"trolley"}, .beams = {"cable", "arch"}};
+const SnapshotNames names = {.probes = {"tip"},
+                             .bodies = {"trolley"},
+                             .beams = {"cable", "arch"},
+                             .reactions = {"mast", "reaction.arch.end"}};
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -83,7 +97,16 @@ TEST(Results, HistoriesHaveTheColumnsOfTheContract) {
           "time [s],tip.x [m],tip.y [m],tip.z [m],tip.vx [m/s],tip.vy [m/s],tip.vz [m/s],trolley.x [m],"
           "trolley.y [m],trolley.z [m],trolley.vx [m/s],trolley.vy [m/s],trolley.vz [m/s],trolley.s [m],"
           "cable.length [m],arch.length [m],energy.kinetic [J],energy.gravity [J],energy.axial [J],"
-          "energy.bending [J],energy.dissipated [J],energy.total [J],energy.input [J]"});
+          "energy.bending [J],energy.dissipated [J],energy.total [J],energy.input [J],"
+          "tip.ux [m],tip.uy [m],tip.uz [m],tip.axial_force [N],tip.moment [N m],tip.shear_force [N],"
+          "tip.stress [Pa],trolley.joint_force.x [N],trolley.joint_force.y [N],trolley.joint_force.z [N],"
+          "trolley.holding_force [N],cable.axial_force.min [N],cable.axial_force.max [N],"
+          "cable.moment.max [N m],cable.shear_force.max [N],cable.stress.max [Pa],"
+          "cable.displacement.max [m],arch.axial_force.min [N],arch.axial_force.max [N],"
+          "arch.moment.max [N m],arch.shear_force.max [N],arch.stress.max [Pa],arch.displacement.max [m],"
+          "mast.fx [N],mast.fy [N],mast.fz [N],mast.mx [N m],mast.my [N m],mast.mz [N m],"
+          "reaction.arch.end.fx [N],reaction.arch.end.fy [N],reaction.arch.end.fz [N],"
+          "reaction.arch.end.mx [N m],reaction.arch.end.my [N m],reaction.arch.end.mz [N m]"});
 }
 
 TEST(Results, HistoriesGiveEveryNumberBackExactly) {
@@ -105,6 +128,10 @@ TEST(Results, HistoriesGiveEveryNumberBackExactly) {
   EXPECT_EQ(second[13], "");
   EXPECT_EQ(std::stod(second[14]), left.beams[0].length);
   EXPECT_EQ(std::stod(first[21]), held.energy.total);
+  EXPECT_EQ(std::stod(first[26]), held.probes[0].section.axial_force);
+  EXPECT_EQ(std::stod(first[29]), held.probes[0].section.stress);
+  EXPECT_EQ(first[44], "");  // arch.stress.max
+  EXPECT_EQ(std::stod(first.back()), held.reactions[1].couple.z());
 }
 
 TEST(Results, StoredBeamsComeBackExactlyWhileTheirElementsChangeInNumber) {

@@ -1,0 +1,55 @@
+#include "fem/motion/kinks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace nurbeam {
+
+namespace {
+
+// Slopes of a table on both sides of one of its rows.
+std::pair<double, double> slopes_at(const TimeTable& table, std::size_t row) {
+  const auto slope = [&](std::size_t from) {
+    return (table[from + 1].second - table[from].second) / (table[from + 1].first - table[from].first);
+  };
+  return {row > 0 ? slope(row - 1) : 0, row + 1 < table.size() ? slope(row) : 0};
+}
+
+}  // namespace
+
+std::vector<double> kink_times(const BeamModel& model) {
+  std::vector<double> times;
+  const auto add = [&](const TimeTable& table) {
+    for (const auto& [time, value] : table) times.push_back(time);
+  };
+  for (const SlidingJoint& joint : model.joints)
+    if (joint.motion) add(*joint.motion);
+  for (const Force& force : model.forces)
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.time; }) add(f.time);
+        },
+        force);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+std::vector<MotionKink> motion_kinks(const BeamModel& model, double time) {
+  constexpr double same_speed = 1e-12;  // relative
+  std::vector<MotionKink> kinks;
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
+    if (!model.joints[j].motion) continue;
+    const TimeTable& table = *model.joints[j].motion;
+    for (std::size_t row = 0; row < table.size(); ++row) {
+      if (table[row].first != time) continue;
+      const auto [before, after] = slopes_at(table, row);
+      if (std::abs(after - before) > same_speed * (std::abs(before) + std::abs(after)))
+        kinks.push_back({j, before, after});
+    }
+  }
+  return kinks;
+}
+
+}  // namespace nurbeam

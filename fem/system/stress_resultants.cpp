@@ -1,0 +1,160 @@
+#include "fem/system/stress_resultants.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+
+#include "fem/forces/moment.h"
+#include "fem/mesh/point_on_beam.h"
+#include "fem/mesh/widened.h"
+#include "fem/system/with_assembly.h"
+
+namespace nurbeam {
+
+namespace {
+
+// What an action adds to inertia less forces of its element, in the element's coordinates.
+template <int D>
+ElementVector<D> on_element(const MeshElement<D>& e, const Eigen::VectorXd& q, const PointAction& action) {
+  const PointShape<D> shape = point_shape<D>(e, q, action.s);
+  const PointField<D> r = shape.position(), rs = shape.slope();
+  const TurnedVector couple{action.couple, Eigen::Matrix3d::Zero()};
+  const Eigen::Vector3d on_slope = moment_on_slope(couple, widened<D>(rs.value)).value;
+  return -r.gradient.transpose() * action.force.head<D>() - rs.gradient.transpose() * on_slope.head<D>();
+}
+
+// Momentum that flows into the element over an end that moves over the material [N]: the inertia of form V
+// counts it, the force on the end does not.
+template <int D>
+Eigen::Matrix<double, D, 1> flux(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
+                                 const ElementState<D>& x, int end) {
+  using Layout = ElementLayout<D>;
+  if (e.element.fixed() || a.is_form_p(e)) return Eigen::Matrix<double, D, 1>::Zero();
+  const double rate = x.v[Layout::place(end)], rho = e.element.properties().mass_per_length;
+  return (end == 0 ? 1 : -1) * rho * rate *
+         material_point<D>(e, state.q, state.v, x.q[Layout::place(end)]).velocity;
+}
+
+// The forces on an element of the axis alone, and on the angles of its ends.
+template <int D>
+struct OnElement {
+  ElementVector<D> axis;
+  Eigen::Vector2d angles = Eigen::Vector2d::Zero();  // of a beam with torsion
+
+  void add(const TwistLayout::Coordinates& with_sections) {
+    axis += with_sections.head<element_size<D>>();
+    angles += with_sections.segment<2>(TwistLayout::angle(0));
+  }
+};
+
+// What an action inside adds to inertia less forces of its element.
+template <int D>
+void add_action(const MeshElement<D>& e, const Eigen::VectorXd& q, const PointAction& action,
+                OnElement<D>& on) {
+  if constexpr (D == 3)
+    if (e.twist) {
+      const PointAction force{.element = action.element, .s = action.s, .force = action.force};
+      on.axis += on_element<D>(e, q, force);
+      on.add(-e.twist->element.moment_force(gather_twist(e, q), action.s, action.couple, false));
+      return;
+    }
+  on.axis += on_element<D>(e, q, action);
+}
+
+template <int D>
+Eigen::Vector3d end_couple(const MeshElement<D>& e, const Eigen::VectorXd& q, const OnElement<D>& on, int end,
+                           const Eigen::Vector3d& slope) {
+  const Eigen::Vector3d on_slope =
+      widened<D>(Eigen::Matrix<double, D, 1>(on.axis.template segment<D>(ElementLayout<D>::slope(end))));
+  if constexpr (D == 3)
+    if (e.twist) return e.twist->element.end_moment(gather_twist(e, q), end, on_slope, on.angles[end]);
+  return slope.cross(on_slope);
+}
+
+template <int D>
+SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
+                       const ElementVector<D>& axis_force, const std::vector<PointAction>& inside) {
+  using Layout = ElementLayout<D>;
+  const ElementState<D> x = gather<D>(e, state);
+  OnElement<D> on{axis_force};
+  if constexpr (D == 3)
+    if (e.twist) on.add(e.twist->element.force(gather_twist(e, state)));
+  std::vector<SpanResultants::Inside> placed;
+  for (const PointAction& action : inside) {
+    add_action<D>(e, state.q, action, on);
+    placed.push_back({action, widened<D>(point_shape<D>(e, state.q, action.s).position().value)});
+  }
+  std::array<SpanResultants::End, 2> ends;
+  std::array<Eigen::Vector3d, 2> places;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Matrix<double, D, 1> on_end =
+        on.axis.template segment<D>(Layout::r(i)) + flux<D>(a, e, state, x, i);
+    const Eigen::Matrix<double, D, 1> slope = x.q.template segment<D>(Layout::slope(i));
+    const double sign = i == 0 ? -1 : 1;
+    ends[i].s = x.q[Layout::place(i)];
+    ends[i].slope = widened<D>(slope);
+    ends[i].carried.force = sign * widened<D>(on_end);
+    ends[i].carried.couple = sign * end_couple<D>(e, state.q, on, i, ends[i].slope);
+    places[i] = widened<D>(Eigen::Matrix<double, D, 1>(x.q.template segment<D>(Layout::r(i))));
+  }
+  return {ends, places, std::move(placed)};
+}
+
+template <int D>
+std::vector<SpanResultants> of_all(const Assembly<D>& a, const State& state) {
+  const std::vector<MeshElement<D>>& elements = a.elements();
+  const std::vector<ElementVector<D>> forces = a.element_forces(state);
+  std::vector<std::vector<PointAction>> inside(elements.size());
+  for (const PointAction& action : a.actions(state)) {
+    constexpr double at_node = 1e-9;  // of the element: the node's then, not the element's
+    const auto [s_a, s_b] =
+        std::pair{elements[action.element].start(state.q), elements[action.element].end(state.q)};
+    const double from_node = std::min(action.s - s_a, s_b - action.s);
+    if (from_node > at_node * (s_b - s_a)) inside[action.element].push_back(action);
+  }
+  std::vector<SpanResultants> spans;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    spans.push_back(of_span<D>(a, elements[i], state, forces[i], inside[i]));
+  return spans;
+}
+
+}  // namespace
+
+SpanResultants::SpanResultants(const std::array<End, 2>& ends,
+                               const std::array<Eigen::Vector3d, 2>& end_places, std::vector<Inside> inside)
+    : inside_(std::move(inside)) {
+  for (int i = 0; i < 2; ++i) {
+    Eigen::Vector3d force = ends[i].carried.force;
+    s_[i] = ends[i].s;
+    couple_[i] = ends[i].carried.couple;
+    for (const Inside& x : inside_)
+      if (s_[i] < x.action.s) {
+        force -= x.action.force;
+        couple_[i] -= (x.place - end_places[i]).cross(x.action.force) + x.action.couple;
+      }
+    couple_s_[i] = -ends[i].slope.cross(force);
+  }
+}
+
+StressResultants SpanResultants::at(double s, const Eigen::Vector3d& r, const Eigen::Vector3d& slope) const {
+  const double h = s_[1] - s_[0], x = (s - s_[0]) / h, y = 1 - x;
+  StressResultants carried;
+  carried.couple = y * y * (1 + 2 * x) * couple_[0] + x * x * (1 + 2 * y) * couple_[1] +
+                   h * x * y * (y * couple_s_[0] - x * couple_s_[1]);
+  Eigen::Vector3d couple_s = 6 * x * y / h * (couple_[1] - couple_[0]) + y * (1 - 3 * x) * couple_s_[0] +
+                             x * (1 - 3 * y) * couple_s_[1];
+  for (const Inside& point : inside_)
+    if (s < point.action.s) {
+      carried.couple += (point.place - r).cross(point.action.force) + point.action.couple;
+      couple_s -= slope.cross(point.action.force);
+    }
+  carried.force = slope.cross(couple_s) / slope.squaredNorm();
+  return carried;
+}
+
+std::vector<SpanResultants> stress_resultants(const BeamSystem& system, const State& state) {
+  return with_assembly(
+      system, [&](const auto& a) { return of_all(a, state); });
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "fem/mesh/point_action.h"
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// Force [N] and couple [N m] that the part of a beam beyond a section (of greater s) gives to the part
+/// before it.
+struct StressResultants {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = Eigen::Vector3d::Zero();
+};
+
+/// The stress resultants in one span of the mesh: at its ends those that its element's equilibrium asks for,
+/// with inertia, damping and loads, so that they balance reactions, bodies and loads at nodes to round-off.
+/// Between the ends the couple m is the cubic with m_s = -r_s x n (n the force) at both, which is exact in a
+/// straight beam under a constant load; point forces inside are taken out of it first. Couples are as
+/// accurate as positions, of fourth order, where the element's own curvature has second; forces, where they
+/// follow from the couple's derivative between nodes, of third.
+class SpanResultants {
+ public:
+  struct End {
+    double s;  ///< [m]
+    StressResultants carried;
+    Eigen::Vector3d slope;  ///< r_s [-]
+  };
+  /// A point action and the place that it has.
+  struct Inside {
+    PointAction action;
+    Eigen::Vector3d place;  ///< [m]
+  };
+  SpanResultants(const std::array<End, 2>& ends, const std::array<Eigen::Vector3d, 2>& end_places,
+                 std::vector<Inside> inside);
+
+  /// At s, where r and r_s are the position and slope. The force has no part along r_s: the axial force is
+  /// the element's own.
+  StressResultants at(double s, const Eigen::Vector3d& r, const Eigen::Vector3d& slope) const;
+
+ private:
+  std::array<double, 2> s_;
+  std::array<Eigen::Vector3d, 2> couple_, couple_s_;  // at the ends, without the actions inside
+  std::vector<Inside> inside_;
+};
+
+/// Those of all spans. The state's accelerations and multipliers must belong to it.
+std::vector<SpanResultants> stress_resultants(const BeamSystem& system, const State& state);
+
+}  // namespace nurbeam

@@ -1,0 +1,105 @@
+#include "pipelines/results/history_columns.h"
+
+#include <limits>
+
+#include "pipelines/results/frame_layout.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr const char* axes[] = {"x", "y", "z"};
+
+// The columns of one object, one after another.
+class Columns {
+ public:
+  explicit Columns(std::vector<HistoryColumn>& columns) : columns_(columns) {}
+
+  void of(const char* kind, std::size_t index, const std::string& name) {
+    kind_ = kind;
+    index_ = index;
+    name_ = name;
+  }
+  void add(const std::string& quantity, const char* unit, std::function<double(const Snapshot&)> value) {
+    columns_.push_back({kind_, index_, name_, quantity, unit, std::move(value)});
+  }
+  // before + "x", ...: of a vector that get(frame) gives.
+  template <class Get>
+  void add_vector(const std::string& before, const char* unit, Get get) {
+    for (int k = 0; k < 3; ++k)
+      add(
+          before + axes[k], unit, [get, k](const Snapshot& frame) { return get(frame)[k]; });
+  }
+  template <class Get>
+  void add_point(Get get) {
+    add_vector(
+        "", "m", [get](const Snapshot& frame) { return get(frame).position; });
+    add_vector("v", "m/s", [get](const Snapshot& frame) { return get(frame).velocity; });
+  }
+
+ private:
+  std::vector<HistoryColumn>& columns_;
+  std::string kind_, name_;
+  std::size_t index_ = 0;
+};
+
+void add_motion(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.probes.size(); ++i) {
+    columns.of("probe", i, names.probes[i]);
+    columns.add_point([i](const Snapshot& f) { return static_cast<PointRecord>(f.probes[i]); });
+  }
+  for (std::size_t i = 0; i < names.bodies.size(); ++i) {
+    columns.of("body", i, names.bodies[i]);
+    columns.add_point([i](const Snapshot& f) { return f.bodies[i].point; });
+    columns.add("s", "m", [i](const Snapshot& f) {
+      return f.bodies[i].s.value_or(std::numeric_limits<double>::quiet_NaN());
+    });
+  }
+  for (std::size_t i = 0; i < names.beams.size(); ++i) {
+    columns.of("beam", i, names.beams[i]);
+    columns.add("length", "m", [i](const Snapshot& f) { return f.beams[i].length; });
+  }
+  columns.of("energy", 0, "energy");
+  for (const EnergyPart& part : energy_parts)
+    columns.add(part.name, "J", [&part](const Snapshot& f) { return f.energy.*part.value; });
+}
+
+void add_forces(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.probes.size(); ++i) {
+    columns.of("probe", i, names.probes[i]);
+    columns.add_vector("u", "m", [i](const Snapshot& f) { return f.probes[i].displacement; });
+    for (const SectionPart& part : section_parts)
+      columns.add(part.column, part.unit,
+                  [i, &part](const Snapshot& f) { return f.probes[i].section.*part.value; });
+  }
+  for (std::size_t i = 0; i < names.bodies.size(); ++i) {
+    columns.of("body", i, names.bodies[i]);
+    columns.add_vector(
+        "joint_force.", "N", [i](const Snapshot& f) { return f.bodies[i].joint_force; });
+    columns.add("holding_force", "N", [i](const Snapshot& f) { return f.bodies[i].holding_force; });
+  }
+  for (std::size_t i = 0; i < names.beams.size(); ++i) {
+    columns.of("beam", i, names.beams[i]);
+    for (const BeamExtreme& extreme : beam_extremes)
+      columns.add(extreme.column, extreme.unit,
+                  [i, &extreme](const Snapshot& f) { return (f.beams[i].*extreme.value).value; });
+  }
+  for (std::size_t i = 0; i < names.reactions.size(); ++i) {
+    columns.of("reaction", i, names.reactions[i]);
+    columns.add_vector(
+        "f", "N", [i](const Snapshot& f) { return f.reactions[i].force; });
+    columns.add_vector("m", "N m", [i](const Snapshot& f) { return f.reactions[i].couple; });
+  }
+}
+
+}  // namespace
+
+std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
+  std::vector<HistoryColumn> all;
+  Columns columns(all);
+  add_motion(names, columns);
+  add_forces(names, columns);
+  return all;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fem/motion/snapshot.h"
+
+namespace nurbeam {
+
+/// One history of a run: what histories.csv, the report and the static values show, in their order.
+struct HistoryColumn {
+  std::string of;     ///< what it belongs to: probe, body, beam, reaction or energy
+  std::size_t index;  ///< number within it
+  std::string name;   ///< of that object; "energy"
+  std::string quantity, unit;
+  std::function<double(const Snapshot&)> value;  ///< NaN where there is none
+
+  /// "trolley.x [m]".
+  std::string heading() const { return name + "." + quantity + " [" + unit + "]"; }
+};
+
+/// All but the time. New ones are added at the end.
+std::vector<HistoryColumn> history_columns(const SnapshotNames& names);
+
+}  // namespace nurbeam

@@ -1,0 +1,38 @@
+#include "pipelines/results/run_extremes.h"
+
+#include <cmath>
+
+#include "pipelines/results/frame_layout.h"
+
+namespace nurbeam {
+
+// Every frame offers the same quantities in the same order; NaN where there is no value.
+void RunExtremes::keep(const RunExtreme& candidate, bool least) {
+  if (next_ == list_.size()) list_.push_back(candidate);
+  RunExtreme& kept = list_[next_++];
+  const bool more = least ? candidate.value < kept.value : std::abs(candidate.value) > std::abs(kept.value);
+  if (more || std::isnan(kept.value)) kept = candidate;
+}
+
+void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
+  next_ = 0;
+  for (std::size_t i = 0; i < frame.beams.size(); ++i)
+    for (const BeamExtreme& of : beam_extremes) {
+      const Extreme& extreme = frame.beams[i].*of.value;
+      keep({names.beams.at(i) + "." + of.column, of.unit, extreme.value, extreme.s, frame.time}, of.least);
+    }
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    const BodyRecord& body = frame.bodies[i];
+    const std::string& name = names.bodies.at(i);
+    keep({name + ".speed", "m/s", body.point.velocity.norm(), body.s, frame.time}, false);
+    keep({name + ".joint_force", "N", body.joint_force.norm(), body.s, frame.time}, false);
+  }
+  for (std::size_t i = 0; i < frame.reactions.size(); ++i) {
+    const ReactionRecord& reaction = frame.reactions[i];
+    const std::string& name = names.reactions.at(i);
+    keep({name + ".force", "N", reaction.force.norm(), std::nullopt, frame.time}, false);
+    keep({name + ".couple", "N m", reaction.couple.norm(), std::nullopt, frame.time}, false);
+  }
+}
+
+}  // namespace nurbeam
