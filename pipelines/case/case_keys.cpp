@@ -161,7 +161,7 @@ Shape beam() {
        {"damping", quantity(Dimension::time, plausible(0, 1e9)),
         "time c of the stress c E d(strain)/dt; 0 when omitted"},
        {"shear_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "of beams with torsion"},
-       {"poissons_ratio", quantity(Dimension::number, {.lower = -1, .upper = 0.5}),
+       {"poissons_ratio", quantity(Dimension::number, {.lower = -0.99, .upper = 0.5}),
         "gives the shear modulus; 0.3 when neither is given"}},
       {{{"shear_modulus", "poissons_ratio"}, false}});
   return object(

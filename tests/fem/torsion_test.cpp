@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "fem/system/stress_resultants.h"
 #include "solver/static_equilibrium.h"
 #include "tests/fem/torsion_models.h"
 
@@ -118,6 +120,49 @@ TEST(Torsion, IsTakenByForks) {
   EXPECT_NEAR(std::atan2(-middle.triad.d2.y(), middle.triad.d2.z()), angle, 1e-9);
   EXPECT_NEAR(section_point(system, state, 0, 0.4).moments.torque, 0.15, 1e-9);
   EXPECT_NEAR(section_point(system, state, 0, 1.7).moments.torque, -0.15, 1e-9);
+  for (const int support : {0, 1})
+    EXPECT_LT((reaction(system, state, state.lambda, support).couple - Vector3d(-0.15, 0, 0)).norm(), 1e-9);
+}
+
+// Reactions and stress resultants balance the loads, at nodes to round-off: forces and couples of every kind.
+TEST(Torsion, IsInBalanceWithItsLoads) {
+  std::mt19937 random(8);
+  const ReferenceCurve curve = ReferenceCurve(uneven_axis(random, 3), 3)
+                                   .oriented({Orientation::Rule::start, {0.1, 0.3, 1}, {{0, 0}, {2, 3}}});
+  const double L = curve.length(), inside = 0.37 * L;
+  const Vector3d F(0.1, 0.3, 0.2), M(0.2, -0.1, 0.15), inner(0.1, 0.2, -0.1);
+  ModelBuilder builder(3);
+  builder.add_beam(curve, with_sections(0), {6});
+  builder.clamp(0, 0).force(0, L, F).moment(0, L, M).moment(0, inside, inner);
+  const BeamSystem system(builder.build());
+  State state = drawn_state(system);
+  ASSERT_EQ(find_static_equilibrium(StaticEquilibrium{}, system, state).status, StaticStatus::converged);
+  const Vector3d tip = material_point(system, state, 0, L).r;
+  const auto couple_beyond = [&](double s) -> Vector3d {
+    return (tip - material_point(system, state, 0, s).r).cross(F) + M +
+           (s < inside ? inner : Vector3d::Zero());
+  };
+  const auto at_clamp = reaction(system, state, state.lambda, 0);
+  EXPECT_LT((at_clamp.force + F).norm(), 1e-9);
+  EXPECT_LT((at_clamp.couple + couple_beyond(0)).norm(), 1e-9);
+  const std::vector<SpanResultants> spans = stress_resultants(system, state);
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const MeshSpan& span = system.mesh().spans[i];
+    for (const double s : {span.s_a, span.s_b, 0.5 * (span.s_a + span.s_b)}) {
+      const bool at_node = s == span.s_a || s == span.s_b;
+      const MaterialPoint<3> p = material_point_in(system, state, static_cast<int>(i), s);
+      const Vector3d couple = spans[i].at(s, p.r, p.rs).couple;
+      EXPECT_LT((couple - couple_beyond(s)).norm(), at_node ? 1e-9 : 1e-3) << s;
+    }
+  }
+  // The torque of a record is that couple's part along the tangent; the section's own approaches it.
+  const ElementRecord record = record_element(system, state, 3, spans[3]);
+  const MaterialPoint<3> first = material_point_in(system, state, 3, record.s_start);
+  EXPECT_NEAR(record.torque[0], couple_beyond(record.s_start).dot(first.rs.normalized()), 1e-9);
+  EXPECT_NEAR(
+      record.torque[1],
+      section_point(system, state, 0, record.s_start + (record.s_end - record.s_start) / 3).moments.torque,
+      1e-2);
 }
 
 TEST(Torsion, OfAModelIsRefusedWhereItMeansNothing) {
