@@ -124,7 +124,8 @@ std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const Be
                                                text_of(I_y) + " m^4");
     return {};
   }
-  return SectionStiffness{E * I_x, E * I_y, 0 - E * sizes.product, G * *J, beam.material.density * (I_x + I_y)};
+  return SectionStiffness{E * I_x, E * I_y, 0 - E * sizes.product, G * *J,
+                          beam.material.density * (I_x + I_y)};
 }
 
 }  // namespace nurbeam
