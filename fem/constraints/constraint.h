@@ -1,4 +1,5 @@
 #pragma once
+#include <type_traits>
 #include <variant>
 
 #include "fem/constraints/body_on_point.h"
@@ -18,8 +19,12 @@ namespace nurbeam {
 
 using Constraint = std::variant<Support, BeamJoint>;
 
+/// In either dimension, and `Others` besides.
+template <int D, class... Others>
+using ConstraintList = std::variant<HeldPosition<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
+                                    JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>, Others...>;
 template <int D>
-using BoundConstraint = std::variant<HeldPosition<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
-                                     JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>>;
+using BoundConstraint =
+    std::conditional_t<D == 3, ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections>, ConstraintList<D>>;
 
 }  // namespace nurbeam

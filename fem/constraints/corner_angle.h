@@ -1,6 +1,7 @@
 #pragma once
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_angle.h"
+#include "fem/constraints/joined_sections.h"
 #include "fem/mesh/mesh_elements.h"
 
 namespace nurbeam {
@@ -34,13 +35,23 @@ class CornerAngle {
   std::vector<int> dofs_;
 };
 
+/// What the rigid corners of the beams ask for: the angle, or with torsion the orientation of both sections.
 template <int D, class Add>
 void bind_corners(const MeshedBeams<D>& at, Add&& add) {
   for (std::size_t b = 0; b < at.mesh.nodes.size(); ++b) {
     const Beam& beam = at.structure.beams[b];
-    for (const MeshNode& node : at.mesh.nodes[b])
-      if (node.home >= 0 && beam.home[node.home].kind == NodeKind::rigid)
-        add(CornerAngle<D>(beam.curve, node));
+    const int first = at.mesh.first_span[b], spans = at.mesh.first_span[b + 1] - first;
+    for (int i = 0; i < static_cast<int>(at.mesh.nodes[b].size()); ++i) {
+      const MeshNode& node = at.mesh.nodes[b][i];
+      if (node.home < 0 || beam.home[node.home].kind != NodeKind::rigid) continue;
+      if constexpr (D == 3)
+        if (beam.has_torsion()) {
+          add(JoinedSections(NodeSection(at.elements[first + (i + spans - 1) % spans], 1),
+                             NodeSection(at.elements[first + i], 0)));
+          continue;
+        }
+      add(CornerAngle<D>(beam.curve, node));
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/joined_sections.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/mesh/point_on_beam.h"
 
@@ -14,7 +15,8 @@ struct BeamJoint {
   double s_a;  ///< [m]
   int beam_b;
   double s_b;          ///< [m]
-  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle); else a hinge
+  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle), or where both beams have
+                       ///< torsion the orientation of their sections (JoinedSections); else a hinge
   std::string name = {};
 };
 
@@ -59,6 +61,12 @@ void bind(const BeamJoint& joint, const MeshedBeams<D>& at, const Eigen::VectorX
   add(JoinedPoints<D>(at, drawn, joint));
   if (!joint.rigid) return;
   const auto& beams = at.structure.beams;
+  if constexpr (D == 3)
+    if (beams[joint.beam_a].has_torsion() && beams[joint.beam_b].has_torsion()) {
+      add(JoinedSections(NodeSection::at(at, drawn, joint.beam_a, joint.s_a),
+                         NodeSection::at(at, drawn, joint.beam_b, joint.s_b)));
+      return;
+    }
   add(JoinedSlopes<D>(PointPair<D>(at, drawn, joint.beam_a, joint.s_a, joint.beam_b, joint.s_b),
                       HeldAngle<D>::drawn(beams[joint.beam_a].curve.tangent(joint.s_a),
                                           beams[joint.beam_b].curve.tangent(joint.s_b))));

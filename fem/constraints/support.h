@@ -3,6 +3,7 @@
 
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_roll.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
@@ -12,6 +13,7 @@ struct Support {
   int beam;
   double s;              ///< [m]
   bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
+  bool fork = false;     ///< position and roll of the section, of a beam with torsion
   std::string name = {};
 };
 
@@ -46,6 +48,11 @@ template <int D, class Add>
 void bind(const Support& support, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
   add(HeldPosition<D>(at, drawn, support.beam, support.s));
   if (support.clamped) add(HeldDirection<D>(at, drawn, support.beam, support.s));
+  if constexpr (D == 3) {
+    if (!at.structure.beams[support.beam].has_torsion()) return;
+    if (support.clamped) add(ClampedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
+    if (support.fork) add(ForkedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
+  }
 }
 
 }  // namespace nurbeam

@@ -3,6 +3,15 @@
 
 namespace nurbeam {
 
+namespace {
+
+// Whether strains of the axis carry at the points: not where sections bend and the axial strain is assumed.
+bool strains_at_points(const BeamProperties& beam) {
+  return !beam.sections || beam.axial_strain == AxialStrain::pointwise;
+}
+
+}  // namespace
+
 // The sums of a fixed element: I = (tr(e G e') - l)/2 - int eps_0 ds, with positions counted from the start,
 // which G does not see: far from the origin they would leave their round-off.
 template <int D>
@@ -28,6 +37,7 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
   Eigen::Map<ElementNodes<D>> force(f.data());
   force = ElementLayout<D>::nodes(x.a) * mass_ - load * load_factor_.transpose();
   for (const FixedPoint& p : points_) {
+    if (!strains_at_points(*properties_)) break;
     const Vector rs = e * p.S1, rss = e * p.S2;
     Eigen::Matrix<double, 2 * D, 1> stress =
         elastic_response<D>(*properties_, rs, rss, p.kappa0, p.eps0).gradient;
@@ -54,6 +64,7 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   ElementMatrix<D> K = ElementMatrix<D>::Zero();
   for (const FixedPoint& p : points_) {
+    if (!strains_at_points(*properties_)) break;
     const Vector rs = e * p.S1, rss = e * p.S2;
     Eigen::Matrix<double, 2 * D, 2 * D> H =
         w.stiffness * elastic_response<D>(*properties_, rs, rss, p.kappa0, p.eps0).hessian;

@@ -112,6 +112,33 @@ double ReferenceCurve::strain(double s, bool from_left) const {
   return metric_ == Metric::label ? (tangent(s, from_left).squaredNorm() - 1) / 2 : 0;
 }
 
+ReferenceCurve ReferenceCurve::oriented(Orientation orientation) const {
+  if (dimension_ != 3 || metric_ == Metric::label)
+    throw std::invalid_argument("only a curve in space with its metric has sections");
+  ReferenceCurve curve = *this;
+  curve.sections_ =
+      std::make_shared<const DrawnSections>(segments_, breaks_, closed_, std::move(orientation));
+  return curve;
+}
+
+DrawnSection ReferenceCurve::section(double s, bool from_left) const {
+  const int j = segment_at(s, from_left);
+  const double u = parameter(j, s);
+  return sections_->at(segments_[j], j, u, arc_length(j, u));
+}
+
+double ReferenceCurve::section_turn(double s_a, double s_b) const {
+  double sum = 0;
+  for (double s = s_a; s < s_b;) {
+    const double end = std::min(next_break(s), s_b);
+    const int j = segment_at((s + end) / 2);
+    const double u_0 = parameter(j, s), u_1 = parameter(j, end);
+    sum += sections_->turn(segments_[j], u_0, u_1, arc_length(j, u_0), arc_length(j, u_1));
+    s = end;
+  }
+  return sum;
+}
+
 double ReferenceCurve::largest_curvature() const {
   constexpr int samples = 33;
   double largest = 0;

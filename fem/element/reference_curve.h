@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/element/drawn_sections.h"
 #include "nurbs/arc_length.h"
 #include "nurbs/rational_cubic.h"
 
@@ -48,6 +49,18 @@ class ReferenceCurve {
     curve.straight_ = true;
     return curve;
   }
+
+  /// The same curve, with sections. Throws std::invalid_argument where they mean nothing (DrawnSections), in
+  /// the plane and with Metric::label.
+  ReferenceCurve oriented(Orientation orientation) const;
+  bool has_sections() const { return sections_ != nullptr; }
+  /// The section at s, of a curve that has sections; at a break as tangent().
+  DrawnSection section(double s, bool from_left = false) const;
+  /// The angle by which sections turn about the tangent, against parallel transport, from s_a to s_b: the
+  /// integral of their twist [rad].
+  double section_turn(double s_a, double s_b) const;
+  /// Of DrawnSections [rad].
+  double holonomy() const { return sections_->holonomy(); }
 
   Metric metric() const { return metric_; }
   /// Whether the stress-free shape has no curvature.
@@ -102,6 +115,7 @@ class ReferenceCurve {
   Metric metric_;
   bool closed_;
   bool straight_ = false;
+  std::shared_ptr<const DrawnSections> sections_;  // immutable, shared by copies
 };
 
 }  // namespace nurbeam

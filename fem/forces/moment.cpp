@@ -17,12 +17,21 @@ TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs) {
 template <int D>
 void Moment::add_force(const MeshedBeams<D>& at, const State& state,
                        Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  if constexpr (D == 3)
+    if (works_on_section(*this, on_section, at.structure)) {
+      if (const auto load = SectionLoad::of(*this, on_section, at, state, false))
+        load->add_force(at, dynamics);
+      return;
+    }
   if (const auto p = LoadedPoint<D>::of(*this, at, state))
     p->add_force(at, p->rs, moment_on_slope(p->vector, widened<D>(p->rs.value)), dynamics);
 }
 
 template <int D>
 double Moment::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  if constexpr (D == 3)
+    if (works_on_section(*this, on_section, at.structure))
+      return section_load_work(*this, on_section, at, from, to);
   const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
     const auto p = LoadedPoint<D>::of(*this, at, state);
     if (!p) return std::nullopt;

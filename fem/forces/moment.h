@@ -7,8 +7,9 @@ namespace nurbeam {
 /// derivative in r_s.
 TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs);
 
-/// A moment on a section [N m], across the beam: there is no torsion.
+/// A moment on a section [N m]; on a beam without torsion its part along the beam does nothing.
 struct Moment : LoadAtPlace {
+  static constexpr OnSection on_section = OnSection::moment;  ///< of a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <int D>
@@ -22,6 +23,12 @@ struct Moment : LoadAtPlace {
   void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    if constexpr (D == 3)
+      if (works_on_section(*this, on_section, at.structure)) {
+        if (const auto load = SectionLoad::of(*this, on_section, at, state, true))
+          sink.twist(load->element, -w.stiffness * load->gradient);
+        return;
+      }
     if (const auto added = tangent(at, state, w)) sink.element(added->element, added->matrix);
   }
 };

@@ -15,6 +15,9 @@ std::optional<LoadedPoint<D>> LoadedPoint<D>::of(const LoadAtPlace& load, const 
   TurnedVector vector{load.value, Eigen::Matrix3d::Zero()};
   if (load.follower) vector = turned_with_tangent(load.value, beam.curve.tangent(s), widened<D>(rs.value));
   const double local = e.local(gather<D>(e, state.q), s);
+  if constexpr (D == 3)
+    if (load.follower && e.twist)
+      vector.value = e.twist->element.turned(gather_twist(e, state.q), local, load.value).value;
   return LoadedPoint{index, local, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
 }
 
@@ -55,6 +58,9 @@ double load_work(const std::optional<LoadedField<D>>& from, const std::optional<
 
 template <int D>
 double PointLoad::work(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  if constexpr (D == 3)
+    if (works_on_section(*this, on_section, at.structure))
+      return section_load_work(*this, on_section, at, from, to);
   const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
     const auto p = LoadedPoint<D>::of(*this, at, state);
     if (!p) return std::nullopt;
@@ -66,6 +72,12 @@ double PointLoad::work(const MeshedBeams<D>& at, const State& from, const State&
 template <int D>
 void PointLoad::add_force(const MeshedBeams<D>& at, const State& state,
                           Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  if constexpr (D == 3)
+    if (works_on_section(*this, on_section, at.structure)) {
+      if (const auto load = SectionLoad::of(*this, on_section, at, state, false))
+        load->add_force(at, dynamics);
+      return;
+    }
   if (const auto p = LoadedPoint<D>::of(*this, at, state))
     p->add_force(at, p->shape.position(), p->vector, dynamics);
 }

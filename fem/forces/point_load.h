@@ -2,21 +2,12 @@
 #include <optional>
 #include <vector>
 
+#include "fem/forces/section_load.h"
 #include "fem/forces/turned_vector.h"
 #include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
-
-/// A vector at one place of a beam, which may move along it: what a force and a moment have in common.
-struct LoadAtPlace {
-  int beam = 0;
-  double s = 0;                                     ///< place at t = 0 [m]
-  double speed = 0;                                 ///< ds/dt of the place [m/s]
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N] or [N m]
-  bool follower = false;                            ///< turns with the tangent
-  TimeTable time = {};                              ///< factor
-};
 
 /// Where such a load is at a moment: nothing is there when it has left the beam.
 template <int D>
@@ -62,6 +53,7 @@ struct LoadTangent {
 
 /// A force on a material point [N].
 struct PointLoad : LoadAtPlace {
+  static constexpr OnSection on_section = OnSection::follower_force;  ///< of a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <int D>
@@ -75,6 +67,12 @@ struct PointLoad : LoadAtPlace {
   void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    if constexpr (D == 3)
+      if (works_on_section(*this, on_section, at.structure)) {
+        if (const auto load = SectionLoad::of(*this, on_section, at, state, true))
+          sink.twist(load->element, -w.stiffness * load->gradient);
+        return;
+      }
     if (const auto added = tangent(at, state, w)) sink.element(added->element, added->matrix);
   }
 };

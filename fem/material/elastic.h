@@ -29,7 +29,7 @@ ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Mat
                                     const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
   const StrainMeasure<D> eps = axial_strain<D>(rs);
   const StrainMeasure<D> K = curvature(rs, rss, beam.curvature);
-  const double EA = beam.pointwise_axial_stiffness(), EI = beam.bending_stiffness;
+  const double EA = beam.pointwise_axial_stiffness(), EI = beam.axis_bending_stiffness();
   const double stretch = eps.value - eps0, bend = K.value - kappa0;
   ElasticResponse<D> e;
   e.energy.axial = EA * stretch * stretch / 2;
@@ -59,7 +59,7 @@ SectionForces section_forces(const BeamProperties& beam, double eps, const Eigen
                              const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
   const double K = curvature(rs, rss, beam.curvature).value;
   return {eps, K, beam.axial_stiffness * (eps - eps0) * std::sqrt(1 + 2 * eps),
-          beam.bending_stiffness * (K - kappa0)};
+          beam.axis_bending_stiffness() * (K - kappa0)};
 }
 
 /// Kelvin-Voigt stress y = c (EA eps' eps_z + EI K' K_z), with z' the rate at fixed material, and its
@@ -89,7 +89,7 @@ DampingResponse<D> damping_response(const BeamProperties& beam, const Eigen::Mat
     d.power += viscosity * p_rate * p_rate;
   };
   add(axial_strain<D>(rs), beam.pointwise_axial_stiffness());
-  add(curvature(rs, rss, beam.curvature), beam.bending_stiffness);
+  add(curvature(rs, rss, beam.curvature), beam.axis_bending_stiffness());
   return d;
 }
 

@@ -31,6 +31,17 @@ struct Material {
   std::optional<double> shear_modulus = {};  ///< G [Pa], where it is known
 };
 
+/// What the sections of a beam with torsion have besides: stiffness about their own axes d1, d2, and inertia.
+///
+/// EI1 is the stiffness for rotation about d1; for a profile whose x axis is d1 and y axis d2, EI1 = E I_x,
+/// EI2 = E I_y, EI12 = -E I_xy.
+struct SectionStiffness {
+  double bending_1 = 0, bending_2 = 0;  ///< EI1, EI2 [N m^2]
+  double bending_product = 0;           ///< EI12 [N m^2]
+  double torsion = 0;                   ///< GJ [N m^2]
+  double spin_inertia = 0;              ///< rho (I_x + I_y) [kg m]
+};
+
 /// Plain numbers in SI: what the constitutive law needs of a cross section and its material.
 struct BeamProperties {
   double axial_stiffness = 0;    ///< EA [N]
@@ -39,11 +50,16 @@ struct BeamProperties {
   double damping = 0;            ///< c [s]
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
+  std::optional<SectionStiffness> sections = {};  ///< of a beam with torsion, in space
 
   /// EA where it multiplies a pointwise strain; else 0.
   double pointwise_axial_stiffness() const {
     return axial_strain == AxialStrain::pointwise ? axial_stiffness : 0;
   }
+  /// EI where the axis alone bends: in the plane, and round in space; 0 for a beam with torsion, whose
+  /// sections bend about their own axes.
+  double axis_bending_stiffness() const { return sections ? 0 : bending_stiffness; }
+
   BeamProperties() = default;
   BeamProperties(double EA, double EI, double rho_A, double c = 0,
                  CurvatureMeasure measure = CurvatureMeasure::material)

@@ -62,6 +62,10 @@ class Numbering {
     const bool two_slopes = node.joint < 0 ? structure_.beams[b].home[node.home].kind != NodeKind::smooth
                                            : !structure_.joints[node.joint].continuous_slope;
     if (two_slopes) node.slope_right = take(D);
+    if (structure_.beams[b].has_torsion()) {
+      node.angle_left = node.angle_right = take(1);
+      if (two_slopes) node.angle_right = take(1);
+    }
     if (node.joint < 0) return;
     node.place = take(1);
     mesh_.joints[node.joint] = {node.place, i};
@@ -77,7 +81,7 @@ class Numbering {
     const auto shift = [&](int i) { return node(i).joint >= 0 ? at(i) - plan_.places[node(i).joint] : 0; };
     for (int i = 0; i < count - (beam.is_ring() ? 0 : 1); ++i)
       mesh_.spans.push_back({b, i, (i + 1) % count, at(i), at(i + 1), shift(i), shift(i + 1), node(i).place,
-                             node(i + 1).place});
+                             node(i + 1).place, beam.has_torsion() ? take(1) : -1});
   }
 
   const Structure& structure_;

@@ -15,6 +15,7 @@ struct MeshNode {
   int slope_left;   ///< first of D gradient coordinates r_s, towards the beam's start
   int slope_right;  ///< the same as slope_left unless the node is a hinge or a corner
   int place;        ///< coordinate s of a moving node, else -1
+  int angle_left = -1, angle_right = -1;  ///< of the section, of a beam with torsion: as slope_left, _right
 };
 
 /// The part of a beam between two nodes that follow one another: where an element is.
@@ -23,6 +24,7 @@ struct MeshSpan {
   double s_a, s_b;           ///< of fixed ends; of moving ends when the mesh was made [m]
   double shift_a, shift_b;   ///< of s from its coordinate at a moving end: full turns of a ring [m]
   int place_a, place_b;      ///< coordinates s of moving ends, -1 of fixed ones
+  int bubble = -1;           ///< coordinate of a beam with torsion: of the twist between the ends
 
   /// Where it starts and ends for the coordinates q [m].
   double start(const Eigen::VectorXd& q) const { return place_a >= 0 ? q[place_a] + shift_a : s_a; }

@@ -50,6 +50,26 @@ std::array<int, element_size<D>> dofs_of(const Mesh& mesh, const MeshSpan& span)
   return dofs;
 }
 
+std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam) {
+  if (!beam.has_torsion()) return nullptr;
+  if (!e.element.fixed())
+    throw std::invalid_argument("nothing slides along a beam with torsion: its elements do not move");
+  if (beam.form == Form::virtual_work)
+    throw std::invalid_argument("a beam in form P (virtual work) has no torsion");
+  std::array<int, TwistLayout::size> dofs;
+  std::copy(e.dofs.begin(), e.dofs.end(), dofs.begin());
+  dofs[TwistLayout::angle(0)] = mesh.node_a(e).angle_right;
+  dofs[TwistLayout::angle(1)] = mesh.node_b(e).angle_left;
+  dofs[TwistLayout::bubble] = e.bubble;
+  for (const MeshPlan::SectionCharts& now : mesh.plan.section_charts)
+    if (now.beam == e.beam && now.s_a == e.s_a && now.s_b == e.s_b)
+      return std::make_unique<const MeshTwist>(MeshTwist{
+          dofs,
+          TwistElement(beam.curve, beam.properties, e.element.chart(), e.s_a, e.s_b, now.charts, now.turn)});
+  return std::make_unique<const MeshTwist>(
+      MeshTwist{dofs, TwistElement(beam.curve, beam.properties, e.element.chart(), e.s_a, e.s_b)});
+}
+
 }  // namespace
 
 template <int D>
@@ -66,6 +86,7 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
     elements.push_back(
         {span, dofs_of<D>(mesh, span), drawn_slope_jump<D>(beam, mesh.node_b(span)),
          BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
+    if constexpr (D == 3) elements.back().twist = make_twist(mesh, elements.back(), beam);
   }
   return elements;
 }
@@ -91,6 +112,23 @@ ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const 
     x.v[i] = dof >= 0 ? v[dof] : 0;
     x.a[i] = dof >= 0 ? a[dof] : 0;
   }
+  return x;
+}
+
+TwistLayout::Coordinates gather_twist(const MeshElement<3>& e, const Eigen::VectorXd& q) {
+  TwistLayout::Coordinates x;
+  x.head<TwistLayout::first>() = gather<3>(e, q);
+  for (int i = TwistLayout::first; i < TwistLayout::size; ++i) x[i] = q[e.twist->dofs[i]];
+  return x;
+}
+
+TwistState gather_twist(const MeshElement<3>& e, const State& state) {
+  TwistState x{gather_twist(e, state.q), TwistLayout::Coordinates::Zero(), TwistLayout::Coordinates::Zero()};
+  for (int i = 0; i < TwistLayout::size; ++i)
+    if (const int dof = e.twist->dofs[i]; dof >= 0) {
+      x.v[i] = state.v[dof];
+      x.a[i] = state.a[dof];
+    }
   return x;
 }
 

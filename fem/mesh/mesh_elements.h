@@ -1,13 +1,21 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "fem/element/beam_element.h"
 #include "fem/element/inertia.h"
+#include "fem/element/twist_element.h"
 #include "fem/mesh/mesh.h"
 #include "solver/state.h"
 
 namespace nurbeam {
+
+/// The sections of an element of a beam with torsion.
+struct MeshTwist {
+  std::array<int, TwistLayout::size> dofs;  ///< global coordinates; -1 where there is none
+  TwistElement element;
+};
 
 /// A span of the mesh with its element.
 template <int D>
@@ -18,6 +26,7 @@ struct MeshElement : MeshSpan {
   /// the angle under rotation.
   Eigen::Matrix<double, D, 1> slope_offset;
   BeamElement<D> element;
+  std::unique_ptr<const MeshTwist> twist = nullptr;  ///< of a beam with torsion
 
   /// s as the element counts it: on a ring without the turns by which it is away.
   double local(const ElementVector<D>& q_element, double s) const {
@@ -41,6 +50,10 @@ ElementState<D> gather(const MeshElement<D>& e, const State& state) {
 /// Without rates.
 template <int D>
 ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q);
+
+/// Those of an element of a beam with torsion.
+TwistState gather_twist(const MeshElement<3>& e, const State& state);
+TwistLayout::Coordinates gather_twist(const MeshElement<3>& e, const Eigen::VectorXd& q);
 
 /// What constraints and forces see of a structure: its mesh and its elements.
 template <int D>

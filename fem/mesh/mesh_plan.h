@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -31,6 +32,15 @@ struct MeshPlan {
     std::array<double, 4> w;
   };
   std::vector<Weights> weights;
+  /// Charts of the sections of the element by beam and (s_a, s_b), and its turn, where they are no longer
+  /// those of the drawing (TwistElement).
+  struct SectionCharts {
+    int beam;
+    double s_a, s_b;
+    std::array<Eigen::Matrix3d, 2> charts;
+    double turn;
+  };
+  std::vector<SectionCharts> section_charts;
 };
 
 /// What becomes of a home node when a joint comes to it.

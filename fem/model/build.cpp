@@ -69,6 +69,8 @@ int ModelBuilder::add_beam(Beam beam, Part part) {
            std::to_string(model_.dimension));
   if (!(beam.properties.mass_per_length > 0))
     refuse("mass_per_length " + text_of(beam.properties.mass_per_length) + " kg/m is not positive");
+  if (beam.has_torsion() && model_.dimension != 3) refuse("a beam in the plane has no torsion");
+  if (beam.has_torsion() && !beam.curve.has_sections()) beam.curve = beam.curve.oriented({});
   if (beam.name.empty()) beam.name = "beam " + std::to_string(model_.beams.size() + 1);
   model_.beams.push_back(std::move(beam));
   parts_.push_back(part);
@@ -115,6 +117,11 @@ double ModelBuilder::place(int b, double s) const {
 
 ModelBuilder& ModelBuilder::pin(int beam, double s) { return add(Support{beam, place(beam, s), false}); }
 ModelBuilder& ModelBuilder::clamp(int beam, double s) { return add(Support{beam, place(beam, s), true}); }
+ModelBuilder& ModelBuilder::fork(int beam, double s) {
+  if (!checked_beam(beam).has_torsion())
+    refuse("a fork holds the roll of a section: it needs a beam with torsion");
+  return add(Support{beam, place(beam, s), false, true});
+}
 
 ModelBuilder& ModelBuilder::join(int beam_a, double s_a, int beam_b, double s_b, bool rigid) {
   return add(BeamJoint{beam_a, place(beam_a, s_a), beam_b, place(beam_b, s_b), rigid});
@@ -136,6 +143,8 @@ SlidingJoint& ModelBuilder::slide(int body, int beam, double s, double speed) {
   if (body < 0 || body >= static_cast<int>(model_.bodies.size()))
     refuse("there is no body " + std::to_string(body) + "; the model has " +
            std::to_string(model_.bodies.size()));
+  if (checked_beam(beam).has_torsion())
+    refuse("beam \"" + model_.beams[beam].name + "\" has torsion: nothing slides along it");
   model_.joints.push_back({.body = body, .beam = beam, .s = place(beam, s), .speed = speed, .motion = {}});
   return model_.joints.back();
 }

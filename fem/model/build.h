@@ -21,7 +21,8 @@ class ModelBuilder {
   /// In the plane (2) or in space (3), with gravity [m/s^2].
   explicit ModelBuilder(int dimension, const Eigen::Vector3d& gravity = {0, 0, 0});
 
-  /// Each returns the number of the beam in the model.
+  /// Each returns the number of the beam in the model. With BeamProperties::sections it has torsion; a curve
+  /// without sections then gets those of an Orientation{}.
   int add_beam(ReferenceCurve curve, const Section& section, const Material& material,
                Division division = {});
   int add_beam(ReferenceCurve curve, const BeamProperties& properties, Division division = {});
@@ -34,7 +35,9 @@ class ModelBuilder {
   ModelBuilder& pin(int beam, double s);
   /// Holds position and direction.
   ModelBuilder& clamp(int beam, double s);
-  /// Joins two beams; a rigid joint keeps their angle.
+  /// Holds position and roll of a beam with torsion.
+  ModelBuilder& fork(int beam, double s);
+  /// Joins two beams; a rigid joint keeps their angle, and with torsion the orientation of their sections.
   ModelBuilder& join(int beam_a, double s_a, int beam_b, double s_b, bool rigid = false);
 
   /// Return the number of the body.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "fem/motion/recentring.h"
 #include "fem/motion/sliding_bodies.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
@@ -79,6 +80,42 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   return ds;
 }
 
+// A system whose load factor 0 is the share `from` of its loads: on the way from an equilibrium under them.
+class LoadedFrom final : public SecondOrderSystem {
+ public:
+  LoadedFrom(const SecondOrderSystem& system, double from) : system_(system), from_(from) {}
+
+  double load(double factor) const { return from_ + (1 - from_) * factor; }
+
+  int coordinate_count() const override { return system_.coordinate_count(); }
+  int constraint_count() const override { return system_.constraint_count(); }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const override {
+    system_.residual(loaded(state), dynamics, constraints);
+  }
+  Eigen::SparseMatrix<double> tangent_pattern() const override { return system_.tangent_pattern(); }
+  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
+    system_.tangent(loaded(state), w, kkt);
+  }
+  Eigen::VectorXd constraint_rate(const State& state) const override {
+    return system_.constraint_rate(state);
+  }
+  Eigen::VectorXd constraint_curvature(const State& state) const override {
+    return system_.constraint_curvature(state);
+  }
+  bool admissible(const State& state) const override { return system_.admissible(state); }
+  Eigen::VectorXd coordinate_scale() const override { return system_.coordinate_scale(); }
+
+ private:
+  State loaded(State state) const {
+    state.load = load(state.load);
+    return state;
+  }
+
+  const SecondOrderSystem& system_;
+  double from_;
+};
+
 // Brings `at` to rest.
 class RestSearch {
  public:
@@ -126,11 +163,21 @@ class RestSearch {
     return !arrived && move_places(std::move(ds));
   }
 
-  // Equilibrium from the state as it is, which is kept on failure.
-  StaticReport find_equilibrium(MeshedState& at) {
+  // Equilibrium from the state as it is, which is kept on failure. `held`: the joints that are.
+  StaticReport find_equilibrium(MeshedState& at, const std::vector<bool>& held) {
     at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
     at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
-    const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, *at.system, at.state);
+    StaticReport found = find_static_equilibrium(StaticEquilibrium{}, *at.system, at.state);
+    // Sections that turn far stop it half way, in charts that go no further.
+    constexpr int most_recentrings = 20;
+    for (int turns = 0; found.status != StaticStatus::converged && recentring_due(*at.system, at.state) &&
+                        turns < most_recentrings;
+         ++turns) {
+      at = recentred(*at.system, at.state, held);
+      const LoadedFrom rest(*at.system, at.state.load);
+      found = find_static_equilibrium(StaticEquilibrium{}, rest, at.state);
+      at.state.load = found.load_factor = rest.load(found.load_factor);
+    }
     report_.newton_iterations += found.newton_iterations;
     report_.load_steps += found.load_steps;
     return found;
@@ -140,7 +187,7 @@ class RestSearch {
   bool hold_in_equilibrium(MeshPlan plan) {
     const std::vector<bool> held(model().joints.size(), true);
     at_.system = std::make_unique<BeamSystem>(at_.system->shared_model(), std::move(plan), held);
-    const StaticReport found = find_equilibrium(at_);
+    const StaticReport found = find_equilibrium(at_, held);
     if (found.status == StaticStatus::converged) return true;
     return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
   }
@@ -185,7 +232,7 @@ class RestSearch {
   void free_bodies(const std::vector<bool>& held) {
     MeshedState freed{std::make_unique<BeamSystem>(at_.system->shared_model(), at_.system->mesh().plan, held),
                       at_.state};
-    bool near = find_equilibrium(freed).status == StaticStatus::converged;
+    bool near = find_equilibrium(freed, held).status == StaticStatus::converged;
     for (int j = 0; near && j < joints(); ++j) {
       const auto s = place(*freed.system, freed.state, j);
       near = !s || std::abs(*s - *place(*at_.system, at_.state, j)) < 1e-3 * spacing(j);

@@ -8,6 +8,7 @@
 #include "fem/motion/crossing.h"
 #include "fem/motion/kinks.h"
 #include "fem/motion/meshed_state.h"
+#include "fem/motion/recentring.h"
 #include "fem/motion/resting_place.h"
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
@@ -234,7 +235,16 @@ class Simulation {
     if (crossing && !ending && !step_over(*crossing)) return false;
     if (!goes_on(meeting_bodies(at_))) return false;
     settle_mesh();
-    return report_.status == SimulationStatus::done;
+    return report_.status == SimulationStatus::done && recentre_sections();
+  }
+
+  // Exchanges the charts of sections that have turned far; whether the run goes on.
+  bool recentre_sections() {
+    if (!recentring_due(*at_.system, at_.state)) return true;
+    at_ = recentred(*at_.system, at_.state);
+    if (!restart()) return false;
+    at_.state = integrator_->state();
+    return true;
   }
 
   // A step of at most that length. Under error control one that creates energy, as a wrong root of a snap

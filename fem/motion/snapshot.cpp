@@ -123,7 +123,7 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
   snapshot.energy = {.kinetic = e.kinetic,
                      .gravity = e.gravity,
                      .axial = e.axial,
-                     .bending = e.bending,
+                     .bending = e.bending + e.torsion,
                      .total = e.mechanical()};
   return snapshot;
 }

@@ -50,7 +50,7 @@ struct ReactionRecord {
 };
 
 struct EnergyRecord {
-  double kinetic = 0, gravity = 0, axial = 0, bending = 0;  ///< [J]
+  double kinetic = 0, gravity = 0, axial = 0, bending = 0;  ///< [J]; bending: and torsion
   double dissipated = 0;                                    ///< by damping and impacts, since the start [J]
   double input = 0;  ///< work of loads but weight and of prescribed motions, since the start [J]
   double total = 0;  ///< what should not change: the sum, less the input [J]

@@ -36,6 +36,7 @@ struct Beam {
   Form form = Form::variational;
   std::vector<HomeNode> home;  ///< s increasing, from 0 to the length; of a ring the last is the first again
 
+  bool has_torsion() const { return properties.sections.has_value(); }
   /// A ring: a closed curve, and no ends.
   bool is_ring() const { return curve.closed(); }
   int home_intervals() const { return static_cast<int>(home.size()) - 1; }

@@ -40,17 +40,27 @@ constexpr bool is_linear() {
   return requires { requires Constraint::linear; };
 }
 
+void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) {
+  const TwistLayout::Coordinates f = e.twist->element.force(gather_twist(e, state));
+  for (int k = 0; k < TwistLayout::size; ++k)
+    if (e.twist->dofs[k] >= 0) dynamics[e.twist->dofs[k]] += f[k];
+}
+
 }  // namespace
 
 // Takes the tangent matrices of one force.
 template <int D>
 struct Assembly<D>::Sink {
-  const std::vector<Block>& element_blocks;
+  const std::vector<Block>&element_blocks, &twist_blocks;
   const Block& own_block;
   double* values;
 
   void element(int index, const ElementMatrix<D>& K) const {
     scatter(element_blocks[index].values, element_size<D>, K, values);
+  }
+  /// In the coordinates of an element with its sections.
+  void twist(int index, const TwistLayout::Matrix& K) const {
+    scatter(twist_blocks[index].values, TwistLayout::size, K, values);
   }
   template <class Matrix>
   void own(const Matrix& K) const {
@@ -118,6 +128,9 @@ void Assembly<D>::build_pattern() {
   for (const MeshElement<D>& e : elements_) {
     element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
     add_pairs(element_blocks_.back().dofs);
+    twist_blocks_.emplace_back();
+    if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
+    add_pairs(twist_blocks_.back().dofs);
   }
   for (const BoundForce<D>& force : forces_) {
     force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
@@ -147,6 +160,7 @@ void Assembly<D>::build_pattern() {
       for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? value_index(pattern_, i, j) : -1);
   };
   for (Block& block : element_blocks_) locate(block);
+  for (Block& block : twist_blocks_) locate(block);
   for (Block& block : force_blocks_) locate(block);
   for (std::size_t c = 0; c < constraints_.size(); ++c) {
     ConstraintBlock& block = constraint_blocks_[c];
@@ -244,6 +258,8 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
       const ElementVector<D> f = element_force(e, state, load);
       for (int k = 0; k < element_size<D>; ++k)
         if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
+      if constexpr (D == 3)
+        if (e.twist) add_twist_force(e, state, dynamics);
     }
   }
   for (const BoundForce<D>& force : forces_)
@@ -283,10 +299,14 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
       scatter(element_blocks_[i].values, element_size<D>,
               is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
               values);
+      if constexpr (D == 3)
+        if (e.twist)
+          scatter(twist_blocks_[i].values, TwistLayout::size,
+                  e.twist->element.tangent(gather_twist(e, state), w), values);
     }
   }
   for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
-    const Sink sink{element_blocks_, force_blocks_[i], values};
+    const Sink sink{element_blocks_, twist_blocks_, force_blocks_[i], values};
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
@@ -367,6 +387,9 @@ double Assembly<D>::step_limit(const State& state) const {
 template <int D>
 bool Assembly<D>::admissible(const State& state) const {
   constexpr double shortest = 1e-3;  // of the element's length when the mesh was made
+  if constexpr (D == 3)
+    for (const MeshElement<D>& e : elements_)
+      if (e.twist && !e.twist->element.admissible(gather_twist(e, state.q))) return false;
   return std::all_of(mesh_.spans.begin(), mesh_.spans.end(), [&](const MeshSpan& span) {
     return span.end(state.q) - span.start(state.q) > shortest * (span.s_b - span.s_a);
   });

@@ -91,6 +91,7 @@ class Assembly final : public SecondOrderSystem {
   int constraint_count_ = 0;
   std::vector<Rows> constraint_rows_, place_rows_;
   std::vector<Block> element_blocks_, force_blocks_;
+  std::vector<Block> twist_blocks_;  // of the elements of beams with torsion, empty for others
   std::vector<ConstraintBlock> constraint_blocks_;
   Eigen::SparseMatrix<double> pattern_;
 };

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
@@ -63,6 +64,8 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.curvature = elastic.curvature;
   record.axial_force = elastic.axial_force;
   record.bending_moment = bending_moment<D>(resultants.couple, point);
+  if constexpr (D == 3)
+    if (e.twist) record.torque = resultants.couple.dot(point.rs.normalized());
   record.shear_force = shear_force<D>(resultants.force, point.rs);
   record.stress = a.model()
                       ->beams[e.beam]
@@ -88,6 +91,7 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
     record.curvature[i] = section.curvature;
     record.axial_force[i] = section.axial_force;
     record.bending_moment[i] = section.bending_moment;
+    record.torque[i] = section.torque;
     record.shear_force[i] = section.shear_force;
     record.stress[i] = section.stress;
     record.velocity.col(i) = widened<D>(material_point<D>(e, state.q, state.v, s).velocity);
@@ -132,6 +136,14 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s) {
   return material_point_in(system, state, find_span(system.model(), system.mesh(), state.q, beam, s), s);
+}
+
+SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s) {
+  const Beam& of = system.model().beams.at(beam);
+  if (!of.has_torsion()) throw std::invalid_argument("beam \"" + of.name + "\" has no torsion");
+  const MeshElement<3>& e =
+      system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
+  return e.twist->element.section(gather_twist(e, state.q), of.curve.unrolled(s, (e.s_a + e.s_b) / 2));
 }
 
 SectionRecord section_at(const BeamSystem& system, const State& state, int span,

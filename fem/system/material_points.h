@@ -14,12 +14,17 @@ MaterialPoint<3> material_point(const BeamSystem& system, const State& state, in
 /// The same, as the element in span `span` has it: at a node, from its side.
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s);
 
+/// The section at material point s of a beam with torsion, and what it carries; at a node as the element
+/// after it has it (the last one at the end of a beam that is no ring). Throws std::invalid_argument where
+/// the beam has none.
+SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s);
 /// What one section of a beam carries.
 struct SectionRecord {
   double strain = 0;          ///< Green's axial strain that carries [-]
   double curvature = 0;       ///< [1/m], by the model's measure; signed in a planar model
   double axial_force = 0;     ///< elastic, tension positive [N]
   double bending_moment = 0;  ///< [N m]; signed in a planar model, in space as the change of curvature is
+  double torque = 0;          ///< about the tangent [N m]; 0 without torsion
   double shear_force = 0;  ///< [N]; in a planar model that of the part beyond the section, along the normal n
                            ///< = e_z x t; in space its magnitude
   double stress = 0;       ///< of the fibre that it is largest in [Pa]; NaN where the section does not say
@@ -34,7 +39,8 @@ struct ElementRecord {
   Eigen::Matrix4d control_points;  ///< homogeneous, deformed [m]
   double s_start = 0, s_end = 0;   ///< reference arc length [m]
   double axial_mismatch = 0;       ///< pointwise less assumed axial strain, the largest: a coarse mesh [-]
-  Eigen::Vector4d strain, curvature, axial_force, bending_moment, shear_force = Eigen::Vector4d::Zero(),
+  Eigen::Vector4d strain, curvature, axial_force, bending_moment, torque = Eigen::Vector4d::Zero(),
+                                                                  shear_force = Eigen::Vector4d::Zero(),
                                                                   stress = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
 };

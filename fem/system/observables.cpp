@@ -7,6 +7,14 @@ namespace nurbeam {
 
 namespace {
 
+void add_twist_energy(const MeshElement<3>& e, const State& state, SystemEnergy& sum) {
+  const TwistEnergy part = e.twist->element.energy(gather_twist(e, state));
+  sum.kinetic += part.kinetic;
+  sum.bending += part.bending;
+  sum.torsion += part.torsion;
+  sum.dissipation += part.dissipation;
+}
+
 template <int D>
 SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
   SystemEnergy sum;
@@ -20,6 +28,8 @@ SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
     sum.bending += part.bending;
     sum.gravity += part.external;
     sum.dissipation += part.dissipation;
+    if constexpr (D == 3)
+      if (e.twist) add_twist_energy(e, state, sum);
   }
   for (const BoundForce<D>& force : a.forces())
     std::visit(

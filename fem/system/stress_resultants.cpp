@@ -35,28 +35,66 @@ Eigen::Matrix<double, D, 1> flux(const Assembly<D>& a, const MeshElement<D>& e, 
          material_point<D>(e, state.q, state.v, x.q[Layout::place(end)]).velocity;
 }
 
+// The forces on an element of the axis alone, and on the angles of its ends.
+template <int D>
+struct OnElement {
+  ElementVector<D> axis;
+  Eigen::Vector2d angles = Eigen::Vector2d::Zero();  // of a beam with torsion
+
+  void add(const TwistLayout::Coordinates& with_sections) {
+    axis += with_sections.head<element_size<D>>();
+    angles += with_sections.segment<2>(TwistLayout::angle(0));
+  }
+};
+
+// What an action inside adds to inertia less forces of its element.
+template <int D>
+void add_action(const MeshElement<D>& e, const Eigen::VectorXd& q, const PointAction& action,
+                OnElement<D>& on) {
+  if constexpr (D == 3)
+    if (e.twist) {
+      const PointAction force{.element = action.element, .s = action.s, .force = action.force};
+      on.axis += on_element<D>(e, q, force);
+      on.add(-e.twist->element.moment_force(gather_twist(e, q), action.s, action.couple, false));
+      return;
+    }
+  on.axis += on_element<D>(e, q, action);
+}
+
+template <int D>
+Eigen::Vector3d end_couple(const MeshElement<D>& e, const Eigen::VectorXd& q, const OnElement<D>& on, int end,
+                           const Eigen::Vector3d& slope) {
+  const Eigen::Vector3d on_slope =
+      widened<D>(Eigen::Matrix<double, D, 1>(on.axis.template segment<D>(ElementLayout<D>::slope(end))));
+  if constexpr (D == 3)
+    if (e.twist) return e.twist->element.end_moment(gather_twist(e, q), end, on_slope, on.angles[end]);
+  return slope.cross(on_slope);
+}
+
 template <int D>
 SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
-                       ElementVector<D> force, const std::vector<PointAction>& inside) {
+                       const ElementVector<D>& axis_force, const std::vector<PointAction>& inside) {
   using Layout = ElementLayout<D>;
   const ElementState<D> x = gather<D>(e, state);
+  OnElement<D> on{axis_force};
+  if constexpr (D == 3)
+    if (e.twist) on.add(e.twist->element.force(gather_twist(e, state)));
   std::vector<SpanResultants::Inside> placed;
   for (const PointAction& action : inside) {
-    force += on_element<D>(e, state.q, action);
+    add_action<D>(e, state.q, action, on);
     placed.push_back({action, widened<D>(point_shape<D>(e, state.q, action.s).position().value)});
   }
   std::array<SpanResultants::End, 2> ends;
   std::array<Eigen::Vector3d, 2> places;
   for (int i = 0; i < 2; ++i) {
     const Eigen::Matrix<double, D, 1> on_end =
-        force.template segment<D>(Layout::r(i)) + flux<D>(a, e, state, x, i);
-    const Eigen::Matrix<double, D, 1> slope = x.q.template segment<D>(Layout::slope(i)),
-                                      on_slope = force.template segment<D>(Layout::slope(i));
+        on.axis.template segment<D>(Layout::r(i)) + flux<D>(a, e, state, x, i);
+    const Eigen::Matrix<double, D, 1> slope = x.q.template segment<D>(Layout::slope(i));
     const double sign = i == 0 ? -1 : 1;
     ends[i].s = x.q[Layout::place(i)];
     ends[i].slope = widened<D>(slope);
     ends[i].carried.force = sign * widened<D>(on_end);
-    ends[i].carried.couple = sign * ends[i].slope.cross(widened<D>(on_slope));
+    ends[i].carried.couple = sign * end_couple<D>(e, state.q, on, i, ends[i].slope);
     places[i] = widened<D>(Eigen::Matrix<double, D, 1>(x.q.template segment<D>(Layout::r(i))));
   }
   return {ends, places, std::move(placed)};

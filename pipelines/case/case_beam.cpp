@@ -139,7 +139,8 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
                          Findings& findings) {
   if (has(section, "profile")) {
     const Json& profile = section["profile"];
-    CaseSection drawn = {.profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
+    CaseSection drawn = {.torsion_constant = optional_number(section, "torsion_constant"),
+                         .profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
                                                 text(profile, "in_plane") == "x"}};
     if (has(profile, "file")) check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
     return drawn;
@@ -148,12 +149,57 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
     const double r = number(section, "radius");
     return {.area = std::numbers::pi * r * r,
             .second_moment = std::numbers::pi * std::pow(r, 4) / 4,
-            .radius = r};
+            .radius = r,
+            .torsion_constant = optional_number(section, "torsion_constant")};
   }
-  if (has(section, "from")) return {.from_cad = true};
-  return {.area = number(section, "area"),
-          .second_moment = number(section, "second_moment"),
-          .extreme_fibre = optional_number(section, "extreme_fibre")};
+  if (has(section, "from"))
+    return {.torsion_constant = optional_number(section, "torsion_constant"), .from_cad = true};
+  CaseSection sizes{.area = number(section, "area"),
+                    .second_moment = number(section, "second_moment"),
+                    .extreme_fibre = optional_number(section, "extreme_fibre"),
+                    .torsion_constant = optional_number(section, "torsion_constant")};
+  if (has(section, "second_moments")) {
+    const std::vector<double> moments = numbers(section, "second_moments");
+    if (moments.size() == 2 && section["second_moments"].size() == 2) {
+      sizes.second_moments = {moments[0], moments[1]};
+      sizes.second_moment = moments[0];
+    } else {
+      findings.error(child(path, "second_moments"), "expected two: [I_x, I_y]");
+    }
+    sizes.product = number(section, "product", 0);
+  } else if (has(section, "area") && !has(section, "second_moment")) {
+    findings.error(path, "\"area\" needs \"second_moment\" or \"second_moments\"");
+  }
+  return sizes;
+}
+
+/// Where the section's y axis points.
+Orientation read_orientation(const Json& json) {
+  Orientation orientation;
+  if (has(json, "up")) orientation = {Orientation::Rule::up, vector(json, "up")};
+  if (has(json, "start")) orientation.direction = vector(json, "start");
+  if (flag(json, "frenet")) orientation.rule = Orientation::Rule::frenet;
+  for (const auto& [s, degrees] : time_table(json, "twist"))
+    orientation.twist.emplace_back(s, degrees * std::numbers::pi / 180);
+  return orientation;
+}
+
+/// Reports what a beam cannot be with torsion.
+void check_torsion(const Json& json, const std::string& path, const CaseBeam& beam, Findings& findings) {
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    findings.error(child(path, key), why + "; leave one of them out");
+  };
+  for (const auto& [asks, key] :
+       {std::pair{has(json, "orientation"), "orientation"},
+        std::pair{beam.section.second_moments.has_value(), "section.second_moments"}})
+    if (asks && !beam.torsion) refuse(key, "is for beams with torsion, but \"torsion\" is false");
+  if (!beam.torsion) return;
+  if (beam.stress_free == StressFree::as_drawn_without_torsion)
+    refuse("stress_free", "is \"as-drawn-without-torsion\", but the beam has torsion");
+  if (beam.curvature == CurvatureMeasure::spatial)
+    refuse("curvature", "\"spatial\" is the papers' measure, but the beam has torsion");
+  if (beam.metric == Metric::label) refuse("metric", "\"none\" is a comparison without torsion");
+  if (beam.form == Form::virtual_work) refuse("form", "\"virtual-work\" is a comparison without torsion");
 }
 
 /// Of the papers' elements (constant weights, no metric, form P) the pointwise strain when omitted.
@@ -185,7 +231,9 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   const Json& material = part(json, "material");
   beam.material = {.density = number(material, "density"),
                    .youngs_modulus = number(material, "youngs_modulus"),
-                   .damping = number(material, "damping", 0)};
+                   .damping = number(material, "damping", 0),
+                   .shear_modulus = optional_number(material, "shear_modulus"),
+                   .poissons_ratio = optional_number(material, "poissons_ratio")};
   const Json& elements = part(json, "elements");
   beam.elements = {.count = optional_integer(elements, "count"),
                    .max_length = optional_number(elements, "max_length"),
@@ -219,6 +267,10 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.form =
       chosen<Form>(json, "form", {{"variational", Form::variational}, {"virtual-work", Form::virtual_work}});
   beam.axial_strain = read_axial_strain(json, path, beam, findings);
+  beam.torsion = has(json, "torsion") ? flag(json, "torsion")
+                                      : has(json, "orientation") || beam.section.second_moments.has_value();
+  beam.orientation = read_orientation(part(json, "orientation"));
+  check_torsion(json, path, beam, findings);
   return beam;
 }
 

@@ -232,19 +232,23 @@ class Checker {
 
   bool check_table(const Shape& shape, Json& value, const std::string& path) {
     if (!value.is_array() || value.empty()) return wrong_type(shape, value, path);
-    const Shape time = {.kind = Kind::quantity, .dimension = Dimension::time};
+    const Shape argument = {.kind = Kind::quantity, .dimension = shape.argument};
+    const bool over_time = shape.argument == Dimension::time;
     const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension};
     double last = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < value.size(); ++i) {
       Json& row = value[i];
       const std::string row_path = child(path, i);
-      if (!row.is_array() || row.size() != 2) return failed(row_path, "expected a row [time, value]");
-      if (!check(time, row[0], child(row_path, std::size_t{0})) || !check(entry, row[1], child(row_path, 1)))
+      if (!row.is_array() || row.size() != 2)
+        return failed(row_path, std::string("expected a row [") + (over_time ? "time" : "s") + ", value]");
+      if (!check(argument, row[0], child(row_path, std::size_t{0})) ||
+          !check(entry, row[1], child(row_path, 1)))
         return false;
       if (row[0].get<double>() <= last) {
-        return failed(row_path, "time " + text_of(row[0].get<double>(), all_digits) +
-                                    " s does not come after " + text_of(last, all_digits) +
-                                    " s; times must increase");
+        const std::string unit = " " + si_unit(shape.argument);
+        return failed(row_path, (over_time ? "time " : "s = ") + text_of(row[0].get<double>(), all_digits) +
+                                    unit + " does not come after " + text_of(last, all_digits) + unit +
+                                    (over_time ? "; times must increase" : "; places must increase"));
       }
       last = row[0].get<double>();
     }

@@ -34,8 +34,10 @@ CaseLoad read_load(const Json& json, const std::string& path) {
 }
 
 CaseSupport read_support(const Json& json, const std::string& path) {
-  return {.type = chosen<CaseSupport::Type>(
-              json, "type", {{"clamped", CaseSupport::Type::clamped}, {"pinned", CaseSupport::Type::pinned}}),
+  return {.type = chosen<CaseSupport::Type>(json, "type",
+                                            {{"clamped", CaseSupport::Type::clamped},
+                                             {"pinned", CaseSupport::Type::pinned},
+                                             {"fork", CaseSupport::Type::fork}}),
           .name = text(json, "name"),
           .path = path,
           .beam = text(json, "beam"),

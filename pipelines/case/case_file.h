@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -58,14 +59,19 @@ struct CaseSection {
   std::optional<double> radius = {};         ///< of a disk or a pipe [m]
   std::optional<double> bore = {};           ///< inner radius of a pipe [m]
   std::optional<double> extreme_fibre = {};  ///< greatest distance from the axis of bending [m]
-  std::optional<CaseProfile> profile = {};   ///< what gives area and second moment
-  bool from_cad = false;                     ///< all are those of the pipe whose centre line the axis is
+  std::optional<std::array<double, 2>> second_moments = {};  ///< I_x, I_y, where they may differ [m^4]
+  double product = 0;                                        ///< I_xy [m^4]
+  std::optional<double> torsion_constant = {};               ///< [m^4]
+  std::optional<CaseProfile> profile = {};                   ///< what gives area and second moment
+  bool from_cad = false;  ///< all are those of the pipe whose centre line the axis is
 };
 
 struct CaseMaterial {
-  double density = 0;         ///< [kg/m^3]
-  double youngs_modulus = 0;  ///< [Pa]
-  double damping = 0;         ///< [s], theory c
+  double density = 0;                         ///< [kg/m^3]
+  double youngs_modulus = 0;                  ///< [Pa]
+  double damping = 0;                         ///< [s], theory c
+  std::optional<double> shear_modulus = {};   ///< [Pa]
+  std::optional<double> poissons_ratio = {};  ///< one of them at most
 };
 
 struct CaseElements {
@@ -100,6 +106,8 @@ struct CaseBeam {
   ElementKind element = ElementKind::ale_rancf;
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
+  bool torsion = false;
+  Orientation orientation = {};  ///< with torsion
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
@@ -124,7 +132,7 @@ struct CaseLoad {
 };
 
 struct CaseSupport {
-  enum class Type { clamped, pinned } type = Type::pinned;
+  enum class Type { clamped, pinned, fork } type = Type::pinned;
   std::string name;  ///< heads the columns of its reaction; may be empty
   std::string path;
   std::string beam;

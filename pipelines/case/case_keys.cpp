@@ -46,6 +46,11 @@ Shape vector(Dimension dimension, Range of_components = {}) {
 }
 Shape table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension}; }
 
+/// Rows [s, value].
+Shape table_over_length(Dimension dimension) {
+  return {.kind = Kind::table, .dimension = dimension, .argument = Dimension::length};
+}
+
 Shape place() {
   return either(
       choice({"start", "end"}),
@@ -101,16 +106,34 @@ Shape section() {
                "the profile's axis that lies in the plane of a planar model; y when omitted"}});
   return object(
       {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round solid section"},
-       {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area", false,
-        "second_moment"},
+       {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area"},
        {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
         false, "area"},
+       {"second_moments", array(quantity(Dimension::second_moment, plausible(1e-36, 1e16)), 2),
+        "[I_x, I_y] about the section's own axes, of a beam with torsion; y is where the orientation points",
+        false, "area"},
+       {"product", quantity(Dimension::second_moment), "I_xy, the integral of x y; 0 when omitted", false,
+        "second_moments"},
+       {"torsion_constant", quantity(Dimension::second_moment, plausible(1e-36, 1e16)),
+        "St Venant's; when omitted that of the profile, or I_x + I_y of a round section"},
        {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
         "greatest distance of the section from its axis of bending; without it no stress is given", false,
         "area"},
        {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
-      {{{"radius", "area", "profile", "from"}, required}});
+      {{{"radius", "area", "profile", "from"}, required}, {{"second_moment", "second_moments"}, false}});
+}
+
+Shape orientation() {
+  return object(
+      {{"up", vector(Dimension::number), "the section's y axis points up this way everywhere"},
+       {"start", vector(Dimension::number),
+        "it does at the start, and from there sections do not twist; z, or x where the beam starts along z, when "
+        "nothing is said"},
+       {"frenet", boolean(), "it points to the centre of curvature everywhere"},
+       {"twist", table_over_length(Dimension::number),
+        "turned about the axis besides: [s, angle in degrees], smooth between rows, constant outside"}},
+      {{{"up", "start", "frenet"}, false}});
 }
 
 Shape elements() {
@@ -136,7 +159,11 @@ Shape beam() {
       {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
        {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
        {"damping", quantity(Dimension::time, plausible(0, 1e9)),
-        "time c of the stress c E d(strain)/dt; 0 when omitted"}});
+        "time c of the stress c E d(strain)/dt; 0 when omitted"},
+       {"shear_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "of beams with torsion"},
+       {"poissons_ratio", quantity(Dimension::number, {.lower = -0.99, .upper = 0.5}),
+        "gives the shear modulus; 0.3 when neither is given"}},
+      {{{"shear_modulus", "poissons_ratio"}, false}});
   return object(
       {{"name", name(), "name of the beam", required},
        {"axis", axis(), "the beam's axis as drawn", required},
@@ -156,8 +183,12 @@ Shape beam() {
         "metric of the material coordinate; none: the subdivision paper's elements, for comparison, with "
         "spatial "
         "curvature and no sliding bodies; reference when omitted"},
+       {"torsion", boolean(),
+        "the beam bends about its section's own axes and twists, in space and where nothing slides on it; true when "
+        "omitted with `orientation` or `second_moments`, else false"},
+       {"orientation", orientation(), "how the sections of a beam with torsion are drawn"},
        {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
-        "the unstressed shape; as-drawn in planar models, straight in spatial ones when omitted"},
+        "the unstressed shape; when omitted as-drawn in planar models and with torsion, else straight"},
        {"curvature", choice({"material", "spatial"}),
         "curvature measure; spatial: the papers'; material when omitted"},
        {"axial_strain", choice({"ends-and-mean", "pointwise"}),
@@ -187,18 +218,21 @@ Shape load() {
        {"force", vector(Dimension::force), "point force, fixed in space", false, "at"},
        {"moment", vector(Dimension::moment), "point moment", false, "at"},
        {"force_per_length", vector(Dimension::force_per_length), "per metre of reference arc length"},
-       {"follower", boolean(), "the force turns with the section; false when omitted", false, "force"},
+       {"follower", boolean(), "force or moment turns with the section; false when omitted", false, "at"},
        {"moves", moves, "a force that moves along the beam", false, "force"},
        {"time", table(Dimension::number), "factor over time, linear between rows, constant outside"}},
       {{{"force", "moment", "force_per_length"}, required}, {{"at", "force_per_length"}, false}});
 }
 
 Shape support() {
-  return object({{"beam", name(), "the supported beam", required},
-                 {"at", place(), "where", required},
-                 {"type", choice({"clamped", "pinned"}),
-                  "clamped: position and direction are held; pinned: the position", required},
-                 {"name", name(), "heads the columns of its reaction"}});
+  return object(
+      {{"beam", name(), "the supported beam", required},
+       {"at", place(), "where", required},
+       {"type", choice({"clamped", "pinned", "fork"}),
+        "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
+        "position and roll of a beam with torsion",
+        required},
+       {"name", name(), "heads the columns of its reaction"}});
 }
 
 Shape sliding_joint() {

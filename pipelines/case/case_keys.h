@@ -40,7 +40,7 @@ struct Shape {
     integer,   ///< in `range`
     quantity,  ///< a number in SI units or a text with a unit, in `range`
     vector,    ///< three quantities
-    table,     ///< rows [time, quantity], time increasing
+    table,     ///< rows [`argument`, quantity], the first increasing
   };
   Kind kind = Kind::object;
   std::vector<Key> keys;
@@ -50,6 +50,7 @@ struct Shape {
   std::vector<std::string> choices = {};
   Dimension dimension = Dimension::number;
   Range range = {};
+  Dimension argument = Dimension::time;
 };
 
 /// One key of an object.

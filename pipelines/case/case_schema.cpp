@@ -72,7 +72,7 @@ Json schema_of(const Shape& shape) {
       return {{"type", "array"},
               {"items",
                {{"type", "array"},
-                {"prefixItems", {quantity_schema(Dimension::time), quantity_schema(shape.dimension)}},
+                {"prefixItems", {quantity_schema(shape.argument), quantity_schema(shape.dimension)}},
                 {"minItems", 2},
                 {"maxItems", 2}}},
               {"minItems", 1}};

@@ -32,9 +32,13 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   out << "beam      " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
       << text_of(L, place_digits) << " m, mass " << size(L * p.mass_per_length) << " kg, "
       << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
-      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.axial_stiffness) << " N, EI "
-      << size(p.bending_stiffness) << " N m^2, stress-free "
-      << (beam.curve.straight() ? "straight" : "as drawn");
+      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.axial_stiffness) << " N, ";
+  if (p.sections)
+    out << "EI1 " << size(p.sections->bending_1) << ", EI2 " << size(p.sections->bending_2) << ", EI12 "
+        << size(p.sections->bending_product) << ", GJ " << size(p.sections->torsion);
+  else
+    out << "EI " << size(p.bending_stiffness);
+  out << " N m^2, stress-free " << (beam.curve.straight() ? "straight" : "as drawn");
   if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
   out << '\n';
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nurbs/number_text.h"
+#include "pipelines/section/torsion_constant.h"
 
 namespace nurbeam {
 
@@ -51,7 +52,11 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
   if (!drawn.value) return {};
   const SectionProfile& profile = *drawn.value;
   CaseSection section{.area = profile.area, .second_moment = profile.second_x};
-  if (dimension == 3) {
+  if (beam.torsion) {
+    section.second_moments = {profile.second_x, profile.second_y};
+    section.product = profile.product;
+    section.torsion_constant = beam.section.torsion_constant;
+  } else if (dimension == 3) {
     check_isotropy(where, profile, findings);
     section.extreme_fibre = farthest(profile, [](const Eigen::Vector3d& p) { return p.norm(); });
   } else {
@@ -66,6 +71,61 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
                         " degrees: it would bend out of the plane; the planar model holds it in its plane");
   }
   return BeamSection{section, profile};
+}
+
+namespace {
+
+double shear_modulus(const CaseBeam& beam, Findings& findings) {
+  const CaseMaterial& material = beam.material;
+  if (material.shear_modulus) return *material.shear_modulus;
+  constexpr double usual_ratio = 0.3;
+  if (!material.poissons_ratio)
+    findings.warn(beam.path + ".material",
+                  "has neither \"shear_modulus\" nor \"poissons_ratio\": a ratio of " + text_of(usual_ratio) +
+                      " is taken for torsion");
+  return material.youngs_modulus / (2 * (1 + material.poissons_ratio.value_or(usual_ratio)));
+}
+
+// Nothing where it is not known.
+std::optional<double> constant_of(const BeamSection& section) {
+  const CaseSection& sizes = section.section;
+  if (sizes.torsion_constant) return sizes.torsion_constant;
+  if (section.profile) {
+    const TorsionReport found = torsion_constant(section.profile->loops);
+    return found.status == TorsionStatus::no_mesh ? std::nullopt : std::optional(found.value);
+  }
+  if (!sizes.second_moments) return 2 * sizes.second_moment;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const BeamSection& section,
+                                                  Findings& findings) {
+  const CaseSection& sizes = section.section;
+  const std::optional<double> J = constant_of(section);
+  if (!J) {
+    findings.error(
+        beam.path + ".section",
+        "needs its \"torsion_constant\"" + std::string(section.profile ? ": it was not found from the profile"
+                                                                       : " beside \"second_moments\""));
+    return {};
+  }
+  if (!sizes.second_moments && !sizes.radius && !sizes.torsion_constant)
+    findings.warn(
+        beam.path + ".section",
+        "is taken for a round one in torsion, with a torsion constant of twice \"second_moment\": give "
+        "\"torsion_constant\" where it is not");
+  const double E = beam.material.youngs_modulus, G = shear_modulus(beam, findings);
+  const auto [I_x, I_y] = sizes.second_moments.value_or(std::array{sizes.second_moment, sizes.second_moment});
+  if (!(I_x * I_y > sizes.product * sizes.product)) {
+    findings.error(beam.path + ".section", "no section has a product of " + text_of(sizes.product) +
+                                               " m^4 with second moments of " + text_of(I_x) + " and " +
+                                               text_of(I_y) + " m^4");
+    return {};
+  }
+  return SectionStiffness{E * I_x, E * I_y, 0 - E * sizes.product, G * *J,
+                          beam.material.density * (I_x + I_y)};
 }
 
 }  // namespace nurbeam

@@ -19,4 +19,9 @@ struct BeamSection {
 std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
                                         Findings& findings);
 
+/// Stiffness and inertia of the sections of a beam with torsion; nothing, with an error among the findings,
+/// where its torsion constant is not known. Profiles: the x axis is d1, the y axis d2.
+std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const BeamSection& section,
+                                                  Findings& findings);
+
 }  // namespace nurbeam

@@ -1,6 +1,8 @@
 #include "pipelines/model/build_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -39,10 +41,13 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   std::vector<Eigen::Vector3d> forces = {resolved.gravity}, moments;
   for (const CaseLoad& load : resolved.loads)
     (load.kind == CaseLoad::Kind::moment ? moments : forces).push_back(load.value);
-  return model_frame(segments, forces, moments);
+  const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(),
+                                   [](const CaseBeam& beam) { return beam.torsion; });
+  return model_frame(segments, forces, moments, torsion);
 }
 
 bool is_straight(const CaseBeam& from, const ReferenceCurve& curve, Findings& findings) {
+  if (from.torsion) return from.stress_free == StressFree::straight;
   if (curve.dimension() == 2 || from.stress_free == StressFree::straight)
     return from.stress_free == StressFree::straight;
   const bool curved = curve.largest_curvature() * curve.length() > 1e-9;
@@ -50,8 +55,7 @@ bool is_straight(const CaseBeam& from, const ReferenceCurve& curve, Findings& fi
   if (from.stress_free == StressFree::as_drawn && curved)
     findings.error(
         from.path + ".stress_free",
-        "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model, which this element "
-        "has not; "
+        "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model: \"torsion\": true; or "
         "use \"straight\" (exact for cables) or \"as-drawn-without-torsion\" (the limit of no torsional "
         "stiffness)");
   return true;
@@ -90,20 +94,48 @@ void check_without_metric(const CaseBeam& beam, const std::vector<CaseSlidingJoi
                                                 joint.body + "\" slides on this beam; use \"reference\"");
 }
 
+// The curve with the sections of the beam, where it has torsion.
+ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, Findings& findings) {
+  if (!from.torsion) return curve;
+  try {
+    return curve.oriented(from.orientation);
+  } catch (const std::invalid_argument& problem) {
+    findings.error(from.path + ".orientation", problem.what());
+    return curve;
+  }
+}
+
+void check_nothing_slides(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints,
+                          Findings& findings) {
+  for (const CaseSlidingJoint& joint : joints)
+    if (joint.beam == beam.name)
+      findings.error(
+          beam.path + ".torsion",
+          "body \"" + joint.body + "\" slides on this beam; only a beam without torsion can carry it");
+}
+
 // A beam without elements yet.
 Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& curve,
-             const CaseSection& section, Findings& findings) {
+             const BeamSection& drawn, Findings& findings) {
+  const CaseSection& section = drawn.section;
   if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
   const Section sizes{.area = section.area,
                       .second_moment = section.second_moment,
                       .radius = section.radius,
                       .bore = section.bore,
-                      .extreme_fibre = section.radius ? section.radius : section.extreme_fibre};
+                      .extreme_fibre = section.radius           ? section.radius
+                                       : section.second_moments ? std::nullopt
+                                                                : section.extreme_fibre};
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
+  if (from.torsion) {
+    check_nothing_slides(from, resolved.sliding_joints, findings);
+    properties.sections = section_stiffness(from, drawn, findings);
+  }
+  const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
-          .curve = is_straight(from, curve, findings) ? curve.straightened() : curve,
+          .curve = oriented(from, stress_free, findings),
           .properties = properties,
           .section = sizes,
           .material = material,
@@ -129,8 +161,13 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
                            " already holds it; keep one of them (\"clamped\" holds what \"pinned\" holds)");
     places.push_back(s);
     paths.push_back(support.path);
-    model.constraints.push_back(
-        Support{b, beam.material_coordinate(s), support.type == CaseSupport::Type::clamped, support.name});
+    const bool fork = support.type == CaseSupport::Type::fork;
+    if (fork && !resolved.beams[b].torsion)
+      findings.error(support.path + ".type",
+                     "\"fork\" holds the roll of a section; beam \"" + support.beam +
+                         "\" has no torsion: give it \"torsion\": true, or use \"pinned\"");
+    model.constraints.push_back(Support{b, beam.material_coordinate(s),
+                                        support.type == CaseSupport::Type::clamped, fork, support.name});
   }
   return places;
 }
@@ -172,7 +209,7 @@ void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
         break;
       case CaseLoad::Kind::moment: {
         const LoadAtPlace moment = load_at_place(load, b, beam, frame.moment_to_local(load.value), findings);
-        check_moment(load, moment, beam, findings);
+        if (!resolved.beams[b].torsion) check_moment(load, moment, beam, findings);
         model.forces.push_back(Moment{moment});
         break;
       }
@@ -199,7 +236,7 @@ std::vector<DrawnBeam> add_beams(const ResolvedCase& resolved, const std::vector
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!drawn || !section) break;
-    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, section->section, findings));
+    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);

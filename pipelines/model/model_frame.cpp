@@ -65,7 +65,7 @@ RationalCubic ModelFrame::to_local(const RationalCubic& world) const {
 }
 
 ModelFrame model_frame(const std::vector<RationalCubic>& segments, const std::vector<Eigen::Vector3d>& forces,
-                       const std::vector<Eigen::Vector3d>& moments) {
+                       const std::vector<Eigen::Vector3d>& moments, bool torsion) {
   const Eigen::Vector3d origin = segments.front().control_point(0);
   double size = 0;
   for (const RationalCubic& cubic : segments)
@@ -80,7 +80,7 @@ ModelFrame model_frame(const std::vector<RationalCubic>& segments, const std::ve
   constexpr double flat = 1e-9;
   const auto off_plane = [&](const Eigen::Vector3d& v) { return std::abs(v.dot(normal)) > flat; };
   const auto off_normal = [&](const Eigen::Vector3d& v) { return v.cross(normal).norm() > flat; };
-  const bool planar = std::none_of(in_plane.begin(), in_plane.end(), off_plane) &&
+  const bool planar = !torsion && std::none_of(in_plane.begin(), in_plane.end(), off_plane) &&
                       std::none_of(across.begin(), across.end(), off_normal);
   ModelFrame frame;
   frame.dimension = planar ? 2 : 3;

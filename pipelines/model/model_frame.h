@@ -33,8 +33,9 @@ struct ModelFrame {
 /// the first. The model is planar when axes and `forces` (their directions; zeros count for nothing) lie in
 /// one plane and `moments` are normal to it. The local z axis is the plane's normal with its largest
 /// component positive; where many planes hold everything, of a line, the one that the first moment is normal
-/// to, or else the one nearest to the world's x-y plane. gravity_energy stays 0.
+/// to, or else the one nearest to the world's x-y plane. With `torsion` it is in space whatever they are.
+/// gravity_energy stays 0.
 ModelFrame model_frame(const std::vector<RationalCubic>& segments, const std::vector<Eigen::Vector3d>& forces,
-                       const std::vector<Eigen::Vector3d>& moments);
+                       const std::vector<Eigen::Vector3d>& moments, bool torsion = false);
 
 }  // namespace nurbeam

@@ -24,17 +24,25 @@ std::string name_of(WeightRule rule) {
 
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
-  return {{"name", beam.name},
-          {"length [m]", beam.curve.length()},
-          {"mass [kg]", beam.curve.length() * p.mass_per_length},
-          {"elements", beam.home.size() - 1},
-          {"CAD segments", beam.curve.segment_count()},
-          {"element", name_of(beam.weights)},
-          {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
-          {"bending as drawn [J]", source.drawn_bending},
-          {"EA [N]", p.axial_stiffness},
-          {"EI [N m^2]", p.bending_stiffness},
-          {"damping [s]", p.damping}};
+  Json json = {{"name", beam.name},
+               {"length [m]", beam.curve.length()},
+               {"mass [kg]", beam.curve.length() * p.mass_per_length},
+               {"elements", beam.home.size() - 1},
+               {"CAD segments", beam.curve.segment_count()},
+               {"element", name_of(beam.weights)},
+               {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
+               {"bending as drawn [J]", source.drawn_bending},
+               {"EA [N]", p.axial_stiffness},
+               {"EI [N m^2]", p.bending_stiffness},
+               {"damping [s]", p.damping}};
+  if (p.sections) {
+    json.erase("EI [N m^2]");
+    json.update({{"EI1 [N m^2]", p.sections->bending_1},
+                 {"EI2 [N m^2]", p.sections->bending_2},
+                 {"EI12 [N m^2]", p.sections->bending_product},
+                 {"GJ [N m^2]", p.sections->torsion}});
+  }
+  return json;
 }
 
 /// Away from the beam at its ends, else up.
@@ -48,7 +56,9 @@ Eigen::Vector3d outward(const BeamModel& model, const Support& support) {
 Json to_json(const Support& support, const BuiltModel& built) {
   const Beam& beam = built.model.beams[support.beam];
   return {{"beam", beam.name},
-          {"type", support.clamped ? "clamped" : "pinned"},
+          {"type", support.clamped ? "clamped"
+                   : support.fork  ? "fork"
+                                   : "pinned"},
           {"s [m]", support.s},
           {"position [m]", to_json(built.frame.to_world(beam.curve.position(support.s)))},
           {"outward", to_json(built.frame.direction_to_world(outward(built.model, support)))}};

@@ -244,6 +244,16 @@ void exchange(Archive& archive, Checkpoint& p) {
                   slot(weights.s_b);
                   for (double& w : weights.w) slot(w);
                 });
+  exchange_rows(archive, "section_charts",
+                "beam, s_a, s_b, axes at both ends and turn, of elements with torsion", p.plan.section_charts,
+                [](MeshPlan::SectionCharts& charts, auto& slot) {
+                  slot(charts.beam);
+                  slot(charts.s_a);
+                  slot(charts.s_b);
+                  for (Eigen::Matrix3d& chart : charts.charts)
+                    for (double& component : chart.reshaped()) slot(component);
+                  slot(charts.turn);
+                });
   exchange_rows(archive, "steps",
                 "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
                 [](StepRecord& step, auto& slot) {

@@ -132,6 +132,7 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, axial_strain_problems());
   append(all, dynamics_problems());
   append(all, invariance_problems());
+  append(all, torsion_problems());
   append(all, sliding_problems());
   return all;
 }

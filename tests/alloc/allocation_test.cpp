@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/system/assembly.h"
-#include "tests/fem/random_models.h"
+#include "tests/fem/torsion_models.h"
 
 namespace {
 long allocations = 0;
@@ -27,6 +27,7 @@ namespace {
 
 using testing::disturbed_state;
 using testing::model_with_everything;
+using testing::torsion_model;
 
 template <class Work>
 long allocations_in(const Work& work) {
@@ -36,12 +37,12 @@ long allocations_in(const Work& work) {
 }
 
 template <int D>
-void check() {
+void check(const auto& make_model) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer counts for itself";
 #endif
   std::mt19937 random(1);
-  const BeamModel model = model_with_everything(random, D);
+  const BeamModel model = make_model(random, D);
   const BeamSystem system(model, initial_plan(model));
   const State state = disturbed_state(system, random);
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
@@ -67,8 +68,9 @@ TEST(AllocationCount, SeesBothNewAndEigen) {
 }
 #endif
 
-TEST(ElementAndAssembly, DoNotAllocateInThePlane) { check<2>(); }
-TEST(ElementAndAssembly, DoNotAllocateInSpace) { check<3>(); }
+TEST(ElementAndAssembly, DoNotAllocateInThePlane) { check<2>(model_with_everything); }
+TEST(ElementAndAssembly, DoNotAllocateInSpace) { check<3>(model_with_everything); }
+TEST(ElementAndAssembly, DoNotAllocateWithTorsion) { check<3>(torsion_model); }
 
 }  // namespace
 }  // namespace nurbeam

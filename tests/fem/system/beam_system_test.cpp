@@ -7,7 +7,7 @@
 #include "fem/system/material_points.h"
 #include "solver/consistent.h"
 #include "solver/generalized_alpha.h"
-#include "tests/fem/random_models.h"
+#include "tests/fem/torsion_models.h"
 
 namespace nurbeam {
 namespace {
@@ -18,6 +18,7 @@ using testing::joined_model;
 using testing::line_cubic;
 using testing::model_with_everything;
 using testing::one_beam;
+using testing::torsion_model;
 using testing::uneven_axis;
 
 Eigen::VectorXd random_vector(Eigen::Index size, std::mt19937& random) {
@@ -100,6 +101,10 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInSpace) {
   check_tangent<3>(10, cornered_model);
 }
 
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithTorsion) {
+  for (const int seed : {14, 15}) check_tangent<3>(seed, torsion_model);
+}
+
 template <int D>
 void check_constraints(int seed, const auto& make_model) {
   std::mt19937 random(seed);
@@ -132,6 +137,10 @@ TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInSpace) {
   check_constraints<3>(4, model_with_everything);
   check_constraints<3>(8, joined_model);
   check_constraints<3>(12, cornered_model);
+}
+
+TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsWithTorsion) {
+  for (const int seed : {16, 17}) check_constraints<3>(seed, torsion_model);
 }
 
 // The coordinates after r -> A r + b of the whole model.

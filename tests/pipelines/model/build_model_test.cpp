@@ -103,5 +103,91 @@ TEST(BuildModel, ADrawingThatHoldsNothingIsNotTold) {
   EXPECT_EQ(straight.value.value().sources[0].drawn_bending, 0);
 }
 
+// ---- Torsion ----
+
+BuildReport built(std::vector<std::string> overrides) {
+  const test::TemporaryDirectory directory;
+  const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
+  if (!report.value) return {{}, report.diagnostics};
+  return build_model(*report.value);
+}
+
+/// Whether one of the errors is at that place and says all that.
+bool refuses(const BuildReport& report, const std::string& where, const std::vector<std::string>& parts) {
+  for (const Diagnostic& d : report.diagnostics) {
+    if (d.severity != Severity::error || d.where.find(where) == std::string::npos) continue;
+    bool all = true;
+    for (const std::string& part : parts) all = all && d.message.find(part) != std::string::npos;
+    if (all) return true;
+  }
+  return false;
+}
+
+TEST(BuildModel, GivesABeamWithTorsionTheStiffnessOfItsSections) {
+  const BuildReport report = built({"beams[0].torsion=true", "beams[0].material.poissons_ratio=0.25"});
+  ASSERT_TRUE(report.value);
+  EXPECT_TRUE(report.diagnostics.empty());
+  const BeamModel& model = report.value->model;
+  EXPECT_EQ(model.dimension, 3);  // though everything lies in a plane
+  const Beam& beam = model.beams[0];
+  ASSERT_TRUE(beam.has_torsion());
+  const double I = std::numbers::pi * 1e-8 / 4, E = 20e6;
+  EXPECT_NEAR(beam.properties.sections->bending_1, E * I, 1e-12 * E * I);
+  EXPECT_NEAR(beam.properties.sections->bending_2, E * I, 1e-12 * E * I);
+  EXPECT_NEAR(beam.properties.sections->torsion, E / 2.5 * 2 * I, 1e-12 * E * I);
+  EXPECT_NEAR(beam.properties.sections->spin_inertia, 7200 * 2 * I, 1e-12 * 7200 * I);
+  EXPECT_LT((beam.curve.section(0.5).d2 - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_FALSE(built({}).value->model.beams[0].has_torsion());
+}
+
+TEST(BuildModel, DrawsSectionsOfAnyKindAlongTheAxis) {
+  const BuildReport report = built(
+      {R"(beams[0].section={"area": 1e-4, "second_moments": [2e-9, 1e-9], "product": 5e-10, "torsion_constant": 1e-9})",
+       R"(beams[0].orientation={"up": [0, 1, 0], "twist": [[0, 0], ["50 cm", 90]]})",
+       R"(beams[0].material.shear_modulus="8 MPa")", R"(supports[0].type="fork")"});
+  ASSERT_TRUE(report.value) << report.diagnostics[0].message;
+  const Beam& beam = report.value->model.beams[0];
+  ASSERT_TRUE(beam.has_torsion());  // the keys ask for it
+  EXPECT_NEAR(beam.properties.sections->bending_1, 20e6 * 2e-9, 1e-15);
+  EXPECT_NEAR(beam.properties.sections->bending_2, 20e6 * 1e-9, 1e-15);
+  EXPECT_NEAR(beam.properties.sections->bending_product, -20e6 * 5e-10, 1e-15);
+  EXPECT_NEAR(beam.properties.sections->torsion, 8e6 * 1e-9, 1e-15);
+  EXPECT_LT((beam.curve.section(0).d2 - Eigen::Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LT((beam.curve.section(0.8).d2 + beam.curve.section(0).d1).norm(), 1e-14);
+  EXPECT_TRUE(std::get<Support>(report.value->model.constraints[0]).fork);
+}
+
+TEST(BuildModel, NotesWhatIsTakenForTorsionWhenNothingIsSaid) {
+  const BuildReport report =
+      built({"beams[0].torsion=true", R"(beams[0].section={"area": 1e-4, "second_moment": 1e-9})"});
+  ASSERT_TRUE(report.value);
+  ASSERT_EQ(report.diagnostics.size(), 2u);
+  EXPECT_NE(report.diagnostics[0].message.find("twice"), std::string::npos);
+  EXPECT_NE(report.diagnostics[1].message.find("0.3"), std::string::npos);
+  EXPECT_NEAR(report.value->model.beams[0].properties.sections->torsion, 20e6 / 2.6 * 2e-9, 1e-15);
+}
+
+TEST(BuildModel, RefusesWhatABeamWithTorsionCannotBe) {
+  const std::string on = "beams[0].torsion=true";
+  EXPECT_TRUE(refuses(built({"beams[0].torsion=false", R"(beams[0].orientation={"up": [0, 0, 1]})"}),
+                      "beams[0].orientation", {"\"torsion\" is false"}));
+  EXPECT_TRUE(refuses(built({on, R"(beams[0].curvature="spatial")"}), "beams[0].curvature", {"torsion"}));
+  EXPECT_TRUE(refuses(built({on, R"(beams[0].stress_free="as-drawn-without-torsion")"}),
+                      "beams[0].stress_free", {"torsion"}));
+  EXPECT_TRUE(
+      refuses(built({R"(beams[0].orientation={"up": [1, 0, 0]})"}), "beams[0].orientation", {"s = 0 m"}));
+  EXPECT_TRUE(refuses(built({R"(supports[0].type="fork")"}), "supports[0].type", {"no torsion"}));
+  EXPECT_TRUE(refuses(built({R"(beams[0].section={"area": 1e-4, "second_moments": [1e-9, 1e-9]})"}),
+                      "beams[0].section", {"torsion_constant"}));
+  EXPECT_TRUE(refuses(built({R"(beams[0].section={"area": 1e-4, "second_moments": [1e-9]})"}),
+                      "beams[0].section.second_moments", {"expected"}));
+  EXPECT_TRUE(
+      refuses(built({on, R"(bodies=[{"name": "bead", "mass": 1}])",
+                     R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5}}])"}),
+              "beams[0].torsion", {"bead", "slides"}));
+  EXPECT_TRUE(refuses(built({on, R"(beams[0].orientation={"twist": [[1, 0], [0, 9]]})"}),
+                      "beams[0].orientation.twist", {"places must increase"}));
+}
+
 }  // namespace
 }  // namespace nurbeam

@@ -1,0 +1,75 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/node_section.h"
+
+namespace nurbeam {
+
+/// The section of a clamped node keeps its drawn angle, theta = 0 in the chart of the drawing: 1 row. With
+/// the direction of the slope, which is held too, that is its drawn triad.
+class ClampedRoll {
+ public:
+  explicit ClampedRoll(const NodeSection& node) : tangent_(node.drawn.col(2)), dofs_{node.dofs[3]} {}
+
+  static constexpr int rows = 1;
+  static constexpr bool linear = true;  ///< no Hessian
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
+                           const ConstraintTerms<3>::Multipliers*) const {
+    ConstraintTerms<3> terms(rows, false);
+    terms.value[0] = state.q[dofs_[0]];
+    terms.gradient(0, 0) = 1;
+    return terms;
+  }
+  /// On the beam [N m], for its multiplier.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State&,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return -y[0] * tangent_;
+  }
+
+ private:
+  Eigen::Vector3d tangent_;
+  std::vector<int> dofs_;
+};
+
+/// A fork: the section does not roll and bends freely both ways, d2 . d1_0 = 0 with the drawn d1_0: 1 row.
+class ForkedRoll {
+ public:
+  explicit ForkedRoll(const NodeSection& node) : node_(node), dofs_(node.dofs.begin(), node.dofs.end()) {}
+
+  static constexpr int rows = 1;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
+                           const ConstraintTerms<3>::Multipliers* y) const {
+    ConstraintTerms<3> terms(rows, y != nullptr);
+    const Eigen::Vector4d x = node_.coordinates(state.q);
+    terms.value[0] = node_.triad<double>(x).d2.dot(node_.drawn.col(0));
+    terms.gradient.leftCols<4>() = gradient<double>(x).transpose();
+    if (!y) return terms;
+    using T = Dual<4>;
+    Eigen::Matrix<T, 4, 1> variables;
+    for (int i = 0; i < 4; ++i) variables[i] = T::variable(x[i], i);
+    const Eigen::Matrix<T, 4, 1> g = gradient<T>(variables);
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) terms.hessian(i, j) = (*y)[0] * g[i].d[j];
+    return terms;
+  }
+  /// On the beam [N m], for its multiplier.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return -y[0] * node_.triad<double>(node_.coordinates(state.q)).d2.cross(node_.drawn.col(0));
+  }
+
+ private:
+  template <class T>
+  Eigen::Matrix<T, 4, 1> gradient(const Eigen::Matrix<T, 4, 1>& x) const {
+    const Vector3<T> d1_0 = node_.drawn.col(0).cast<T>();
+    return node_.force<T>(x, node_.triad<T>(x).d2.cross(d1_0));
+  }
+
+  NodeSection node_;
+  std::vector<int> dofs_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,92 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/node_section.h"
+
+namespace nurbeam {
+
+/// Two sections keep the relative orientation that they have in the drawing: of two beams at a rigid joint,
+/// or of one before and after a corner. 3 rows; coordinates (r_s, angle) of both.
+///
+/// g = sum_i a_i x b_i/2 = 0 with the triad a_i of the one and b_i = sum_j C0_ij d_j that of the other as it
+/// was drawn from the first. Where g = 0 its variation is the difference of both spins, so the multiplier is
+/// the moment [N m]. g vanishes again where the two are turned by 180 degrees.
+class JoinedSections {
+ public:
+  JoinedSections(const NodeSection& a, const NodeSection& b)
+      : a_(a), b_(b), relative_(a.drawn.transpose() * b.drawn) {
+    for (const NodeSection* node : {&a, &b}) dofs_.insert(dofs_.end(), node->dofs.begin(), node->dofs.end());
+  }
+
+  static constexpr int rows = 3;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
+                           const ConstraintTerms<3>::Multipliers* y) const {
+    ConstraintTerms<3> terms(rows, y != nullptr);
+    Vector8<double> x;
+    x << a_.coordinates(state.q), b_.coordinates(state.q);
+    const Triads<double> both = triads<double>(x);
+    for (int i = 0; i < 3; ++i) terms.value += both.a.col(i).cross(both.b.col(i)) / 2;
+    for (int k = 0; k < 3; ++k)
+      terms.gradient.block<1, 8>(k, 0) = gradient<double>(x, Eigen::Vector3d::Unit(k)).transpose();
+    if (!y) return terms;
+    using T = Dual<8>;
+    Vector8<T> variables;
+    for (int i = 0; i < 8; ++i) variables[i] = T::variable(x[i], i);
+    const Vector8<T> g = gradient<T>(variables, *y);
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j) terms.hessian(i, j) = g[i].d[j];
+    return terms;
+  }
+  /// On the first of the two [N m], for its multipliers.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    Vector8<double> x;
+    x << a_.coordinates(state.q), b_.coordinates(state.q);
+    return -moments<double>(triads<double>(x), Eigen::Vector3d(y)).a;
+  }
+
+ private:
+  template <class T>
+  using Vector8 = Eigen::Matrix<T, 8, 1>;
+  template <class T>
+  struct Triads {
+    Eigen::Matrix<T, 3, 3> a, b;  // a_i and b_i, columns
+  };
+  template <class T>
+  Triads<T> triads(const Vector8<T>& x) const {
+    return {a_.triad<T>(x.template head<4>()).matrix(),
+            b_.triad<T>(x.template tail<4>()).matrix() * relative_.transpose().cast<T>()};
+  }
+  // What y . g changes by with the spins of both.
+  template <class T>
+  struct Moments {
+    Vector3<T> a, b;
+  };
+  template <class T>
+  Moments<T> moments(const Triads<T>& both, const Eigen::Vector3d& y) const {
+    const Vector3<T> direction = y.cast<T>();
+    Moments<T> on{Vector3<T>::Zero(), Vector3<T>::Zero()};
+    for (int i = 0; i < 3; ++i) {
+      const Vector3<T> a = both.a.col(i), b = both.b.col(i);
+      on.a += a.cross(b.cross(direction)) / 2.0;
+      on.b += b.cross(direction.cross(a)) / 2.0;
+    }
+    return on;
+  }
+  // Of y . g.
+  template <class T>
+  Vector8<T> gradient(const Vector8<T>& x, const Eigen::Vector3d& y) const {
+    const Triads<T> both = triads<T>(x);
+    const Moments<T> on = moments<T>(both, y);
+    Vector8<T> g;
+    g << a_.force<T>(x.template head<4>(), on.a), b_.force<T>(x.template tail<4>(), on.b);
+    return g;
+  }
+
+  NodeSection a_, b_;
+  Eigen::Matrix3d relative_;  // C0: columns are B's drawn axes in A's
+  std::vector<int> dofs_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,246 @@
+#include "fem/element/drawn_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "fem/element/section_frame.h"
+#include "nurbs/gauss_panels.h"
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+constexpr double smallest_angle = pi / 180;  ///< between the tangent and `up`
+
+// Tangent and curvature vector at a parameter.
+struct Bend {
+  Vector3d t, K;
+  double torsion_numerator;  // (r' x r'') . r''' over |r'|^6: torsion times curvature^2
+
+  explicit Bend(const Eigen::Matrix<double, 3, 6>& r) {
+    const double speed = r.col(1).norm();
+    const Vector3d across = r.col(1).cross(r.col(2));
+    t = r.col(1) / speed;
+    K = across / std::pow(speed, 3);
+    torsion_numerator = across.dot(r.col(3)) / std::pow(speed, 6);
+  }
+  Bend(const RationalCubic& segment, double u) : Bend(segment.derivatives(u)) {}
+};
+
+// d(angle)/du of parallel transport against the smallest rotation from t_a.
+double transport_rate_by_parameter(const RationalCubic& segment, double u, const Vector3d& t_a) {
+  const Eigen::Matrix<double, 3, 6> r = segment.derivatives(u);
+  const Bend bend(r);
+  return transport_rate<double>(bend.K, bend.t, t_a) * r.col(1).norm();
+}
+
+double transport_angle(const RationalCubic& segment, double from, double to, const Vector3d& t_a) {
+  return gauss([&](double u) { return transport_rate_by_parameter(segment, u, t_a); }, from, to);
+}
+
+// Whether one Gauss rule from u_0 to u_1 transports to round-off.
+bool is_short(const RationalCubic& segment, double u_0, double u_1) {
+  if (u_1 - u_0 < 1e-6) return true;
+  const double middle = (u_0 + u_1) / 2;
+  const Vector3d t = Bend(segment, u_0).t;
+  if (t.dot(Bend(segment, middle).t) < 0.7 || t.dot(Bend(segment, u_1).t) < 0.5) return false;
+  const double whole = transport_angle(segment, u_0, u_1, t);
+  return std::abs(transport_angle(segment, u_0, middle, t) + transport_angle(segment, middle, u_1, t) -
+                  whole) < 1e-14;
+}
+
+// Parameters where pieces start that are short enough, and the end.
+void add_pieces(const RationalCubic& segment, double u_0, double u_1, std::vector<double>& ends) {
+  if (is_short(segment, u_0, u_1)) {
+    ends.push_back(u_1);
+    return;
+  }
+  add_pieces(segment, u_0, (u_0 + u_1) / 2, ends);
+  add_pieces(segment, (u_0 + u_1) / 2, u_1, ends);
+}
+
+Vector3d across(const Vector3d& direction, const Vector3d& t) { return direction - direction.dot(t) * t; }
+
+// d1 of the triad whose d2 is along `direction` as far as that is across t.
+Vector3d first_axis(const Vector3d& direction, const Vector3d& t, double s) {
+  const Vector3d d2 = across(direction, t);
+  if (!(d2.norm() > std::sin(smallest_angle) * direction.norm()))
+    throw std::invalid_argument(
+        "the section's direction is within 1 degree of the axis at s = " + text_of(s) + " m");
+  return d2.normalized().cross(t);
+}
+
+Vector3d default_direction(const Vector3d& t) {
+  return across(Vector3d::UnitZ(), t).norm() > std::sin(smallest_angle) ? Vector3d::UnitZ()
+                                                                        : Vector3d::UnitX();
+}
+
+// Slopes of a monotone C1 cubic through rows (Fritsch & Butland 1984).
+std::vector<double> monotone_slopes(const std::vector<std::pair<double, double>>& rows) {
+  std::vector<double> slopes(rows.size(), 0);
+  if (rows.size() < 2) return slopes;
+  const auto length = [&](std::size_t i) { return rows[i + 1].first - rows[i].first; };
+  const auto secant = [&](std::size_t i) { return (rows[i + 1].second - rows[i].second) / length(i); };
+  slopes.front() = secant(0);
+  slopes.back() = secant(rows.size() - 2);
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    const double a = secant(i - 1), b = secant(i);
+    const double weight = (1 + length(i) / (length(i - 1) + length(i))) / 3;
+    if (a * b > 0) slopes[i] = a * b / (weight * b + (1 - weight) * a);
+  }
+  return slopes;
+}
+
+}  // namespace
+
+DrawnSections::DrawnSections(const std::vector<RationalCubic>& segments, const std::vector<double>& breaks,
+                             bool closed, Orientation orientation)
+    : orientation_(std::move(orientation)), length_(breaks.back()) {
+  check_twist(closed);
+  slopes_ = monotone_slopes(orientation_.twist);
+  check(segments, breaks);
+  if (orientation_.rule != Orientation::Rule::start) return;
+  const Vector3d t = Bend(segments.front(), 0).t;
+  Vector3d& direction = orientation_.direction;
+  if (direction.isZero(0)) direction = default_direction(t);
+  transport(segments, first_axis(direction, t, 0));
+  if (!closed) return;
+  const Piece& start = pieces_.front().front();
+  const Vector3d end =
+      transported(segments.back(), static_cast<int>(segments.size()) - 1, 1, Bend(segments.back(), 1).t);
+  const Vector3d back = turned_with<double>(end, Bend(segments.back(), 1).t, start.t);
+  holonomy_ = std::atan2(back.dot(start.t.cross(start.d1)), back.dot(start.d1));
+}
+
+void DrawnSections::transport(const std::vector<RationalCubic>& segments, const Vector3d& start) {
+  Vector3d t = Bend(segments.front(), 0).t, d1 = start;
+  for (int j = 0; j < static_cast<int>(segments.size()); ++j) {
+    const Vector3d t_j = Bend(segments[j], 0).t;
+    if (t.dot(t_j) < -1 + 1e-9)
+      throw std::invalid_argument("the axis turns back on itself where segment " + std::to_string(j + 1) +
+                                  " starts: no section can be carried over");
+    pieces_.push_back({{0, t_j, turned_with<double>(d1, t, t_j).normalized()}});
+    std::vector<double> ends;
+    add_pieces(segments[j], 0, 1, ends);
+    for (const double u : ends) {
+      t = Bend(segments[j], u).t;
+      d1 = across(transported(segments[j], j, u, t), t).normalized();
+      pieces_[j].push_back({u, t, d1});
+    }
+  }
+}
+
+Vector3d DrawnSections::transported(const RationalCubic& segment, int j, double u, const Vector3d& t) const {
+  const std::vector<Piece>& pieces = pieces_[j];
+  const auto after = std::upper_bound(pieces.begin() + 1, pieces.end(), u,
+                                      [](double at, const Piece& piece) { return at < piece.u; });
+  const Piece& piece = *(after - 1);
+  const SectionTriad<double> start{piece.d1, piece.t.cross(piece.d1), piece.t};
+  return carried_section<double>(start, t, transport_angle(segment, piece.u, u, piece.t)).d1;
+}
+
+DrawnSection DrawnSections::at(const RationalCubic& segment, int j, double u, double s) const {
+  const Bend bend(segment, u);
+  Vector3d d1;
+  switch (orientation_.rule) {
+    case Orientation::Rule::start:
+      d1 = transported(segment, j, u, bend.t);
+      break;
+    case Orientation::Rule::up:
+      d1 = first_axis(orientation_.direction, bend.t, s);
+      break;
+    case Orientation::Rule::frenet:
+      d1 = -bend.K.normalized();
+      break;
+  }
+  const Vector3d d2 = bend.t.cross(d1);
+  const double angle = added_turn(s).angle, c = std::cos(angle), sine = std::sin(angle);
+  return {c * d1 + sine * d2, c * d2 - sine * d1, bend.t, bend.K,
+          rule_twist(segment, u) + added_turn(s).rate};
+}
+
+double DrawnSections::turn(const RationalCubic& segment, double u_0, double u_1, double s_0,
+                           double s_1) const {
+  const double added = added_turn(s_1).angle - added_turn(s_0).angle;
+  if (orientation_.rule == Orientation::Rule::start) return added;
+  const auto by_parameter = [&](double u) {
+    return rule_twist(segment, u) * segment.derivatives(u).col(1).norm();
+  };
+  return added + panels_of(by_parameter, u_0, u_1, 1, 1e-12).integrals.back();
+}
+
+// The twist of the rule, without what turns it besides.
+double DrawnSections::rule_twist(const RationalCubic& segment, double u) const {
+  if (orientation_.rule == Orientation::Rule::start) return 0;
+  const Bend bend(segment, u);
+  if (orientation_.rule == Orientation::Rule::frenet) return bend.torsion_numerator / bend.K.squaredNorm();
+  // (up . t) k2/|up across t|
+  const Vector3d& up = orientation_.direction;
+  const Vector3d up_across = across(up, bend.t);
+  return up.dot(bend.t) * bend.K.dot(up_across) / up_across.squaredNorm();
+}
+
+DrawnSections::Turn DrawnSections::added_turn(double s) const {
+  Turn turn{-holonomy_ * s / length_, -holonomy_ / length_};
+  const auto& rows = orientation_.twist;
+  if (rows.empty()) return turn;
+  const auto next =
+      std::upper_bound(rows.begin(), rows.end(), s, [](double x, const auto& row) { return x < row.first; });
+  if (next == rows.begin() || (next == rows.end() && s > rows.back().first) || rows.size() == 1) {
+    turn.angle += (next == rows.begin() ? rows.front() : rows.back()).second;
+    return turn;
+  }
+  const std::size_t i = std::min<std::size_t>(next - rows.begin(), rows.size() - 1) - 1;
+  const double l = rows[i + 1].first - rows[i].first, x = (s - rows[i].first) / l;
+  const double rise = rows[i + 1].second - rows[i].second, a = slopes_[i] * l, b = slopes_[i + 1] * l;
+  // Cubic Hermite: y_0 + a x + (3 rise - 2 a - b) x^2 + (a + b - 2 rise) x^3.
+  const double c2 = 3 * rise - 2 * a - b, c3 = a + b - 2 * rise;
+  turn.angle += rows[i].second + x * (a + x * (c2 + x * c3));
+  turn.rate += (a + x * (2 * c2 + x * 3 * c3)) / l;
+  return turn;
+}
+
+void DrawnSections::check_twist(bool closed) const {
+  const auto& rows = orientation_.twist;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    if (!(rows[i].first < rows[i + 1].first))
+      throw std::invalid_argument("the places of a twist must increase; " + text_of(rows[i + 1].first) +
+                                  " m follows " + text_of(rows[i].first) + " m");
+  if (!closed || rows.empty()) return;
+  const double total = rows.back().second - rows.front().second;
+  if (std::abs(std::remainder(total, 2 * pi)) > 1e-9)
+    throw std::invalid_argument("the twist of a closed beam must be full turns; it comes back turned by " +
+                                text_of(total) + " rad");
+}
+
+void DrawnSections::check(const std::vector<RationalCubic>& segments,
+                          const std::vector<double>& breaks) const {
+  if (orientation_.rule == Orientation::Rule::start) return;
+  constexpr int samples = 33;
+  for (std::size_t j = 0; j < segments.size(); ++j)
+    for (int i = 0; i < samples; ++i) {
+      const double u = i / (samples - 1.0), s = breaks[j] + u * (breaks[j + 1] - breaks[j]);
+      const Bend bend(segments[j], u);
+      if (orientation_.rule == Orientation::Rule::up)
+        first_axis(orientation_.direction, bend.t, s);
+      else if (!(bend.K.norm() * length_ > 1e-6))
+        throw std::invalid_argument("the axis has no curvature near s = " + text_of(s) +
+                                    " m, so no centre of curvature for its section to point to");
+    }
+  if (orientation_.rule == Orientation::Rule::up) return;
+  for (std::size_t j = 0; j + 1 < segments.size(); ++j) {
+    const Vector3d before = Bend(segments[j], 1).K.normalized(),
+                   after = Bend(segments[j + 1], 0).K.normalized();
+    if (before.cross(after).norm() > 1e-6 || before.dot(after) < 0)
+      throw std::invalid_argument(
+          "the direction of the centre of curvature jumps at s = " + text_of(breaks[j + 1]) + " m");
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/element/orientation.h"
+#include "nurbs/rational_cubic.h"
+
+namespace nurbeam {
+
+/// The section of a drawing at one place: a right-handed triad, and how it changes along the drawing.
+struct DrawnSection {
+  Eigen::Vector3d d1, d2, t;
+  Eigen::Vector3d curvature;  ///< t x dt/ds [1/m]
+  double twist;               ///< d1' . d2, turns about t per length [rad/m]
+};
+
+/// The sections of a drawn curve in space, by its orientation.
+///
+/// Rule::start is parallel transport along each segment (Bishop's frame): the smallest rotation from the
+/// start of a piece, turned by the integral of transport_rate, to about 1e-13 rad; from segment to segment,
+/// over small angles and corners alike, by the smallest rotation between the two tangents. On a closed curve
+/// it comes back turned by the holonomy, which is taken out evenly along it.
+class DrawnSections {
+ public:
+  /// `breaks`: arc lengths of the ends of the segments. Throws std::invalid_argument, with the place, where
+  /// the orientation means nothing: along `up`, without curvature for `frenet` (below 1e-6 over the length)
+  /// or where that jumps by an angle from segment to segment, rows of the twist that do not increase, and a
+  /// twist that does not close on a closed curve.
+  DrawnSections(const std::vector<RationalCubic>& segments, const std::vector<double>& breaks, bool closed,
+                Orientation orientation);
+
+  /// In segment j, given again with its number, at its parameter u, which is the arc length s.
+  DrawnSection at(const RationalCubic& segment, int j, double u, double s) const;
+  /// The integral of the twist over the part [u_0, u_1] of a segment, between the arc lengths s_0 and s_1.
+  double turn(const RationalCubic& segment, double u_0, double u_1, double s_0, double s_1) const;
+  /// The angle by which parallel transport along a closed curve comes back turned [rad]; 0 on an open one.
+  double holonomy() const { return holonomy_; }
+
+ private:
+  // The parameter where a piece starts, and the transported frame there.
+  struct Piece {
+    double u;
+    Eigen::Vector3d t, d1;
+  };
+  // What turns a section about its tangent, and its rate.
+  struct Turn {
+    double angle, rate;
+  };
+  void transport(const std::vector<RationalCubic>& segments, const Eigen::Vector3d& start);
+  void check(const std::vector<RationalCubic>& segments, const std::vector<double>& breaks) const;
+  Eigen::Vector3d transported(const RationalCubic& segment, int j, double u, const Eigen::Vector3d& t) const;
+  Turn added_turn(double s) const;
+  double rule_twist(const RationalCubic& segment, double u) const;
+  void check_twist(bool closed) const;
+
+  Orientation orientation_;
+  std::vector<double> slopes_;              // of the twist, at its rows
+  std::vector<std::vector<Piece>> pieces_;  // per segment, with Rule::start
+  double length_, holonomy_ = 0;
+};
+
+}  // namespace nurbeam

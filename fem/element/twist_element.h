@@ -1,0 +1,158 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "fem/element/layout.h"
+#include "fem/element/quadrature.h"
+#include "fem/element/rancf_basis.h"
+#include "fem/element/section_frame.h"
+#include "fem/material/section_moments.h"
+#include "solver/second_order_system.h"
+
+namespace nurbeam {
+
+/// Where the coordinates of an element with torsion stand: those of ElementLayout<3>, then the angles of the
+/// sections at both ends in their charts, then the bubble of twist.
+struct TwistLayout : ElementLayout<3> {
+  static constexpr int first = ElementLayout<3>::size;
+  static constexpr int angle(int end) { return first + end; }
+  static constexpr int bubble = first + 2;
+  static constexpr int size = first + 3;
+
+  using Coordinates = Eigen::Matrix<double, size, 1>;
+  using Matrix = Eigen::Matrix<double, size, size>;
+};
+
+/// Coordinates and their rates.
+struct TwistState {
+  TwistLayout::Coordinates q, v, a;
+};
+
+struct TwistEnergy {
+  double kinetic = 0, bending = 0, torsion = 0;  ///< [J]; kinetic: of the spin about the tangent
+  double dissipation = 0;                        ///< [W]
+};
+
+/// A section in motion, and what it carries.
+struct SectionPoint {
+  SectionTriad<double> triad;
+  SectionStrain<double> strain;    ///< against the drawing [1/m]
+  SectionMoments<double> moments;  ///< elastic [N m]
+};
+
+/// The sections of one element whose ends are fixed: bending about their own axes and torsion, with the
+/// inertia of the spin about the tangent. What it adds to a BeamElement<3> whose axis alone does not bend.
+///
+/// Inside the element the section is carried from end A by parallel transport, turned by the drawn twist and
+/// by the twist since the drawing, theta(xi) = theta_B xi + beta 4 xi (1 - xi), xi = (s - s_A)/h. So the
+/// strain of twist is theta'/h, relative directions alone count, and the drawn shape is free of stress to
+/// round-off (docs/theory.md, "Torsion").
+class TwistElement {
+ public:
+  using Coordinates = TwistLayout::Coordinates;
+  using Matrix = TwistLayout::Matrix;
+  /// A chart of a node: fixed axes M1, M2, m, columns.
+  using SectionChart = Eigen::Matrix3d;
+
+  /// `curve`, with sections, and `properties`, with theirs, must outlive the element. `charts`: of both ends,
+  /// in any present orientation; `turn`: of the section at B against that at A, which says which of the
+  /// angles 2 pi apart is meant [rad]. Throws std::invalid_argument without sections, for a stiffness that is
+  /// not positive definite and a spatial measure of curvature.
+  TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
+               double s_b, const std::array<SectionChart, 2>& charts, double turn);
+  /// In the charts of the drawing.
+  TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
+               double s_b);
+
+  const SectionChart& chart(int end) const { return charts_[end]; }
+
+  /// d/dt(dT/dv) - dT/dq + dU/dq + damping of the sections; zero in the rows of the places.
+  Coordinates force(const TwistState& x) const;
+  /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
+  Matrix tangent(const TwistState& x, const TangentWeights& w) const;
+  TwistEnergy energy(const TwistState& x) const;
+
+  /// Whether a step may end here: no tangent near the opposite of its chart's or of the tangent at A, and no
+  /// turn near the one that its reference does not tell from the next.
+  bool admissible(const Coordinates& q) const;
+  /// Whether the charts should be exchanged for those of the present sections before long.
+  bool should_recentre(const Coordinates& q) const;
+  /// The section of an end.
+  SectionTriad<double> end_section(const Coordinates& q, int end) const;
+  /// The moment [N m] that forces conjugate to r_s and the angle of an end are.
+  Eigen::Vector3d end_moment(const Coordinates& q, int end, const Eigen::Vector3d& on_slope,
+                             double on_angle) const;
+  /// The turn of the section at B against that at A [rad].
+  double turn(const Coordinates& q) const;
+  /// Spin of the section at an end about its tangent [rad/s].
+  double spin(const TwistState& x, int end) const;
+
+  /// The section at material point s.
+  SectionPoint section(const Coordinates& q, double s) const;
+  /// A vector that turns with the section at s from where it is drawn, and its derivative in q.
+  struct TurnedWithSection {
+    Eigen::Vector3d value;
+    Eigen::Matrix<double, 3, TwistLayout::size> gradient;
+  };
+  TurnedWithSection turned(const Coordinates& q, double s, const Eigen::Vector3d& drawn) const;
+  /// Generalised force of a moment [N m] on the section at s, and its derivative in q. The moment is fixed in
+  /// space, or with `follower` has fixed components along the section's axes, which are its own where it is
+  /// drawn.
+  Coordinates moment_force(const Coordinates& q, double s, const Eigen::Vector3d& moment,
+                           bool follower) const;
+  Matrix moment_gradient(const Coordinates& q, double s, const Eigen::Vector3d& moment, bool follower) const;
+
+ private:
+  static constexpr int points = GaussRule::size;
+  // The coordinates that count: r_B - r_A, r_sA, r_sB, both angles, the bubble.
+  static constexpr int reduced = 12;
+  template <class T>
+  using Reduced = Eigen::Matrix<T, reduced, 1>;
+
+  // One material point: shape functions of the reduced coordinates, and what the drawing says there.
+  struct Point {
+    double xi;
+    Eigen::Vector3d S1, S2;                      // of r_B - r_A, r_sA, r_sB
+    Eigen::Matrix<double, points, 1> transport;  // Omega there is this times the rates at the Gauss points
+    double angle;                                // of the drawn section against A, less that Omega [rad]
+    double k1, k2;                               // drawn [1/m]
+  };
+  template <class T>
+  struct PointField;
+  template <class T>
+  struct Fields;
+
+  bool near_charts(const Coordinates& q, double cosine, double turn_reach) const;
+  Point point_at(double s) const;
+  Eigen::Vector3d drawn_components(double s, const Eigen::Vector3d& vector) const;
+  template <class T>
+  PointField<T> axis_at(const Point& p, const Reduced<T>& x, const Vector3<T>& t_a) const;
+  template <class T>
+  void set_strain(const Point& p, const Fields<T>& fields, const T& bubble, PointField<T>& at) const;
+  template <class T>
+  Fields<T> fields(const Reduced<T>& x) const;
+  template <class T>
+  Reduced<T> gradient(const Fields<T>& fields, const std::array<SectionMoments<T>, points>& moments) const;
+  template <class T>
+  Reduced<T> section_force(const Reduced<T>& q, const Reduced<T>& v) const;
+  template <class T>
+  Reduced<T> spin_force(const Reduced<T>& q, const Reduced<T>& v, const Reduced<T>& a) const;
+  template <class T>
+  std::array<SectionStrain<T>, points> strain_rates(const Reduced<T>& q, const Reduced<T>& v) const;
+  template <class T>
+  Reduced<T> moment_on(const Point& p, const Reduced<T>& q, const Eigen::Vector3d& components,
+                       bool follower) const;
+
+  const ReferenceCurve* curve_;
+  const BeamProperties* properties_;
+  Chart chart_;
+  double s_a_, h_;
+  std::array<SectionChart, 2> charts_;
+  double turn_;                                   // Theta_ref
+  double drawn_turn_, drawn_transport_;           // Theta_0, Omega_0 at B
+  Eigen::Matrix<double, points, 1> drawn_rates_;  // of transport, at the Gauss points
+  std::array<Point, points> points_;
+  Eigen::Matrix3d spin_mass_;  // on the spins of both ends and the bubble's rate
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+
+#include "fem/forces/load_at_place.h"
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// What of a load at a place of a beam with torsion works on the section there: a moment, dead or following
+/// it, or a force that follows it.
+enum class OnSection { moment, follower_force };
+inline bool works_on_section(const LoadAtPlace& load, OnSection kind, const Structure& structure) {
+  return structure.beams[load.beam].has_torsion() && (kind == OnSection::moment || load.follower);
+}
+
+/// Such a load at a moment.
+struct SectionLoad {
+  int element;
+  TwistLayout::Coordinates force;  ///< generalised, with the factors of time and of State::load
+  TwistLayout::Matrix gradient;    ///< in q; unset where it was not asked for
+
+  /// Nothing where the load has left the beam. Precondition: the beam has torsion.
+  static std::optional<SectionLoad> of(const LoadAtPlace& load, OnSection kind, const MeshedBeams<3>& at,
+                                       const State& state, bool with_gradient);
+
+  void add_force(const MeshedBeams<3>& at, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  /// [W].
+  double power(const MeshedBeams<3>& at, const Eigen::VectorXd& v) const;
+};
+
+/// Work between two states [J]: the mean power over the time.
+double section_load_work(const LoadAtPlace& load, OnSection kind, const MeshedBeams<3>& at, const State& from,
+                         const State& to);
+
+}  // namespace nurbeam
