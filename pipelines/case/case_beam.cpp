@@ -270,6 +270,12 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam.torsion = has(json, "torsion") ? flag(json, "torsion")
                                       : has(json, "orientation") || beam.section.second_moments.has_value();
   beam.orientation = read_orientation(part(json, "orientation"));
+  const bool may_take_it =
+      (beam.stress_free == StressFree::automatic || beam.stress_free == StressFree::as_drawn) &&
+      beam.curvature == CurvatureMeasure::material && beam.metric == Metric::arc_length &&
+      beam.form == Form::variational && beam.element == ElementKind::ale_rancf &&
+      beam.weights == WeightRule::material;
+  beam.torsion_by_drawing = !has(json, "torsion") && !beam.torsion && may_take_it;
   check_torsion(json, path, beam, findings);
   return beam;
 }

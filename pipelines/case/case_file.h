@@ -107,6 +107,7 @@ struct CaseBeam {
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
   bool torsion = false;
+  bool torsion_by_drawing = false;  ///< nothing asks for torsion or against it: the model decides
   Orientation orientation = {};  ///< with torsion
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;

@@ -80,9 +80,9 @@ double shear_modulus(const CaseBeam& beam, Findings& findings) {
   if (material.shear_modulus) return *material.shear_modulus;
   constexpr double usual_ratio = 0.3;
   if (!material.poissons_ratio)
-    findings.warn(beam.path + ".material",
-                  "has neither \"shear_modulus\" nor \"poissons_ratio\": a ratio of " + text_of(usual_ratio) +
-                      " is taken for torsion");
+    findings.add(Severity::note, beam.path + ".material",
+                 "has neither \"shear_modulus\" nor \"poissons_ratio\": a ratio of " + text_of(usual_ratio) +
+                     " is taken for torsion");
   return material.youngs_modulus / (2 * (1 + material.poissons_ratio.value_or(usual_ratio)));
 }
 
@@ -112,8 +112,8 @@ std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const Be
     return {};
   }
   if (!sizes.second_moments && !sizes.radius && !sizes.torsion_constant)
-    findings.warn(
-        beam.path + ".section",
+    findings.add(
+        Severity::note, beam.path + ".section",
         "is taken for a round one in torsion, with a torsion constant of twice \"second_moment\": give "
         "\"torsion_constant\" where it is not");
   const double E = beam.material.youngs_modulus, G = shear_modulus(beam, findings);

@@ -46,13 +46,14 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   return model_frame(segments, forces, moments, torsion);
 }
 
+bool is_curved(const ReferenceCurve& curve) { return curve.largest_curvature() * curve.length() > 1e-9; }
+
 bool is_straight(const CaseBeam& from, const ReferenceCurve& curve, Findings& findings) {
   if (from.torsion) return from.stress_free == StressFree::straight;
   if (curve.dimension() == 2 || from.stress_free == StressFree::straight)
     return from.stress_free == StressFree::straight;
-  const bool curved = curve.largest_curvature() * curve.length() > 1e-9;
   if (from.stress_free == StressFree::as_drawn_without_torsion) return false;
-  if (from.stress_free == StressFree::as_drawn && curved)
+  if (from.stress_free == StressFree::as_drawn && is_curved(curve))
     findings.error(
         from.path + ".stress_free",
         "\"as-drawn\" needs torsional stiffness for a curved axis in a spatial model: \"torsion\": true; or "
@@ -227,15 +228,26 @@ double mass_of(const BeamModel& model) {
   return mass;
 }
 
+// Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
+// another one than drawn. As yet only a beam without torsion carries a sliding body.
+bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve,
+                      const std::vector<CaseSlidingJoint>& joints) {
+  const bool carries = std::any_of(joints.begin(), joints.end(),
+                                   [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
+  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve) && !carries;
+}
+
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
-std::vector<DrawnBeam> add_beams(const ResolvedCase& resolved, const std::vector<BeamAxis>& axes,
-                                 CadFiles& files, BuiltModel& built, Findings& findings) {
+std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamAxis>& axes, CadFiles& files,
+                                 BuiltModel& built, Findings& findings) {
   std::vector<DrawnBeam> beams;
   for (std::size_t b = 0; b < axes.size() && !findings.has_errors(); ++b) {
-    const CaseBeam& from = resolved.beams[b];
+    CaseBeam& from = resolved.beams[b];
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
+    if (!drawn) break;
+    from.torsion = from.torsion || is_given_torsion(from, drawn->curve, resolved.sliding_joints);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
-    if (!drawn || !section) break;
+    if (!section) break;
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     built.sources.back().drawn_bending =
@@ -284,7 +296,7 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
 // Nothing, with errors among the findings, where the case cannot be a model.
 std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findings) {
   CadFiles files;
-  const ResolvedCase resolved = resolve_case(case_file, files, findings);
+  ResolvedCase resolved = resolve_case(case_file, files, findings);
   const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
   if (findings.has_errors()) return {};
 

@@ -70,7 +70,7 @@ BuildReport build_in_space(const std::string& override) {
   std::vector<std::string> overrides = half_circle;
   overrides.insert(overrides.end(), {"gravity=[0, -3, -9]", "beams[0].section={\"radius\": 0.01}",
                                      "beams[0].material={\"density\": 7200, \"youngs_modulus\": 2e7}"});
-  if (!override.empty()) overrides.push_back(override);
+  overrides.push_back(override);
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
   return build_model(report.value.value());
 }
@@ -78,7 +78,7 @@ BuildReport build_in_space(const std::string& override) {
 TEST(BuildModel, ABentDrawingOfAStraightBeamIsToldWithItsEnergy) {
   const double pi = std::numbers::pi;
   const double energy = 0.5 * 2e7 * pi * 1e-8 / 4 * pi;  // EI kappa^2 L / 2 with kappa = 1 / m
-  const BuildReport report = build_in_space("");
+  const BuildReport report = build_in_space("beams[0].torsion=false");
   ASSERT_EQ(report.value.value().model.dimension, 3);
   EXPECT_NEAR(report.value->sources[0].drawn_bending, energy, 1e-9 * energy);
   ASSERT_EQ(report.diagnostics.size(), 1u);
@@ -86,6 +86,16 @@ TEST(BuildModel, ABentDrawingOfAStraightBeamIsToldWithItsEnergy) {
   EXPECT_NE(report.diagnostics[0].where.find("beams[0].stress_free"), std::string::npos);
   for (const char* part : {"0.2467 J", "radius of 1 m", "\"straight\"", "\"as-drawn-without-torsion\""})
     EXPECT_NE(report.diagnostics[0].message.find(part), std::string::npos) << report.diagnostics[0].message;
+}
+
+TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhenNothingIsSaid) {
+  const BuildReport report = build_in_space("name=default");
+  ASSERT_TRUE(report.value);
+  EXPECT_TRUE(report.value->model.beams[0].has_torsion());
+  EXPECT_FALSE(report.value->model.beams[0].curve.straight());
+  EXPECT_EQ(report.value->sources[0].drawn_bending, 0);
+  ASSERT_EQ(report.diagnostics.size(), 1u);  // of Poisson's ratio
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
 }
 
 TEST(BuildModel, ABentDrawingThatIsSaidToBeStraightKeepsItsEnergyWithoutAWarning) {
