@@ -165,6 +165,7 @@ report_test('the cursor of the plots and the time of the picture are one', zipli
     const box = line.getBoundingClientRect();
     return box.x + box.width / 2;
   });
+  await plot.scrollIntoViewIfNeeded();
   const box = await plot.boundingBox();
   const x = box.x + 0.4 * box.width;
   await page.mouse.click(x, box.y + 60);
