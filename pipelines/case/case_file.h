@@ -108,7 +108,7 @@ struct CaseBeam {
   MergeRule merge = MergeRule::standard;
   bool torsion = false;
   bool torsion_by_drawing = false;  ///< nothing asks for torsion or against it: the model decides
-  Orientation orientation = {};  ///< with torsion
+  Orientation orientation = {};     ///< with torsion
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;

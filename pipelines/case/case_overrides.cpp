@@ -140,7 +140,8 @@ std::string apply_override(Json& root, const std::string& text) {
     value = value_text;  // what does not read as JSON is a text
   }
   Json changed = root;
-  if (path.starts_with("gravity[") && changed.is_object() && !changed.contains("gravity"))  // a part of what it is when omitted
+  if (path.starts_with("gravity[") && changed.is_object() &&
+      !changed.contains("gravity"))  // a part of what it is when omitted
     for (const double g : CaseFile{}.gravity) changed["gravity"].push_back(g);
   const std::string problem = apply_override(changed, path, value);
   if (problem.empty()) root = std::move(changed);

@@ -14,7 +14,8 @@ CaseRun run_case(const std::string& name, const std::vector<std::string>& overri
 }
 
 TEST(EnergyOfTheMesh, IsRefusedWithALoadAsWithoutOne) {
-  // A joint with a discontinuous slope on a stiff bent bar would gain energy; the load of 1e-9 N does no work.
+  // A joint with a discontinuous slope on a stiff bent bar would gain energy; the load of 1e-9 N does no
+  // work.
   for (const char* name : {"d_unmasked.json", "d_masked_warning.json"}) {
     const CaseRun run = run_case(name);
     EXPECT_EQ(run.code, 3) << name;

@@ -14,7 +14,8 @@ TEST(BentPipe, SagsAsAPipeWithTorsionDoesWhenNothingIsSaid) {
   EXPECT_NEAR(run.last("pipe.displacement.max [m]"), 0.58e-3, 0.02 * 0.58e-3);
   const double weight = run.last("reaction.pipe.start.fz [N]") + run.last("reaction.pipe.end.fz [N]");
   EXPECT_GT(weight, 500);
-  EXPECT_NEAR(run.last("reaction.pipe.start.fx [N]") + run.last("reaction.pipe.end.fx [N]"), 0, 1e-8 * weight);
+  EXPECT_NEAR(run.last("reaction.pipe.start.fx [N]") + run.last("reaction.pipe.end.fx [N]"), 0,
+              1e-8 * weight);
 }
 
 }  // namespace
