@@ -78,6 +78,7 @@ std::vector<Field> all_fields() {
       {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
       {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
       {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
+      {"torque", "N m", [](const ElementRecord& e) { return e.torque; }},
       {"shear force", "N", [](const ElementRecord& e) { return e.shear_force; }},
       {"stress", "Pa", [](const ElementRecord& e) { return e.stress; }},
       {"speed", "m/s", [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }},
@@ -263,9 +264,11 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   if (frames.times.empty()) throw std::invalid_argument("there is no stored frame to report");
   Survey survey;
   survey.columns = empty_columns(frames.names);
-  for_each_frame(
-      frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
-  std::erase_if(survey.fields, [](const Field& field) { return field.min > field.max; });  // in no frame
+  for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
+  std::erase_if(survey.fields, [](const Field& field) {
+    const bool in_no_frame = field.min > field.max;
+    return in_no_frame || (std::string_view(field.name) == "torque" && field.min == 0 && field.max == 0);
+  });
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);
   data["run"] = run;

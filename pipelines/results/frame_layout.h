@@ -42,6 +42,7 @@ inline constexpr SectionPart section_parts[] = {
     {"axial_force", "axial_force", "N", "elastic axial force, tension positive", &SectionRecord::axial_force},
     {"bending_moment", "moment", "N m", "bending moment, signed in a planar model",
      &SectionRecord::bending_moment},
+    {"torque", "torque", "N m", "torque about the tangent, of a beam with torsion", &SectionRecord::torque},
     {"shear_force", "shear_force", "N", "shear force, signed in a planar model", &SectionRecord::shear_force},
     {"stress", "stress", "Pa", "stress of the fibre where it is largest", &SectionRecord::stress}};
 
@@ -91,6 +92,7 @@ inline constexpr SampledField sampled_fields[] = {
     {"curvature", "m-1", "curvature, signed in a planar model", &ElementRecord::curvature},
     {"axial_force", "N", "elastic axial force, tension positive", &ElementRecord::axial_force},
     {"bending_moment", "N m", "bending moment, signed in a planar model", &ElementRecord::bending_moment},
+    {"torque", "N m", "torque about the tangent, of a beam with torsion", &ElementRecord::torque},
     {"shear_force", "N", "shear force, signed in a planar model", &ElementRecord::shear_force},
     {"stress", "Pa", "stress of the fibre where it is largest; missing where the section does not say",
      &ElementRecord::stress}};

@@ -179,11 +179,14 @@ report_test('the cursor of the plots and the time of the picture are one', zipli
 });
 
 report_test('colours follow the chosen field, signed ones symmetrically about zero', falling_beam, {}, async (page) => {
-  const legend = () => page.$$eval('.legend-ends span', (ends) =>
-    ends.map((end) => Number(end.textContent.replace('−', '-'))));
+  // "1.5·10⁻⁹" is 1.5e-9.
+  const legend = () => page.$$eval('.legend-ends span', (ends) => ends.map((end) => Number(end.textContent
+    .replaceAll('−', '-').replace('·10', 'e').replace('⁻', '-')
+    .replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)))));
   await go_to(page, 40);
   const pictures = {};
-  for (const name of ['strain', 'curvature [1/m]', 'axial force [N]', 'bending moment [N m]', 'speed [m/s]']) {
+  for (const name of ['strain', 'curvature [1/m]', 'axial force [N]', 'bending moment [N m]',
+    'shear force [N]', 'stress [Pa]', 'axial mismatch', 'speed [m/s]']) {
     await page.selectOption('#field', { label: name });
     pictures[name] = (await picture(page)).hash;
     const [low, middle, high] = await legend();

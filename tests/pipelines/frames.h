@@ -30,6 +30,7 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
     const SectionRecord &x = a.probes[i].section, &y = b.probes[i].section;
     EXPECT_EQ(x.axial_force, y.axial_force);
     EXPECT_EQ(x.bending_moment, y.bending_moment);
+    EXPECT_EQ(x.torque, y.torque);
     EXPECT_EQ(x.shear_force, y.shear_force);
     EXPECT_TRUE(same(x.stress, y.stress));
   }
@@ -64,6 +65,7 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
       EXPECT_EQ(x.axial_force, y.axial_force);
       EXPECT_EQ(x.axial_mismatch, y.axial_mismatch);
       EXPECT_EQ(x.bending_moment, y.bending_moment);
+      EXPECT_EQ(x.torque, y.torque);
       EXPECT_EQ(x.shear_force, y.shear_force);
       for (int k = 0; k < 4; ++k) EXPECT_TRUE(same(x.stress[k], y.stress[k]));
       EXPECT_EQ(x.velocity, y.velocity);

@@ -33,6 +33,7 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
       element.axial_force = four();
       element.axial_mismatch = four()[0];
       element.bending_moment = four();
+      element.torque = four();
       element.shear_force = four();
       element.stress = four();
       element.velocity = Eigen::Matrix<double, 3, 4>::NullaryExpr([&] { return number(); });
@@ -57,7 +58,7 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
   ProbeRecord probe;
   static_cast<PointRecord&>(probe) = point();
   probe.displacement = vector();
-  probe.section = {0, 0, number(), number(), number(), number()};
+  probe.section = {0, 0, number(), number(), number(), number(), number()};
   frame.probes = {probe};
   frame.bodies = {{point(), number(), vector(), number()}};
   if (body_has_left) frame.bodies[0].s.reset();
@@ -98,8 +99,8 @@ TEST(Results, HistoriesHaveTheColumnsOfTheContract) {
           "trolley.y [m],trolley.z [m],trolley.vx [m/s],trolley.vy [m/s],trolley.vz [m/s],trolley.s [m],"
           "cable.length [m],arch.length [m],energy.kinetic [J],energy.gravity [J],energy.axial [J],"
           "energy.bending [J],energy.dissipated [J],energy.total [J],energy.input [J],"
-          "tip.ux [m],tip.uy [m],tip.uz [m],tip.axial_force [N],tip.moment [N m],tip.shear_force [N],"
-          "tip.stress [Pa],trolley.joint_force.x [N],trolley.joint_force.y [N],trolley.joint_force.z [N],"
+          "tip.ux [m],tip.uy [m],tip.uz [m],tip.axial_force [N],tip.moment [N m],tip.torque [N m],"
+          "tip.shear_force [N],tip.stress [Pa],trolley.joint_force.x [N],trolley.joint_force.y [N],trolley.joint_force.z [N],"
           "trolley.holding_force [N],cable.axial_force.min [N],cable.axial_force.max [N],"
           "cable.moment.max [N m],cable.shear_force.max [N],cable.stress.max [Pa],"
           "cable.displacement.max [m],arch.axial_force.min [N],arch.axial_force.max [N],"
@@ -129,8 +130,8 @@ TEST(Results, HistoriesGiveEveryNumberBackExactly) {
   EXPECT_EQ(std::stod(second[14]), left.beams[0].length);
   EXPECT_EQ(std::stod(first[21]), held.energy.total);
   EXPECT_EQ(std::stod(first[26]), held.probes[0].section.axial_force);
-  EXPECT_EQ(std::stod(first[29]), held.probes[0].section.stress);
-  EXPECT_EQ(first[44], "");  // arch.stress.max
+  EXPECT_EQ(std::stod(first[30]), held.probes[0].section.stress);
+  EXPECT_EQ(first[45], "");  // arch.stress.max
   EXPECT_EQ(std::stod(first.back()), held.reactions[1].couple.z());
 }
 
