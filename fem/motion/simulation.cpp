@@ -170,7 +170,7 @@ class Simulation {
     };
     const auto next_kink = [&] {
       const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), at_.state.t + resolution());
-      return kink != kinks_.end() ? *kink : options_.end_time;
+      return kink != kinks_.end() ? std::min(*kink, options_.end_time) : options_.end_time;
     };
     write_due();
     bool complete = true;
@@ -182,7 +182,8 @@ class Simulation {
         break;
       }
       const double output = next_output < times.size() ? times[next_output] : options_.end_time;
-      const double kink = next_kink(), target = std::min({output, kink, options_.end_time});
+      // A kink that an output time cannot be told from comes first: it would be passed by.
+      const double kink = next_kink(), target = kink <= output + resolution() ? kink : output;
       const double rest = target - at_.state.t;
       const double step = rest / std::max(1.0, std::ceil(rest / step_ - 1e-9));
       if (!advance(step)) {
