@@ -194,5 +194,29 @@ TEST(StressResultants, JumpByTheForceOfABodyThatSlidesOverItsNode) {
   }
 }
 
+// A free straight beam flies sideways while a body runs along it: nothing is stressed, whatever momentum
+// flows over the node that slides.
+TEST(StressResultants, VanishInABeamThatFliesFreelyUnderASlidingNode) {
+  const Eigen::Vector2d flight(0, 3);
+  const double speed = 2;
+  ModelBuilder builder(2);
+  builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {4, 0, 0})}, 2), BeamProperties{1e4, 5, 0.6}, {8});
+  builder.slide(builder.add_body("bead", 1.5), 0, 1.1);
+  const BeamSystem system(builder.build());
+  State state = drawn_state(system);
+  for (const MeshNode& node : system.mesh().nodes[0]) {
+    state.v.segment<2>(node.r) = flight;
+    if (node.place < 0) continue;
+    state.v[node.place] = speed;
+    state.v[node.r] += speed;
+  }
+  for (const SpanResultants& span : stress_resultants(system, state))
+    for (const double s : {0.3, 1.1, 2.6}) {
+      const StressResultants carried = span.at(s, {s, 0, 0}, Eigen::Vector3d::UnitX());
+      EXPECT_LT(carried.force.norm(), 1e-12);
+      EXPECT_LT(carried.couple.norm(), 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace nurbeam
