@@ -94,8 +94,11 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
 
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;
-  analysis.type = chosen<CaseAnalysis::Type>(
-      json, "type", {{"dynamic", CaseAnalysis::Type::dynamic}, {"static", CaseAnalysis::Type::statics}});
+  analysis.type = chosen<CaseAnalysis::Type>(json, "type",
+                                             {{"dynamic", CaseAnalysis::Type::dynamic},
+                                              {"static", CaseAnalysis::Type::statics},
+                                              {"modes", CaseAnalysis::Type::modes},
+                                              {"buckling", CaseAnalysis::Type::buckling}});
   analysis.start_from_equilibrium = text(json, "initial") == "equilibrium";
   const Json& control = part(json, "length_control");
   analysis.length_control = {number(control, "min", analysis.length_control.min),
@@ -107,8 +110,17 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   } else {
     for (const char* key : {"end_time", "step", "tolerance", "initial"})
       if (has(json, key))
-        findings.add(Severity::warning, child("analysis", key), "has no effect in a static analysis");
+        findings.add(Severity::warning, child("analysis", key),
+                     analysis.has_modes() ? "has no effect on modes and buckling"
+                                          : "has no effect in a static analysis");
   }
+  const Json& modes = part(json, "modes");
+  if (has(json, "modes") && !analysis.has_modes())
+    findings.add(Severity::warning, "analysis.modes",
+                 "has no effect but with the type \"modes\" or \"buckling\"");
+  analysis.modes = {.count = optional_integer(modes, "count").value_or(CaseModes{}.count),
+                    .about_equilibrium = text(modes, "about") != "drawn",
+                    .bodies_held = text(modes, "bodies") != "free"};
   analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
                                         analysis.step.has_value(), findings);
   if (dynamic && analysis.is_explicit() && !analysis.step)

@@ -273,22 +273,33 @@ Shape analysis() {
                "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
               {"max", quantity(Dimension::number, {.lower = 1, .open = true}),
                "a longer element is split; 1.15 when omitted (the paper's: 1.5)"}});
-  return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium; dynamic when omitted"},
-                 {"initial", choice({"as-drawn", "equilibrium"}),
-                  "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
-                  "when omitted"},
-                 {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
-                  "end of the motion; a dynamic analysis needs it"},
-                 {"step", quantity(Dimension::time, time_step()),
-                  "fixed step; with ida how often length control looks"},
-                 {"tolerance",
-                  quantity(Dimension::number,
-                           {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-                  "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
-                 {"integrator", integrator, "time integrator"},
-                 {"length_control", length_control,
-                  "when elements beside a sliding body change, in standard element lengths"}},
-                {{{"step", "tolerance"}, false}});
+  const Shape modes = object(
+      {{"count", integer({.lower = 1, .upper = 1000}), "how many, from the lowest on; 10 when omitted"},
+       {"about", choice({"equilibrium", "drawn"}),
+        "the state: in equilibrium under all loads, for buckling under gravity; or as drawn, without loads; "
+        "equilibrium when omitted"},
+       {"bodies", choice({"held", "free"}),
+        "sliding bodies are held at their `at`, or slide, about where they rest; held when omitted"}});
+  return object(
+      {{"type", choice({"dynamic", "static", "modes", "buckling"}),
+        "motion, equilibrium, natural frequencies, or the factors of the loads that are not gravity "
+        "under which it buckles; dynamic when omitted"},
+       {"modes", modes, "of modes and buckling"},
+       {"initial", choice({"as-drawn", "equilibrium"}),
+        "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
+        "when omitted"},
+       {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
+        "end of the motion; a dynamic analysis needs it"},
+       {"step", quantity(Dimension::time, time_step()),
+        "fixed step; with ida how often length control looks"},
+       {"tolerance",
+        quantity(Dimension::number,
+                 {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
+        "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
+       {"integrator", integrator, "time integrator"},
+       {"length_control", length_control,
+        "when elements beside a sliding body change, in standard element lengths"}},
+      {{{"step", "tolerance"}, false}});
 }
 
 Shape output() {

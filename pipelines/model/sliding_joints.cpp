@@ -145,7 +145,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     }
     if (joint.motion_speed)
       added.motion = steady_motion(added.s, *joint.motion_speed, curve, resolved.analysis.end_time);
-    if (joint.leave_at_end && resolved.analysis.type != CaseAnalysis::Type::statics)
+    if (joint.leave_at_end && resolved.analysis.type == CaseAnalysis::Type::dynamic)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);

@@ -474,7 +474,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
           "extreme_fibre", "profile",  "in_plane",       "from",    "longest",          "chains",
           "tolerance",     "polyline", "speed",          "torsion", "orientation",      "up",
           "frenet",        "twist",    "second_moments", "product", "torsion_constant", "shear_modulus",
-          "poissons_ratio"};
+          "poissons_ratio", "modes", "about"};
   collect_keys(Json::parse(case_file_schema()), in_schema);
   collect_used_keys(Json::parse(full_case, nullptr, true, true), in_cases);
   EXPECT_EQ(in_schema, in_cases);
