@@ -1,5 +1,6 @@
 #include "pipelines/model/model_summary.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace nurbeam {
@@ -24,23 +25,26 @@ std::string name_of(WeightRule rule) {
 
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
+  const double stretch =
+      std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   Json json = {{"name", beam.name},
                {"length [m]", beam.curve.length()},
+               {"unstressed length [m]", beam.curve.length() * stretch},
                {"mass [kg]", beam.curve.length() * p.mass_per_length},
                {"elements", beam.home.size() - 1},
                {"CAD segments", beam.curve.segment_count()},
                {"element", name_of(beam.weights)},
                {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
                {"bending as drawn [J]", source.drawn_bending},
-               {"EA [N]", p.axial_stiffness},
-               {"EI [N m^2]", p.bending_stiffness},
+               {"EA [N]", p.axial_stiffness * stretch * stretch * stretch},
+               {"EI [N m^2]", p.bending_stiffness * stretch},
                {"damping [s]", p.damping}};
   if (p.sections) {
     json.erase("EI [N m^2]");
-    json.update({{"EI1 [N m^2]", p.sections->bending_1},
-                 {"EI2 [N m^2]", p.sections->bending_2},
-                 {"EI12 [N m^2]", p.sections->bending_product},
-                 {"GJ [N m^2]", p.sections->torsion}});
+    json.update({{"EI1 [N m^2]", p.sections->bending_1 * stretch},
+                 {"EI2 [N m^2]", p.sections->bending_2 * stretch},
+                 {"EI12 [N m^2]", p.sections->bending_product * stretch},
+                 {"GJ [N m^2]", p.sections->torsion * stretch}});
   }
   return json;
 }

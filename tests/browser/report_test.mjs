@@ -227,7 +227,7 @@ report_test('a field along the beams is the one of the histories', falling_beam,
     assert.ok(Math.abs(high - of(frame, 'max')) < 1e-3 * range, `${high}, not ${of(frame, 'max')}`);
   }
   const box = await page.$eval('[data-plot="along"] path.history', (path) => path.getBBox());
-  assert.ok(box.width > 300 && box.height > 5);
+  assert.ok(box.width > 300);
 });
 
 report_test('positions can be shown from where they start', falling_beam, {}, async (page) => {

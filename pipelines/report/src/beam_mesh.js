@@ -1,7 +1,7 @@
 // One beam as instanced segments: each instance is one rational cubic, evaluated in the vertex shader.
 import {
   BufferAttribute, DoubleSide, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry,
-  InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, RawShaderMaterial,
+  InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, RawShaderMaterial, Vector2,
 } from 'three';
 
 const vertex_shader = /* glsl */ `
@@ -52,7 +52,7 @@ in float side;
 out vec4 colour;
 #ifdef COLOURED
 uniform sampler2D map;
-uniform vec2 range;    // of the map, in parts of the field's range: its low end and its extent
+uniform vec2 range;    // from the beam's range to that of the map: factor and offset
 uniform vec3 outline;  // tells the ends of the map from the background
 in float value;
 #else
@@ -62,7 +62,7 @@ uniform vec3 plain;
 void main() {
 #ifdef COLOURED
   // The middle of the first and last texel are the ends of the map.
-  float part = clamp((value - range.x) / range.y, 0.0, 1.0);
+  float part = clamp(range.x * value + range.y, 0.0, 1.0);
   vec3 rgb = texture(map, vec2((0.5 + 255.0 * part) / 256.0, 0.5)).rgb;
   float light = sqrt(max(0.0, 1.0 - side * side));  // of a round bar lit from the viewer
   rgb *= mix(0.7, 1.0, light);
@@ -99,22 +99,30 @@ export class BeamMesh {
       this.geometry.setAttribute('p' + k, new InterleavedBufferAttribute(this.points, 3, 3 * k));
     }
     const defines = {};
+    this.range = { value: new Vector2(1, 0) };
     if (rational) {
       this.weights = new InstancedBufferAttribute(new Float32Array(4 * most_elements), 4).setUsage(DynamicDrawUsage);
       this.geometry.setAttribute('weights', this.weights);
       defines.RATIONAL = '';
     }
     if (uniforms.map) {
-      this.values = new InstancedBufferAttribute(new Uint16Array(4 * most_elements), 4, true);
+      this.values = new InstancedBufferAttribute(new Uint8Array(4 * most_elements), 4, true);
       this.values.setUsage(DynamicDrawUsage);
       this.geometry.setAttribute('values', this.values);
       defines.COLOURED = '';
     }
     this.object = new Mesh(this.geometry, new RawShaderMaterial({
-      vertexShader: vertex_shader, fragmentShader: fragment_shader, glslVersion: GLSL3, defines, uniforms,
+      vertexShader: vertex_shader, fragmentShader: fragment_shader, glslVersion: GLSL3, defines,
+      uniforms: { ...uniforms, range: this.range },
       side: DoubleSide,
     }));
     this.object.frustumCulled = false;
+  }
+
+  /** Colours values, of which the beam has them from min to max, by a map from low to high. */
+  set_range({ min, max }, { low, high }) {
+    const extent = high > low ? high - low : 1;
+    this.range.value.set((max - min) / extent, (min - low) / extent);
   }
 
   /** Takes the shape of a beam, and the field's values, from the loaded frame. */
@@ -127,7 +135,7 @@ export class BeamMesh {
       this.weights.needsUpdate = true;
     }
     if (this.values) {
-      copy(this.values.array, shapes.shorts, shapes.field_start(frame, beam, field), 4 * n);
+      copy(this.values.array, shapes.bytes, shapes.field_start(frame, beam, field), 4 * n);
       this.values.needsUpdate = true;
     }
     this.geometry.instanceCount = n;

@@ -57,7 +57,6 @@ export class View {
       pixels: { value: new Vector2(1, 1) },
       width: { value: 1 },
       map: { value: this.map_texture() },
-      range: { value: new Vector2(0, 1) },
       outline: { value: [0, 0, 0] },
     };
     this.pinned_size = [];  // objects drawn in pixels: their scale follows the zoom
@@ -240,17 +239,13 @@ export class View {
   set_field(field, instant) {
     this.field = field;
     const { shapes } = this.data;
-    const { min, max } = shapes.fields[field];
     shapes.load(this.frame);
-    const colours = field_colours(instant ? shapes.field_range(field) : { min, max });
+    this.colours = field_colours(instant ? shapes.field_range(field) : shapes.fields[field]);
     const texture = this.uniforms.map.value;
-    texture.image.data.set(colours.table);
+    texture.image.data.set(this.colours.table);
     texture.needsUpdate = true;
-    // The shader has values from 0 at min to 1 at max.
-    const span = max > min ? max - min : 1;
-    this.uniforms.range.value.set((colours.low - min) / span, Math.max((colours.high - colours.low) / span, 1e-9));
     this.show(this.frame);
-    return colours;
+    return this.colours;
   }
 
   /** Colours of the page's present scheme. */
@@ -318,6 +313,9 @@ export class View {
     shapes.load(frame);
     for (let beam = 0; beam < this.beams.length; ++beam) {
       this.beams[beam].load(shapes, frame, beam, this.field);
+      if (this.colours) {
+        this.beams[beam].set_range(shapes.beam_range(frame, beam, this.field), this.colours);
+      }
     }
     for (const { symbol, histories } of this.points) {
       symbol.position.set(histories[0].values[frame] - shapes.origin[0], histories[1].values[frame] - shapes.origin[1],
