@@ -1,5 +1,11 @@
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <variant>
+#include <vector>
 
 #include "cad_import/dxf/dxf_text.h"
 #include "cad_import/files/cad_format.h"
@@ -26,7 +32,13 @@ ImportReport refusal(const fs::path& file, const std::string& message) {
   return report;
 }
 
-ImportReport read_file(const fs::path& file, double tolerance) {
+// `assemblies`: the files that refer to this one, directly or not.
+ImportReport read_file(const fs::path& file, double tolerance, std::vector<fs::path> assemblies) {
+  std::error_code error;
+  const fs::path itself = fs::weakly_canonical(file, error);
+  if (std::find(assemblies.begin(), assemblies.end(), itself) != assemblies.end())
+    return refusal(file, "the assembly is a part of itself; export it as one file");
+  assemblies.push_back(itself);
   std::string content;
   try {
     content = drawing_text(file);
@@ -42,11 +54,12 @@ ImportReport read_file(const fs::path& file, double tolerance) {
         "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
   }
   if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
-  return read_cad_file(file, content, *format, tolerance);
+  return read_cad_file(file, content, *format, tolerance,
+                       [&](const fs::path& part) { return read_file(part, tolerance, assemblies); });
 }
 
 std::string answer(const ReadRequest& request) {
-  return to_bytes(read_file(request.file, request.tolerance));
+  return to_bytes(read_file(request.file, request.tolerance, {}));
 }
 std::string answer(const WriteCurvesRequest& request) {
   switch (request.format) {
