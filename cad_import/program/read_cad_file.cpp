@@ -133,7 +133,7 @@ void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const P
   for (CentreLine& line : found.lines) {
     const auto known = origins.find(faces(line.face).TShape().get());
     if (known != origins.end()) {
-      if (known->second.defective) continue;
+      if (known->second.left_out) continue;
       line.curve.name = known->second.name;
       line.curve.layer = known->second.appearance.layer;
       line.curve.colour = known->second.appearance.colour;
@@ -163,32 +163,32 @@ void add_edges_of(const TopoDS_Shape& shape, const Origins& origins, const PartN
     if (BRep_Tool::Degenerated(edge)) continue;
     const auto known = origins.find(edge.TShape().get());
     const Origin origin = known == origins.end() ? Origin{} : known->second;
-    if (origin.defective) continue;
+    if (origin.left_out) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
   }
 }
 
-Recovered add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+LostCurves add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
   const Origins origins = origins_of_edges_and_faces(reader, report);
   const PartNames parts = part_names(reader, shape);
   add_edges_of(shape, origins, parts, tolerance, report);
-  Recovered lost = add_lost_curves(reader, tolerance, report);
+  LostCurves lost = add_lost_curves(reader, tolerance, report);
   add_centre_lines(shape, origins, parts, tolerance, report);
   return lost;
 }
 
 // What OpenCASCADE failed to read or to translate, and nobody else made a curve of or named.
 void add_failures(const Interface_CheckIterator& checks, const Interface_InterfaceModel& model,
-                  const Recovered& lost, ImportReport& report) {
+                  const LostCurves& lost, ImportReport& report) {
   Interface_CheckIterator failures = checks.Extract(Interface_CheckFail);
   int count = 0;
   for (failures.Start(); failures.More(); failures.Next()) {
     const auto entity = model.NbEntities() >= failures.Number() && failures.Number() > 0
                             ? model.Value(failures.Number())
                             : Handle(Standard_Transient)();
-    if (lost.contains(entity.get()) || ++count > most_reported_failures) continue;
+    if (lost.contain(entity.get()) || ++count > most_reported_failures) continue;
     add_diagnostic(report, Severity::warning, entity.IsNull() ? "" : entity_label(model, entity),
                    std::string("OpenCASCADE: ") + failures.Value()->CFail(1));
   }
@@ -200,7 +200,7 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
 
 void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
   reader.TransferRoots();
-  const Recovered lost = add_edges(reader, tolerance, report);
+  const LostCurves lost = add_edges(reader, tolerance, report);
   const Handle(XSControl_WorkSession) session = reader.WS();
   add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(), lost,
                report);
