@@ -23,6 +23,20 @@ std::string name_of(WeightRule rule) {
   return {};
 }
 
+std::string name_of(CaseAnalysis::Type type) {
+  switch (type) {
+    case CaseAnalysis::Type::dynamic:
+      return "dynamic";
+    case CaseAnalysis::Type::statics:
+      return "static";
+    case CaseAnalysis::Type::modes:
+      return "modes";
+    case CaseAnalysis::Type::buckling:
+      return "buckling";
+  }
+  return {};
+}
+
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
   const double stretch =
@@ -113,9 +127,8 @@ Json to_json(const LineLoad& load, const BuiltModel& built) {
 
 std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   const BeamModel& model = built.model;
-  const bool statics = case_file.analysis.type == CaseAnalysis::Type::statics;
   Json json = {
-      {"analysis", statics ? "static" : "dynamic"},
+      {"analysis", name_of(case_file.analysis.type)},
       {"dimension", model.dimension},
       {"plane_normal",
        model.dimension == 2 ? to_json(built.frame.direction_to_world(Eigen::Vector3d::UnitZ())) : Json()},
