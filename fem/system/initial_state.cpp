@@ -1,9 +1,37 @@
 #include "fem/system/initial_state.h"
 
 #include "fem/mesh/drawn_coordinates.h"
+#include "fem/system/assembly.h"
 #include "fem/system/material_points.h"
 
 namespace nurbeam {
+
+namespace {
+
+// The rates of the angles of a moving node, and of the bubbles beside it, over sections at rest. The slopes
+// have theirs.
+void slide_sections(const BeamSystem& system, const MeshNode& node, int left, int right, double speed,
+                    State& state) {
+  const auto& elements = system.assembly<3>()->elements();
+  const auto angle_rate = [&](const MeshElement<3>& e, int end) {
+    const TwistElement& element = e.twist->element;
+    const TwistState x = gather_twist(e, state);
+    const double s = x.q[TwistLayout::place(end)];
+    const double twist = e.element.curve().section(s, end == 1).twist + element.section(x.q, s).strain.twist;
+    return speed * twist - (element.spin(x, end) - x.v[TwistLayout::angle(end)]);
+  };
+  const double before = angle_rate(elements[left], 1), after = angle_rate(elements[right], 0);
+  const bool shared = node.angle_left == node.angle_right;
+  state.v[node.angle_left] = shared ? (before + after) / 2 : before;
+  if (!shared) state.v[node.angle_right] = after;
+  for (const int i : {left, right}) {
+    const MeshSpan& span = system.mesh().spans[i];
+    const double rate = (i == left ? 1 : -1) * speed / (span.end(state.q) - span.start(state.q));
+    state.v[span.bubble] += 2 * state.q[span.bubble] * rate;
+  }
+}
+
+}  // namespace
 
 State drawn_state(const BeamSystem& system) {
   State state;
@@ -39,6 +67,8 @@ void start_moving(const BeamSystem& system, State& state) {
     state.v.segment(node.slope_left, D) =
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);
     if (!shared) state.v.segment(node.slope_right, D) = speed * right.rss.head(D);
+    if (node.angle_left >= 0)
+      slide_sections(system, node, (index > first ? index : end) - 1, index, speed, state);
   }
 }
 
