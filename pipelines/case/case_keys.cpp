@@ -209,9 +209,9 @@ Shape beam() {
         "spatial "
         "curvature and no sliding bodies; reference when omitted"},
        {"torsion", boolean(),
-        "the beam bends about its section's own axes and twists, in space and where nothing slides on it; when omitted "
-        "true with `orientation` or `second_moments`, and where the axis is curved in space and `stress_free` does not "
-        "say \"straight\""},
+        "the beam bends about its section's own axes and twists, in space and where no slope is discontinuous; when "
+        "omitted true with `orientation` or `second_moments`, and where the axis is curved in space and `stress_free` "
+        "does not say \"straight\""},
        {"orientation", orientation(), "how the sections of a beam with torsion are drawn"},
        {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
         "the unstressed shape; when omitted as-drawn in planar models and with torsion, else straight"},
