@@ -109,7 +109,8 @@ function start_view() {
     button.addEventListener('click', () => view.set_view(button.dataset.view));
   }
   $('fit').addEventListener('click', () => view.fit());
-  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start' };
+  $('sections').parentElement.hidden = !view.has_sections;
+  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', sections: 'show_sections' };
   for (const [id, method] of Object.entries(options)) {
     $(id).addEventListener('change', () => view[method]($(id).checked));
     view[method]($(id).checked);
