@@ -5,6 +5,7 @@
 
 #include "fem/element/reference_curve.h"
 #include "fem/material/section.h"
+#include "fem/material/section_stresses.h"
 #include "fem/structure/home_nodes.h"
 
 namespace nurbeam {
@@ -38,8 +39,9 @@ struct Beam {
   std::string name;
   ReferenceCurve curve;
   BeamProperties properties;
-  Section section = {};    ///< what `properties` was derived from, where they were
-  Material material = {};  ///< likewise
+  Section section = {};                          ///< what `properties` was derived from, where they were
+  Material material = {};                        ///< likewise
+  std::optional<SectionStresses> stresses = {};  ///< of a beam with torsion, where its outline is known
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
   Form form = Form::variational;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
@@ -44,6 +43,28 @@ double shear_force(const Eigen::Vector3d& force, const Eigen::Vector3d& rs) {
   return force.norm();
 }
 
+SectionPoint section_of(const MeshElement<3>& e, const State& state, double s) {
+  return e.twist->element.section(gather_twist(e, state.q), s);
+}
+
+// What a beam with torsion knows of its section besides.
+void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
+                  const Eigen::Vector3d& couple, double s, SectionRecord& record) {
+  const SectionTriad<double> triad = section_of(e, state, s).triad;
+  record.torque = couple.dot(triad.t);
+  record.moment_1 = couple.dot(triad.d1);
+  record.moment_2 = couple.dot(triad.d2);
+  const double s_a = e.start(state.q);
+  // The strain of twist is linear in an element.
+  record.twist = (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
+  record.stress = record.von_mises = SectionRecord::no_number;
+  if (!beam.stresses) return;
+  const auto [normal, von_mises] =
+      beam.stresses->largest({record.axial_force, record.moment_1, record.moment_2, record.torque});
+  record.stress = normal;
+  record.von_mises = von_mises;
+}
+
 template <int D>
 SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
                          const SpanResultants& carried, double s) {
@@ -64,13 +85,12 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.curvature = elastic.curvature;
   record.axial_force = elastic.axial_force;
   record.bending_moment = bending_moment<D>(resultants.couple, point);
-  if constexpr (D == 3)
-    if (e.twist) record.torque = resultants.couple.dot(point.rs.normalized());
   record.shear_force = shear_force<D>(resultants.force, point.rs);
-  record.stress = a.model()
-                      ->beams[e.beam]
-                      .section.fibre_stress(record.axial_force, record.bending_moment)
-                      .value_or(std::numeric_limits<double>::quiet_NaN());
+  const Beam& beam = a.model()->beams[e.beam];
+  record.stress =
+      beam.section.fibre_stress(record.axial_force, record.bending_moment).value_or(SectionRecord::no_number);
+  if constexpr (D == 3)
+    if (e.twist) add_own_axes(beam, e, state, resultants.couple, s, record);
   return record;
 }
 
@@ -95,6 +115,16 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
     record.shear_force[i] = section.shear_force;
     record.stress[i] = section.stress;
     record.velocity.col(i) = widened<D>(material_point<D>(e, state.q, state.v, s).velocity);
+    record.moment_1[i] = section.moment_1;
+    record.moment_2[i] = section.moment_2;
+    record.twist[i] = section.twist;
+    record.von_mises[i] = section.von_mises;
+    if constexpr (D == 3)
+      if (e.twist) {
+        const SectionTriad<double> triad = section_of(e, state, s).triad;
+        record.d1.col(i) = triad.d1;
+        record.d2.col(i) = triad.d2;
+      }
   }
   return record;
 }
@@ -154,7 +184,7 @@ SectionPoint section_point(const BeamSystem& system, const State& state, int bea
   if (!of.has_torsion()) throw std::invalid_argument("beam \"" + of.name + "\" has no torsion");
   const MeshElement<3>& e =
       system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
-  return e.twist->element.section(gather_twist(e, state.q), e.local(gather<3>(e, state.q), s));
+  return section_of(e, state, e.local(gather<3>(e, state.q), s));
 }
 
 double material_spin(const BeamSystem& system, const State& state, int beam, double s) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "fem/mesh/mesh_elements.h"
@@ -32,6 +33,12 @@ struct SectionRecord {
   double shear_force = 0;  ///< [N]; in a planar model that of the part beyond the section, along the normal n
                            ///< = e_z x t; in space its magnitude
   double stress = 0;       ///< of the fibre that it is largest in [Pa]; NaN where the section does not say
+  /// Of a beam with torsion, else NaN: bending moments about the section's own axes d1 and d2 [N m], the
+  /// angle by which the section has twisted since the drawing, against the start of its span [rad], and the
+  /// von Mises stress where it is largest [Pa] (NaN where the section does not say).
+  double moment_1 = no_number, moment_2 = no_number, twist = no_number, von_mises = no_number;
+
+  static constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 };
 /// At material point s [m] of the element in a span, whose stress resultants are `carried`.
 SectionRecord section_at(const BeamSystem& system, const State& state, int span,
@@ -47,6 +54,16 @@ struct ElementRecord {
                                                                   shear_force = Eigen::Vector4d::Zero(),
                                                                   stress = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
+  Eigen::Vector4d moment_1 = no_numbers(), moment_2 = no_numbers(), twist = no_numbers(),
+                  von_mises = no_numbers();
+  /// The section's own axes, of unit length; NaN without torsion.
+  Eigen::Matrix<double, 3, 4> d1 = no_axes(), d2 = no_axes();
+
+ private:
+  static Eigen::Vector4d no_numbers() { return Eigen::Vector4d::Constant(SectionRecord::no_number); }
+  static Eigen::Matrix<double, 3, 4> no_axes() {
+    return Eigen::Matrix<double, 3, 4>::Constant(SectionRecord::no_number);
+  }
 };
 ElementRecord record_element(const BeamSystem& system, const State& state, int span,
                              const SpanResultants& carried);

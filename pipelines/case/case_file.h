@@ -204,7 +204,7 @@ struct CaseProbe {
 
 struct CaseOutput {
   std::optional<double> every;           ///< [s]; always there in a dynamic analysis
-  std::vector<std::string> cad_formats;  ///< "step", "iges", "dxf", "brep", "step-solid", "step-source"
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "dxf", "step-solid", ...
   std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
   bool cad_at_all_times = false;         ///< every stored frame, numbered
   std::string cad_unit = "mm";

@@ -348,7 +348,8 @@ Shape analysis() {
 
 Shape output() {
   const Shape cad = object(
-      {{"formats", array(choice({"step", "iges", "dxf", "brep", "step-solid", "step-source"}), 1),
+      {{"formats",
+        array(choice({"step", "iges", "dxf", "brep", "step-solid", "step-section-lines", "step-source"}), 1),
         "file formats; step when omitted"},
        {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
         "times to write, or all stored frames as a numbered sequence; the end time when omitted"},

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
+#include <string>
 
 #include "fem/motion/snapshot.h"
 #include "fem/system/initial_state.h"
@@ -48,6 +50,16 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   if (!p.free_strain.thermal.empty()) out << ", with a temperature";
   if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
   out << '\n';
+}
+
+// Of a beam in space: its element, and why; the angle that sections come back turned by on a ring.
+void print_torsion(std::ostream& out, const Beam& beam, const std::string& torsion) {
+  if (torsion.empty()) return;
+  out << "torsion   of " << beam.name << ": " << torsion << '\n';
+  if (beam.has_torsion() && beam.is_ring())
+    out << "holonomy  of " << beam.name
+        << ": sections carried around the ring without twist come back turned by "
+        << text_of(beam.curve.holonomy() * 180 / std::numbers::pi, size_digits) << " degrees\n";
 }
 
 void print_corners(std::ostream& out, const Beam& beam) {
@@ -110,6 +122,8 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
       << " coordinates\n";
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     print_beam(out, model.beams[b], report.value->sources[b].drawn_bending);
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+    print_torsion(out, model.beams[b], report.value->sources[b].torsion);
   for (const Beam& beam : model.beams) print_corners(out, beam);
   print_mismatch(out, system);
   if (const auto& adapted = report.value->adapted)

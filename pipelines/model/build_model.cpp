@@ -12,12 +12,14 @@
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
+#include "pipelines/model/check_drawing.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/drawn_bending.h"
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
+#include "pipelines/model/why_torsion.h"
 
 namespace nurbeam {
 
@@ -170,9 +172,13 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
+  std::optional<SectionStresses> stresses;
   if (from.torsion) {
     check_no_kink(from, resolved.sliding_joints, findings);
-    properties.sections = section_stiffness(from, drawn, findings);
+    if (const auto section_of_beam = torsion_section(from, curve.length(), drawn, findings)) {
+      properties.sections = section_of_beam->stiffness;
+      stresses = section_of_beam->stresses;
+    }
   }
   if (const double stretch = free_stretch(from, curve, findings); stretch != 1)
     properties = properties.with_free_stretch(stretch);
@@ -183,6 +189,7 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
           .properties = properties,
           .section = sizes,
           .material = material,
+          .stresses = stresses,
           .weights = from.element == ElementKind::ale_ancf ? WeightRule::ones : from.weights,
           .merge = from.merge,
           .form = from.form,
@@ -318,11 +325,16 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     CaseBeam& from = resolved.beams[b];
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
     if (!drawn) break;
+    const bool asked = from.torsion;
     from.torsion = from.torsion || is_given_torsion(from, drawn->curve, resolved.sliding_joints);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!section) break;
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
+    if (built.frame.dimension == 3)
+      built.sources.back().torsion =
+          why_torsion(from, asked, is_curved(drawn->curve), resolved.sliding_joints);
+    built.sources.back().outline = section_outline(*section);
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);
     if (section->profile) built.sources.back().profile = {from.section.profile->path, *section->profile};
@@ -392,6 +404,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
   add_sliding_joints(resolved, beams, joined, built.model, findings);
   if (findings.has_errors()) return {};
   built.adapted = adapt_elements(resolved, built.model, findings);
+  check_turns(resolved.beams, built.model, built.frame, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);

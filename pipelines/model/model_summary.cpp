@@ -1,5 +1,6 @@
 #include "pipelines/model/model_summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json to_json(const SectionOutline& outline) {
+  constexpr double digits = 1e6;  // of its size
+  double size = 0;
+  for (const auto& polygon : outline)
+    for (const Eigen::Vector2d& p : polygon) size = std::max(size, p.norm());
+  const double unit = std::pow(10, std::floor(std::log10(size))) / digits;
+  Json json = Json::array();
+  for (const auto& polygon : outline) {
+    Json& points = json.emplace_back(Json::array());
+    for (const Eigen::Vector2d& p : polygon)
+      points.push_back({std::round(p.x() / unit) * unit, std::round(p.y() / unit) * unit});
+  }
+  return json;
+}
 
 std::string name_of(WeightRule rule) {
   switch (rule) {
@@ -55,10 +71,12 @@ Json to_json(const Beam& beam, const BeamSource& source) {
                {"damping [s]", p.damping}};
   if (p.sections) {
     json.erase("EI [N m^2]");
+    json["torsion"] = source.torsion;
     json.update({{"EI1 [N m^2]", p.sections->bending_1 * stretch},
                  {"EI2 [N m^2]", p.sections->bending_2 * stretch},
                  {"EI12 [N m^2]", p.sections->bending_product * stretch},
                  {"GJ [N m^2]", p.sections->torsion * stretch}});
+    json["section outline [m]"] = to_json(source.outline);
   }
   return json;
 }

@@ -86,9 +86,13 @@ std::vector<Field> all_fields() {
       {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
       {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
       {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
+      {"moment 1", "N m", [](const ElementRecord& e) { return e.moment_1; }},
+      {"moment 2", "N m", [](const ElementRecord& e) { return e.moment_2; }},
       {"torque", "N m", [](const ElementRecord& e) { return e.torque; }},
+      {"twist", "rad", [](const ElementRecord& e) { return e.twist; }},
       {"shear force", "N", [](const ElementRecord& e) { return e.shear_force; }},
       {"stress", "Pa", [](const ElementRecord& e) { return e.stress; }},
+      {"von Mises stress", "Pa", [](const ElementRecord& e) { return e.von_mises; }},
       {"speed", "m/s", [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }},
       {"axial mismatch", "1",
        [](const ElementRecord& e) -> Eigen::Vector4d {
@@ -101,6 +105,7 @@ struct Survey {
   std::vector<Field> fields = all_fields();
   Eigen::AlignedBox<double, 3> box;                        ///< of the whole run [m]
   bool rational = false;                                   ///< the weights of some element differ
+  bool sections = false;                                   ///< beams have torsion: their sections turn
   std::vector<std::vector<std::uint32_t>> element_counts;  ///< per frame, per beam
   std::vector<Column> columns;
 
@@ -119,7 +124,7 @@ struct Survey {
   std::size_t bytes_of_frame(std::size_t frame) const {
     std::size_t bytes = columns.size() * sizeof(double);
     for (const std::size_t n : element_counts[frame])
-      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + n + 1) +
+      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + (sections ? 12 * n : 0) + n + 1) +
                (2 * sizeof(float) + 4 * n) * fields.size();
     return bytes;
   }
@@ -152,6 +157,11 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
         append(bytes, weights.data(), 4);
       }
     }
+    if (survey.sections)
+      for (const ElementRecord& element : beam.elements) {
+        const Eigen::Matrix<float, 3, 4> d1 = element.d1.cast<float>();
+        append(bytes, d1.data(), 12);
+      }
     const auto add_float = [&](double value) {
       const auto number = static_cast<float>(value);
       append(bytes, &number, 1);
@@ -229,6 +239,7 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
           {"values", values},
           {"shapes",
            {{"rational", survey.rational},
+            {"sections", survey.sections},
             {"origin", to_json(survey.origin())},
             {"fields", fields},
             {"element_counts", base64_of(counts)}}}};
@@ -279,6 +290,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   if (frames.times.empty()) throw std::invalid_argument("there is no stored frame to report");
   Survey survey;
   survey.columns = empty_columns(frames.names);
+  survey.sections = frames.names.sections;
   for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
   std::erase_if(survey.fields, [](const Field& field) {
     const bool in_no_frame = field.min > field.max;

@@ -246,6 +246,46 @@ report_test('loads are drawn where they act', still, {}, async (page) => {
   assert.notEqual((await picture(page)).hash, drawn_loads);
 });
 
+/** How high the hued pixels are in the columns from `from` to `to`, parts of the beam's extent. */
+function height_between({ points, left, right }, from, to) {
+  const inside = points.filter(([x]) => x >= left + from * (right - left) && x <= left + to * (right - left));
+  const heights = inside.map(([, y]) => y);
+  return Math.max(...heights) - Math.min(...heights);
+}
+
+report_test('a beam is drawn with its real section, so that its twist is seen', 'twisted.html', {}, async (page) => {
+  await page.click('[data-view="front"]');
+  const seen = await picture(page);
+  await page.screenshot({ path: join(shots, 'twisted.png') });
+  // 120 mm high and 20 mm wide: at the start it stands, at the end it lies. 1 m is as wide as the picture shows it.
+  const metre = seen.right - seen.left;
+  assert.ok(Math.abs(height_between(seen, 0, 0.1) / metre - 0.12) < 0.02, `${height_between(seen, 0, 0.1)} pixels`);
+  assert.ok(Math.abs(height_between(seen, 0.95, 1) / metre - 0.02) < 0.02, `${height_between(seen, 0.95, 1)} pixels`);
+  await page.uncheck('#sections');
+  const line = await picture(page);
+  assert.ok(height_between(line, 0, 0.1) < 10, 'as a line it has the width of a line');
+});
+
+report_test('small sections are enlarged, and the picture says so', 'twisted.html', {}, async (page) => {
+  assert.equal(await page.textContent('#enlarged'), '');
+  await page.focus('#canvas');
+  for (let i = 0; i < 20; ++i) {
+    await page.keyboard.press('-');
+  }
+  await picture(page);
+  assert.match(await page.textContent('#enlarged'), /^sections × \d/);
+});
+
+report_test('rectangles, disks, pipes and profiles are drawn', 'sections.html', {}, async (page) => {
+  const seen = await picture(page);
+  await page.screenshot({ path: join(shots, 'sections.png') });
+  assert.ok(seen.count > 20000, `${seen.count} pixels have colour`);
+});
+
+report_test('beams without torsion have no sections to choose', falling_beam, {}, async (page) => {
+  assert.equal(await page.isVisible('#sections'), false);
+});
+
 report_test('a rational segment is drawn as the circle it is', 'arc.html', {}, async (page) => {
   // The four control points without their weights would give a cubic that is 4 % of the radius away in the middle.
   const { points, left, right, top, bottom } = await picture(page);

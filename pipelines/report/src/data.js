@@ -66,6 +66,7 @@ class Column {
  * again for every frame. Of each beam with n elements it holds, one after the other:
  *   points   3 n + 1 control points (x, y, z), float32, relative to `origin`; neighbours share their end
  *   weights  4 n, float32, if `rational`
+ *   axes     12 n, float32, if `sections`: the section's x axis d1 at u = 0, 1/3, 2/3, 1; not a number without torsion
  *   places   n + 1, float32: reference arc length s of the nodes
  *   ranges   per field 2, float32: its least and greatest value in this beam and frame
  *   fields   per field 4 n bytes: the values at u = 0, 1/3, 2/3, 1, from 0 at the least to 255 at the greatest
@@ -73,6 +74,7 @@ class Column {
 class Shapes {
   constructor(description, text, beam_count, frame_count) {
     this.rational = description.rational;
+    this.sections = Boolean(description.sections);
     this.fields = description.fields;
     this.origin = description.origin;
     this.text = text;
@@ -102,7 +104,8 @@ class Shapes {
     return this.counts[frame * this.beam_count + beam];
   }
   bytes_of(n) {
-    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + 4 * (n + 1) + (8 + 4 * n) * this.fields.length;
+    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0) + 4 * (n + 1)
+      + (8 + 4 * n) * this.fields.length;
   }
   /** Decodes a frame into `bytes` (also seen as `floats`), the beams from `starts` on. */
   load(frame) {
@@ -123,9 +126,11 @@ class Shapes {
   weights_start(frame, beam) {
     return (this.starts[beam] >> 2) + 3 * (3 * this.count(frame, beam) + 1);
   }
+  axes_start(frame, beam) {
+    return this.weights_start(frame, beam) + (this.rational ? 4 * this.count(frame, beam) : 0);
+  }
   places_start(frame, beam) {
-    const n = this.count(frame, beam);
-    return (this.starts[beam] >> 2) + 3 * (3 * n + 1) + (this.rational ? 4 * n : 0);
+    return this.axes_start(frame, beam) + (this.sections ? 12 * this.count(frame, beam) : 0);
   }
   /** Least and greatest value of a field in a beam of the loaded frame. */
   beam_range(frame, beam, field) {

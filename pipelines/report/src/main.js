@@ -123,7 +123,8 @@ function start_view() {
     button.addEventListener('click', () => view.set_view(button.dataset.view));
   }
   $('fit').addEventListener('click', () => view.fit());
-  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', loads: 'show_loads' };
+  $('sections').parentElement.hidden = !view.has_sections;
+  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', loads: 'show_loads', sections: 'show_sections' };
   for (const [id, method] of Object.entries(options)) {
     $(id).addEventListener('change', () => view[method]($(id).checked));
     view[method]($(id).checked);

@@ -333,6 +333,11 @@ export function plots_of(data, at_rest = false) {
   along('Axial force', 'N', 'axial-force', [['axial_force.min', 'least'], ['axial_force.max', 'greatest']], 'axial_force');
   along('Bending moment', 'N m', 'moment', [['moment.max', 'largest']], 'moment');
   along('Stress', 'Pa', 'stress', [['stress.max', 'largest']], 'stress');
+  if (data.shapes.sections) {
+    along('Torque', 'N m', 'torque', [['torque.max', 'largest']], 'torque');
+    along('Twist from the drawing', 'rad', 'twist', [['twist.max', 'largest']], 'twist');
+    along('Von Mises stress', 'Pa', 'von-mises', [['von_mises.max', 'largest']], 'von_mises');
+  }
   along('Displacement from the drawing', 'm', 'displacement', [['displacement.max', 'largest']], null);
   const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'];
   plots.push({ title: 'Energy', unit: 'J', id: 'energy',

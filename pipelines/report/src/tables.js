@@ -76,7 +76,7 @@ export function model_tables(run) {
       ['Gravity', `${cell_text(gravity)} m/s²`],
       ['Units', 'SI: metre, kilogram, second, newton, joule'],
     ]),
-    table_of_columns('Beams', model.beams),
+    table_of_columns('Beams', model.beams.map(({ 'section outline [m]': outline, ...rest }) => rest)),
     table_of('Bodies', model.bodies),
     table_of('Supports', model.supports.map(({ outward, ...rest }) => rest)),
     table_of_columns('Sliding joints', model.joints),
@@ -182,7 +182,8 @@ export function run_tables(run) {
 /** The values of a static analysis, which has no histories to plot. */
 export function values_tables(data) {
   const rows = (of, names, parts) => names.map((name, i) => Object.fromEntries([['name', name],
-    ...parts.map(([label, part]) => [label, data.column(of, i, part).values[0]])]));
+    ...parts.filter(([, part]) => data.column(of, i, part))
+      .map(([label, part]) => [label, data.column(of, i, part).values[0]])]));
   const place = [['x [m]', 'x'], ['y [m]', 'y'], ['z [m]', 'z']];
   return [
     table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),
@@ -191,7 +192,9 @@ export function values_tables(data) {
     table_of('Reactions', rows('reaction', data.names.reactions, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz'],
       ['Mx [N m]', 'mx'], ['My [N m]', 'my'], ['Mz [N m]', 'mz']])),
     table_of('Sections at probes', rows('probe', data.names.probes, [['axial force [N]', 'axial_force'],
-      ['bending moment [N m]', 'moment'], ['shear force [N]', 'shear_force'], ['stress [Pa]', 'stress'],
+      ['bending moment [N m]', 'moment'], ['moment 1 [N m]', 'moment_1'], ['moment 2 [N m]', 'moment_2'],
+      ['torque [N m]', 'torque'], ['twist [rad]', 'twist'], ['shear force [N]', 'shear_force'], ['stress [Pa]', 'stress'],
+      ['von Mises stress [Pa]', 'von_mises'],
       ['ux [m]', 'ux'], ['uy [m]', 'uy'], ['uz [m]', 'uz']])),
     table_of('Beams', rows('beam', data.names.beams, [['deformed length [m]', 'length']])),
   ];

@@ -5,6 +5,7 @@ import {
   PointsMaterial, Quaternion, Scene, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { BeamMesh } from './beam_mesh.js';
+import { SectionMesh } from './section_mesh.js';
 import { ViewCamera, steer, view_directions } from './camera.js';
 import { field_colours } from './colours.js';
 import { element, number, round_down } from './format.js';
@@ -112,6 +113,7 @@ export class View {
     this.ghost = new Group();
     this.beams = [...shapes.most_elements].map((most) => new BeamMesh(most, shapes.rational, this.uniforms));
     shapes.load(0);
+    this.add_sections();
     for (let beam = 0; beam < this.beams.length; ++beam) {
       const start = new BeamMesh(shapes.count(0, beam), shapes.rational, ghost);
       start.load(shapes, 0, beam, 0);
@@ -129,6 +131,31 @@ export class View {
     this.nodes.frustumCulled = false;
     this.nodes.visible = false;
     this.scene.add(this.nodes);
+  }
+
+  /** The sections of the beams that have torsion and an outline. */
+  add_sections() {
+    const { shapes, run } = this.data;
+    const outlines = (run?.model?.beams ?? []).map((beam) => beam['section outline [m]']);
+    this.sections = this.beams.map((_, beam) => {
+      if (!shapes.sections || !outlines[beam]) {
+        return null;
+      }
+      const mesh = new SectionMesh(shapes.most_elements[beam], shapes.rational, outlines[beam], this.uniforms.map);
+      this.scene.add(mesh.object);
+      return mesh;
+    });
+    this.has_sections = this.sections.some(Boolean);
+  }
+
+  show_sections(visible) {
+    this.sections.forEach((mesh, beam) => {
+      if (mesh) {
+        mesh.object.visible = visible;
+        this.beams[beam].object.visible = !visible;
+      }
+    });
+    this.show(this.frame);
   }
 
   add_symbol(geometry, material, pixels) {
@@ -200,9 +227,10 @@ export class View {
     const triad = element('svg:svg', { class: 'triad', viewBox: '-46 -46 92 92', 'aria-hidden': 'true' },
       ...this.triad.flatMap(({ line, tip, text }) => [line, tip, text]));
     const grid_hint = element('span', { class: 'grid-hint' }, `grid ${number(this.grid_step)} m`);
+    this.enlarged_text = element('span', { class: 'grid-hint', id: 'enlarged' });
     this.labels = element('div', { class: 'labels' }, ...this.points.map((point) => point.label));
     overlay.append(this.labels, triad,
-      element('div', { class: 'scale' }, this.scale_bar, this.scale_text, grid_hint));
+      element('div', { class: 'scale' }, this.scale_bar, this.scale_text, grid_hint, this.enlarged_text));
   }
 
   /** Makes the paths of the bodies when they are first wanted. */
@@ -313,8 +341,11 @@ export class View {
     shapes.load(frame);
     for (let beam = 0; beam < this.beams.length; ++beam) {
       this.beams[beam].load(shapes, frame, beam, this.field);
+      this.sections[beam]?.load(shapes, frame, beam, this.field);
       if (this.colours) {
-        this.beams[beam].set_range(shapes.beam_range(frame, beam, this.field), this.colours);
+        const range = shapes.beam_range(frame, beam, this.field);
+        this.beams[beam].set_range(range, this.colours);
+        this.sections[beam]?.set_range(range, this.colours);
       }
     }
     for (const { symbol, histories } of this.points) {
@@ -366,6 +397,11 @@ export class View {
     for (const symbol of this.pinned_size) {
       symbol.scale.setScalar(symbol.userData.pixels / view.scale);
     }
+    const least_pixels = 8;
+    const factors = this.sections.filter((mesh) => mesh?.object.visible)
+      .map((mesh) => mesh.enlarge_to(least_pixels, view.scale));
+    const factor = Math.max(1, ...factors);
+    this.enlarged_text.textContent = factor > 1.05 ? `sections × ${number(factor, 2)}` : '';
     this.renderer.render(this.scene, view.camera);
     this.draw_overlay();
   }
