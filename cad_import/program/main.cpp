@@ -33,8 +33,8 @@ std::string answer(const WriteCurvesRequest& request) {
   throw std::runtime_error("unknown format");
 }
 std::string answer(const WriteSolidsRequest& request) {
-  return request.format == CadFormat::brep ? brep_solid_text(request.pipes)
-                                           : step_solid_text(request.pipes, request.unit, request.schema);
+  return request.format == CadFormat::brep ? brep_solid_text(request.solids)
+                                           : step_solid_text(request.solids, request.unit, request.schema);
 }
 std::string answer(const ExchangeRequest& request) {
   return to_bytes(exchange_curves(request.source, request.curves));

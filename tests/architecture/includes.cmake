@@ -16,7 +16,7 @@ set(pipelines_may_include pipelines cad_import fem nurbs solver)
 set(nurbs_floors . smooth)
 set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
-set(fem_floors material element comparison structure mesh constraints forces model system motion)
+set(fem_floors . material element comparison structure mesh constraints forces model system motion)
 set(pipelines_floors diagnostics case section model results report run verification papers command)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
@@ -27,6 +27,7 @@ set(homes
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(occt|iges|step|program)/.*"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
+  "Spectra/.*"                                                                    "solver/eigenpairs\\.cpp"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
   "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
