@@ -48,7 +48,7 @@ std::string reason_of(const ChildResult& result, const char* work) {
   return result.complaint;
 }
 
-void check_pipe(const NamedPipe& pipe) {
+void check_solid(const NamedPipe& pipe) {
   check_name(pipe.axis.name);
   check_name(pipe.axis.part);
   if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
@@ -58,6 +58,23 @@ void check_pipe(const NamedPipe& pipe) {
     throw std::invalid_argument("the bore of '" + pipe.axis.name + "' has the radius " + text_of(pipe.bore) +
                                 " m; it must be from 0 to below that of the pipe, " + text_of(pipe.radius) +
                                 " m");
+}
+
+void check_solid(const SweptProfile& profile) {
+  check_name(profile.name);
+  check_name(profile.part);
+  if (!(profile.volume > 0 && std::isfinite(profile.volume)))
+    throw std::invalid_argument("the volume of '" + profile.name + "' is " + text_of(profile.volume) +
+                                " m^3; it must be positive");
+  bool has_cubics = !profile.loops.empty();
+  for (const std::vector<SweptCubic>& loop : profile.loops) {
+    has_cubics = has_cubics && !loop.empty();
+    for (const SweptCubic& cubic : loop)
+      for (const NurbsCurve& rail : cubic.rails)
+        if (rail.knots() != cubic.rails[0].knots())
+          throw std::invalid_argument("rails of '" + profile.name + "' have different knots");
+  }
+  if (!has_cubics) throw std::invalid_argument("'" + profile.name + "' has a loop without cubics");
 }
 
 }  // namespace
@@ -93,15 +110,20 @@ std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<Na
 
 std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,
                                       LengthUnit unit, StepSchema schema) {
+  return export_solids(file, std::vector<NamedSolid>(pipes.begin(), pipes.end()), unit, schema);
+}
+
+std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedSolid>& solids,
+                                      LengthUnit unit, StepSchema schema) {
   const CadFormat format = written_format(file);
   if (format != CadFormat::step && format != CadFormat::brep)
     throw std::invalid_argument("solids are written to STEP and BREP only; name " + file.string() +
                                 " .step or .brep");
   check_unit(file, format, unit);
-  if (pipes.empty())
+  if (solids.empty())
     throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
-  for (const NamedPipe& pipe : pipes) check_pipe(pipe);
-  const ChildResult result = asked(WriteSolidsRequest{format, pipes, unit, schema}, {patience});
+  for (const NamedSolid& solid : solids) std::visit([](const auto& of_kind) { check_solid(of_kind); }, solid);
+  const ChildResult result = asked(WriteSolidsRequest{format, solids, unit, schema}, {patience});
   if (result.status == ChildResult::Status::finished) return write_at_once(file, result.output);
   return {{Severity::error, file.string(),
            "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"}};

@@ -34,4 +34,11 @@ CadFormat written_format(const std::filesystem::path& file);
                                                     const std::vector<NamedPipe>& pipes, LengthUnit unit,
                                                     StepSchema schema = StepSchema::ap214);
 
+/// The same of pipes and swept profiles: those as export_solids does, of these each face a B-spline through
+/// the sections that are given. Throws std::invalid_argument also for a profile without a loop of cubics,
+/// rails of one cubic that differ in their knots, and a volume that is not positive.
+[[nodiscard]] std::vector<Diagnostic> export_solids(const std::filesystem::path& file,
+                                                    const std::vector<NamedSolid>& solids, LengthUnit unit,
+                                                    StepSchema schema = StepSchema::ap214);
+
 }  // namespace nurbeam

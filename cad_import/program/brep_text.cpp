@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "cad_import/step/spine.h"
-#include "cad_import/step/swept_pipe.h"
+#include "cad_import/step/swept_solid.h"
 
 namespace nurbeam {
 namespace {
@@ -36,9 +36,9 @@ std::string brep_text(const std::vector<NamedCurve>& curves) {
       curves, [](const NamedCurve& curve) { return edge(curve); });
 }
 
-std::string brep_solid_text(const std::vector<NamedPipe>& pipes) {
+std::string brep_solid_text(const std::vector<NamedSolid>& solids) {
   return text_of_all(
-      pipes, [](const NamedPipe& pipe) { return swept_pipe(pipe); });
+      solids, [](const NamedSolid& solid) { return swept_solid(solid); });
 }
 
 TopoDS_Shape brep_shape(const std::string& content) {

@@ -1,5 +1,9 @@
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "nurbs/nurbs_curve.h"
 
@@ -17,5 +21,23 @@ struct NamedPipe {
   double radius;    ///< [m]
   double bore = 0;  ///< radius of its bore [m]; 0 where it is solid
 };
+
+/// What one rational cubic of a section's outline sweeps: its control points move along four curves of the
+/// same knots, weights 1; its own weights stay.
+struct SweptCubic {
+  std::array<NurbsCurve, 4> rails;  ///< [m]
+  Eigen::Vector4d weights;
+};
+
+/// A section of any outline, with holes, that has been moved and turned along a beam.
+struct SweptProfile {
+  std::string name;
+  std::string part = {};  ///< as that of a NamedCurve
+  std::vector<std::vector<SweptCubic>>
+      loops;      ///< the outline, anticlockwise, and its holes, clockwise; closed
+  double volume;  ///< that it should have [m^3]
+};
+
+using NamedSolid = std::variant<NamedPipe, SweptProfile>;
 
 }  // namespace nurbeam

@@ -27,6 +27,18 @@ NamedPipe read_named_pipe(ByteReader& in) {
   return {std::move(axis), radius, in.number<double>()};
 }
 
+void write(ByteWriter& out, const SweptCubic& cubic) {
+  for (const NurbsCurve& rail : cubic.rails) nurbeam::write(out, rail);
+  for (const double weight : cubic.weights) out.number(weight);
+}
+SweptCubic read_swept_cubic(ByteReader& in) {
+  NurbsCurve a = read_nurbs_curve(in), b = read_nurbs_curve(in), c = read_nurbs_curve(in),
+             d = read_nurbs_curve(in);
+  SweptCubic cubic{{std::move(a), std::move(b), std::move(c), std::move(d)}, {}};
+  for (double& weight : cubic.weights) weight = in.number<double>();
+  return cubic;
+}
+
 void write(ByteWriter& out, const DeformedCurve& curve) {
   nurbeam::write(out, curve.drawn);
   nurbeam::write(out, curve.deformed);
@@ -52,6 +64,28 @@ auto read_list(ByteReader& in, Read read) {
   return items;
 }
 
+void write(ByteWriter& out, const SweptProfile& profile) {
+  out.text(profile.name);
+  out.text(profile.part);
+  out.count(profile.loops.size());
+  for (const std::vector<SweptCubic>& loop : profile.loops) write_list(out, loop);
+  out.number(profile.volume);
+}
+SweptProfile read_swept_profile(ByteReader& in) {
+  std::string name = in.text(), part = in.text();
+  auto loops = read_list(in, [](ByteReader& from) { return read_list(from, read_swept_cubic); });
+  return {std::move(name), std::move(part), std::move(loops), in.number<double>()};
+}
+
+void write(ByteWriter& out, const NamedSolid& solid) {
+  out.number(static_cast<char>(solid.index()));
+  std::visit([&](const auto& of_kind) { write(out, of_kind); }, solid);
+}
+NamedSolid read_named_solid(ByteReader& in) {
+  if (in.number<char>() == 0) return read_named_pipe(in);
+  return read_swept_profile(in);
+}
+
 void write(ByteWriter& out, const ReadRequest& request) {
   out.text(request.file.string());
   out.number(request.tolerance);
@@ -66,7 +100,8 @@ void write(ByteWriter& out, const WriteSolidsRequest& request) {
   out.number(static_cast<int>(request.format));
   out.number(static_cast<int>(request.unit));
   out.number(static_cast<int>(request.schema));
-  write_list(out, request.pipes);
+  out.count(request.solids.size());
+  for (const NamedSolid& solid : request.solids) write(out, solid);
 }
 void write(ByteWriter& out, const ExchangeRequest& request) {
   out.text(request.source.string());
@@ -106,7 +141,7 @@ CadRequest request_from_bytes(const std::string& bytes) {
       const CadFormat format = read_choice(in, CadFormat::brep);
       const LengthUnit unit = read_choice(in, LengthUnit::inch);
       const StepSchema schema = read_choice(in, StepSchema::ap242);
-      return WriteSolidsRequest{format, read_list(in, read_named_pipe), unit, schema};
+      return WriteSolidsRequest{format, read_list(in, read_named_solid), unit, schema};
     }
     case 3: {
       std::string source = in.text();

@@ -34,7 +34,7 @@ struct WriteCurvesRequest {
 };
 struct WriteSolidsRequest {
   CadFormat format;  ///< STEP or BREP
-  std::vector<NamedPipe> pipes;
+  std::vector<NamedSolid> solids;
   LengthUnit unit;
   StepSchema schema;
 };

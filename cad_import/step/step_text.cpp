@@ -30,7 +30,7 @@
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/encoded_text.h"
 #include "cad_import/step/spine.h"
-#include "cad_import/step/swept_pipe.h"
+#include "cad_import/step/swept_solid.h"
 
 namespace nurbeam {
 namespace {
@@ -157,30 +157,31 @@ std::string text(STEPControl_Writer& writer) {
 }
 
 // The solids of the model stand in the order in which they were transferred.
-void give_names(const StepData_StepModel& model, const std::vector<NamedPipe>& pipes) {
+void give_names(const StepData_StepModel& model, const std::vector<NamedSolid>& solids) {
   std::size_t named = 0;
-  for (int i = 1; i <= model.NbEntities() && named < pipes.size(); ++i)
+  for (int i = 1; i <= model.NbEntities() && named < solids.size(); ++i)
     if (const auto solid = Handle(StepShape_ManifoldSolidBrep)::DownCast(model.Value(i)))
-      solid->SetName(new TCollection_HAsciiString(pipes[named++].axis.name.c_str()));
-  if (named != pipes.size()) throw std::runtime_error("OpenCASCADE did not translate all solids to STEP");
+      solid->SetName(ascii(names_of(solids[named++]).first));
+  if (named != solids.size()) throw std::runtime_error("OpenCASCADE did not translate all solids to STEP");
 }
 
 }  // namespace
 
-std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit, StepSchema schema) {
+std::string step_solid_text(const std::vector<NamedSolid>& solids, LengthUnit unit, StepSchema schema) {
   try {
     const SilentMessenger silence;
-    set_parameters(unit, schema, pipes.size() > 1);
+    set_parameters(unit, schema, solids.size() > 1);
     std::vector<TopoDS_Shape> parts;
     std::vector<std::string> names;
-    for (const NamedPipe& pipe : pipes) {
-      parts.push_back(swept_pipe(pipe));
-      names.push_back(part_name(pipe.axis));
+    for (const NamedSolid& solid : solids) {
+      parts.push_back(swept_solid(solid));
+      const auto [name, part] = names_of(solid);
+      names.push_back(part.empty() ? name : part);
     }
     STEPControl_Writer writer;
     if (writer.Transfer(assembled(parts), STEPControl_AsIs) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot translate the solids to STEP");
-    give_names(*writer.Model(), pipes);
+    give_names(*writer.Model(), solids);
     name_products(*writer.Model(), names);
     describe(writer.Model(), names[0]);
     return text(writer);

@@ -14,9 +14,9 @@ namespace nurbeam {
 /// than rounding). Not to be called by two threads at once: OpenCASCADE's translators share global state.
 std::string step_text(const std::vector<NamedCurve>& curves, LengthUnit unit, StepSchema schema);
 
-/// The text of a STEP file with a manifold solid for each pipe, else as step_text. Throws
+/// The text of a STEP file with manifold solids, else as step_text. Throws
 /// std::runtime_error also when a sweep gives no valid solid of the volume that the section times the length
 /// has. To be called in a child process: OpenCASCADE's sweep may crash.
-std::string step_solid_text(const std::vector<NamedPipe>& pipes, LengthUnit unit, StepSchema schema);
+std::string step_solid_text(const std::vector<NamedSolid>& solids, LengthUnit unit, StepSchema schema);
 
 }  // namespace nurbeam

@@ -35,6 +35,10 @@ void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
       keep(record.moment_max, e.bending_moment[i], s, magnitude);
       keep(record.shear_force_max, e.shear_force[i], s, magnitude);
       keep(record.stress_max, e.stress[i], s, magnitude);
+      keep(record.von_mises_max, e.von_mises[i], s, magnitude);
+      if (std::isnan(e.twist[i])) continue;  // no torsion
+      keep(record.torque_max, e.torque[i], s, magnitude);
+      keep(record.twist_max, e.twist[i], s, magnitude);
     }
   for (std::size_t i = 0; i < record.node_s.size(); ++i) {
     const double s = record.node_s[i];
@@ -50,8 +54,12 @@ BeamRecord record_beam(const BeamSystem& system, const State& state,
   const Mesh& mesh = system.mesh();
   const ReferenceCurve& curve = system.model().beams[b].curve;
   BeamRecord record;
-  for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i)
-    record.elements.push_back(record_element(system, state, i, carried[i]));
+  double twisted = 0;  // since the start of the beam
+  for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i) {
+    ElementRecord& element = record.elements.emplace_back(record_element(system, state, i, carried[i]));
+    element.twist.array() += twisted;
+    twisted = element.twist[3];
+  }
   for (const MeshNode& node : mesh.nodes[b]) {
     record.node_positions.push_back(vector_at(system, state.q, node.r));
     record.node_slopes.push_back(vector_at(system, state.q, node.slope_left));
@@ -71,7 +79,8 @@ std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& stat
 }
 
 ProbeRecord record_probe(const BeamSystem& system, const State& state,
-                         const std::vector<SpanResultants>& carried, const ProbePlace& probe) {
+                         const std::vector<SpanResultants>& carried, const std::vector<BeamRecord>& beams,
+                         const ProbePlace& probe) {
   const MaterialPoint<3> p = material_point(system, state, probe.beam, probe.s);
   const int span = find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
   ProbeRecord record;
@@ -79,6 +88,7 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state,
   record.velocity = p.velocity;
   record.displacement = p.r - system.model().beams[probe.beam].curve.position(probe.s);
   record.section = section_at(system, state, span, carried[span], probe.s);
+  record.section.twist += beams[probe.beam].elements[span - system.mesh().first_span[probe.beam]].twist[0];
   return record;
 }
 
@@ -106,8 +116,9 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
   Snapshot snapshot;
   snapshot.time = state.t;
   const std::vector<SpanResultants> carried = stress_resultants(system, state);
+  snapshot.beams = record_beams(system, state, carried);
   for (const ProbePlace& probe : probes)
-    snapshot.probes.push_back(record_probe(system, state, carried, probe));
+    snapshot.probes.push_back(record_probe(system, state, carried, snapshot.beams, probe));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
@@ -116,7 +127,6 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
     body.joint_force = joint_force(system, state, j);
     body.holding_force = holding_force(system, state, j);
   }
-  snapshot.beams = record_beams(system, state, carried);
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i)
     snapshot.reactions.push_back(record_reaction(system, state, i));
   const SystemEnergy e = energy(system, state);

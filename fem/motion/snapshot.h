@@ -24,13 +24,16 @@ struct BeamRecord {
   Extreme moment_max, shear_force_max;                       ///< the largest magnitude [N m], [N]
   Extreme stress_max;        ///< likewise [Pa]; NaN where the section does not say
   Extreme displacement_max;  ///< of a node from the drawing [m]
+  /// Of a beam with torsion, the largest magnitude, else NaN [N m], [rad], [Pa].
+  Extreme torque_max, twist_max, von_mises_max;
 };
 
 struct PointRecord {
   Eigen::Vector3d position, velocity;  ///< [m], [m/s]
 };
 
-/// A material point of a beam.
+/// A material point of a beam. Twist is against the start of the beam, here and in the elements of a
+/// BeamRecord.
 struct ProbeRecord : PointRecord {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< from the drawing [m]
   SectionRecord section;
@@ -86,6 +89,8 @@ struct ProbePlace {
 /// Names in the order of the vectors of a Snapshot.
 struct SnapshotNames {
   std::vector<std::string> probes, bodies, beams, reactions;
+  /// Beams have torsion: what is known of their sections' own axes belongs to the results.
+  bool sections = false;
 };
 
 /// The beams of a state.

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
@@ -44,6 +43,28 @@ double shear_force(const Eigen::Vector3d& force, const Eigen::Vector3d& rs) {
   return force.norm();
 }
 
+SectionPoint section_of(const MeshElement<3>& e, const State& state, double s) {
+  return e.twist->element.section(gather_twist(e, state.q), s);
+}
+
+// What a beam with torsion knows of its section besides.
+void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
+                  const Eigen::Vector3d& couple, double s, SectionRecord& record) {
+  const SectionTriad<double> triad = section_of(e, state, s).triad;
+  record.torque = couple.dot(triad.t);
+  record.moment_1 = couple.dot(triad.d1);
+  record.moment_2 = couple.dot(triad.d2);
+  const double s_a = e.start(state.q);
+  // The strain of twist is linear in an element.
+  record.twist = (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
+  record.stress = record.von_mises = SectionRecord::no_number;
+  if (!beam.stresses) return;
+  const auto [normal, von_mises] =
+      beam.stresses->largest({record.axial_force, record.moment_1, record.moment_2, record.torque});
+  record.stress = normal;
+  record.von_mises = von_mises;
+}
+
 template <int D>
 SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
                          const SpanResultants& carried, double s) {
@@ -57,20 +78,19 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   const double strain =
       assumed ? drawn + assumed->carried((s - s_a) / (s_b - s_a)) : axial_strain<D>(p.rs).value;
   const SectionForces elastic =
-      section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn);
+      section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn, free_strain(e, state));
   const StressResultants resultants = carried.at(s, point.r, point.rs);
   SectionRecord record;
   record.strain = elastic.strain;
   record.curvature = elastic.curvature;
   record.axial_force = elastic.axial_force;
   record.bending_moment = bending_moment<D>(resultants.couple, point);
-  if constexpr (D == 3)
-    if (e.twist) record.torque = resultants.couple.dot(point.rs.normalized());
   record.shear_force = shear_force<D>(resultants.force, point.rs);
-  record.stress = a.model()
-                      ->beams[e.beam]
-                      .section.fibre_stress(record.axial_force, record.bending_moment)
-                      .value_or(std::numeric_limits<double>::quiet_NaN());
+  const Beam& beam = a.model()->beams[e.beam];
+  record.stress =
+      beam.section.fibre_stress(record.axial_force, record.bending_moment).value_or(SectionRecord::no_number);
+  if constexpr (D == 3)
+    if (e.twist) add_own_axes(beam, e, state, resultants.couple, s, record);
   return record;
 }
 
@@ -95,14 +115,32 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
     record.shear_force[i] = section.shear_force;
     record.stress[i] = section.stress;
     record.velocity.col(i) = widened<D>(material_point<D>(e, state.q, state.v, s).velocity);
+    record.moment_1[i] = section.moment_1;
+    record.moment_2[i] = section.moment_2;
+    record.twist[i] = section.twist;
+    record.von_mises[i] = section.von_mises;
+    if constexpr (D == 3)
+      if (e.twist) {
+        const SectionTriad<double> triad = section_of(e, state, s).triad;
+        record.d1.col(i) = triad.d1;
+        record.d2.col(i) = triad.d2;
+      }
   }
   return record;
+}
+
+// That of a section's spin, times the length [rad m/s] that has it.
+void add_spin(const MeshElement<3>& e, const State& state, double s, double spin, Eigen::VectorXd& p) {
+  const double inertia = e.element.properties().sections->spin_inertia;
+  const TwistLayout::Coordinates row = e.twist->element.material_spin_row(gather_twist(e, state.q), s);
+  for (int k = 0; k < TwistLayout::size; ++k)
+    if (e.twist->dofs[k] >= 0) p[e.twist->dofs[k]] += inertia * spin * row[k];
 }
 
 // That of one element.
 template <int D>
 void add_momentum(const MeshElement<D>& e, const State& state,
-                  const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                  const std::function<MaterialMotion(int beam, double s)>& field,
                   const std::vector<double>& breaks, Eigen::VectorXd& p) {
   const ReferenceCurve& curve = e.element.curve();
   std::vector<double> parts{e.s_a, e.s_b};
@@ -116,11 +154,14 @@ void add_momentum(const MeshElement<D>& e, const State& state,
   for (std::size_t i = 0; i + 1 < parts.size(); ++i)
     for (int g = 0; g < GaussRule::size; ++g) {
       const double length = parts[i + 1] - parts[i], s = parts[i] + length * GaussRule::points[g];
-      const Eigen::Matrix<double, D, 1> velocity = field(e.beam, s).template head<D>();
+      const MaterialMotion motion = field(e.beam, s);
+      const Eigen::Matrix<double, D, 1> velocity = motion.velocity.template head<D>();
       const PointField<D> r(e.element.shape_series(x, s).value, nodes);
       const double mass = e.element.properties().mass_per_length * length * GaussRule::weights[g];
       for (int k = 0; k < element_size<D>; ++k)
         if (e.dofs[k] >= 0) p[e.dofs[k]] += mass * r.gradient.col(k).dot(velocity);
+      if constexpr (D == 3)
+        if (e.twist) add_spin(e, state, s, length * GaussRule::weights[g] * motion.spin, p);
     }
 }
 
@@ -143,7 +184,20 @@ SectionPoint section_point(const BeamSystem& system, const State& state, int bea
   if (!of.has_torsion()) throw std::invalid_argument("beam \"" + of.name + "\" has no torsion");
   const MeshElement<3>& e =
       system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
-  return e.twist->element.section(gather_twist(e, state.q), of.curve.unrolled(s, (e.s_a + e.s_b) / 2));
+  return section_of(e, state, e.local(gather<3>(e, state.q), s));
+}
+
+double material_spin(const BeamSystem& system, const State& state, int beam, double s) {
+  if (!system.model().beams.at(beam).has_torsion()) return 0;
+  const MeshElement<3>& e =
+      system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
+  return e.twist->element.material_spin(gather_twist(e, state), e.local(gather<3>(e, state.q), s));
+}
+
+double section_twist(const BeamSystem& system, const State& state, int beam, double s) {
+  const Beam& of = system.model().beams.at(beam);
+  if (!of.has_torsion()) return 0;
+  return of.curve.section(s).twist + section_point(system, state, beam, s).strain.twist;
 }
 
 SectionRecord section_at(const BeamSystem& system, const State& state, int span,
@@ -208,7 +262,7 @@ Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, in
 }
 
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
-                                     const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                                     const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
                                      const std::vector<Eigen::Vector3d>& body_velocities) {
   const int D = system.dimension();

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "fem/mesh/mesh_elements.h"
@@ -18,6 +19,10 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 /// after it has it (the last one at the end of a beam that is no ring). Throws std::invalid_argument where
 /// the beam has none.
 SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s);
+/// Spin of the material section at s about its tangent [rad/s], and the present twist of the beam there
+/// [rad/m]; 0 without torsion.
+double material_spin(const BeamSystem& system, const State& state, int beam, double s);
+double section_twist(const BeamSystem& system, const State& state, int beam, double s);
 /// What one section of a beam carries.
 struct SectionRecord {
   double strain = 0;          ///< Green's axial strain that carries [-]
@@ -28,6 +33,12 @@ struct SectionRecord {
   double shear_force = 0;  ///< [N]; in a planar model that of the part beyond the section, along the normal n
                            ///< = e_z x t; in space its magnitude
   double stress = 0;       ///< of the fibre that it is largest in [Pa]; NaN where the section does not say
+  /// Of a beam with torsion, else NaN: bending moments about the section's own axes d1 and d2 [N m], the
+  /// angle by which the section has twisted since the drawing, against the start of its span [rad], and the
+  /// von Mises stress where it is largest [Pa] (NaN where the section does not say).
+  double moment_1 = no_number, moment_2 = no_number, twist = no_number, von_mises = no_number;
+
+  static constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 };
 /// At material point s [m] of the element in a span, whose stress resultants are `carried`.
 SectionRecord section_at(const BeamSystem& system, const State& state, int span,
@@ -43,6 +54,16 @@ struct ElementRecord {
                                                                   shear_force = Eigen::Vector4d::Zero(),
                                                                   stress = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
+  Eigen::Vector4d moment_1 = no_numbers(), moment_2 = no_numbers(), twist = no_numbers(),
+                  von_mises = no_numbers();
+  /// The section's own axes, of unit length; NaN without torsion.
+  Eigen::Matrix<double, 3, 4> d1 = no_axes(), d2 = no_axes();
+
+ private:
+  static Eigen::Vector4d no_numbers() { return Eigen::Vector4d::Constant(SectionRecord::no_number); }
+  static Eigen::Matrix<double, 3, 4> no_axes() {
+    return Eigen::Matrix<double, 3, 4>::Constant(SectionRecord::no_number);
+  }
 };
 ElementRecord record_element(const BeamSystem& system, const State& state, int span,
                              const SpanResultants& carried);
@@ -67,11 +88,17 @@ StrainIntegral strain_integral(const BeamSystem& system, const State& state, int
 /// The weights w_0..w_3 of the element in a span.
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span);
 
-/// int rho A N' v ds over all elements, N = dr/dq at fixed material, plus the bodies' momenta m v: what the
-/// velocity `field`(beam, s) [m/s] and the bodies' velocities (3 each) mean for the coordinates of `state`.
-/// Elements are integrated in parts between the places that `breaks`(beam) lists [m].
+/// The motion of a material point: its velocity [m/s] and the spin of its section [rad/s].
+struct MaterialMotion {
+  Eigen::Vector3d velocity;
+  double spin = 0;
+};
+/// int (rho A N' v + rho I_p W' w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
+/// material, plus the bodies' momenta m v: what the motion `field`(beam, s), of velocity v and spin w, and
+/// the bodies' velocities (3 each) mean for the coordinates of `state`. Elements are integrated in parts
+/// between the places that `breaks`(beam) lists [m].
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
-                                     const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                                     const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
                                      const std::vector<Eigen::Vector3d>& body_velocities);
 

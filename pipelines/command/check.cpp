@@ -1,7 +1,10 @@
 #include "pipelines/command/check.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <ostream>
+#include <string>
 
 #include "fem/motion/snapshot.h"
 #include "fem/system/initial_state.h"
@@ -28,19 +31,35 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
     longest = std::max(longest, length);
   }
   const BeamProperties& p = beam.properties;
+  const double stretch =
+      std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   const auto size = [](double value) { return text_of(value, size_digits); };
   out << "beam      " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
       << text_of(L, place_digits) << " m, mass " << size(L * p.mass_per_length) << " kg, "
       << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
-      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.axial_stiffness) << " N, ";
+      << size(shortest) << " to " << size(longest) << " m, EA "
+      << size(p.axial_stiffness * stretch * stretch * stretch) << " N, ";
   if (p.sections)
-    out << "EI1 " << size(p.sections->bending_1) << ", EI2 " << size(p.sections->bending_2) << ", EI12 "
-        << size(p.sections->bending_product) << ", GJ " << size(p.sections->torsion);
+    out << "EI1 " << size(p.sections->bending_1 * stretch) << ", EI2 "
+        << size(p.sections->bending_2 * stretch) << ", EI12 " << size(p.sections->bending_product * stretch)
+        << ", GJ " << size(p.sections->torsion * stretch);
   else
-    out << "EI " << size(p.bending_stiffness);
+    out << "EI " << size(p.bending_stiffness * stretch);
   out << " N m^2, stress-free " << (beam.curve.straight() ? "straight" : "as drawn");
+  if (stretch != 1) out << ", unstressed length " << text_of(L * stretch, place_digits) << " m";
+  if (!p.free_strain.thermal.empty()) out << ", with a temperature";
   if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
   out << '\n';
+}
+
+// Of a beam in space: its element, and why; the angle that sections come back turned by on a ring.
+void print_torsion(std::ostream& out, const Beam& beam, const std::string& torsion) {
+  if (torsion.empty()) return;
+  out << "torsion   of " << beam.name << ": " << torsion << '\n';
+  if (beam.has_torsion() && beam.is_ring())
+    out << "holonomy  of " << beam.name
+        << ": sections carried around the ring without twist come back turned by "
+        << text_of(beam.curve.holonomy() * 180 / std::numbers::pi, size_digits) << " degrees\n";
 }
 
 void print_corners(std::ostream& out, const Beam& beam) {
@@ -103,6 +122,8 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
       << " coordinates\n";
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     print_beam(out, model.beams[b], report.value->sources[b].drawn_bending);
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+    print_torsion(out, model.beams[b], report.value->sources[b].torsion);
   for (const Beam& beam : model.beams) print_corners(out, beam);
   print_mismatch(out, system);
   if (const auto& adapted = report.value->adapted)

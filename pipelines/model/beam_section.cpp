@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nurbs/number_text.h"
+#include "pipelines/section/stress_places.h"
 #include "pipelines/section/torsion_constant.h"
 
 namespace nurbeam {
@@ -86,24 +87,56 @@ double shear_modulus(const CaseBeam& beam, Findings& findings) {
   return material.youngs_modulus / (2 * (1 + material.poissons_ratio.value_or(usual_ratio)));
 }
 
-// Nothing where it is not known.
-std::optional<double> constant_of(const BeamSection& section) {
-  const CaseSection& sizes = section.section;
+// Nothing where it is not known. `found` is that of the profile, where there is one.
+std::optional<double> constant_of(const CaseSection& sizes, const std::optional<TorsionReport>& found) {
   if (sizes.torsion_constant) return sizes.torsion_constant;
-  if (section.profile) {
-    const TorsionReport found = torsion_constant(section.profile->loops);
-    return found.status == TorsionStatus::no_mesh ? std::nullopt : std::optional(found.value);
-  }
+  if (found) return found->status == TorsionStatus::no_mesh ? std::nullopt : std::optional(found->value);
   if (!sizes.second_moments) return 2 * sizes.second_moment;
   return std::nullopt;
 }
 
+std::optional<SectionStresses> stresses_of(const BeamSection& section, double torsion_constant,
+                                           const std::optional<TorsionReport>& found) {
+  const CaseSection& sizes = section.section;
+  if (section.profile)
+    return SectionStresses(sizes.area, {section.profile->second_x, section.profile->second_y},
+                           section.profile->product, stress_places(*section.profile, *found));
+  if (sizes.second_moments || !(sizes.radius || sizes.extreme_fibre)) return {};
+  return SectionStresses::round(sizes.area, sizes.second_moment, torsion_constant,
+                                sizes.radius ? *sizes.radius : *sizes.extreme_fibre);
+}
+
+// What the drawn section does that the element does not know.
+void check_warping(const std::string& where, const SectionProfile& profile, const TorsionReport& found,
+                   double stiffness_ratio, double length, Findings& findings) {
+  constexpr int digits = 3;
+  constexpr double allowed_offset = 0.01;  // of the radius of gyration
+  const double gyration = std::sqrt((profile.second_x + profile.second_y) / profile.area);
+  const Eigen::Vector2d& centre = found.shear_centre;
+  if (centre.norm() > allowed_offset * gyration)
+    findings.warn(where,
+                  "has its shear centre at (" + text_of(centre.x(), digits) + ", " +
+                      text_of(centre.y(), digits) +
+                      ") m from its centroid; the beam takes the two for one: where forces act through "
+                      "the centroid the twist that they give is missing; add it as a moment");
+  constexpr double allowed_reach = 0.05;  // of the length
+  const double reach = std::sqrt(stiffness_ratio * found.warping_constant / found.value);
+  if (reach > allowed_reach * length)
+    findings.warn(where,
+                  "is open and thin-walled, or the beam short: warping, which is not modelled, would "
+                  "stiffen it against twist within about " +
+                      text_of(reach, digits) + " m of clamps, of a length of " + text_of(length, digits) +
+                      " m; a closed section does not, or give a \"torsion_constant\" that counts it");
+}
+
 }  // namespace
 
-std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const BeamSection& section,
-                                                  Findings& findings) {
+std::optional<TorsionSection> torsion_section(const CaseBeam& beam, double length, const BeamSection& section,
+                                              Findings& findings) {
   const CaseSection& sizes = section.section;
-  const std::optional<double> J = constant_of(section);
+  std::optional<TorsionReport> found;
+  if (section.profile) found = torsion_constant(section.profile->loops);
+  const std::optional<double> J = constant_of(sizes, found);
   if (!J) {
     findings.error(
         beam.path + ".section",
@@ -124,8 +157,11 @@ std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const Be
                                                text_of(I_y) + " m^4");
     return {};
   }
-  return SectionStiffness{E * I_x, E * I_y, 0 - E * sizes.product, G * *J,
-                          beam.material.density * (I_x + I_y)};
+  if (found && found->status != TorsionStatus::no_mesh)
+    check_warping(beam.path + ".section.profile", *section.profile, *found, E / G, length, findings);
+  return TorsionSection{
+      {E * I_x, E * I_y, 0 - E * sizes.product, G * *J, beam.material.density * (I_x + I_y)},
+      stresses_of(section, *J, found)};
 }
 
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "fem/material/section_stresses.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/cad_files.h"
@@ -19,9 +20,15 @@ struct BeamSection {
 std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
                                         Findings& findings);
 
-/// Stiffness and inertia of the sections of a beam with torsion; nothing, with an error among the findings,
-/// where its torsion constant is not known. Profiles: the x axis is d1, the y axis d2.
-std::optional<SectionStiffness> section_stiffness(const CaseBeam& beam, const BeamSection& section,
-                                                  Findings& findings);
+/// What the sections of a beam with torsion have besides.
+struct TorsionSection {
+  SectionStiffness stiffness;
+  std::optional<SectionStresses> stresses = {};  ///< where the outline is known, or an extreme fibre
+};
+/// Nothing, with an error among the findings, where the torsion constant is not known. Profiles: the x axis
+/// is d1, the y axis d2. Warns where the drawn section of a beam of that length [m] does what the element
+/// does not know: a shear centre off the centroid, and warping that clamps hold.
+std::optional<TorsionSection> torsion_section(const CaseBeam& beam, double length, const BeamSection& section,
+                                              Findings& findings);
 
 }  // namespace nurbeam

@@ -12,12 +12,14 @@
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
+#include "pipelines/model/check_drawing.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/drawn_bending.h"
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
+#include "pipelines/model/why_torsion.h"
 
 namespace nurbeam {
 
@@ -41,6 +43,13 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   std::vector<Eigen::Vector3d> forces = {resolved.gravity}, moments;
   for (const CaseLoad& load : resolved.loads)
     (load.kind == CaseLoad::Kind::moment ? moments : forces).push_back(load.value);
+  for (const CaseSupport& support : resolved.supports)
+    for (const auto& [time, displacement] : support.motion) forces.push_back(displacement);
+  for (const CaseBeam& beam : resolved.beams)
+    if (beam.velocity) {
+      forces.push_back(beam.velocity->translation);
+      moments.push_back(beam.velocity->rotation);
+    }
   const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(),
                                    [](const CaseBeam& beam) { return beam.torsion; });
   return model_frame(segments, forces, moments, torsion);
@@ -106,18 +115,51 @@ ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, Findings& fi
   }
 }
 
-void check_nothing_slides(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints,
-                          Findings& findings) {
+// Whether a body bends the beam by an angle where it is: a beam with torsion cannot have that.
+bool kinks(const CaseSlidingJoint& joint, const CaseBeam& beam) {
+  return joint.beam == beam.name && !joint.continuous_slope;
+}
+
+void check_no_kink(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints, Findings& findings) {
   for (const CaseSlidingJoint& joint : joints)
-    if (joint.beam == beam.name)
-      findings.error(
-          beam.path + ".torsion",
-          "body \"" + joint.body + "\" slides on this beam; only a beam without torsion can carry it");
+    if (kinks(joint, beam))
+      findings.error(beam.path + ".torsion",
+                     "body \"" + joint.body +
+                         "\" slides on this beam with a \"discontinuous\" slope, which only a beam without "
+                         "torsion can have; use \"continuous\"");
+}
+
+// The unstressed over the drawn length.
+double free_stretch(const CaseBeam& from, const ReferenceCurve& drawn, Findings& findings) {
+  constexpr double least = 0.5, most = 2;
+  const double stretch = from.unstressed_length.value_or(drawn.length()) / drawn.length();
+  if (stretch < least || stretch > most)
+    findings.error(from.path + ".unstressed_length",
+                   "is " + text_of(*from.unstressed_length) + " m of a beam that is drawn " +
+                       text_of(drawn.length()) + " m long; must be between " +
+                       text_of(least * drawn.length()) + " and " + text_of(most * drawn.length()) +
+                       " m (is the unit right?)");
+  return std::clamp(stretch, least, most);
+}
+
+// Expansion is relative to the unstressed length, Green's strain to the drawn one.
+void add_temperature(const CaseBeam& from, BeamProperties& properties) {
+  const double stretch_squared = 1 + 2 * properties.free_strain.constant;
+  for (const auto& [time, kelvin] : from.temperature)
+    properties.free_strain.thermal.emplace_back(time,
+                                                stretch_squared * *from.material.thermal_expansion * kelvin);
+}
+
+std::optional<BeamVelocity> initial_velocity(const CaseBeam& from, const ModelFrame& frame) {
+  if (!from.velocity) return {};
+  return BeamVelocity{frame.direction_to_local(from.velocity->translation),
+                      frame.moment_to_local(from.velocity->rotation), frame.to_local(from.velocity->about),
+                      from.velocity->along};
 }
 
 // A beam without elements yet.
 Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& curve,
-             const BeamSection& drawn, Findings& findings) {
+             const BeamSection& drawn, const ModelFrame& frame, Findings& findings) {
   const CaseSection& section = drawn.section;
   if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
   const Section sizes{.area = section.area,
@@ -130,25 +172,53 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
+  std::optional<SectionStresses> stresses;
   if (from.torsion) {
-    check_nothing_slides(from, resolved.sliding_joints, findings);
-    properties.sections = section_stiffness(from, drawn, findings);
+    check_no_kink(from, resolved.sliding_joints, findings);
+    if (const auto section_of_beam = torsion_section(from, curve.length(), drawn, findings)) {
+      properties.sections = section_of_beam->stiffness;
+      stresses = section_of_beam->stresses;
+    }
   }
+  if (const double stretch = free_stretch(from, curve, findings); stretch != 1)
+    properties = properties.with_free_stretch(stretch);
+  add_temperature(from, properties);
   const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
           .curve = oriented(from, stress_free, findings),
           .properties = properties,
           .section = sizes,
           .material = material,
+          .stresses = stresses,
           .weights = from.element == ElementKind::ale_ancf ? WeightRule::ones : from.weights,
           .merge = from.merge,
           .form = from.form,
+          .velocity = initial_velocity(from, frame),
           .home = {}};
 }
 
+// A motion begins where the beam is drawn, unless the run begins with a search for rest.
+std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const CaseSupport& support,
+                                           const ModelFrame& frame, Findings& findings) {
+  if (support.motion.empty()) return {};
+  std::vector<DisplacementTable::Row> rows;
+  for (const auto& [time, displacement] : support.motion)
+    rows.emplace_back(time, frame.direction_to_local(displacement));
+  const DisplacementTable motion(std::move(rows));
+  const double start = motion.at(0).value.norm();
+  const CaseAnalysis& analysis = resolved.analysis;
+  if (start > 0 && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
+    findings.error(
+        support.path + ".motion",
+        "is " + text_of(start) +
+            " m from the drawn place at time 0, but the run starts as drawn; begin with [0, 0, 0, 0], "
+            "or start with \"initial\": \"equilibrium\"");
+  return motion;
+}
+
 // Adds the supports of one beam; returns their places in reference arc length [m].
-std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam, BeamModel& model,
-                                 Findings& findings) {
+std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
+                                 const ModelFrame& frame, BeamModel& model, Findings& findings) {
   const double same = same_place * beam.measured.length();
   std::vector<double> places;
   std::vector<std::string> paths;
@@ -168,14 +238,22 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
                      "\"fork\" holds the roll of a section; beam \"" + support.beam +
                          "\" has no torsion: give it \"torsion\": true, or use \"pinned\"");
     model.constraints.push_back(Support{b, beam.material_coordinate(s),
-                                        support.type == CaseSupport::Type::clamped, fork, support.name});
+                                        support.type == CaseSupport::Type::clamped, fork, support.name,
+                                        motion_of(resolved, support, frame, findings)});
   }
   return places;
 }
 
+// The factor of a load over time; in load steps time is the load factor.
+TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
+  if (!load.time.empty() || analysis.load_factors.empty()) return load.time;
+  const double last = analysis.load_factors.back();
+  return last > 0 ? TimeTable{{0, 0}, {last, last}} : TimeTable{{0, 0}};
+}
+
 // That of a force or a moment at a place.
 LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, const Eigen::Vector3d& value,
-                          Findings& findings) {
+                          const CaseAnalysis& analysis, Findings& findings) {
   const double s = beam.material_coordinate(place_on(beam, load.at, load.path, findings));
   const double speed = load.moving_speed.value_or(0);
   const bool at_start = s == 0, at_end = s == beam.curve.length();
@@ -185,7 +263,7 @@ LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, co
                                                   "nothing; it moves from the " +
                                                   (at_start ? "start" : "end") + " into the beam with a " +
                                                   (at_start ? "positive" : "negative") + " speed");
-  return {b, s, speed, value, load.follower, load.time};
+  return {b, s, speed, value, load.follower, time_of(load, analysis)};
 }
 
 // A beam without torsion takes no moment along itself.
@@ -205,17 +283,19 @@ void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
     const DrawnBeam& beam = beams[b];
     switch (load.kind) {
       case CaseLoad::Kind::force:
-        model.forces.push_back(
-            PointLoad{load_at_place(load, b, beam, frame.direction_to_local(load.value), findings)});
+        model.forces.push_back(PointLoad{
+            load_at_place(load, b, beam, frame.direction_to_local(load.value), resolved.analysis, findings)});
         break;
       case CaseLoad::Kind::moment: {
-        const LoadAtPlace moment = load_at_place(load, b, beam, frame.moment_to_local(load.value), findings);
+        const LoadAtPlace moment =
+            load_at_place(load, b, beam, frame.moment_to_local(load.value), resolved.analysis, findings);
         if (!resolved.beams[b].torsion) check_moment(load, moment, beam, findings);
         model.forces.push_back(Moment{moment});
         break;
       }
       case CaseLoad::Kind::force_per_length:
-        model.forces.push_back(LineLoad{b, frame.direction_to_local(load.value), load.time});
+        model.forces.push_back(
+            LineLoad{b, frame.direction_to_local(load.value), time_of(load, resolved.analysis)});
         break;
     }
   }
@@ -229,12 +309,12 @@ double mass_of(const BeamModel& model) {
 }
 
 // Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
-// another one than drawn. As yet only a beam without torsion carries a sliding body.
+// another one than drawn. As yet none that a body bends by an angle where it slides.
 bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve,
                       const std::vector<CaseSlidingJoint>& joints) {
-  const bool carries = std::any_of(joints.begin(), joints.end(),
-                                   [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
-  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve) && !carries;
+  const bool kinked = std::any_of(joints.begin(), joints.end(),
+                                  [&](const CaseSlidingJoint& joint) { return kinks(joint, beam); });
+  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve) && !kinked;
 }
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
@@ -245,11 +325,16 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     CaseBeam& from = resolved.beams[b];
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
     if (!drawn) break;
+    const bool asked = from.torsion;
     from.torsion = from.torsion || is_given_torsion(from, drawn->curve, resolved.sliding_joints);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!section) break;
-    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, findings));
+    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
+    if (built.frame.dimension == 3)
+      built.sources.back().torsion =
+          why_torsion(from, asked, is_curved(drawn->curve), resolved.sliding_joints);
+    built.sources.back().outline = section_outline(*section);
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);
     if (section->profile) built.sources.back().profile = {from.section.profile->path, *section->profile};
@@ -263,7 +348,7 @@ void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
                   const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model, Findings& findings) {
   for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
     const CaseBeam& from = resolved.beams[b];
-    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], model, findings);
+    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], frame, model, findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
     model.beams[b].home =
         divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), frame, findings);
@@ -319,6 +404,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
   add_sliding_joints(resolved, beams, joined, built.model, findings);
   if (findings.has_errors()) return {};
   built.adapted = adapt_elements(resolved, built.model, findings);
+  check_turns(resolved.beams, built.model, built.frame, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);

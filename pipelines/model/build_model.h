@@ -9,6 +9,7 @@
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/model_frame.h"
+#include "pipelines/model/section_outline.h"
 #include "pipelines/section/section_profile.h"
 
 namespace nurbeam {
@@ -32,6 +33,8 @@ struct BeamSource {
   std::optional<AxisSource> axis = {};  ///< empty where the axis is in no file
   std::optional<BeamProfile> profile = {};
   double drawn_bending = 0;  ///< energy that the drawing holds against the stress-free shape [J]
+  std::string torsion;       ///< whether a beam in space has torsion, and why
+  SectionOutline outline = {};
 };
 
 /// A case as a model: everything resolved and in place.

@@ -1,5 +1,7 @@
 #include "pipelines/model/model_summary.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace nurbeam {
@@ -9,6 +11,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json to_json(const SectionOutline& outline) {
+  constexpr double digits = 1e6;  // of its size
+  double size = 0;
+  for (const auto& polygon : outline)
+    for (const Eigen::Vector2d& p : polygon) size = std::max(size, p.norm());
+  const double unit = std::pow(10, std::floor(std::log10(size))) / digits;
+  Json json = Json::array();
+  for (const auto& polygon : outline) {
+    Json& points = json.emplace_back(Json::array());
+    for (const Eigen::Vector2d& p : polygon)
+      points.push_back({std::round(p.x() / unit) * unit, std::round(p.y() / unit) * unit});
+  }
+  return json;
+}
 
 std::string name_of(WeightRule rule) {
   switch (rule) {
@@ -22,25 +39,44 @@ std::string name_of(WeightRule rule) {
   return {};
 }
 
+std::string name_of(CaseAnalysis::Type type) {
+  switch (type) {
+    case CaseAnalysis::Type::dynamic:
+      return "dynamic";
+    case CaseAnalysis::Type::statics:
+      return "static";
+    case CaseAnalysis::Type::modes:
+      return "modes";
+    case CaseAnalysis::Type::buckling:
+      return "buckling";
+  }
+  return {};
+}
+
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
+  const double stretch =
+      std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   Json json = {{"name", beam.name},
                {"length [m]", beam.curve.length()},
+               {"unstressed length [m]", beam.curve.length() * stretch},
                {"mass [kg]", beam.curve.length() * p.mass_per_length},
                {"elements", beam.home.size() - 1},
                {"CAD segments", beam.curve.segment_count()},
                {"element", name_of(beam.weights)},
                {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
                {"bending as drawn [J]", source.drawn_bending},
-               {"EA [N]", p.axial_stiffness},
-               {"EI [N m^2]", p.bending_stiffness},
+               {"EA [N]", p.axial_stiffness * stretch * stretch * stretch},
+               {"EI [N m^2]", p.bending_stiffness * stretch},
                {"damping [s]", p.damping}};
   if (p.sections) {
     json.erase("EI [N m^2]");
-    json.update({{"EI1 [N m^2]", p.sections->bending_1},
-                 {"EI2 [N m^2]", p.sections->bending_2},
-                 {"EI12 [N m^2]", p.sections->bending_product},
-                 {"GJ [N m^2]", p.sections->torsion}});
+    json["torsion"] = source.torsion;
+    json.update({{"EI1 [N m^2]", p.sections->bending_1 * stretch},
+                 {"EI2 [N m^2]", p.sections->bending_2 * stretch},
+                 {"EI12 [N m^2]", p.sections->bending_product * stretch},
+                 {"GJ [N m^2]", p.sections->torsion * stretch}});
+    json["section outline [m]"] = to_json(source.outline);
   }
   return json;
 }
@@ -74,16 +110,35 @@ Json to_json(const SlidingJoint& joint, const BeamModel& model) {
           {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};
 }
 
-Json to_json(const CaseLoad& load) {
-  const char* kind = load.kind == CaseLoad::Kind::force    ? "force [N]"
-                     : load.kind == CaseLoad::Kind::moment ? "moment [N m]"
-                                                           : "force per length [N/m]";
-  return {{"beam", load.beam},
+Json to_json(const TimeTable& table) {
+  Json rows = Json::array();
+  for (const auto& [time, value] : table) rows.push_back({time, value});
+  return rows;
+}
+
+Json load_json(const char* kind, int beam, const Eigen::Vector3d& value, const TimeTable& time,
+               const BuiltModel& built) {
+  return {{"beam", built.model.beams[beam].name},
           {"kind", kind},
-          {"value", to_json(load.value)},
-          {"direction", load.follower ? "turns with the beam" : "fixed"},
-          {"place speed [m/s]", load.moving_speed.value_or(0)},
-          {"in time", load.time.empty() ? "constant" : "table"}};
+          {"value", to_json(built.frame.direction_to_world(value))},
+          {"in time", time.empty() ? "constant" : "table"},
+          {"factor", to_json(time)}};
+}
+
+Json load_json(const char* kind, const LoadAtPlace& load, const BuiltModel& built) {
+  Json json = load_json(kind, load.beam, load.value, load.time, built);
+  json.update({{"direction", load.follower ? "turns with the beam" : "fixed"},
+               {"s [m]", load.s},
+               {"place speed [m/s]", load.speed}});
+  return json;
+}
+
+Json to_json(const PointLoad& load, const BuiltModel& built) { return load_json("force [N]", load, built); }
+Json to_json(const Moment& load, const BuiltModel& built) { return load_json("moment [N m]", load, built); }
+Json to_json(const LineLoad& load, const BuiltModel& built) {
+  Json json = load_json("force per length [N/m]", load.beam, load.value, load.time, built);
+  json.update({{"direction", "fixed"}, {"place speed [m/s]", 0}});
+  return json;
 }
 
 }  // namespace
@@ -91,6 +146,7 @@ Json to_json(const CaseLoad& load) {
 std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   const BeamModel& model = built.model;
   Json json = {
+      {"analysis", name_of(case_file.analysis.type)},
       {"dimension", model.dimension},
       {"plane_normal",
        model.dimension == 2 ? to_json(built.frame.direction_to_world(Eigen::Vector3d::UnitZ())) : Json()},
@@ -108,7 +164,12 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
     if (const auto* support = std::get_if<Support>(&constraint))
       json["supports"].push_back(to_json(*support, built));
   for (const SlidingJoint& joint : model.joints) json["joints"].push_back(to_json(joint, model));
-  for (const CaseLoad& load : case_file.loads) json["loads"].push_back(to_json(load));
+  for (const Force& force : model.forces)
+    std::visit(
+        [&](const auto& load) {
+          if constexpr (requires { to_json(load, built); }) json["loads"].push_back(to_json(load, built));
+        },
+        force);
   // Names from files need not be valid UTF-8: what is not is replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -65,6 +65,14 @@ struct Field {
   Eigen::Vector4d (*values)(const ElementRecord& element);
   double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
 
+  void add(const ElementRecord& element) {
+    const Eigen::Vector4d now = values(element);
+    for (const double value : now) {
+      if (std::isnan(value)) continue;
+      min = std::min(min, value);
+      max = std::max(max, value);
+    }
+  }
   /// A value as a byte: 0 is min, 255 is max.
   unsigned char byte_of(double value) const {
     const double part = max > min && !std::isnan(value) ? (value - min) / (max - min) : 0;
@@ -78,9 +86,13 @@ std::vector<Field> all_fields() {
       {"curvature", "1/m", [](const ElementRecord& e) { return e.curvature; }},
       {"axial force", "N", [](const ElementRecord& e) { return e.axial_force; }},
       {"bending moment", "N m", [](const ElementRecord& e) { return e.bending_moment; }},
+      {"moment 1", "N m", [](const ElementRecord& e) { return e.moment_1; }},
+      {"moment 2", "N m", [](const ElementRecord& e) { return e.moment_2; }},
       {"torque", "N m", [](const ElementRecord& e) { return e.torque; }},
+      {"twist", "rad", [](const ElementRecord& e) { return e.twist; }},
       {"shear force", "N", [](const ElementRecord& e) { return e.shear_force; }},
       {"stress", "Pa", [](const ElementRecord& e) { return e.stress; }},
+      {"von Mises stress", "Pa", [](const ElementRecord& e) { return e.von_mises; }},
       {"speed", "m/s", [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }},
       {"axial mismatch", "1",
        [](const ElementRecord& e) -> Eigen::Vector4d {
@@ -93,6 +105,7 @@ struct Survey {
   std::vector<Field> fields = all_fields();
   Eigen::AlignedBox<double, 3> box;                        ///< of the whole run [m]
   bool rational = false;                                   ///< the weights of some element differ
+  bool sections = false;                                   ///< beams have torsion: their sections turn
   std::vector<std::vector<std::uint32_t>> element_counts;  ///< per frame, per beam
   std::vector<Column> columns;
 
@@ -111,7 +124,8 @@ struct Survey {
   std::size_t bytes_of_frame(std::size_t frame) const {
     std::size_t bytes = columns.size() * sizeof(double);
     for (const std::size_t n : element_counts[frame])
-      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0)) + 4 * n * fields.size();
+      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + (sections ? 12 * n : 0) + n + 1) +
+               (2 * sizeof(float) + 4 * n) * fields.size();
     return bytes;
   }
 
@@ -121,14 +135,7 @@ struct Survey {
     for (int i = 0; i < 4; ++i)
       box.extend(Eigen::Vector3d(element.control_points.col(i).head<3>() / weights[i]));
     rational = rational || weights.minCoeff() != weights.maxCoeff();
-    for (Field& field : fields) {
-      const Eigen::Vector4d values = field.values(element);
-      for (const double value : values) {
-        if (std::isnan(value)) continue;
-        field.min = std::min(field.min, value);
-        field.max = std::max(field.max, value);
-      }
-    }
+    for (Field& field : fields) field.add(element);
   }
 };
 
@@ -150,7 +157,25 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
         append(bytes, weights.data(), 4);
       }
     }
+    if (survey.sections)
+      for (const ElementRecord& element : beam.elements) {
+        const Eigen::Matrix<float, 3, 4> d1 = element.d1.cast<float>();
+        append(bytes, d1.data(), 12);
+      }
+    const auto add_float = [&](double value) {
+      const auto number = static_cast<float>(value);
+      append(bytes, &number, 1);
+    };
+    for (const ElementRecord& element : beam.elements) add_float(element.s_start);
+    add_float(beam.elements.back().s_end);
+    std::vector<Field> here;  // with their ranges in this beam and frame
     for (const Field& field : survey.fields) {
+      here.push_back({field.name, field.unit, field.values});
+      for (const ElementRecord& element : beam.elements) here.back().add(element);
+      add_float(here.back().min);
+      add_float(here.back().max);
+    }
+    for (const Field& field : here) {
       for (const ElementRecord& element : beam.elements)
         for (const double value : field.values(element)) bytes.push_back(field.byte_of(value));
     }
@@ -214,6 +239,7 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
           {"values", values},
           {"shapes",
            {{"rational", survey.rational},
+            {"sections", survey.sections},
             {"origin", to_json(survey.origin())},
             {"fields", fields},
             {"element_counts", base64_of(counts)}}}};
@@ -264,6 +290,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   if (frames.times.empty()) throw std::invalid_argument("there is no stored frame to report");
   Survey survey;
   survey.columns = empty_columns(frames.names);
+  survey.sections = frames.names.sections;
   for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
   std::erase_if(survey.fields, [](const Field& field) {
     const bool in_no_frame = field.min > field.max;

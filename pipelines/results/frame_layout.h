@@ -69,6 +69,23 @@ inline constexpr BeamExtreme beam_extremes[] = {
     {"displacement_max", "displacement.max", "m", "largest displacement of a node from the drawing",
      &BeamRecord::displacement_max, false}};
 
+/// What is known besides where SnapshotNames::sections says that beams have torsion; columns stand behind all
+/// others.
+inline constexpr SectionPart own_axes_parts[] = {
+    {"moment_1", "moment_1", "N m", "bending moment about the section's own x axis, d1",
+     &SectionRecord::moment_1},
+    {"moment_2", "moment_2", "N m", "bending moment about the section's own y axis, d2",
+     &SectionRecord::moment_2},
+    {"twist", "twist", "rad", "twist of the section since the drawing, against the start of its beam",
+     &SectionRecord::twist},
+    {"von_mises", "von_mises", "Pa", "von Mises stress of the section where it is largest",
+     &SectionRecord::von_mises}};
+inline constexpr BeamExtreme own_axes_extremes[] = {
+    {"torque_max", "torque.max", "N m", "torque of the largest magnitude", &BeamRecord::torque_max, false},
+    {"twist_max", "twist.max", "rad", "twist since the drawing of the largest magnitude",
+     &BeamRecord::twist_max, false},
+    {"von_mises_max", "von_mises.max", "Pa", "largest von Mises stress", &BeamRecord::von_mises_max, false}};
+
 struct ElementField {
   const char* name;
   const char* unit;
@@ -96,6 +113,33 @@ inline constexpr SampledField sampled_fields[] = {
     {"shear_force", "N", "shear force, signed in a planar model", &ElementRecord::shear_force},
     {"stress", "Pa", "stress of the fibre where it is largest; missing where the section does not say",
      &ElementRecord::stress}};
+
+inline constexpr SampledField own_axes_fields[] = {
+    {"moment_1", "N m", "bending moment about the section's own x axis, d1", &ElementRecord::moment_1},
+    {"moment_2", "N m", "bending moment about the section's own y axis, d2", &ElementRecord::moment_2},
+    {"twist", "rad", "twist of the section since the drawing, against the start of its beam",
+     &ElementRecord::twist},
+    {"von_mises", "Pa",
+     "von Mises stress of the section where it is largest; missing where the section does not say",
+     &ElementRecord::von_mises}};
+
+struct SampledVector {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+  Eigen::Matrix<double, 3, 4> ElementRecord::*values;
+};
+inline constexpr SampledVector section_axes[] = {
+    {"section_d1", "1", "the section's own x axis", &ElementRecord::d1},
+    {"section_d2", "1", "the section's own y axis", &ElementRecord::d2}};
+
+/// A list, and where beams have torsion the other one behind it.
+template <class Part, std::size_t N, std::size_t M>
+std::vector<Part> with_own_axes(const Part (&always)[N], const Part (&own_axes)[M], bool sections) {
+  std::vector<Part> parts(std::begin(always), std::end(always));
+  if (sections) parts.insert(parts.end(), std::begin(own_axes), std::end(own_axes));
+  return parts;
+}
 
 /// Files hold the fill value where there is no number.
 inline double filled(double value) { return std::isnan(value) ? NetcdfFile::fill : value; }

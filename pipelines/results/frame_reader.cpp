@@ -13,6 +13,7 @@ FrameReader::FrameReader(const std::filesystem::path& file)
   if (file_.has_dimension("body")) names_.bodies = file_.texts("body_name");
   if (file_.has_dimension("reaction")) names_.reactions = file_.texts("reaction_name");
   names_.beams = file_.texts("beam_name");
+  names_.sections = file_.has_variable(section_axes[0].name);
   const std::size_t n = file_.size("time"), beams = names_.beams.size();
   if (n == 0) return;
   times_ = file_.doubles("time", {0}, {n});
@@ -109,14 +110,14 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
   vectors(
       "probe_displacement", probes,
       [](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].displacement; });
-  for (const SectionPart& part : section_parts)
+  for (const SectionPart& part : with_own_axes(section_parts, own_axes_parts, names_.sections))
     numbers(
         std::string("probe_") + part.name,
         probes, [&](Snapshot & f, std::size_t j) -> auto& { return f.probes[j].section.*part.value; });
   numbers(
       "body_holding_force", names_.bodies.size(),
       [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].holding_force; });
-  for (const BeamExtreme& extreme : beam_extremes) {
+  for (const BeamExtreme& extreme : with_own_axes(beam_extremes, own_axes_extremes, names_.sections)) {
     const std::string variable = std::string("beam_") + extreme.name;
     numbers(
         variable, names_.beams.size(),
@@ -147,22 +148,28 @@ void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames
   if (count == 0) return;
   const Doubles points = file_.doubles("control_points", {start, 0, 0}, {count, 4, 4});
   const Doubles velocity = file_.doubles("velocity", {start, 0, 0}, {count, sample_count, 3});
-  std::vector<Doubles> scalars, fields;
+  const auto sampled = with_own_axes(sampled_fields, own_axes_fields, names_.sections);
+  std::vector<Doubles> scalars, fields, axes;
   for (const ElementField& field : element_fields)  // results of earlier versions have fewer
     scalars.push_back(file_.has_variable(field.name) ? file_.doubles(field.name, {start}, {count})
                                                      : Doubles(count, 0));
-  for (const SampledField& field : sampled_fields)
+  for (const SampledField& field : sampled)
     fields.push_back(file_.has_variable(field.name)
                          ? file_.doubles(field.name, {start, 0}, {count, sample_count})
                          : Doubles(count * sample_count, NetcdfFile::fill));
+  if (names_.sections)
+    for (const SampledVector& axis : section_axes)
+      axes.push_back(file_.doubles(axis.name, {start, 0, 0}, {count, sample_count, 3}));
   std::size_t i = 0;
   for_each_element(frames, [&](ElementRecord& e) {
     e.control_points = Eigen::Map<const Eigen::Matrix4d>(points.data() + 16 * i);
     for (std::size_t k = 0; k < scalars.size(); ++k) e.*element_fields[k].value = scalars[k][i];
     e.velocity = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(velocity.data() + 12 * i);
     for (std::size_t k = 0; k < fields.size(); ++k)
-      e.*sampled_fields[k].values =
-          Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i).unaryExpr(&unfilled);
+      e.*sampled[k].values = Eigen::Map<const Eigen::Vector4d>(fields[k].data() + 4 * i).unaryExpr(&unfilled);
+    for (std::size_t k = 0; k < axes.size(); ++k)
+      e.*section_axes[k].values =
+          Eigen::Map<const Eigen::Matrix<double, 3, 4>>(axes[k].data() + 12 * i).unaryExpr(&unfilled);
     ++i;
   });
 }

@@ -13,7 +13,11 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
       probe_count_(names.probes.size()),
       body_count_(names.bodies.size()),
       beam_count_(names.beams.size()),
-      reaction_count_(names.reactions.size()) {
+      reaction_count_(names.reactions.size()),
+      sections_(names.sections),
+      section_parts_(with_own_axes(section_parts, own_axes_parts, names.sections)),
+      beam_extremes_(with_own_axes(beam_extremes, own_axes_extremes, names.sections)),
+      sampled_fields_(with_own_axes(sampled_fields, own_axes_fields, names.sections)) {
   file_.put_attribute("", "Conventions", "CF-1.8");
   file_.put_attribute("", "title", title);
   file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
@@ -30,7 +34,7 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
   }
   if (probe_count_ > 0) {
     define_of_time("probe_displacement", {"probe", "xyz"}, "m", "displacement from the drawing");
-    for (const SectionPart& part : section_parts)
+    for (const SectionPart& part : section_parts_)
       define_of_time(std::string("probe_") + part.name, {"probe"}, part.unit, part.long_name);
   }
   define_beams(names.beams);
@@ -71,7 +75,7 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   file_.define_dimension("sample", sample_count);
   file_.define_texts("beam_name", "beam", names);
   define_of_time("beam_length", {"beam"}, "m", "deformed length of the beam");
-  for (const BeamExtreme& extreme : beam_extremes) {
+  for (const BeamExtreme& extreme : beam_extremes_) {
     const std::string variable = std::string("beam_") + extreme.name;
     define_of_time(variable, {"beam"}, extreme.unit, extreme.long_name);
     define_of_time(variable + "_s", {"beam"}, "m", "where: reference arc length");
@@ -88,12 +92,18 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
          "deformed rational cubic as (w x, w y, w z, w); the weight w has no unit");
   for (const ElementField& field : element_fields)
     define(field.name, {"element"}, field.unit, field.long_name);
-  for (const SampledField& field : sampled_fields)
-    define(field.name, {"element", "sample"}, field.unit, field.long_name);
-  define("velocity", {"element", "sample", "xyz"}, "m s-1", "velocity of the material");
   const std::string samples = "samples at u = 0, 1/3, 2/3, 1 of the element's cubic";
-  for (const SampledField& field : sampled_fields) file_.put_attribute(field.name, "comment", samples);
-  file_.put_attribute("velocity", "comment", samples);
+  for (const SampledField& field : sampled_fields_) {
+    define(field.name, {"element", "sample"}, field.unit, field.long_name);
+    file_.put_attribute(field.name, "comment", samples);
+  }
+  const auto define_vector = [&](const char* name, const char* unit, const char* long_name) {
+    define(name, {"element", "sample", "xyz"}, unit, long_name);
+    file_.put_attribute(name, "comment", samples);
+  };
+  define_vector("velocity", "m s-1", "velocity of the material");
+  if (sections_)
+    for (const SampledVector& axis : section_axes) define_vector(axis.name, axis.unit, axis.long_name);
   define("node_position", {"node", "xyz"}, "m", "position of the node");
   define("node_slope", {"node", "xyz"}, "1",
          "derivative of position by reference arc length, left at a kink");
@@ -155,7 +165,7 @@ void FrameStore::write(std::span<const Snapshot> frames) {
     put("probe_displacement", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
           for (const ProbeRecord& probe : f.probes) append(x, probe.displacement);
         }));
-    for (const SectionPart& part : section_parts)
+    for (const SectionPart& part : section_parts_)
       put(std::string("probe_") + part.name, {probe_count_}, reals([&](const Snapshot& f, Doubles& x) {
             for (const ProbeRecord& probe : f.probes) x.push_back(filled(probe.section.*part.value));
           }));
@@ -180,7 +190,7 @@ void FrameStore::write(std::span<const Snapshot> frames) {
   put("beam_length", {beam_count_}, reals([](const Snapshot& f, Doubles& x) {
         for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
       }));
-  for (const BeamExtreme& extreme : beam_extremes) {
+  for (const BeamExtreme& extreme : beam_extremes_) {
     const std::string variable = std::string("beam_") + extreme.name;
     const auto of_beams = [&](double Extreme::*part) {
       return reals([&](const Snapshot& f, Doubles& x) {
@@ -217,13 +227,16 @@ void FrameStore::write(std::span<const Snapshot> frames) {
 void FrameStore::write_elements(std::span<const Snapshot> frames) {
   std::size_t count = 0;
   Doubles points, velocity;
-  std::vector<Doubles> scalars(std::size(element_fields)), fields(std::size(sampled_fields));
+  std::vector<Doubles> scalars(std::size(element_fields)), fields(sampled_fields_.size()),
+      axes(sections_ ? std::size(section_axes) : 0);
   for_each_element(frames, [&](const ElementRecord& e) {
     // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
     append(points, e.control_points);
     for (std::size_t i = 0; i < scalars.size(); ++i) scalars[i].push_back(e.*element_fields[i].value);
     for (std::size_t i = 0; i < fields.size(); ++i)
-      for (const double value : e.*sampled_fields[i].values) fields[i].push_back(filled(value));
+      for (const double value : e.*sampled_fields_[i].values) fields[i].push_back(filled(value));
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      for (const double value : (e.*section_axes[i].values).reshaped()) axes[i].push_back(filled(value));
     append(velocity, e.velocity);
     ++count;
   });
@@ -232,8 +245,10 @@ void FrameStore::write_elements(std::span<const Snapshot> frames) {
   for (std::size_t i = 0; i < scalars.size(); ++i)
     file_.put(element_fields[i].name, {elements_}, {count}, scalars[i].data());
   for (std::size_t i = 0; i < fields.size(); ++i)
-    file_.put(sampled_fields[i].name, {elements_, 0}, {count, sample_count}, fields[i].data());
+    file_.put(sampled_fields_[i].name, {elements_, 0}, {count, sample_count}, fields[i].data());
   file_.put("velocity", {elements_, 0, 0}, {count, sample_count, 3}, velocity.data());
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    file_.put(section_axes[i].name, {elements_, 0, 0}, {count, sample_count, 3}, axes[i].data());
   elements_ += count;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem/motion/snapshot.h"
-#include "pipelines/results/netcdf_file.h"
+#include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {
 
@@ -13,7 +13,8 @@ namespace nurbeam {
 ///   time(time), step(time), newton_iterations(time), energy_*(time)
 ///   probe_position, probe_velocity (time, probe, xyz); body_position, body_velocity, body_joint_force (time,
 ///   body, xyz); body_s (time, body), the fill value after a body has left; beam_length (time, beam)
-///   probe_displacement, probe_* of section_parts; body_holding_force; beam_* and beam_*_s of beam_extremes;
+///   probe_displacement, probe_* of section_parts; body_holding_force; beam_* and beam_*_s of beam_extremes
+///   (and of own_axes_parts and own_axes_extremes where beams have torsion);
 ///   reaction_position, reaction_force, reaction_couple (time, reaction, xyz)
 ///   probe_name, body_name, beam_name, reaction_name
 /// and, because the elements of a beam and the steps between two frames change in number, contiguous ragged
@@ -21,8 +22,9 @@ namespace nurbeam {
 /// of the first beam at the second time, ...:
 ///   element_count, node_count (time, beam): how many of the rows below belong to a beam at a time
 ///   control_points (element, control_point, homogeneous): (w x, w y, w z, w); element_s_start, element_s_end
-///   (element); the sampled_fields (element, sample), velocity (element, sample, xyz); node_position,
-///   node_slope (node, xyz); node_s (node) solver_step_count (time); solver_step_time, _size,
+///   (element); the sampled_fields (element, sample), velocity (element, sample, xyz), with torsion the
+///   own_axes_fields and section_axes (element, sample, xyz); node_position, node_slope (node, xyz); node_s
+///   (node) solver_step_count (time); solver_step_time, _size,
 ///   _newton_iterations, _rejected (solver_step)
 class FrameStore {
  public:
@@ -46,6 +48,10 @@ class FrameStore {
 
   NetcdfFile file_;
   std::size_t probe_count_, body_count_, beam_count_, reaction_count_;
+  bool sections_;
+  std::vector<SectionPart> section_parts_;
+  std::vector<BeamExtreme> beam_extremes_;
+  std::vector<SampledField> sampled_fields_;
   std::size_t frames_ = 0, elements_ = 0, nodes_ = 0, steps_ = 0;
 };
 

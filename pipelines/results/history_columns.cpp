@@ -92,6 +92,21 @@ void add_forces(const SnapshotNames& names, Columns& columns) {
   }
 }
 
+void add_own_axes(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.probes.size(); ++i) {
+    columns.of("probe", i, names.probes[i]);
+    for (const SectionPart& part : own_axes_parts)
+      columns.add(part.column, part.unit,
+                  [i, &part](const Snapshot& f) { return f.probes[i].section.*part.value; });
+  }
+  for (std::size_t i = 0; i < names.beams.size(); ++i) {
+    columns.of("beam", i, names.beams[i]);
+    for (const BeamExtreme& extreme : own_axes_extremes)
+      columns.add(extreme.column, extreme.unit,
+                  [i, &extreme](const Snapshot& f) { return (f.beams[i].*extreme.value).value; });
+  }
+}
+
 }  // namespace
 
 std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
@@ -99,6 +114,7 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   Columns columns(all);
   add_motion(names, columns);
   add_forces(names, columns);
+  if (names.sections) add_own_axes(names, columns);
   return all;
 }
 

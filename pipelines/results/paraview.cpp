@@ -113,29 +113,40 @@ void write_grid(const fs::path& file, double time, const Grid& grid) {
 // VTK's order of the points of a curve: its ends, then what is between them.
 constexpr int vtk_order[] = {0, 3, 1, 2};
 
-Grid beam_grid(const std::vector<BeamRecord>& beams) {
+// The vectors of an element: its velocity, and with torsion its section's axes.
+std::vector<SampledVector> sampled_vectors(bool sections) {
+  constexpr SampledVector velocity[] = {{"velocity", "m s-1", "velocity", &ElementRecord::velocity}};
+  return with_own_axes(velocity, section_axes, sections);
+}
+
+Grid beam_grid(const std::vector<BeamRecord>& beams, bool sections) {
   Grid grid{.cell_type = bezier_curve_cell, .points_per_cell = 4};
   grid.point_data = {{"RationalWeights", 1, {}}};
-  for (const SampledField& field : sampled_fields) grid.point_data.push_back({field.name, 1, {}});
-  grid.point_data.push_back({"velocity", 3, {}});
-  constexpr int scalars = std::size(sampled_fields);
+  const auto fields = with_own_axes(sampled_fields, own_axes_fields, sections);
+  const auto vectors = sampled_vectors(sections);
+  for (const SampledField& field : fields) grid.point_data.push_back({field.name, 1, {}});
+  for (const SampledVector& vector : vectors) grid.point_data.push_back({vector.name, 3, {}});
   grid.cell_data = {
       {"beam", 1, {}}, {"element", 1, {}}, {"s_start", 1, {}}, {"s_end", 1, {}}, {"axial_mismatch", 1, {}}};
   for (std::size_t b = 0; b < beams.size(); ++b)
     for (std::size_t i = 0; i < beams[b].elements.size(); ++i) {
       const ElementRecord& e = beams[b].elements[i];
       const Eigen::Vector4d weights = e.control_points.row(3);
-      Eigen::Matrix<double, 4, scalars + 3> values;  // by control point, as point_data after the weights
-      for (int k = 0; k < scalars; ++k)
-        values.col(k) = rational_coefficients(e.*sampled_fields[k].values, weights);
-      for (int k = 0; k < 3; ++k) values.col(scalars + k) = rational_coefficients(e.velocity.row(k), weights);
       for (const int k : vtk_order) {
         const Eigen::Vector3d p = e.control_points.col(k).head<3>() / weights[k];
         grid.points.insert(grid.points.end(), p.begin(), p.end());
         grid.point_data[0].values.push_back(weights[k]);
-        for (int column = 0; column < scalars + 3; ++column)
-          grid.point_data[1 + std::min(column, scalars)].values.push_back(values(k, column));
       }
+      const auto add = [&](Grid::Field& field, const auto& samples) {  // a row each component
+        Eigen::Matrix4Xd values(4, samples.rows());
+        for (int row = 0; row < samples.rows(); ++row)
+          values.col(row) = rational_coefficients(samples.row(row).transpose(), weights);
+        for (const int k : vtk_order)
+          for (int row = 0; row < samples.rows(); ++row) field.values.push_back(values(k, row));
+      };
+      auto field = grid.point_data.begin() + 1;
+      for (const SampledField& sampled : fields) add(*field++, (e.*sampled.values).transpose());
+      for (const SampledVector& sampled : vectors) add(*field++, e.*sampled.values);
       const double of_cell[] = {static_cast<double>(b), static_cast<double>(i), e.s_start, e.s_end,
                                 e.axial_mismatch};
       for (int k = 0; k < 5; ++k) grid.cell_data[k].values.push_back(of_cell[k]);
@@ -210,7 +221,7 @@ std::string ParaviewSeries::frame_file(const char* kind, std::size_t frame) cons
 
 void ParaviewSeries::write(const Snapshot& frame) {
   const std::size_t i = times_.size();
-  write_grid(directory_ / frame_file("beams", i), frame.time, beam_grid(frame.beams));
+  write_grid(directory_ / frame_file("beams", i), frame.time, beam_grid(frame.beams, names_.sections));
   if (!names_.bodies.empty())
     write_grid(directory_ / frame_file("bodies", i), frame.time, body_grid(frame.bodies));
   if (!names_.reactions.empty())

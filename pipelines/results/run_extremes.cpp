@@ -16,8 +16,9 @@ void RunExtremes::keep(const RunExtreme& candidate, bool least) {
 
 void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
   next_ = 0;
+  const auto extremes = with_own_axes(beam_extremes, own_axes_extremes, names.sections);
   for (std::size_t i = 0; i < frame.beams.size(); ++i)
-    for (const BeamExtreme& of : beam_extremes) {
+    for (const BeamExtreme& of : extremes) {
       const Extreme& extreme = frame.beams[i].*of.value;
       keep({names.beams.at(i) + "." + of.column, of.unit, extreme.value, extreme.s, frame.time}, of.least);
     }

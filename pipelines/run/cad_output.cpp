@@ -11,6 +11,7 @@
 #include "cad_import/export_into_step.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/results/export_results.h"
+#include "pipelines/results/swept_section.h"
 
 namespace nurbeam {
 
@@ -21,8 +22,25 @@ std::string ending_of(const std::string& format) {
   if (format == "dxf") return ".dxf";
   if (format == "brep") return ".brep";
   if (format == "step-solid") return "_solid.step";
+  if (format == "step-section-lines") return "_section_lines.step";
   if (format == "step-source") return "_source.step";
   return ".step";
+}
+
+Diagnostic not_swept(const std::filesystem::path& file, const std::string& beam, const std::string& why) {
+  return {Severity::warning, file.string(),
+          "not written: the section of beam \"" + beam + "\" cannot be swept, as " + why +
+              "; write the curves, which have every shape"};
+}
+
+// Where its lines go through the section of a beam: the corners of its profile, or what stands for them.
+std::vector<Eigen::Vector2d> section_places(const BuiltModel& built, std::size_t b) {
+  if (const auto& drawn = built.sources[b].profile) return marked_places(drawn->profile.loops);
+  if (const auto& radius = built.model.beams[b].section.radius)
+    return {{*radius, 0}, {0, *radius}, {-*radius, 0}, {0, -*radius}};
+  const std::vector<Eigen::Vector2d>& outline = built.sources[b].outline.front();
+  const std::size_t quarter = outline.size() / 4;
+  return {outline[0], outline[quarter], outline[2 * quarter], outline[3 * quarter]};
 }
 
 }  // namespace
@@ -32,7 +50,9 @@ CadOutput::CadOutput(const CaseFile& case_file, const BuiltModel& built, std::fi
     : case_(case_file), built_(built), directory_(std::move(directory)), frame_(first_frame) {}
 
 bool CadOutput::is_wanted(const Snapshot& frame) const {
-  if (case_.analysis.type == CaseAnalysis::Type::statics || case_.output.cad_at_all_times) return true;
+  const bool one_frame =
+      case_.analysis.type == CaseAnalysis::Type::statics && case_.analysis.load_factors.empty();
+  if (one_frame || case_.output.cad_at_all_times) return true;
   const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
   return std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
                      [&](double t) { return std::abs(t - frame.time) < same; });
@@ -42,12 +62,17 @@ bool CadOutput::is_wanted(const Snapshot& frame) const {
 std::string CadOutput::stem(const Snapshot& frame) const {
   std::ostringstream name;
   name << "deformed";
-  if (case_.analysis.type == CaseAnalysis::Type::statics) return name.str();
+  const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
+  const std::vector<double>& factors = case_.analysis.load_factors;
+  if (statics && (factors.empty() || (!case_.output.cad_at_all_times && case_.output.cad_times.size() == 1)))
+    return name.str();
   if (!case_.output.cad_at_all_times) {
     name << "_t" << frame.time;
     return name.str();
   }
-  const double last = case_.output.every ? case_.analysis.end_time / *case_.output.every : 0;
+  const double last = statics              ? static_cast<double>(factors.size())
+                      : case_.output.every ? case_.analysis.end_time / *case_.output.every
+                                           : 0;
   const std::size_t width = std::max<std::size_t>(4, std::to_string(std::lround(last) + 1).size());
   name << '_' << std::setfill('0') << std::setw(int(width)) << frame_;
   return name.str();
@@ -70,13 +95,35 @@ void CadOutput::write_curves(const Snapshot& frame, const std::filesystem::path&
 
 std::vector<Diagnostic> CadOutput::write_solids(const Snapshot& frame,
                                                 const std::filesystem::path& file) const {
-  std::vector<NamedPipe> pipes;
+  std::vector<NamedSolid> solids;
   for (NamedCurve& axis : curves(frame, CurveParameter::free)) {
-    const std::size_t b = pipes.size();
+    const std::size_t b = solids.size();
+    if (const auto& drawn = built_.sources[b].profile) {
+      if (const auto obstacle = sweeping_obstacle(frame.beams[b]))
+        return {not_swept(file, built_.model.beams[b].name, *obstacle)};
+      solids.emplace_back(
+          swept_section(frame.beams[b], drawn->profile.loops, drawn->profile.area, axis.name, axis.part));
+      continue;
+    }
     const Section& section = built_.model.beams[b].section;
-    pipes.push_back({std::move(axis), section.radius.value(), section.bore.value_or(0)});
+    solids.emplace_back(NamedPipe{std::move(axis), section.radius.value(), section.bore.value_or(0)});
   }
-  return export_solids(file, pipes, parse_length_unit(case_.output.cad_unit), case_.output.cad_schema);
+  return export_solids(file, solids, parse_length_unit(case_.output.cad_unit), case_.output.cad_schema);
+}
+
+std::vector<Diagnostic> CadOutput::write_section_lines(const Snapshot& frame,
+                                                       const std::filesystem::path& file) const {
+  std::vector<NamedCurve> lines;
+  for (std::size_t b = 0; b < frame.beams.size(); ++b) {
+    const std::string& name = built_.model.beams[b].name;
+    if (const auto obstacle = sweeping_obstacle(frame.beams[b])) return {not_swept(file, name, *obstacle)};
+    const std::vector<Eigen::Vector2d> places = section_places(built_, b);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      lines.push_back({built_.sources[b].curve_name + " line " + std::to_string(i + 1),
+                       section_line(frame.beams[b], places[i]),
+                       name + (places.size() > 1 ? " line " + std::to_string(i + 1) : "")});
+  }
+  return export_curves(file, lines, parse_length_unit(case_.output.cad_unit), case_.output.cad_schema);
 }
 
 std::vector<Diagnostic> CadOutput::write_into_source(const Snapshot& frame,
@@ -96,6 +143,8 @@ void CadOutput::write(const Snapshot& frame, const std::string& format,
   std::vector<Diagnostic> found;
   if (format == "step-solid")
     found = write_solids(frame, file);
+  else if (format == "step-section-lines")
+    found = write_section_lines(frame, file);
   else if (format == "step-source")
     found = write_into_source(frame, file);
   else

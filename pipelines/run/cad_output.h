@@ -18,7 +18,8 @@ class CadOutput {
             std::size_t first_frame = 0);
 
   /// Writes the files of this frame (in world coordinates), if it is one of those asked for:
-  /// "deformed_t0.35.step", "deformed_t0.35_solid.step", "deformed_t0.35_source.step", or numbered,
+  /// "deformed_t0.35.step", "deformed_t0.35_solid.step", "deformed_t0.35_section_lines.step",
+  /// "deformed_t0.35_source.step", or numbered,
   /// "deformed_0035.step", when all frames are wanted; without a time for a static case. What keeps a shape
   /// out of a file is a warning among the diagnostics, once. Throws std::runtime_error when the file of the
   /// curves cannot be written.
@@ -30,6 +31,7 @@ class CadOutput {
   std::vector<NamedCurve> curves(const Snapshot& frame, CurveParameter parameter) const;
   void write_curves(const Snapshot& frame, const std::filesystem::path& file) const;
   std::vector<Diagnostic> write_solids(const Snapshot& frame, const std::filesystem::path& file) const;
+  std::vector<Diagnostic> write_section_lines(const Snapshot& frame, const std::filesystem::path& file) const;
   std::vector<Diagnostic> write_into_source(const Snapshot& frame, const std::filesystem::path& file) const;
   void write(const Snapshot& frame, const std::string& format, std::vector<Diagnostic>& diagnostics) const;
 

@@ -37,6 +37,8 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
         const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
         e.control_points.col(i).head<3>() = w * p;
         e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
+        e.d1.col(i) = f.direction_to_world(e.d1.col(i));
+        e.d2.col(i) = f.direction_to_world(e.d2.col(i));
       }
     for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
     for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
@@ -85,7 +87,10 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   SnapshotNames names;
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
-  for (const Beam& beam : built.model.beams) names.beams.push_back(beam.name);
+  for (const Beam& beam : built.model.beams) {
+    names.beams.push_back(beam.name);
+    names.sections = names.sections || beam.has_torsion();
+  }
   for (const Constraint& constraint : built.model.constraints)
     names.reactions.push_back(
         std::visit([&](const auto& of) { return distinct(reaction_name(built.model, of), names.reactions); },

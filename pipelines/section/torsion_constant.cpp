@@ -100,6 +100,43 @@ class Problem {
     return sum;
   }
 
+  // Twist about S = (x_s, y_s) warps by psi - y_s x + x_s y: about the shear centre that is orthogonal to x
+  // and y (Trefftz).
+  void describe_warping(TorsionReport& report) const {
+    double area = 0, mean = 0, square = 0;
+    Eigen::Vector2d first = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+    for (int t = 0; t < static_cast<int>(mesh_.triangles().size()); ++t) {
+      const std::array<int, 6> nodes = nodes_of(t);
+      integrate(bent_triangle(mesh_, t),
+                [&](const Eigen::Vector2d& r, const Vector6& shapes, const Slopes&, double part) {
+                  double psi = 0;
+                  for (int i = 0; i < 6; ++i) psi += shapes(i) * warping_(nodes[i]);
+                  area += part;
+                  mean += part * psi;
+                  square += part * psi * psi;
+                  first += part * psi * r;
+                  second += part * r * r.transpose();
+                });
+    }
+    const Eigen::Vector2d along = second.inverse() * first;
+    report.shear_centre = {-along.y(), along.x()};
+    report.warping_constant = square - mean * mean / area - along.dot(first);
+  }
+
+  std::vector<TorsionReport::AtBoundary> boundary() const {
+    std::vector<TorsionReport::AtBoundary> places;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles().size()); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const TorsionMesh::Triangle& corners = mesh_.triangles()[t];
+        const auto& piece = mesh_.edges().at(TorsionMesh::edge(corners[i], corners[(i + 1) % 3])).piece;
+        if (!piece) continue;
+        const double u = middle_of(mesh_.loops()[piece->loop], *piece);
+        places.push_back({piece->loop, piece->segment, u, std::sqrt(stress_squared(t, i))});
+      }
+    return places;
+  }
+
  private:
   static constexpr int on_no_loop = -1;  // and -2 - loop on a loop, until the unknowns are numbered
 
@@ -244,10 +281,13 @@ TorsionReport torsion_constant(const std::vector<Loop>& loops, const TorsionOpti
     report.value = 0.5 * (problem.lower() + problem.upper());
     report.error = 0.5 * std::abs(problem.upper() - problem.lower()) + shape;
     report.points = static_cast<int>(mesh->points().size());
-    report.status = TorsionStatus::done;
-    if (report.error <= options.relative_error * report.value) return report;
-    report.status = TorsionStatus::coarse;
-    if (report.points >= options.most_points) return report;
+    const bool done = report.error <= options.relative_error * report.value;
+    report.status = done ? TorsionStatus::done : TorsionStatus::coarse;
+    if (done || report.points >= options.most_points) {
+      report.boundary = problem.boundary();
+      problem.describe_warping(report);
+      return report;
+    }
     mesh->refine(half_of(errors));
   }
 }

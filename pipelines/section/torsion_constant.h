@@ -1,5 +1,4 @@
 #pragma once
-#include <string>
 #include <vector>
 
 #include "pipelines/section/profile_polygon.h"
@@ -23,6 +22,17 @@ struct TorsionReport {
   double value = 0;  ///< J [m^4]
   double error = 0;  ///< J lies within value +- error, up to the shape of the mesh's boundary [m^4]
   int points = 0;    ///< corners of triangles in the last mesh
+  /// The shear stress at the middles of the boundary edges of that mesh.
+  struct AtBoundary {
+    int loop, segment;
+    double u;      ///< on the segment
+    double shear;  ///< over shear modulus and rate of twist: times torque/J it is the stress [m]
+  };
+  std::vector<AtBoundary> boundary = {};
+  /// From the origin, which must be the centroid [m].
+  Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();
+  /// Of the warping about the shear centre: with E the stiffness against its change along the beam [m^6].
+  double warping_constant = 0;
 };
 
 /// Torsion constant of the region between closed paths in the plane z = 0: an outline that runs

@@ -1,6 +1,8 @@
-// synthetic_report arc|large FILE: writes a report of frames that no run has computed.
+// synthetic_report arc|large|twisted|sections FILE: writes a report of frames that no run has computed.
 //   arc    a quarter of a circle of radius 1 m about the origin, one rational element
 //   large  1000 frames of a wave on 1000 elements
+//   twisted   a bar of a flat rectangle, 1 m long along x, that turns by a right angle about itself
+//   sections  such bars above each other: a rectangle, a disk, a pipe and an I-section
 #include <Eigen/Core>
 #include <cmath>
 #include <fstream>
@@ -88,12 +90,93 @@ ReportFrames large() {
   return frames;
 }
 
+using Outline = std::vector<std::vector<Eigen::Vector2d>>;
+
+std::vector<Eigen::Vector2d> circle(double radius, double turns) {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 48; ++i)
+    points.emplace_back(radius * std::cos(turns * i / 48 * 2 * std::numbers::pi),
+                        radius * std::sin(turns * i / 48 * 2 * std::numbers::pi));
+  return points;
+}
+
+std::vector<Outline> outlines(int count) {
+  const std::vector<Eigen::Vector2d> rectangle = {{-0.01, -0.06}, {0.01, -0.06}, {0.01, 0.06}, {-0.01, 0.06}};
+  const std::vector<Eigen::Vector2d> i_section = {
+      {-0.04, -0.06}, {0.04, -0.06}, {0.04, -0.045}, {0.006, -0.045}, {0.006, 0.045},   {0.04, 0.045},
+      {0.04, 0.06},   {-0.04, 0.06}, {-0.04, 0.045}, {-0.006, 0.045}, {-0.006, -0.045}, {-0.04, -0.045}};
+  std::vector<Outline> all = {
+      {rectangle}, {circle(0.05, 1)}, {circle(0.05, 1), circle(0.04, -1)}, {i_section}};
+  all.resize(count);
+  return all;
+}
+
+// Four elements that turn by a right angle in all: at the start the section's y axis is the world's z.
+std::vector<ElementRecord> twisted_bar(double z) {
+  std::vector<ElementRecord> elements;
+  for (int i = 0; i < 4; ++i) {
+    ElementRecord e;
+    for (int k = 0; k < 4; ++k) {
+      const double x = (i + k / 3.0) / 4, angle = std::numbers::pi / 2 * x;
+      e.control_points.col(k) << x, 0, z, 1;
+      e.d1.col(k) << 0, std::cos(angle), std::sin(angle);
+      e.d2.col(k) << 0, -std::sin(angle), std::cos(angle);
+      e.strain[k] = 1e-3 * x;
+      e.twist[k] = angle;
+    }
+    e.s_start = i / 4.0;
+    e.s_end = (i + 1) / 4.0;
+    e.curvature = e.axial_force = e.bending_moment = Eigen::Vector4d::Zero();
+    e.velocity.setZero();
+    elements.push_back(e);
+  }
+  return elements;
+}
+
+ReportFrames sections(int count) {
+  ReportFrames frames{"sections", {}, {0}, {}};
+  frames.names.sections = true;
+  for (int i = 0; i < count; ++i) frames.names.beams.push_back("bar " + std::to_string(i + 1));
+  frames.read = [count](std::size_t, std::size_t) {
+    Snapshot frame = frame_of(0, twisted_bar(0));
+    for (int i = 1; i < count; ++i) frame.beams.push_back(frame_of(0, twisted_bar(0.2 * i)).beams[0]);
+    return std::vector<Snapshot>{frame};
+  };
+  return frames;
+}
+
+std::string model_of(const std::vector<Outline>& all) {
+  std::string beams;
+  for (const Outline& outline : all) {
+    std::string loops;
+    for (const auto& loop : outline) {
+      std::string points;
+      for (const Eigen::Vector2d& p : loop)
+        points += (points.empty() ? "[" : ", [") + std::to_string(p.x()) + ", " + std::to_string(p.y()) + "]";
+      loops += (loops.empty() ? "[" : ", [") + points + "]";
+    }
+    beams +=
+        std::string(beams.empty() ? "" : ", ") + R"({"name": "bar", "section outline [m]": [)" + loops + "]}";
+  }
+  return R"("model": {"dimension": 3, "plane_normal": null, "gravity [m/s^2]": [0, 0, -9.81], "bodies": [],
+    "supports": [], "joints": [], "loads": [], "beams": [)" +
+         beams + "]}, ";
+}
+
+ReportFrames frames_of(const std::string& kind) {
+  if (kind == "arc") return arc();
+  if (kind == "large") return large();
+  return sections(kind == "twisted" ? 1 : 4);
+}
+
 }  // namespace
 
 int main(int, char** arguments) {
   const std::string kind = arguments[1];
   std::ofstream file(arguments[2], std::ios::binary);
-  nurbeam::write_report_page(file, kind == "arc" ? arc() : large(), R"({"nurbeam": "test", "status": "done",
+  const bool has_sections = kind == "twisted" || kind == "sections";
+  const std::string model = has_sections ? model_of(outlines(kind == "twisted" ? 1 : 4)) : "";
+  nurbeam::write_report_page(file, frames_of(kind), "{" + model + R"("nurbeam": "test", "status": "done",
     "steps": 1, "rejected_steps": 0, "newton_iterations": 1, "energy_drift [J]": 0, "inputs": [], "events": [],
     "diagnostics": [], "wall_times [s]": {"import": 0, "model": 0, "motion": 0, "length_control": 0, "output": 0}})");
   return file ? 0 : 1;

@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "cad_import/import_curves.h"
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/straight_frame.h"
 
 namespace nurbeam {
 namespace {
@@ -46,6 +50,58 @@ TEST(Samples, EveryCaseRunsAndFillsItsResults) {
     for (const char* file : {"histories.csv", "results.nc", "run.json"})
       EXPECT_NE(std::find(run.files.begin(), run.files.end(), file), run.files.end()) << file;
   }
+}
+
+// R^2 L (cos^2/GJ + sin^2/EI) + L sin^2/EA, by the energy of a small force.
+TEST(Samples, TheSpringHasTheStiffnessOfItsClosedForm) {
+  const double R = 0.02, pitch = 0.012, r = 0.0015, E = 206e9, G = 79.3e9, F = 0.01;
+  const double climb = pitch / (2 * std::numbers::pi), turn = std::hypot(R, climb);
+  const double L = 10 * std::numbers::pi * turn, sine = climb / turn, cosine = R / turn;
+  const double A = std::numbers::pi * r * r, I = A * r * r / 4;
+  const double compliance =
+      R * R * L * (cosine * cosine / (G * 2 * I) + sine * sine / (E * I)) + L * sine * sine / (E * A);
+  const test::CaseRun run =
+      test::run_file(test::sample("spring/spring.json"),
+                     {"loads[0].force=[0,0,0.01]", "loads[1].moment=[0,2e-4,0]", "output.cad=null"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double energy = run.last("energy.axial [J]") + run.last("energy.bending [J]");
+  EXPECT_NEAR(2 * energy / (F * F), compliance, 1e-3 * compliance);
+  EXPECT_NEAR(std::abs(run.last("end.torque [N m]")), F * R * cosine, 1e-3 * F * R);
+}
+
+// The Kirchhoff rod of docs/verification.md (`nurbeam verify torsion`), by an initial value problem.
+TEST(Samples, TheBendOf45DegreesGoesWhereARodDoes) {
+  const test::CaseRun run = test::run_file(test::sample("bend45/bend45.json"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const Eigen::Vector3d tip(run.last("tip.x [m]"), run.last("tip.y [m]"), run.last("tip.z [m]"));
+  EXPECT_LT((tip - Eigen::Vector3d(15.685355756, 47.152150168, 53.471762721)).norm(), 2e-3);
+}
+
+// A frame of straight elements along the drawn axis: sag and the stress at an anchor.
+TEST(Samples, ThePipeRunBendsAsAFrameDoes) {
+  const double E = 210e9, r = 0.03015, bore = 0.02725, A = std::numbers::pi * (r * r - bore * bore),
+               I = A * (r * r + bore * bore) / 4;
+  const ImportReport report = import_curves(test::sample("pipe_run/pipe_run.step"));
+  nurbeam::testing::StraightFrame frame{E * A, E * I, E / 2.6 * 2 * I, {}};
+  for (const ImportedCurve& piece : report.curves) {  // in the order of the run
+    if (!piece.is_centre_line()) continue;
+    const KnotVector& knots = piece.curve.knots();
+    for (int i = frame.nodes.empty() ? 0 : 1; i <= 24; ++i)
+      frame.nodes.push_back(piece.curve.point(knots.start() + (knots.end() - knots.start()) * i / 24));
+  }
+  const Eigen::Vector3d load(0, 0, -22.9 - 9.81 * 7850 * A);
+  const test::CaseRun run =
+      test::run_file(test::sample("pipe_run/pipe_run.json"), {"output.cad.formats=[\"step\"]"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double sag = frame.sag(load);
+  EXPECT_NEAR(run.last("pipe.displacement.max [m]"), sag, 0.02 * sag);
+
+  const Eigen::Matrix<double, 6, 1> given = frame.start_reaction(load);
+  const Eigen::Vector3d t = (frame.nodes[1] - frame.nodes[0]).normalized(), M = given.tail<3>();
+  const double torque = M.dot(t), bending = (M - torque * t).norm(), axial = given.head<3>().dot(t);
+  const double sigma = std::abs(axial) / A + bending * r / I, tau = torque * r / (2 * I);
+  const double von_mises = std::sqrt(sigma * sigma + 3 * tau * tau);
+  EXPECT_NEAR(run.last("at lower anchor.von_mises [Pa]"), von_mises, 0.02 * von_mises);
 }
 
 }  // namespace

@@ -33,6 +33,9 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
     EXPECT_EQ(x.torque, y.torque);
     EXPECT_EQ(x.shear_force, y.shear_force);
     EXPECT_TRUE(same(x.stress, y.stress));
+    for (const auto part : {&SectionRecord::moment_1, &SectionRecord::moment_2, &SectionRecord::twist,
+                            &SectionRecord::von_mises})
+      EXPECT_TRUE(same(x.*part, y.*part));
   }
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
@@ -51,6 +54,9 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
     EXPECT_TRUE(alike(one.shear_force_max, other.shear_force_max));
     EXPECT_TRUE(alike(one.stress_max, other.stress_max));
     EXPECT_TRUE(alike(one.displacement_max, other.displacement_max));
+    EXPECT_TRUE(alike(one.torque_max, other.torque_max));
+    EXPECT_TRUE(alike(one.twist_max, other.twist_max));
+    EXPECT_TRUE(alike(one.von_mises_max, other.von_mises_max));
     EXPECT_EQ(a.beams[i].node_positions, b.beams[i].node_positions);
     EXPECT_EQ(a.beams[i].node_slopes, b.beams[i].node_slopes);
     EXPECT_EQ(a.beams[i].node_s, b.beams[i].node_s);
@@ -58,6 +64,14 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
     for (std::size_t e = 0; e < a.beams[i].elements.size(); ++e) {
       const ElementRecord &x = a.beams[i].elements[e], &y = b.beams[i].elements[e];
       EXPECT_EQ(x.control_points, y.control_points);
+      const auto all_same = [&](const auto& u, const auto& v) {
+        for (int k = 0; k < u.size(); ++k)
+          if (!same(u.data()[k], v.data()[k])) return false;
+        return true;
+      };
+      EXPECT_TRUE(all_same(x.moment_1, y.moment_1) && all_same(x.moment_2, y.moment_2) &&
+                  all_same(x.twist, y.twist) && all_same(x.von_mises, y.von_mises));
+      EXPECT_TRUE(all_same(x.d1, y.d1) && all_same(x.d2, y.d2));
       EXPECT_EQ(x.s_start, y.s_start);
       EXPECT_EQ(x.s_end, y.s_end);
       EXPECT_EQ(x.strain, y.strain);

@@ -66,12 +66,15 @@ class Column {
  * again for every frame. Of each beam with n elements it holds, one after the other:
  *   points   3 n + 1 control points (x, y, z), float32, relative to `origin`; neighbours share their end
  *   weights  4 n, float32, if `rational`
- *   fields   per field 4 n bytes: the values at u = 0, 1/3, 2/3, 1, from 0 at the field's least value of the
- *            whole run to 255 at its greatest
+ *   axes     12 n, float32, if `sections`: the section's x axis d1 at u = 0, 1/3, 2/3, 1; not a number without torsion
+ *   places   n + 1, float32: reference arc length s of the nodes
+ *   ranges   per field 2, float32: its least and greatest value in this beam and frame
+ *   fields   per field 4 n bytes: the values at u = 0, 1/3, 2/3, 1, from 0 at the least to 255 at the greatest
  */
 class Shapes {
   constructor(description, text, beam_count, frame_count) {
     this.rational = description.rational;
+    this.sections = Boolean(description.sections);
     this.fields = description.fields;
     this.origin = description.origin;
     this.text = text;
@@ -101,7 +104,8 @@ class Shapes {
     return this.counts[frame * this.beam_count + beam];
   }
   bytes_of(n) {
-    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + 4 * n * this.fields.length;
+    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0) + 4 * (n + 1)
+      + (8 + 4 * n) * this.fields.length;
   }
   /** Decodes a frame into `bytes` (also seen as `floats`), the beams from `starts` on. */
   load(frame) {
@@ -122,9 +126,58 @@ class Shapes {
   weights_start(frame, beam) {
     return (this.starts[beam] >> 2) + 3 * (3 * this.count(frame, beam) + 1);
   }
+  axes_start(frame, beam) {
+    return this.weights_start(frame, beam) + (this.rational ? 4 * this.count(frame, beam) : 0);
+  }
+  places_start(frame, beam) {
+    return this.axes_start(frame, beam) + (this.sections ? 12 * this.count(frame, beam) : 0);
+  }
+  /** Least and greatest value of a field in a beam of the loaded frame. */
+  beam_range(frame, beam, field) {
+    const at = this.places_start(frame, beam) + this.count(frame, beam) + 1 + 2 * field;
+    return { min: this.floats[at], max: this.floats[at + 1] };
+  }
   field_start(frame, beam, field) {
     const n = this.count(frame, beam);
-    return this.starts[beam] + 12 * (3 * n + 1) + (this.rational ? 16 * n : 0) + 4 * n * field;
+    return 4 * (this.places_start(frame, beam) + n + 1 + 2 * this.fields.length) + 4 * n * field;
+  }
+  /** Least and greatest value of a field in all beams of the loaded frame; of its whole run where it has none there. */
+  field_range(field) {
+    let low = Infinity, high = -Infinity;
+    for (let beam = 0; beam < this.beam_count; ++beam) {
+      const { min, max } = this.beam_range(this.frame, beam, field);
+      low = Math.min(low, min);
+      high = Math.max(high, max);
+    }
+    return low <= high ? { min: low, max: high } : this.fields[field];
+  }
+  /** Position (relative to `origin`) and tangent of a beam of the loaded frame at s; nothing where it does not reach. */
+  point(beam, s) {
+    const n = this.count(this.frame, beam), places = this.places_start(this.frame, beam);
+    const slack = 1e-6 * (this.floats[places + n] - this.floats[places]);
+    if (s < this.floats[places] - slack || s > this.floats[places + n] + slack) {
+      return null;
+    }
+    let element = 0;
+    while (element < n - 1 && this.floats[places + element + 1] <= s) { ++element; }
+    const [a, b] = [this.floats[places + element], this.floats[places + element + 1]];
+    const u = Math.min(Math.max((s - a) / (b - a), 0), 1), v = 1 - u;
+    const basis = [v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u];
+    const slopes = [-v * v, v * v - 2 * u * v, 2 * u * v - u * u, u * u];
+    const point = [0, 0, 0], slope = [0, 0, 0];
+    let w = 0, dw = 0;
+    for (let k = 0; k < 4; ++k) {
+      const weight = this.rational ? this.floats[this.weights_start(this.frame, beam) + 4 * element + k] : 1;
+      const from = this.points_start(beam) + 9 * element + 3 * k;
+      w += basis[k] * weight;
+      dw += slopes[k] * weight;
+      for (let c = 0; c < 3; ++c) {
+        point[c] += basis[k] * weight * this.floats[from + c];
+        slope[c] += slopes[k] * weight * this.floats[from + c];
+      }
+    }
+    const r = point.map((x) => x / w), t = slope.map((x, c) => x - dw * r[c]), size = Math.hypot(...t) || 1;
+    return { r, t: t.map((x) => x / size) };
   }
 }
 

@@ -76,11 +76,12 @@ export function model_tables(run) {
       ['Gravity', `${cell_text(gravity)} m/s²`],
       ['Units', 'SI: metre, kilogram, second, newton, joule'],
     ]),
-    table_of_columns('Beams', model.beams),
+    table_of_columns('Beams', model.beams.map(({ 'section outline [m]': outline, ...rest }) => rest)),
     table_of('Bodies', model.bodies),
     table_of('Supports', model.supports.map(({ outward, ...rest }) => rest)),
     table_of_columns('Sliding joints', model.joints),
-    table_of('Loads', model.loads),
+    table_of('Loads', model.loads,
+      ['beam', 'kind', 'value', 's [m]', 'direction', 'place speed [m/s]', 'in time']),
   ];
 }
 
@@ -101,8 +102,8 @@ export function energy_table(data) {
   ];
 }
 
-/** The extremes of the run; a button shows their time. */
-export function extremes_table(run, go_to_time) {
+/** The extremes of the run; a button shows their time, or the load factor that has no unit. */
+export function extremes_table(run, time_unit, go_to_time) {
   const extremes = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
   if (!extremes.length) {
     return element('p', { class: 'none' }, 'run.json of these results does not name any.');
@@ -118,7 +119,7 @@ export function extremes_table(run, go_to_time) {
     unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': 'Extremes' },
     element('table', {}, element('thead', {}, element('tr', {}, head('quantity'), element('th', { scope: 'col', class: 'number' }, 'value'),
-      head('unit'), head('at s', 'm'), moving ? head('at time', 's') : null)), element('tbody', {}, ...rows)));
+      head('unit'), head('at s', 'm'), moving ? head(time_unit ? 'at time' : 'at load', time_unit || '–') : null)), element('tbody', {}, ...rows)));
 }
 
 /** Events with a button that shows their time. */
@@ -181,7 +182,8 @@ export function run_tables(run) {
 /** The values of a static analysis, which has no histories to plot. */
 export function values_tables(data) {
   const rows = (of, names, parts) => names.map((name, i) => Object.fromEntries([['name', name],
-    ...parts.map(([label, part]) => [label, data.column(of, i, part).values[0]])]));
+    ...parts.filter(([, part]) => data.column(of, i, part))
+      .map(([label, part]) => [label, data.column(of, i, part).values[0]])]));
   const place = [['x [m]', 'x'], ['y [m]', 'y'], ['z [m]', 'z']];
   return [
     table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),
@@ -190,7 +192,9 @@ export function values_tables(data) {
     table_of('Reactions', rows('reaction', data.names.reactions, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz'],
       ['Mx [N m]', 'mx'], ['My [N m]', 'my'], ['Mz [N m]', 'mz']])),
     table_of('Sections at probes', rows('probe', data.names.probes, [['axial force [N]', 'axial_force'],
-      ['bending moment [N m]', 'moment'], ['shear force [N]', 'shear_force'], ['stress [Pa]', 'stress'],
+      ['bending moment [N m]', 'moment'], ['moment 1 [N m]', 'moment_1'], ['moment 2 [N m]', 'moment_2'],
+      ['torque [N m]', 'torque'], ['twist [rad]', 'twist'], ['shear force [N]', 'shear_force'], ['stress [Pa]', 'stress'],
+      ['von Mises stress [Pa]', 'von_mises'],
       ['ux [m]', 'ux'], ['uy [m]', 'uy'], ['uz [m]', 'uz']])),
     table_of('Beams', rows('beam', data.names.beams, [['deformed length [m]', 'length']])),
   ];

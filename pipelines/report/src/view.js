@@ -5,9 +5,11 @@ import {
   PointsMaterial, Quaternion, Scene, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { BeamMesh } from './beam_mesh.js';
+import { SectionMesh } from './section_mesh.js';
 import { ViewCamera, steer, view_directions } from './camera.js';
 import { field_colours } from './colours.js';
 import { element, number, round_down } from './format.js';
+import { LoadArrows } from './loads.js';
 
 const y_axis = new Vector3(0, 1, 0);
 
@@ -64,6 +66,8 @@ export class View {
     this.add_beams();
     this.add_supports(model?.supports ?? []);
     this.add_points();
+    this.loads = new LoadArrows(model?.loads ?? [], data, (symbol) => this.pinned_size.push(symbol));
+    this.scene.add(this.loads.object);
     this.add_overlay(overlay, model?.['gravity [m/s^2]']);
     steer(canvas, this.view, () => this.moved());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
@@ -109,6 +113,7 @@ export class View {
     this.ghost = new Group();
     this.beams = [...shapes.most_elements].map((most) => new BeamMesh(most, shapes.rational, this.uniforms));
     shapes.load(0);
+    this.add_sections();
     for (let beam = 0; beam < this.beams.length; ++beam) {
       const start = new BeamMesh(shapes.count(0, beam), shapes.rational, ghost);
       start.load(shapes, 0, beam, 0);
@@ -128,6 +133,31 @@ export class View {
     this.scene.add(this.nodes);
   }
 
+  /** The sections of the beams that have torsion and an outline. */
+  add_sections() {
+    const { shapes, run } = this.data;
+    const outlines = (run?.model?.beams ?? []).map((beam) => beam['section outline [m]']);
+    this.sections = this.beams.map((_, beam) => {
+      if (!shapes.sections || !outlines[beam]) {
+        return null;
+      }
+      const mesh = new SectionMesh(shapes.most_elements[beam], shapes.rational, outlines[beam], this.uniforms.map);
+      this.scene.add(mesh.object);
+      return mesh;
+    });
+    this.has_sections = this.sections.some(Boolean);
+  }
+
+  show_sections(visible) {
+    this.sections.forEach((mesh, beam) => {
+      if (mesh) {
+        mesh.object.visible = visible;
+        this.beams[beam].object.visible = !visible;
+      }
+    });
+    this.show(this.frame);
+  }
+
   add_symbol(geometry, material, pixels) {
     const symbol = new Mesh(geometry, material);
     symbol.userData.pixels = pixels;
@@ -137,6 +167,7 @@ export class View {
   }
 
   add_supports(supports) {
+    this.supports = [];
     this.support_material = new MeshLambertMaterial();
     const cone = new ConeGeometry(0.62, 1, 4, 1).translate(0, -0.5, 0);  // its tip at the support
     const block = new BoxGeometry(1.5, 0.45, 1.5).translate(0, 0.225, 0);  // behind the clamped end
@@ -144,6 +175,7 @@ export class View {
       const clamped = support.type === 'clamped';
       const symbol = this.add_symbol(clamped ? block : cone, this.support_material, 17);
       symbol.position.copy(this.local(support['position [m]']));
+      this.supports.push({ symbol, beam: this.data.names.beams.indexOf(support.beam), s: support['s [m]'] });
       const away = clamped ? new Vector3(...support.outward) : this.directions.up;
       symbol.quaternion.copy(new Quaternion().setFromUnitVectors(y_axis, away));
     }
@@ -195,9 +227,10 @@ export class View {
     const triad = element('svg:svg', { class: 'triad', viewBox: '-46 -46 92 92', 'aria-hidden': 'true' },
       ...this.triad.flatMap(({ line, tip, text }) => [line, tip, text]));
     const grid_hint = element('span', { class: 'grid-hint' }, `grid ${number(this.grid_step)} m`);
+    this.enlarged_text = element('span', { class: 'grid-hint', id: 'enlarged' });
     this.labels = element('div', { class: 'labels' }, ...this.points.map((point) => point.label));
     overlay.append(this.labels, triad,
-      element('div', { class: 'scale' }, this.scale_bar, this.scale_text, grid_hint));
+      element('div', { class: 'scale' }, this.scale_bar, this.scale_text, grid_hint, this.enlarged_text));
   }
 
   /** Makes the paths of the bodies when they are first wanted. */
@@ -220,26 +253,27 @@ export class View {
     this.show(this.frame);
   }
 
+  show_loads(visible) {
+    this.loads.object.visible = visible;
+    this.redraw();
+  }
+
   show_start(visible) {
     this.ghost.visible = visible;
     this.redraw();
   }
 
-  set_field(field) {
+  /** Colours by a field, over its range in the whole run or, with `instant`, in the shown frame. */
+  set_field(field, instant) {
     this.field = field;
-    const colours = field_colours(this.data.shapes.fields[field]);
-    const { min, max } = this.data.shapes.fields[field];
-    // Bytes go from min to max, the map from low to high.
+    const { shapes } = this.data;
+    shapes.load(this.frame);
+    this.colours = field_colours(instant ? shapes.field_range(field) : shapes.fields[field]);
     const texture = this.uniforms.map.value;
-    const span = colours.high - colours.low;
-    for (let k = 0; k < 256; ++k) {
-      const value = min + ((max - min) * k) / 255;
-      const i = span > 0 ? Math.round((255 * (value - colours.low)) / span) : 0;
-      texture.image.data.set(colours.table.subarray(4 * i, 4 * i + 4), 4 * k);
-    }
+    texture.image.data.set(this.colours.table);
     texture.needsUpdate = true;
     this.show(this.frame);
-    return colours;
+    return this.colours;
   }
 
   /** Colours of the page's present scheme. */
@@ -252,6 +286,7 @@ export class View {
     this.body_material.color = colour('--scene-body');
     this.probe_material.color = colour('--scene-probe');
     this.path_material.color = colour('--scene-path');
+    this.loads.material.color = colour('--scene-load');
     this.node_material.color = colour('--scene-node');
     // The beams' own shaders write the colours of the screen as they are.
     const screen_colour = (name) => colour(name).convertLinearToSRGB().toArray();
@@ -306,11 +341,24 @@ export class View {
     shapes.load(frame);
     for (let beam = 0; beam < this.beams.length; ++beam) {
       this.beams[beam].load(shapes, frame, beam, this.field);
+      this.sections[beam]?.load(shapes, frame, beam, this.field);
+      if (this.colours) {
+        const range = shapes.beam_range(frame, beam, this.field);
+        this.beams[beam].set_range(range, this.colours);
+        this.sections[beam]?.set_range(range, this.colours);
+      }
     }
     for (const { symbol, histories } of this.points) {
       symbol.position.set(histories[0].values[frame] - shapes.origin[0], histories[1].values[frame] - shapes.origin[1],
         histories[2].values[frame] - shapes.origin[2]);
     }
+    for (const { symbol, beam, s } of this.supports) {
+      const place = shapes.point(beam, s);
+      if (place) {
+        symbol.position.set(...place.r);
+      }
+    }
+    this.loads.show(frame);
     if (this.nodes.visible) {
       this.load_nodes(frame);
     }
@@ -349,6 +397,11 @@ export class View {
     for (const symbol of this.pinned_size) {
       symbol.scale.setScalar(symbol.userData.pixels / view.scale);
     }
+    const least_pixels = 8;
+    const factors = this.sections.filter((mesh) => mesh?.object.visible)
+      .map((mesh) => mesh.enlarge_to(least_pixels, view.scale));
+    const factor = Math.max(1, ...factors);
+    this.enlarged_text.textContent = factor > 1.05 ? `sections × ${number(factor, 2)}` : '';
     this.renderer.render(this.scene, view.camera);
     this.draw_overlay();
   }

@@ -9,13 +9,19 @@
 namespace nurbeam {
 namespace {
 
-std::string checked(const std::vector<std::string>& overrides) {
+struct Checked {
+  std::string out, err;
+};
+
+Checked checked_both(const std::vector<std::string>& overrides) {
   const test::TemporaryDirectory directory;
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
   std::ostringstream out, err;
   EXPECT_EQ(check_case(report.value.value(), out, err), 0) << err.str();
-  return out.str();
+  return {out.str(), err.str()};
 }
+
+std::string checked(const std::vector<std::string>& overrides) { return checked_both(overrides).out; }
 
 TEST(CheckCase, PrintsTheShortestAndTheLongestElement) {
   const std::string out = checked({R"(beams[0].elements={"per_segment": 4, "grading": "10 cm"})"});
@@ -26,6 +32,45 @@ TEST(CheckCase, CountsForcesMomentsAndLoadsPerLengthApart) {
   const std::string out = checked({R"(loads=[{"beam": "cable", "at": "end", "force": [0, 0, -1]},
     {"beam": "cable", "at": "end", "moment": [0, 1, 0]}, {"beam": "cable", "force_per_length": [0, 0, -1]}])"});
   EXPECT_NE(out.find("point loads 1, moments 1, distributed loads 1"), std::string::npos) << out;
+}
+
+TEST(CheckCase, SaysOfEachBeamInSpaceWhetherItHasTorsionAndWhy) {
+  const std::string sideways = R"(loads=[{"beam": "cable", "at": "end", "force": [0, 1, 1]},
+    {"beam": "cable", "at": "start", "force": [0, 1, 0]}])";
+  const std::string bent =
+      R"(beams[0].axis={"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [0, 1, 0],
+    "normal": [0, 0, 1]}})";
+  EXPECT_EQ(checked({}).find("torsion"), std::string::npos) << "a planar model has none";
+  const auto says = [](const std::vector<std::string>& overrides, const std::string& why) {
+    const std::string out = checked(overrides);
+    EXPECT_NE(out.find("torsion   of cable: " + why), std::string::npos) << out;
+  };
+  says({"beams[0].torsion=true"}, "yes, as the case asks for it");
+  says({bent, sideways}, "yes, as it is drawn curved in space");
+  says({sideways}, "no, as it is drawn straight and bends alike");
+  says({bent, sideways, "beams[0].torsion=false"}, "no, as the case asks for an element without it");
+}
+
+TEST(CheckCase, GivesTheHolonomyOfRings) {
+  const std::string ring =
+      R"(beams[0].axis={"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1, 1],
+    "control_points": [[1, 0, 0], [1, 1.3, 0.4], [-1, 1.3, 0.8], [-1, 0, 0.4], [-1, -1.3, 0], [1, -1.3, -0.4],
+                       [1, 0, 0]]}})";
+  const std::string out =
+      checked({ring, "beams[0].closed=true", "beams[0].torsion=true", "supports[0].at=start"});
+  EXPECT_NE(out.find("holonomy  of cable: sections carried around the ring"), std::string::npos) << out;
+}
+
+TEST(CheckCase, WarnsOfElementsThatTurnByMoreThan60Degrees) {
+  const std::string bent =
+      R"(beams[0].axis={"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [0, 1, 0],
+    "normal": [0, 0, 1]}})";
+  const Checked coarse = checked_both({bent, "beams[0].torsion=true", R"(beams[0].elements={"count": 1})"});
+  EXPECT_NE(coarse.err.find("beams[0].elements: the axis turns by 90 degrees within the element"),
+            std::string::npos)
+      << coarse.err;
+  const Checked fine = checked_both({bent, "beams[0].torsion=true", R"(beams[0].elements={"count": 2})"});
+  EXPECT_EQ(fine.err.find("turns by"), std::string::npos) << fine.err;
 }
 
 }  // namespace

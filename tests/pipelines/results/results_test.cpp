@@ -135,6 +135,38 @@ TEST(Results, HistoriesGiveEveryNumberBackExactly) {
   EXPECT_EQ(std::stod(first.back()), held.reactions[1].couple.z());
 }
 
+TEST(Results, SectionsOfBeamsWithTorsionComeBackExactlyBehindAllOtherColumns) {
+  const TemporaryDirectory directory;
+  SnapshotNames with_sections = names;
+  with_sections.sections = true;
+  double next = 5;
+  const auto number = [&] { return next += 0.1; };
+  const auto vector = [&] { return Eigen::Vector3d(number(), number(), number()); };
+  Snapshot frame = make_frame(0, 3);
+  frame.probes[0].section.moment_1 = number();
+  frame.probes[0].section.von_mises = number();  // moment_2 and twist stay unknown
+  frame.beams[0].torque_max = frame.beams[0].von_mises_max = {number(), number()};
+  for (ElementRecord& e : frame.beams[0].elements)
+    for (int k = 0; k < 4; ++k) {
+      e.moment_1[k] = number();
+      e.twist[k] = number();
+      e.d1.col(k) = vector();
+      e.d2.col(k) = vector();
+    }
+  ResultsWriter writer(directory.path(), with_sections, "title");
+  writer.write(frame);
+  writer.finish();
+  const StoredResults stored = read_results(directory.path());
+  EXPECT_TRUE(stored.names.sections);
+  expect_equal(stored.frames.at(0), frame);
+  const std::string header = lines_of(directory.path() / "histories.csv").at(0);
+  const std::string end =
+      "reaction.arch.end.mz [N m],tip.moment_1 [N m],tip.moment_2 [N m],tip.twist [rad],tip.von_mises [Pa],"
+      "cable.torque.max [N m],cable.twist.max [rad],cable.von_mises.max [Pa],"
+      "arch.torque.max [N m],arch.twist.max [rad],arch.von_mises.max [Pa]";
+  EXPECT_TRUE(header.ends_with(end)) << header;
+}
+
 TEST(Results, StoredBeamsComeBackExactlyWhileTheirElementsChangeInNumber) {
   const TemporaryDirectory directory;
   ResultsWriter writer(directory.path() / "new" / "directory", names, "title");

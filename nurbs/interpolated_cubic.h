@@ -1,0 +1,15 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "nurbs/nurbs_curve.h"
+
+namespace nurbeam {
+
+/// The C2 cubic spline through points (3 x n [m]) at increasing parameters, its end slopes those of the
+/// cubics through the first and the last four points (of fewer, their polynomial): of fourth order in the
+/// distance of the parameters. Its knots are the parameters, whatever the points are. Throws
+/// std::invalid_argument unless there are at least two points, and as many parameters, increasing.
+NurbsCurve interpolated_cubic(const std::vector<double>& parameters, const Eigen::Matrix3Xd& points);
+
+}  // namespace nurbeam

@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "fem/model/beam_model.h"
+#include "pipelines/case/case_file.h"
+#include "pipelines/diagnostics/findings.h"
+#include "pipelines/model/model_frame.h"
+
+namespace nurbeam {
+
+/// Warns of each beam with torsion whose drawn axis turns by more than 60 degrees within an element, with the
+/// place of the one that turns most: the quadrature of parallel transport in it loses digits there.
+void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, const ModelFrame& frame,
+                 Findings& findings);
+
+}  // namespace nurbeam
