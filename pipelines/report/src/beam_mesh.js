@@ -52,6 +52,7 @@ in float side;
 out vec4 colour;
 #ifdef COLOURED
 uniform sampler2D map;
+uniform vec2 range;    // of the map, in parts of the field's range: its low end and its extent
 uniform vec3 outline;  // tells the ends of the map from the background
 in float value;
 #else
@@ -61,7 +62,8 @@ uniform vec3 plain;
 void main() {
 #ifdef COLOURED
   // The middle of the first and last texel are the ends of the map.
-  vec3 rgb = texture(map, vec2((0.5 + 255.0 * value) / 256.0, 0.5)).rgb;
+  float part = clamp((value - range.x) / range.y, 0.0, 1.0);
+  vec3 rgb = texture(map, vec2((0.5 + 255.0 * part) / 256.0, 0.5)).rgb;
   float light = sqrt(max(0.0, 1.0 - side * side));  // of a round bar lit from the viewer
   rgb *= mix(0.7, 1.0, light);
   colour = vec4(mix(outline, rgb, smoothstep(1.0, 0.6, abs(side))), 1.0);
@@ -103,7 +105,7 @@ export class BeamMesh {
       defines.RATIONAL = '';
     }
     if (uniforms.map) {
-      this.values = new InstancedBufferAttribute(new Uint8Array(4 * most_elements), 4, true);
+      this.values = new InstancedBufferAttribute(new Uint16Array(4 * most_elements), 4, true);
       this.values.setUsage(DynamicDrawUsage);
       this.geometry.setAttribute('values', this.values);
       defines.COLOURED = '';
@@ -125,7 +127,7 @@ export class BeamMesh {
       this.weights.needsUpdate = true;
     }
     if (this.values) {
-      copy(this.values.array, shapes.bytes, shapes.field_start(frame, beam, field), 4 * n);
+      copy(this.values.array, shapes.shorts, shapes.field_start(frame, beam, field), 4 * n);
       this.values.needsUpdate = true;
     }
     this.geometry.instanceCount = n;
