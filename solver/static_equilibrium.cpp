@@ -195,8 +195,8 @@ class EquilibriumSearch {
     report_.newton_iterations += iterations;
   }
 
-  /// The largest of full load and constraint force, else of the unbalanced internal force, else 1; each as
-  /// work over coordinate scale.
+  /// The largest of full load and constraint force, else of the unbalanced internal force, else of that which
+  /// moved supports would make, else 1; each as work over coordinate scale.
   double largest_force(const State& state) const {
     State free = at_rest(state, system_);
     const Vector with_multipliers = dynamics(free);
@@ -208,7 +208,22 @@ class EquilibriumSearch {
     const Vector loaded = dynamics(free);
     const double applied = std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
     if (applied > 0) return applied;
-    return work(unloaded) > 0 ? work(unloaded) : 1;
+    const double internal = work(unloaded), held = work(dynamics(towards_constraints(free)));
+    if (held > 10 * internal) return held;  // beside it the other is round-off
+    return internal > 0 ? internal : 1;
+  }
+
+  /// What is held moved by G'g to where it is to be: of the size of what the constraints ask for.
+  State towards_constraints(State state) const {
+    const int n = system_.coordinate_count(), m = system_.constraint_count();
+    Vector rows(n), constraints(m);
+    system_.residual(state, rows, constraints);
+    Eigen::SparseMatrix<double> kkt = system_.tangent_pattern();
+    system_.tangent(state, {}, kkt);
+    for (int row = 0; row < m; ++row)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt, n + row); entry; ++entry)
+        if (entry.row() < n) state.q[entry.row()] -= entry.value() * constraints[row];
+    return state;
   }
 
   Vector dynamics(const State& state) const {

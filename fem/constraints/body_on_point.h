@@ -66,7 +66,7 @@ void bind_joint(int j, bool held, const MeshedBeams<D>& at, const Eigen::VectorX
   if (mode != JointMode::node) add(BodyOnPoint<D>(at, drawn, j));
   const SlidingJoint& joint = at.structure.joints[j];
   const int place = at.mesh.joints[j].place;
-  if (mode == JointMode::stopped || held)
+  if (mode == JointMode::stopped || held || at.mesh.plan.holds(j))
     add(HeldPlace<D>(place, at.mesh.plan.places[j]));
   else if (joint.motion)
     add(HeldPlace<D>(place, *joint.motion));

@@ -26,7 +26,9 @@ class HeldPlace {
     return terms;
   }
   /// dg/dt at fixed q [m/s].
-  double rate(double t) const { return motion_ ? -value_and_slope(*motion_, t).second : 0; }
+  Eigen::Matrix<double, 1, 1> rate(double t) const {
+    return Eigen::Matrix<double, 1, 1>(motion_ ? -value_and_slope(*motion_, t).second : 0.0);
+  }
 
  private:
   std::vector<int> dofs_;

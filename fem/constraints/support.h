@@ -1,28 +1,35 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_roll.h"
 #include "fem/mesh/point_on_beam.h"
+#include "fem/structure/displacement_table.h"
 
 namespace nurbeam {
 
-/// Holds a place of a beam where it is drawn.
+/// Holds a place of a beam where it is drawn, or moves it from there.
 struct Support {
   int beam;
   double s;              ///< [m]
   bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
   bool fork = false;     ///< position and roll of the section, of a beam with torsion
   std::string name = {};
+  std::optional<DisplacementTable> motion = {};  ///< from the drawn position, scaled as loads by State::load
 };
 
-/// r(s) = r_0(s): D rows.
+/// r(s) = r_0(s) + d(t): D rows.
 template <int D>
 class HeldPosition {
  public:
-  HeldPosition(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s)
-      : point_(at, drawn, beam, s), dofs_(point_.dofs(at)) {}
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  /// `motion`, if any, must outlive the constraint.
+  HeldPosition(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s,
+               const DisplacementTable* motion = nullptr)
+      : point_(at, drawn, beam, s), dofs_(point_.dofs(at)), motion_(motion) {}
 
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
@@ -34,19 +41,29 @@ class HeldPosition {
     const PointField<D> r = shape.position();
     const ReferenceCurve& curve = point_.element(at).element.curve();
     terms.value = r.value - curve.position(point_.s()).template head<D>();
+    if (motion_) terms.value -= state.load * motion_->at(state.t).value.template head<D>();
     terms.gradient.template leftCols<element_size<D>>() = r.gradient;
     if (y) r.add_hessian(*y, 1, shape.nodes, terms.hessian);
     return terms;
   }
 
+  /// dg/dt [m/s] and d2g/dt2 [m/s^2] at fixed q.
+  Vector rate(double t) const {
+    return motion_ ? Vector(-motion_->at(t).rate.template head<D>()) : Vector::Zero();
+  }
+  Vector acceleration(double t) const {
+    return motion_ ? Vector(-motion_->at(t).acceleration.template head<D>()) : Vector::Zero();
+  }
+
  private:
   PointOnBeam<D> point_;
   std::vector<int> dofs_;
+  const DisplacementTable* motion_;
 };
 
 template <int D, class Add>
 void bind(const Support& support, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
-  add(HeldPosition<D>(at, drawn, support.beam, support.s));
+  add(HeldPosition<D>(at, drawn, support.beam, support.s, support.motion ? &*support.motion : nullptr));
   if (support.clamped) add(HeldDirection<D>(at, drawn, support.beam, support.s));
   if constexpr (D == 3) {
     if (!at.structure.beams[support.beam].has_torsion()) return;

@@ -44,6 +44,13 @@ struct AxialSums {
     rs.add_hessian(rs.value, weight, e, I_qq);
   }
 
+  /// Takes a uniform strain that carries no force out of all of them: I - int eps_free ds, ...
+  void take_out(double free_strain) {
+    y[0] -= free_strain * y[3];
+    y.segment<2>(1).array() -= free_strain;
+    y_q.row(0) -= free_strain * y_q.row(3);
+  }
+
   void add_force(double EA, ElementVector<D>& f) const {
     f += y_q.transpose() * AssumedAxialEnergy(EA, y).gradient;
   }

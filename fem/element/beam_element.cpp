@@ -120,6 +120,7 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
   });
   if (!assumes_strain()) return sum;
   if (fixed()) axial.y.template head<3>() -= strain0_;
+  axial.take_out(x.free_strain);
   sum.axial = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).value;
   if (!(properties_->damping > 0)) return sum;
   add_ends(x.q, e, axial_rates);

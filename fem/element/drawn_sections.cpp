@@ -7,6 +7,7 @@
 
 #include "fem/element/section_frame.h"
 #include "nurbs/gauss_panels.h"
+#include "nurbs/monotone_cubic.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
@@ -79,22 +80,6 @@ Vector3d first_axis(const Vector3d& direction, const Vector3d& t, double s) {
 Vector3d default_direction(const Vector3d& t) {
   return across(Vector3d::UnitZ(), t).norm() > std::sin(smallest_angle) ? Vector3d::UnitZ()
                                                                         : Vector3d::UnitX();
-}
-
-// Slopes of a monotone C1 cubic through rows (Fritsch & Butland 1984).
-std::vector<double> monotone_slopes(const std::vector<std::pair<double, double>>& rows) {
-  std::vector<double> slopes(rows.size(), 0);
-  if (rows.size() < 2) return slopes;
-  const auto length = [&](std::size_t i) { return rows[i + 1].first - rows[i].first; };
-  const auto secant = [&](std::size_t i) { return (rows[i + 1].second - rows[i].second) / length(i); };
-  slopes.front() = secant(0);
-  slopes.back() = secant(rows.size() - 2);
-  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
-    const double a = secant(i - 1), b = secant(i);
-    const double weight = (1 + length(i) / (length(i - 1) + length(i))) / 3;
-    if (a * b > 0) slopes[i] = a * b / (weight * b + (1 - weight) * a);
-  }
-  return slopes;
 }
 
 }  // namespace

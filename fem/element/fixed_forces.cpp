@@ -50,7 +50,8 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
              (stress.template head<D>() * p.S1.transpose() + stress.template tail<D>() * p.S2.transpose());
   }
   if (!assumes_strain()) return f;
-  const AxialSums<D> axial = fixed_sums(x.q);
+  AxialSums<D> axial = fixed_sums(x.q);
+  axial.take_out(x.free_strain);
   axial.add_force(properties_->axial_stiffness, f);
   if (properties_->damping > 0) {
     const auto x_q = axial.y_q.template topRows<3>();
@@ -94,7 +95,8 @@ template <int D>
 void BeamElement<D>::add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w,
                                              ElementMatrix<D>& K) const {
   using Layout = ElementLayout<D>;
-  const AxialSums<D> axial = fixed_sums(x.q);
+  AxialSums<D> axial = fixed_sums(x.q);
+  axial.take_out(x.free_strain);
   const AssumedAxialEnergy U(properties_->axial_stiffness, axial.y);
   const auto x_q = axial.y_q.template topRows<3>();
   Eigen::Matrix3d by_x = w.stiffness * U.hessian.template topLeftCorner<3, 3>();

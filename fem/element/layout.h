@@ -33,6 +33,7 @@ using ElementNodes = typename ElementLayout<D>::Nodes;
 template <int D>
 struct ElementState {
   ElementVector<D> q, v, a;
+  double free_strain = 0;  ///< axial strain without axial force at the time (FreeStrain)
 
   ElementNodes<D> nodes() const { return ElementLayout<D>::nodes(q); }
   ElementNodes<D> node_rates() const { return ElementLayout<D>::nodes(v); }

@@ -100,6 +100,7 @@ ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& l
     if (damped) Damping<D>(*properties_, shape, p).add_force(f);
     if (axial_rates) axial_rates->add(0, p.rs, p.rss, s, weight);
   });
+  axial.take_out(x.free_strain);
   if (assumed) axial.add_force(properties_->axial_stiffness, f);
   if (!axial_rates) return f;
   add_ends(x.q, motion.e, *axial_rates);
@@ -128,6 +129,7 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
     if (damped) Damping<D>(*properties_, shape, p).add_tangent(motion.e, t, K);
     if (axial_rates) axial_rates->add(0, p.rs, p.rss, s, weight);
   });
+  axial.take_out(x.free_strain);
   if (t.stiffness != 0 && assumed) axial.add_tangent(properties_->axial_stiffness, t.stiffness, I_qq, K);
   if (!axial_rates) return K;
   add_ends(x.q, motion.e, *axial_rates);

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 
 #include "fem/mesh/mesh_elements.h"
-#include "fem/structure/time_table.h"
+#include "fem/time_table.h"
 
 namespace nurbeam {
 

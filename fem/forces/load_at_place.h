@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "fem/structure/time_table.h"
+#include "fem/time_table.h"
 
 namespace nurbeam {
 

@@ -47,18 +47,20 @@ ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Mat
 
 /// What a section carries at one material point, without damping.
 struct SectionForces {
-  double strain = 0;          ///< Green's axial strain [-]
+  double strain = 0;          ///< Green's axial strain against the unstressed length, without expansion [-]
   double curvature = 0;       ///< K by the beam's measure; signed in the plane [1/m]
   double axial_force = 0;     ///< d(axial energy)/d|r_s| = EA (eps - eps_0) |r_s|, tension positive [N]
   double bending_moment = 0;  ///< EI (K - kappa_0) [N m]
 };
 
-/// `eps`: the axial strain that the section carries; eps_0 the drawing's.
+/// `eps`: the axial strain that the section carries; eps_0 the drawing's; `free` that without axial force.
 template <int D>
 SectionForces section_forces(const BeamProperties& beam, double eps, const Eigen::Matrix<double, D, 1>& rs,
-                             const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
+                             const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0,
+                             double free = 0) {
   const double K = curvature(rs, rss, beam.curvature).value;
-  return {eps, K, beam.axial_stiffness * (eps - eps0) * std::sqrt(1 + 2 * eps),
+  return {(eps - free) / (1 + 2 * beam.free_strain.constant), K,
+          beam.axial_stiffness * (eps - eps0 - free) * std::sqrt(1 + 2 * eps),
           beam.axis_bending_stiffness() * (K - kappa0)};
 }
 

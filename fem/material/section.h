@@ -3,6 +3,7 @@
 
 #include "fem/material/axial_strain.h"
 #include "fem/material/curvature_measure.h"
+#include "fem/material/free_strain.h"
 
 namespace nurbeam {
 
@@ -51,6 +52,7 @@ struct BeamProperties {
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
   std::optional<SectionStiffness> sections = {};  ///< of a beam with torsion, in space
+  FreeStrain free_strain = {};                    ///< needs AxialStrain::ends_and_mean
 
   /// EA where it multiplies a pointwise strain; else 0.
   double pointwise_axial_stiffness() const {
@@ -59,6 +61,23 @@ struct BeamProperties {
   /// EI where the axis alone bends: in the plane, and round in space; 0 for a beam with torsion, whose
   /// sections bend about their own axes.
   double axis_bending_stiffness() const { return sections ? 0 : bending_stiffness; }
+
+  /// Those per drawn length of a beam that is `stretch` times as long as drawn when it is free: its energy is
+  /// that of the unstressed beam, whose curvature is the drawn one over `stretch`.
+  BeamProperties with_free_stretch(double stretch) const {
+    BeamProperties p = *this;
+    p.axial_stiffness /= stretch * stretch * stretch;
+    p.bending_stiffness /= stretch;
+    p.mass_per_length *= stretch;
+    if (p.sections) {
+      SectionStiffness& own = *p.sections;
+      for (double* stiffness : {&own.bending_1, &own.bending_2, &own.bending_product, &own.torsion})
+        *stiffness /= stretch;
+      own.spin_inertia *= stretch;
+    }
+    p.free_strain.constant = (stretch * stretch - 1) / 2;
+    return p;
+  }
 
   BeamProperties() = default;
   BeamProperties(double EA, double EI, double rho_A, double c = 0,

@@ -81,6 +81,9 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
     const Beam& beam = structure.beams[span.beam];
     if (beam.form == Form::virtual_work && beam.properties.axial_strain != AxialStrain::pointwise)
       throw std::invalid_argument("a beam in form P (virtual work) has the pointwise axial strain");
+    if (!beam.properties.free_strain.is_none() && beam.properties.axial_strain == AxialStrain::pointwise)
+      throw std::invalid_argument(
+          "a beam with the pointwise axial strain is as long as it is drawn when free");
     const Ends ends = span.place_a < 0 && span.place_b < 0 ? Ends::fixed : Ends::moving;
     Chart chart = choose_chart(beam, mesh.plan, span, is_arc_length_span(structure, mesh, i));
     elements.push_back(

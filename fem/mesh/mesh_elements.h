@@ -39,13 +39,22 @@ struct MeshElement : MeshSpan {
 template <int D>
 std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh);
 
+/// The axial strain without axial force of an element's beam, as State::load has it.
+template <int D>
+double free_strain(const MeshElement<D>& e, const State& state) {
+  const FreeStrain& strain = e.element.properties().free_strain;
+  return strain.is_none() ? 0 : state.load * strain.at(state.t);
+}
+
 /// Coordinates and rates of one element.
 template <int D>
 ElementState<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                        const Eigen::VectorXd& a);
 template <int D>
 ElementState<D> gather(const MeshElement<D>& e, const State& state) {
-  return gather(e, state.q, state.v, state.a);
+  ElementState<D> x = gather(e, state.q, state.v, state.a);
+  x.free_strain = free_strain(e, state);
+  return x;
 }
 /// Without rates.
 template <int D>

@@ -52,6 +52,7 @@ MeshPlan initial_plan(const Structure& structure) {
                           near_as_point(structure, joint, joint.s, passing_zone);
     plan.modes.push_back(on_point ? JointMode::point : JointMode::node);
     plan.places.push_back(joint.s);
+    plan.held.push_back(joint.release.has_value());
     if (on_point) continue;
     const int replaced = node_to_replace(beam, joint.s);
     if (replaced >= 0) plan.beams[joint.beam].present[replaced] = false;

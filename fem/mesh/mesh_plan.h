@@ -25,6 +25,7 @@ struct MeshPlan {
   std::vector<BeamPlan> beams;
   std::vector<JointMode> modes;  ///< per sliding joint
   std::vector<double> places;    ///< s of each sliding joint when the plan is made [m]
+  std::vector<bool> held = {};   ///< per sliding joint: at its place, until its release; empty: none
   /// Constant weights by beam and (s_a, s_b), for elements whose weights a merge or split has set.
   struct Weights {
     int beam;
@@ -41,6 +42,8 @@ struct MeshPlan {
     double turn;
   };
   std::vector<SectionCharts> section_charts;
+
+  bool holds(int joint) const { return joint < static_cast<int>(held.size()) && held[joint]; }
 };
 
 /// What becomes of a home node when a joint comes to it.

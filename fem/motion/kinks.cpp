@@ -23,14 +23,20 @@ std::vector<double> kink_times(const BeamModel& model) {
   const auto add = [&](const TimeTable& table) {
     for (const auto& [time, value] : table) times.push_back(time);
   };
-  for (const SlidingJoint& joint : model.joints)
+  for (const SlidingJoint& joint : model.joints) {
     if (joint.motion) add(*joint.motion);
+    if (joint.release) times.push_back(*joint.release);
+  }
   for (const Force& force : model.forces)
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.time; }) add(f.time);
         },
         force);
+  for (const Beam& beam : model.beams) add(beam.properties.free_strain.thermal);
+  for (const Constraint& constraint : model.constraints)
+    if (const auto* support = std::get_if<Support>(&constraint); support && support->motion)
+      for (const auto& [time, displacement] : support->motion->rows()) times.push_back(time);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

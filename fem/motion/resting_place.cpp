@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "fem/motion/recentring.h"
@@ -47,7 +48,15 @@ struct Descent {
   double most;                         // of the next move [m]; 0 for one that does not move
   double s = 0, force = 0, moved = 0;  // before the last move, that held it there [m], [N], and the move [m]
   bool arrived = false, at_end = false;  // the latter: of the beam
+  int balanced = 0;                      // places in a row at which nothing held it
 };
+
+// Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
+// [m].
+double push_off(Descent& body) {
+  ++body.balanced;
+  return body.balanced == 1 ? body.most : body.balanced == 2 ? -body.moved : 0;
+}
 
 // Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it
 // shows where it does not want to go.
@@ -66,7 +75,8 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   const double spacing = home_spacing(at.system->model(), joint);
   if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) : 2 * body.most;
   body.most = std::min(body.most, 4 * spacing);
-  double ds = force == 0 ? 0 : step_down(body, s, force);
+  double ds = force == 0 ? push_off(body) : step_down(body, s, force);
+  if (force != 0) body.balanced = 0;
   const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
   const double room = 0.4 * distance_to_others(at, joint);
   ds = std::clamp(ds, -room, room);
@@ -80,12 +90,20 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   return ds;
 }
 
-// A system whose load factor 0 is the share `from` of its loads: on the way from an equilibrium under them.
-class LoadedFrom final : public SecondOrderSystem {
- public:
-  LoadedFrom(const SecondOrderSystem& system, double from) : system_(system), from_(from) {}
+// A share of a model's loads at a time.
+struct Loading {
+  double load, t;
+};
 
-  double load(double factor) const { return from_ + (1 - from_) * factor; }
+// A system whose load factor 0 is one loading and 1 another: on the way from an equilibrium under the first.
+class LoadedBetween final : public SecondOrderSystem {
+ public:
+  LoadedBetween(const SecondOrderSystem& system, Loading from, Loading to)
+      : system_(system), from_(from), to_(to) {}
+
+  Loading at(double factor) const {
+    return {from_.load + (to_.load - from_.load) * factor, from_.t + (to_.t - from_.t) * factor};
+  }
 
   int coordinate_count() const override { return system_.coordinate_count(); }
   int constraint_count() const override { return system_.constraint_count(); }
@@ -108,18 +126,22 @@ class LoadedFrom final : public SecondOrderSystem {
 
  private:
   State loaded(State state) const {
-    state.load = load(state.load);
+    const Loading now = at(state.load);
+    state.load = now.load;
+    state.t = now.t;
     return state;
   }
 
   const SecondOrderSystem& system_;
-  double from_;
+  Loading from_, to_;
 };
 
 // Brings `at` to rest.
 class RestSearch {
  public:
-  RestSearch(MeshedState& at, const LengthControl& control) : at_(at), control_(control) {}
+  // `equilibrium`: the time at which `at` is in equilibrium, where it is.
+  RestSearch(MeshedState& at, const LengthControl& control, std::optional<double> equilibrium = {})
+      : at_(at), control_(control), equilibrium_(equilibrium) {}
 
   RestReport held_equilibrium() {
     hold_in_equilibrium(at_.system->mesh().plan);
@@ -127,8 +149,10 @@ class RestSearch {
   }
 
   RestReport rest(const std::function<bool()>& interrupted) {
-    if (!goes_on(meeting_bodies(at_)) || !hold_in_equilibrium(at_.system->mesh().plan))
+    if (!goes_on(meeting_bodies(at_)) ||
+        !hold_in_equilibrium(equilibrium_ ? held_at(at_, present_places(at_)) : at_.system->mesh().plan))
       return std::move(report_);
+    if (!move_driven_bodies()) return std::move(report_);
     std::vector<Descent> bodies;
     for (int j = 0; j < joints(); ++j) bodies.push_back({model().joints[j].motion ? 0 : spacing(j) / 4});
     constexpr int most_moves = 2000;
@@ -154,6 +178,16 @@ class RestSearch {
     return !report_.failure;
   }
 
+  // Takes bodies whose motion is prescribed to where they are at the time.
+  bool move_driven_bodies() {
+    std::vector<double> ds(model().joints.size(), 0);
+    for (int j = 0; j < joints(); ++j)
+      if (const auto& motion = model().joints[j].motion)
+        if (const auto s = place(*at_.system, at_.state, j))
+          ds[j] = value_and_slope(*motion, at_.state.t).first - *s;
+    return move_places(std::move(ds));
+  }
+
   // One move of every body and the equilibrium after it; false where all have arrived, or there is none.
   bool let_down(std::vector<Descent>& bodies) {
     std::vector<double> ds;
@@ -167,17 +201,29 @@ class RestSearch {
   StaticReport find_equilibrium(MeshedState& at, const std::vector<bool>& held) {
     at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
     at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
-    StaticReport found = find_static_equilibrium(StaticEquilibrium{}, *at.system, at.state);
+    const Loading to{1, at.state.t};
+    const bool later = equilibrium_ && *equilibrium_ != to.t;
+    StaticReport found = load(at, later ? Loading{1, *equilibrium_} : Loading{0, to.t}, to);
     // Sections that turn far stop it half way, in charts that go no further.
     constexpr int most_recentrings = 20;
     for (int turns = 0; found.status != StaticStatus::converged && recentring_due(*at.system, at.state) &&
                         turns < most_recentrings;
          ++turns) {
       at = recentred(*at.system, at.state, held);
-      const LoadedFrom rest(*at.system, at.state.load);
-      found = find_static_equilibrium(StaticEquilibrium{}, rest, at.state);
-      at.state.load = found.load_factor = rest.load(found.load_factor);
+      found = load(at, {at.state.load, at.state.t}, to);
     }
+    if (found.status == StaticStatus::converged) equilibrium_ = to.t;
+    return found;
+  }
+
+  // From an equilibrium under one loading to that under another, or as far as they are found.
+  StaticReport load(MeshedState& at, Loading from, Loading to) {
+    const LoadedBetween system(*at.system, from, to);
+    at.state.load = 1;
+    StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system, at.state);
+    const Loading reached = system.at(found.load_factor);
+    at.state.load = found.load_factor = reached.load;
+    at.state.t = reached.t;
     report_.newton_iterations += found.newton_iterations;
     report_.load_steps += found.load_steps;
     return found;
@@ -242,6 +288,7 @@ class RestSearch {
 
   MeshedState& at_;
   const LengthControl& control_;
+  std::optional<double> equilibrium_;  // the time of the last one found
   RestReport report_;
 };
 
@@ -254,6 +301,13 @@ RestReport find_held_equilibrium(MeshedState& at) {
 RestReport find_rest(MeshedState& at, const LengthControl& control,
                      const std::function<bool()>& interrupted) {
   return RestSearch(at, control).rest(interrupted);
+}
+
+RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
+                          const std::function<bool()>& interrupted) {
+  RestSearch search(at, control, at.state.t);
+  at.state.t = t;
+  return search.rest(interrupted);
 }
 
 }  // namespace nurbeam

@@ -23,4 +23,9 @@ struct RestReport {
 [[nodiscard]] RestReport find_rest(MeshedState& at, const LengthControl& control,
                                    const std::function<bool()>& interrupted);
 
+/// Brings a model from rest to rest under its loads at time t, of which those of State::t are followed to it.
+/// Where it fails the state is that of the last equilibrium on the way.
+[[nodiscard]] RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
+                                        const std::function<bool()>& interrupted);
+
 }  // namespace nurbeam

@@ -6,12 +6,13 @@
 namespace nurbeam {
 
 enum class EventKind {
-  split,          ///< nodes were inserted
-  merge,          ///< a node was removed
-  becomes_point,  ///< a body is carried as a point of the mesh
-  becomes_node,   ///< a body is carried as a node
-  left_beam,      ///< a body has left the beam
-  stopped_at_end  ///< a body has stopped at the end
+  split,           ///< nodes were inserted
+  merge,           ///< a node was removed
+  becomes_point,   ///< a body is carried as a point of the mesh
+  becomes_node,    ///< a body is carried as a node
+  left_beam,       ///< a body has left the beam
+  stopped_at_end,  ///< a body has stopped at the end
+  released         ///< a body that was held is free to slide
 };
 
 /// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...

@@ -61,8 +61,17 @@ class Simulation {
     return report;
   }
 
+  // At each of the output times in turn.
   void rest() {
-    if (book(find_rest(at_, options_.length_control, [this] { return interrupted(); }))) take_snapshot();
+    const auto asked = [this] { return interrupted(); };
+    const std::vector<double>& times = options_.output_times;
+    if (!times.empty()) at_.state.t = times.front();
+    if (!book(find_rest(at_, options_.length_control, asked))) return;
+    take_snapshot();
+    for (std::size_t k = 1; k < times.size(); ++k) {
+      if (!book(find_next_rest(at_, times[k], options_.length_control, asked))) return;
+      take_snapshot();
+    }
   }
 
   // Takes over what a search for rest came to; whether the run goes on.
@@ -191,7 +200,7 @@ class Simulation {
         break;
       }
       if (std::abs(at_.state.t - target) < resolution()) at_.state.t = target;
-      if (at_.state.t == kink && !pass_kink()) {
+      if (at_.state.t == kink && !(pass_kink() && release_bodies())) {
         complete = false;
         break;
       }
@@ -303,6 +312,26 @@ class Simulation {
     return restart();
   }
 
+  // Those that are held until now.
+  bool release_bodies() {
+    MeshPlan plan = present_plan(*at_.system, at_.state);
+    std::vector<RunEvent> events;
+    for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j)
+      if (plan.holds(j) && *model_->joints[j].release <= at_.state.t) {
+        plan.held[j] = false;
+        events.push_back(event_before(at_, EventKind::released, j));
+      }
+    if (events.empty()) return true;
+    at_.system = std::make_unique<BeamSystem>(model_, std::move(plan));
+    at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
+    if (!restart()) return false;
+    for (RunEvent& event : events) {
+      finish_event(at_, event);
+      report_.events.push_back(std::move(event));
+    }
+    return true;
+  }
+
   // Repeats the step that was taken so that it ends just before a place.
   void land(const StepTaken& taken, const Crossing& crossing) {
     State landing = landed(*at_.system, *integrator_, taken, crossing);
@@ -357,9 +386,15 @@ class Simulation {
   }
 
   bool driven() const {
-    return !model_->forces.empty() || std::any_of(
-                                          model_->joints.begin(), model_->joints.end(),
-                                          [](const SlidingJoint& joint) { return joint.motion.has_value(); });
+    const auto& m = *model_;
+    return !m.forces.empty() || std::any_of(m.joints.begin(), m.joints.end(), [](const auto& joint) {
+      return joint.motion.has_value();
+    }) || std::any_of(m.beams.begin(), m.beams.end(), [](const Beam& beam) {
+      return !beam.properties.free_strain.thermal.empty();
+    }) || std::any_of(m.constraints.begin(), m.constraints.end(), [](const Constraint& constraint) {
+      const auto* support = std::get_if<Support>(&constraint);
+      return support && support->motion;
+    });
   }
 
   // Goes on beyond a place that a joint has landed at: a point in the next element.

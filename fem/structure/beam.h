@@ -27,6 +27,14 @@ enum class Form {
   virtual_work  ///< the papers', for comparison: fem/comparison/virtual_work.h
 };
 
+/// A velocity of the material of a beam: of a rigid motion, and along its axis.
+struct BeamVelocity {
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< [rad/s]
+  Eigen::Vector3d about = Eigen::Vector3d::Zero();        ///< a point of the axis of the rotation [m]
+  double along = 0;                                       ///< towards the beam's end [m/s]
+};
+
 struct Beam {
   std::string name;
   ReferenceCurve curve;
@@ -37,6 +45,7 @@ struct Beam {
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
   Form form = Form::variational;
+  std::optional<BeamVelocity> velocity = {};  ///< at t = 0; else at rest
   std::vector<HomeNode> home;  ///< s increasing, from 0 to the length; of a ring the last is the first again
 
   bool has_torsion() const { return properties.sections.has_value(); }

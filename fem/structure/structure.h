@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem/structure/beam.h"
-#include "fem/structure/time_table.h"
+#include "fem/time_table.h"
 
 namespace nurbeam {
 
@@ -21,9 +21,10 @@ struct Body {
 struct SlidingJoint {
   int body;
   int beam;
-  double s;                         ///< at t = 0 [m]
-  double speed = 0;                 ///< at t = 0 [m/s]
-  std::optional<TimeTable> motion;  ///< prescribed s(t) [m]
+  double s;                            ///< at t = 0 [m]
+  double speed = 0;                    ///< at t = 0 [m/s]
+  std::optional<TimeTable> motion;     ///< prescribed s(t) [m]
+  std::optional<double> release = {};  ///< held at s until then [s]
   bool continuous_slope = true;
   bool leave_at_end = true;  ///< else it stops there
 };

@@ -344,7 +344,8 @@ Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     std::visit(
         [&](const auto& c) {
-          if constexpr (requires { c.rate(state.t); }) rate[constraint_blocks_[i].row] = c.rate(state.t);
+          if constexpr (requires { c.rate(state.t); })
+            rate.segment(constraint_blocks_[i].row, c.rows) = c.rate(state.t);
         },
         constraints_[i]);
   return rate;
@@ -365,6 +366,8 @@ Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
         curvature[block.row + r] = v.dot(c.terms(at, state, &unit).hessian * v);
       }
     }
+    if constexpr (requires { c.acceleration(state.t); })
+      curvature.segment(block.row, c.rows) += c.acceleration(state.t);
   };
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     std::visit([&](const auto& c) { add(constraint_blocks_[i], c); }, constraints_[i]);

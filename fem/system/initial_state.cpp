@@ -1,9 +1,93 @@
 #include "fem/system/initial_state.h"
 
+#include <Eigen/Geometry>
+
 #include "fem/mesh/drawn_coordinates.h"
 #include "fem/system/material_points.h"
+#include "fem/system/with_assembly.h"
 
 namespace nurbeam {
+
+namespace {
+
+// A given velocity at a material point, and its derivative along the beam.
+struct GivenVelocity {
+  Eigen::Vector3d value, by_s;
+
+  GivenVelocity(const BeamVelocity& given, const MaterialPoint<3>& p) {
+    const double stretch = p.rs.norm();
+    const Eigen::Vector3d t = p.rs / stretch;
+    value = given.translation + given.rotation.cross(p.r - given.about) + given.along * t;
+    by_s = given.rotation.cross(p.rs) + given.along / stretch * (p.rss - t * t.dot(p.rss));
+  }
+};
+
+// Sums for the coordinates of a mesh, of which those that are shared are to be means.
+class NodalMeans {
+ public:
+  explicit NodalMeans(int coordinates)
+      : sum_(Eigen::VectorXd::Zero(coordinates)), count_(Eigen::VectorXd::Zero(coordinates)) {}
+
+  void add(int first, int size, const Eigen::Vector3d& value) {
+    sum_.segment(first, size) += value.head(size);
+    count_.segment(first, size).array() += 1;
+  }
+  Eigen::VectorXd means() const { return sum_.cwiseQuotient(count_.cwiseMax(1)); }
+
+ private:
+  Eigen::VectorXd sum_, count_;
+};
+
+// Of the nodes and of the bodies that are carried as points.
+Eigen::VectorXd given_velocities(const BeamSystem& system, const State& state) {
+  const BeamModel& model = system.model();
+  const Mesh& mesh = system.mesh();
+  const int D = system.dimension();
+  NodalMeans v(system.coordinate_count());
+  for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
+    const MeshSpan& span = mesh.spans[i];
+    const std::optional<BeamVelocity>& given = model.beams[span.beam].velocity;
+    if (!given) continue;
+    for (const int end : {0, 1}) {
+      const MeshNode& node = end == 0 ? mesh.node_a(span) : mesh.node_b(span);
+      const double s = end == 0 ? span.start(state.q) : span.end(state.q);
+      const GivenVelocity velocity(*given, material_point_in(system, state, i, s));
+      v.add(node.r, D, velocity.value);
+      v.add(end == 0 ? node.slope_right : node.slope_left, D, velocity.by_s);
+    }
+  }
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    const SlidingJoint& joint = model.joints[j];
+    const std::optional<BeamVelocity>& given = model.beam_of(joint).velocity;
+    if (!given || mesh.joints[j].node >= 0 || mesh.joints[j].place < 0) continue;
+    const double s = state.q[mesh.joints[j].place];
+    v.add(mesh.bodies[joint.body], D,
+          GivenVelocity(*given, material_point(system, state, joint.beam, s)).value);
+  }
+  return v.means();
+}
+
+// Adds to the rates of the sections' angles what the given velocities, which `added` has, turn them by.
+void add_given_spins(const BeamSystem& system, const State& added, Eigen::VectorXd& v) {
+  const Assembly<3>* assembly = system.assembly<3>();
+  if (!assembly) return;
+  NodalMeans rates(system.coordinate_count());
+  for (const MeshElement<3>& e : assembly->elements()) {
+    const std::optional<BeamVelocity>& given = system.model().beams[e.beam].velocity;
+    if (!given || !e.twist) continue;
+    for (const int end : {0, 1}) {
+      const TwistState x = gather_twist(e, added);
+      const Eigen::Vector3d t = x.q.segment<3>(TwistLayout::slope(end)).normalized();
+      const double drawn = e.element.curve().section(end == 0 ? e.s_a : e.s_b, end == 1).twist;
+      const double spin = given->rotation.dot(t) + given->along * drawn;
+      rates.add(e.twist->dofs[TwistLayout::angle(end)], 1,
+                Eigen::Vector3d::Constant(spin - e.twist->element.spin(x, end)));
+    }
+  }
+  v += rates.means();
+}
+
+}  // namespace
 
 State drawn_state(const BeamSystem& system) {
   State state;
@@ -40,6 +124,10 @@ void start_moving(const BeamSystem& system, State& state) {
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);
     if (!shared) state.v.segment(node.slope_right, D) = speed * right.rss.head(D);
   }
+  State given = state;
+  given.v = given_velocities(system, state);
+  state.v += given.v;
+  add_given_spins(system, given, state.v);
 }
 
 }  // namespace nurbeam

@@ -78,7 +78,7 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   const double strain =
       assumed ? drawn + assumed->carried((s - s_a) / (s_b - s_a)) : axial_strain<D>(p.rs).value;
   const SectionForces elastic =
-      section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn);
+      section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn, free_strain(e, state));
   const StressResultants resultants = carried.at(s, point.r, point.rs);
   SectionRecord record;
   record.strain = elastic.strain;

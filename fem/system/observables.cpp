@@ -40,6 +40,27 @@ SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
   return sum;
 }
 
+// Axial energy of an element, with the free strain of another moment than the state's.
+template <int D>
+double axial_energy(const MeshElement<D>& e, const State& state, double free_strain) {
+  ElementState<D> x = gather<D>(e, state);
+  x.free_strain = free_strain;
+  return e.element.energy(x, Eigen::Matrix<double, D, 1>::Zero()).axial;
+}
+
+// What heating puts into the axial energy between two states: the mean of both shapes.
+template <int D>
+double heating_of(const Assembly<D>& a, const State& from, const State& to) {
+  double sum = 0;
+  for (const MeshElement<D>& e : a.elements()) {
+    if (e.element.properties().free_strain.thermal.empty()) continue;
+    const double before = free_strain(e, from), after = free_strain(e, to);
+    for (const State* state : {&from, &to})
+      sum += (axial_energy(e, *state, after) - axial_energy(e, *state, before)) / 2;
+  }
+  return sum;
+}
+
 template <int D>
 double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
   double sum = 0;
@@ -60,7 +81,17 @@ double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
     const double holding = -(from.lambda[rows.first] + to.lambda[rows.first]) / 2;
     sum += holding * (to.q[place] - from.q[place]);
   }
-  return sum;
+  for (std::size_t i = 0; i < a.model()->constraints.size(); ++i) {
+    const auto* support = std::get_if<Support>(&a.model()->constraints[i]);
+    if (!support || !support->motion) continue;
+    const auto force = [&](const State& state) {
+      return a.reaction(static_cast<int>(i), state, state.lambda).first;
+    };
+    sum +=
+        (force(from) + force(to)).dot(support->motion->at(to.t).value - support->motion->at(from.t).value) /
+        2;
+  }
+  return sum + heating_of(a, from, to);
 }
 
 template <int D>

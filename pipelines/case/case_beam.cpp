@@ -202,6 +202,31 @@ void check_torsion(const Json& json, const std::string& path, const CaseBeam& be
   if (beam.form == Form::virtual_work) refuse("form", "\"virtual-work\" is a comparison without torsion");
 }
 
+/// Reports what a beam needs to be longer or shorter than it is drawn when it is free.
+void check_free_length(const CaseBeam& beam, Findings& findings) {
+  if (!beam.temperature.empty() && !beam.material.thermal_expansion)
+    findings.error(child(beam.path, "temperature"),
+                   "needs \"thermal_expansion\" in the beam's \"material\"; of steel it is about 1.2e-5 /K");
+  if (beam.axial_strain != AxialStrain::pointwise) return;
+  for (const auto& [asks, key] : {std::pair{beam.unstressed_length.has_value(), "unstressed_length"},
+                                  std::pair{!beam.temperature.empty(), "temperature"}})
+    if (asks)
+      findings.error(
+          child(beam.path, key),
+          "is for the axial strain \"ends-and-mean\", but the beam has the papers' \"pointwise\" one; "
+          "leave one of them out");
+}
+
+std::optional<CaseVelocity> read_velocity(const Json& json) {
+  if (json.empty()) return {};
+  CaseVelocity velocity;
+  velocity.translation = vector(json, "translation", velocity.translation);
+  velocity.rotation = vector(json, "rotation", velocity.rotation);
+  velocity.about = vector(json, "about", velocity.about);
+  velocity.along = number(json, "along", 0);
+  return velocity;
+}
+
 /// Of the papers' elements (constant weights, no metric, form P) the pointwise strain when omitted.
 AxialStrain read_axial_strain(const Json& json, const std::string& path, const CaseBeam& beam,
                               Findings& findings) {
@@ -233,7 +258,8 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .youngs_modulus = number(material, "youngs_modulus"),
                    .damping = number(material, "damping", 0),
                    .shear_modulus = optional_number(material, "shear_modulus"),
-                   .poissons_ratio = optional_number(material, "poissons_ratio")};
+                   .poissons_ratio = optional_number(material, "poissons_ratio"),
+                   .thermal_expansion = optional_number(material, "thermal_expansion")};
   const Json& elements = part(json, "elements");
   beam.elements = {.count = optional_integer(elements, "count"),
                    .max_length = optional_number(elements, "max_length"),
@@ -277,6 +303,12 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
       beam.weights == WeightRule::material;
   beam.torsion_by_drawing = !has(json, "torsion") && !beam.torsion && may_take_it;
   check_torsion(json, path, beam, findings);
+  beam.unstressed_length = optional_number(json, "unstressed_length");
+  if (has(json, "temperature"))
+    beam.temperature = json["temperature"].is_array() ? time_table(json, "temperature")
+                                                      : TimeTable{{0, number(json, "temperature")}};
+  check_free_length(beam, findings);
+  beam.velocity = read_velocity(part(part(json, "initial"), "velocity"));
   return beam;
 }
 

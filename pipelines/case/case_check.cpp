@@ -37,6 +37,14 @@ std::string quantity_hint(Dimension dimension) {
                                               unit_examples(dimension) + ")";
 }
 
+/// "[time, value]" of a table.
+std::string row_of(const Shape& shape) {
+  std::string row = shape.argument == Dimension::time ? "[time" : "[s";
+  for (int i = 0; i < shape.values; ++i)
+    row += shape.values == 1 ? ", value" : ", value " + std::to_string(i + 1);
+  return row + "]";
+}
+
 std::string expected(const Shape& shape) {
   switch (shape.kind) {
     case Kind::object:
@@ -59,7 +67,8 @@ std::string expected(const Shape& shape) {
     case Kind::vector:
       return "[x, y, z], each " + quantity_hint(shape.dimension);
     case Kind::table:
-      return "rows [[time, value], ...], value being " + quantity_hint(shape.dimension);
+      return "rows [" + row_of(shape) + ", ...], each value " + quantity_hint(shape.dimension) +
+             ", or { \"file\": \"x.csv\" }";
   }
   return {};
 }
@@ -70,8 +79,12 @@ bool fits_json_type(const Shape& shape, const Json& value) {
       return value.is_object();
     case Kind::array:
       return value.is_array();
+    case Kind::table:
+      return value.is_array();
     case Kind::integer:
       return value.is_number();
+    case Kind::quantity:
+      return value.is_number() || value.is_string();
     default:
       return value.is_string();
   }
@@ -159,6 +172,9 @@ class Checker {
       return failed(path, "has " + std::to_string(value.size()) + " item(s); expected at least " +
                               std::to_string(shape.min_items));
     }
+    if (value.size() > static_cast<std::size_t>(shape.most_items))
+      return failed(path, "has " + std::to_string(value.size()) + " items; expected at most " +
+                              std::to_string(shape.most_items));
     for (std::size_t i = 0; i < value.size(); ++i)
       if (!check(shape.items[0], value[i], child(path, i))) value[i] = nullptr;
     return true;
@@ -231,19 +247,19 @@ class Checker {
   }
 
   bool check_table(const Shape& shape, Json& value, const std::string& path) {
+    if (value.is_null()) return false;  // a file whose fault has been reported
     if (!value.is_array() || value.empty()) return wrong_type(shape, value, path);
     const Shape argument = {.kind = Kind::quantity, .dimension = shape.argument};
     const bool over_time = shape.argument == Dimension::time;
-    const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension};
+    const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension, .range = shape.range};
     double last = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < value.size(); ++i) {
       Json& row = value[i];
       const std::string row_path = child(path, i);
-      if (!row.is_array() || row.size() != 2)
-        return failed(row_path, std::string("expected a row [") + (over_time ? "time" : "s") + ", value]");
-      if (!check(argument, row[0], child(row_path, std::size_t{0})) ||
-          !check(entry, row[1], child(row_path, 1)))
-        return false;
+      if (!row.is_array() || row.size() != 1 + static_cast<std::size_t>(shape.values))
+        return failed(row_path, "expected a row " + row_of(shape));
+      for (std::size_t k = 0; k < row.size(); ++k)
+        if (!check(k == 0 ? argument : entry, row[k], child(row_path, k))) return false;
       if (row[0].get<double>() <= last) {
         const std::string unit = " " + si_unit(shape.argument);
         return failed(row_path, (over_time ? "time " : "s = ") + text_of(row[0].get<double>(), all_digits) +

@@ -8,6 +8,7 @@
 #include "pipelines/case/case_check.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_references.h"
+#include "pipelines/case/table_files.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -41,7 +42,8 @@ CaseSupport read_support(const Json& json, const std::string& path) {
           .name = text(json, "name"),
           .path = path,
           .beam = text(json, "beam"),
-          .at = read_place(json)};
+          .at = read_place(json),
+          .motion = vector_table(json, "motion")};
 }
 
 CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
@@ -53,6 +55,7 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
           .speed = number(json, "speed", 0),
           .motion_speed = optional_number(motion, "speed"),
           .motion_table = time_table(motion, "table"),
+          .release = optional_number(json, "release"),
           .continuous_slope = text(json, "slope") != "discontinuous",
           .leave_at_end = text(json, "at_beam_end") != "stop"};
 }
@@ -92,6 +95,23 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
                           .tolerance = fixed_steps ? 0 : tolerance.value_or(default_tolerance)};
 }
 
+std::vector<double> read_load_factors(const Json& json, Findings& findings) {
+  if (!has(json, "load_steps")) return {};
+  std::vector<double> factors;
+  if (json["load_steps"].is_array()) {
+    factors = numbers(json, "load_steps");
+  } else {
+    const int count = json["load_steps"].get<int>();
+    for (int k = 1; k <= count; ++k) factors.push_back(k / static_cast<double>(count));
+  }
+  for (std::size_t i = 0; i + 1 < factors.size(); ++i)
+    if (!(factors[i] < factors[i + 1]))
+      findings.error(child("analysis.load_steps", i + 1), "is " + text_of(factors[i + 1], all_digits) +
+                                                              " after " + text_of(factors[i], all_digits) +
+                                                              "; factors must increase");
+  return factors;
+}
+
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;
   analysis.type = chosen<CaseAnalysis::Type>(
@@ -108,7 +128,12 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
     for (const char* key : {"end_time", "step", "tolerance", "initial"})
       if (has(json, key))
         findings.add(Severity::warning, child("analysis", key), "has no effect in a static analysis");
+    analysis.load_factors = read_load_factors(json, findings);
+    if (!analysis.load_factors.empty()) analysis.end_time = analysis.load_factors.back();
   }
+  if (dynamic && has(json, "load_steps"))
+    findings.error("analysis.load_steps",
+                   "is for a static analysis; give loads a \"time\" table, or \"type\": \"static\"");
   analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
                                         analysis.step.has_value(), findings);
   if (dynamic && analysis.is_explicit() && !analysis.step)
@@ -199,6 +224,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
   std::optional<CaseFile> value;
+  put_in_tables(case_keys(), *json, "", std::filesystem::absolute(file).parent_path(), findings);
   if (check_shape(case_keys(), *json, findings)) {
     value = read_case(*json, file, findings);
     value->json = json->dump(-1, ' ', false, Json::error_handler_t::replace);

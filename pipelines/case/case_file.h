@@ -12,6 +12,7 @@
 #include "cad_import/report/format.h"
 #include "fem/motion/integrators.h"
 #include "fem/motion/mesh_rules.h"
+#include "fem/structure/displacement_table.h"
 #include "fem/structure/structure.h"
 #include "nurbs/smooth/smooth_nurbs.h"
 
@@ -67,11 +68,12 @@ struct CaseSection {
 };
 
 struct CaseMaterial {
-  double density = 0;                         ///< [kg/m^3]
-  double youngs_modulus = 0;                  ///< [Pa]
-  double damping = 0;                         ///< [s], theory c
-  std::optional<double> shear_modulus = {};   ///< [Pa]
-  std::optional<double> poissons_ratio = {};  ///< one of them at most
+  double density = 0;                            ///< [kg/m^3]
+  double youngs_modulus = 0;                     ///< [Pa]
+  double damping = 0;                            ///< [s], theory c
+  std::optional<double> shear_modulus = {};      ///< [Pa]
+  std::optional<double> poissons_ratio = {};     ///< one of them at most
+  std::optional<double> thermal_expansion = {};  ///< [1/K]
 };
 
 struct CaseElements {
@@ -91,6 +93,14 @@ enum class ElementKind { ale_rancf, ale_ancf };
 /// What a corner of the axis above `smooth_angle` is; error and smooth: an error; rigid: it keeps its angle.
 enum class Corners { error, smooth, rigid, hinge };
 enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
+
+/// How a beam moves at time 0; in world coordinates.
+struct CaseVelocity {
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< [rad/s]
+  Eigen::Vector3d about = Eigen::Vector3d::Zero();        ///< [m]
+  double along = 0;                                       ///< of the material along the axis [m/s]
+};
 
 struct CaseBeam {
   std::string name;
@@ -114,6 +124,9 @@ struct CaseBeam {
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
   Metric metric = Metric::arc_length;
   Form form = Form::variational;
+  std::optional<double> unstressed_length = {};  ///< [m]
+  TimeTable temperature = {};                    ///< above that of the unstressed length [K]; empty: none
+  std::optional<CaseVelocity> velocity = {};
 };
 
 struct CaseBody {
@@ -138,6 +151,7 @@ struct CaseSupport {
   std::string path;
   std::string beam;
   Place at;
+  std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
 };
 
 struct CaseSlidingJoint {
@@ -147,6 +161,7 @@ struct CaseSlidingJoint {
   double speed = 0;                    ///< initial [m/s]
   std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
   TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
+  std::optional<double> release;       ///< held until then [s]
   bool continuous_slope = true;
   bool leave_at_end = true;  ///< false: stop
 };
@@ -163,8 +178,9 @@ struct CaseBeamJoint {
 struct CaseAnalysis {
   enum class Type { dynamic, statics } type = Type::dynamic;
   bool start_from_equilibrium = false;
-  double end_time = 0;         ///< [s]
-  std::optional<double> step;  ///< fixed steps [s]; else those of the integrator's tolerance
+  double end_time = 0;               ///< [s]; with load factors the last one
+  std::vector<double> load_factors;  ///< of a static analysis, increasing; empty: 1
+  std::optional<double> step;        ///< fixed steps [s]; else those of the integrator's tolerance
   IntegratorSettings integrator;
   LengthControl length_control;
 

@@ -30,6 +30,12 @@ Shape object(std::vector<Key> keys, std::vector<Alternatives> alternatives = {})
 Shape array(Shape item, int min_items = 0) {
   return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
 }
+/// What every step goes through: more are most likely a distribution.
+Shape short_array(Shape item) {
+  Shape shape = array(std::move(item));
+  shape.most_items = 10'000;
+  return shape;
+}
 Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::move(a), std::move(b)}}; }
 Shape choice(std::vector<std::string> choices) {
   return {.kind = Kind::choice, .choices = std::move(choices)};
@@ -44,7 +50,11 @@ Shape quantity(Dimension dimension, Range range = {}) {
 Shape vector(Dimension dimension, Range of_components = {}) {
   return {.kind = Kind::vector, .dimension = dimension, .range = std::move(of_components)};
 }
-Shape table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension}; }
+Shape table(Dimension dimension, Range range = {}) {
+  return {.kind = Kind::table, .dimension = dimension, .range = std::move(range)};
+}
+/// Rows [time, x, y, z].
+Shape vector_table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension, .values = 3}; }
 
 /// Rows [s, value].
 Shape table_over_length(Dimension dimension) {
@@ -154,12 +164,27 @@ Shape elements() {
       {{{"count", "max_length", "per_segment", "tolerance"}, false}});
 }
 
+Range temperature_range() { return {.lower = -1e4, .upper = 1e4, .reason = "a difference in kelvin"}; }
+
+Shape initial() {
+  const Shape velocity = object(
+      {{"translation", vector(Dimension::speed), "of the whole beam"},
+       {"rotation", vector(Dimension::angular_speed), "angular velocity of the whole beam"},
+       {"about", vector(Dimension::length), "a point of the axis of the rotation; the origin when omitted",
+        false, "rotation"},
+       {"along", quantity(Dimension::speed), "of the material along the drawn axis, towards its end"}});
+  return object(
+      {{"velocity", velocity, "the sum of its parts, as far as supports and joints let it", required}});
+}
+
 Shape beam() {
   const Shape material = object(
       {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
        {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
        {"damping", quantity(Dimension::time, plausible(0, 1e9)),
         "time c of the stress c E d(strain)/dt; 0 when omitted"},
+       {"thermal_expansion", quantity(Dimension::thermal_expansion, plausible(-1e-2, 1e-2)),
+        "strain per kelvin of the beam's `temperature`"},
        {"shear_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "of beams with torsion"},
        {"poissons_ratio", quantity(Dimension::number, {.lower = -0.99, .upper = 0.5}),
         "gives the shear modulus; 0.3 when neither is given"}},
@@ -196,6 +221,15 @@ Shape beam() {
         "the axial strain that carries: the quadratic with its values at the element's ends and its mean, or that at "
         "every point, as in the papers, which locks in slender beams; when omitted ends-and-mean, but pointwise with "
         "constant weights, without metric and with form virtual-work"},
+       {"unstressed_length", quantity(Dimension::length, positive()),
+        "length of the beam when it is free, if it is not drawn so: the drawing is then its place and, scaled, its "
+        "unstressed shape; the drawn length when omitted"},
+       {"temperature",
+        either(quantity(Dimension::temperature, temperature_range()),
+               table(Dimension::temperature, temperature_range())),
+        "how much warmer it is than when it has its unstressed length, or that over time; needs "
+        "material.thermal_expansion"},
+       {"initial", initial(), "how it moves at time 0; at rest when omitted"},
        {"form", choice({"variational", "virtual-work"}),
         "form of the forces on moving elements; virtual-work: the paper's, for comparison, which drifts; "
         "variational when omitted"},
@@ -233,7 +267,10 @@ Shape support() {
         "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
         "position and roll of a beam with torsion",
         required},
-       {"name", name(), "heads the columns of its reaction"}});
+       {"name", name(), "heads the columns of its reaction"},
+       {"motion", vector_table(Dimension::length),
+        "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the first "
+        "and the last"}});
 }
 
 Shape sliding_joint() {
@@ -246,11 +283,13 @@ Shape sliding_joint() {
        {"at", place(), "where it starts", required},
        {"speed", quantity(Dimension::speed), "initial speed in reference arc length; 0 when omitted"},
        {"motion", motion, "prescribes the body's place, from `at` on"},
+       {"release", quantity(Dimension::time, positive()),
+        "time until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
         "whether the beam may have a kink at the body; continuous when omitted"},
        {"at_beam_end", choice({"leave", "stop"}),
         "what happens at the beam's end; leave when omitted; at a supported end a body stops"}},
-      {{{"speed", "motion"}, false}});
+      {{{"speed", "motion", "release"}, false}});
 }
 
 Shape beam_joint() {
@@ -273,22 +312,28 @@ Shape analysis() {
                "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
               {"max", quantity(Dimension::number, {.lower = 1, .open = true}),
                "a longer element is split; 1.15 when omitted (the paper's: 1.5)"}});
-  return object({{"type", choice({"dynamic", "static"}), "motion or equilibrium; dynamic when omitted"},
-                 {"initial", choice({"as-drawn", "equilibrium"}),
-                  "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
-                  "when omitted"},
-                 {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
-                  "end of the motion; a dynamic analysis needs it"},
-                 {"step", quantity(Dimension::time, time_step()),
-                  "fixed step; with ida how often length control looks"},
-                 {"tolerance",
-                  quantity(Dimension::number,
-                           {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-                  "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
-                 {"integrator", integrator, "time integrator"},
-                 {"length_control", length_control,
-                  "when elements beside a sliding body change, in standard element lengths"}},
-                {{{"step", "tolerance"}, false}});
+  return object(
+      {{"type", choice({"dynamic", "static"}), "motion or equilibrium; dynamic when omitted"},
+       {"initial", choice({"as-drawn", "equilibrium"}),
+        "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
+        "when omitted"},
+       {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
+        "end of the motion; a dynamic analysis needs it"},
+       {"step", quantity(Dimension::time, time_step()),
+        "fixed step; with ida how often length control looks"},
+       {"tolerance",
+        quantity(Dimension::number,
+                 {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
+        "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
+       {"load_steps",
+        either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
+        "of a static analysis: the state under each of these factors of the loads (weight is always there "
+        "in full), increasing, or under so many equal steps up to 1; tables over time are read at the "
+        "factor"},
+       {"integrator", integrator, "time integrator"},
+       {"length_control", length_control,
+        "when elements beside a sliding body change, in standard element lengths"}},
+      {{{"step", "tolerance"}, false}});
 }
 
 Shape output() {
@@ -309,7 +354,7 @@ Shape output() {
   return object({{"every", quantity(Dimension::time, time_step()),
                   "time between stored frames; a hundredth of `end_time` when omitted"},
                  {"cad", cad, "deformed axes as CAD files"},
-                 {"probes", array(probe), "points whose motion is stored"},
+                 {"probes", short_array(probe), "points whose motion is stored"},
                  {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
                  {"report", boolean(), "report.html; true when omitted"}});
 }
@@ -355,7 +400,7 @@ const Shape& case_keys() {
                "acceleration of gravity; [0, 0, -9.81] when omitted"},
               {"beams", array(beam(), 1), "the beams", required},
               {"bodies", array(body()), "point masses that slide on beams; each needs a sliding joint"},
-              {"loads", array(load()), "forces and moments"},
+              {"loads", short_array(load()), "forces and moments"},
               {"supports", array(support()), "where beams are held"},
               {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
               {"joints", array(beam_joint()), "which beams are joined to each other"},

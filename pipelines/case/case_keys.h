@@ -31,7 +31,7 @@ struct Alternatives {
 struct Shape {
   enum class Kind {
     object,    ///< `keys`, `alternatives`
-    array,     ///< of `items[0]`, at least `min_items`
+    array,     ///< of `items[0]`, at least `min_items`, at most `most_items`
     either,    ///< the one of `items` that fits the value's JSON type
     choice,    ///< one of `choices`
     text,      ///< not empty
@@ -40,17 +40,19 @@ struct Shape {
     integer,   ///< in `range`
     quantity,  ///< a number in SI units or a text with a unit, in `range`
     vector,    ///< three quantities
-    table,     ///< rows [`argument`, quantity], the first increasing
+    table,     ///< rows [`argument`, quantity, ...], the first increasing, with `values` quantities
   };
   Kind kind = Kind::object;
   std::vector<Key> keys;
   std::vector<Alternatives> alternatives = {};
   std::vector<Shape> items = {};
   int min_items = 0;
+  int most_items = 1'000'000;
   std::vector<std::string> choices = {};
   Dimension dimension = Dimension::number;
   Range range = {};
   Dimension argument = Dimension::time;
+  int values = 1;
 };
 
 /// One key of an object.

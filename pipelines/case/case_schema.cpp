@@ -43,12 +43,40 @@ Json quantity_schema(Dimension dimension) {
           {"description", "in " + si_unit(dimension) + ", or a text with a unit"}};
 }
 
+Json rows_schema(const Shape& shape) {
+  Json row = Json::array({quantity_schema(shape.argument)});
+  for (int i = 0; i < shape.values; ++i) row.push_back(quantity_schema(shape.dimension));
+  const int size = 1 + shape.values;
+  return {{"type", "array"},
+          {"items", {{"type", "array"}, {"prefixItems", row}, {"minItems", size}, {"maxItems", size}}},
+          {"minItems", 1}};
+}
+
+/// A table whose rows are in a file.
+Json file_schema(const Shape& shape) {
+  const int columns = 1 + shape.values;
+  return {{"type", "object"},
+          {"properties",
+           {{"file", {{"type", "string"}, {"minLength", 1}, {"description", "CSV file with the rows"}}},
+            {"columns",
+             {{"type", "array"},
+              {"items", {{"type", "string"}}},
+              {"minItems", columns},
+              {"maxItems", columns},
+              {"description", "names of the columns; the first ones when omitted"}}}}},
+          {"required", {"file"}},
+          {"additionalProperties", false}};
+}
+
 Json schema_of(const Shape& shape) {
   switch (shape.kind) {
     case Kind::object:
       return object_schema(shape);
     case Kind::array:
-      return {{"type", "array"}, {"items", schema_of(shape.items[0])}, {"minItems", shape.min_items}};
+      return {{"type", "array"},
+              {"items", schema_of(shape.items[0])},
+              {"minItems", shape.min_items},
+              {"maxItems", shape.most_items}};
     case Kind::either:
       return {{"anyOf", {schema_of(shape.items[0]), schema_of(shape.items[1])}}};
     case Kind::choice:
@@ -69,13 +97,7 @@ Json schema_of(const Shape& shape) {
               {"minItems", 3},
               {"maxItems", 3}};
     case Kind::table:
-      return {{"type", "array"},
-              {"items",
-               {{"type", "array"},
-                {"prefixItems", {quantity_schema(shape.argument), quantity_schema(shape.dimension)}},
-                {"minItems", 2},
-                {"maxItems", 2}}},
-              {"minItems", 1}};
+      return {{"anyOf", {rows_schema(shape), file_schema(shape)}}};
   }
   return {};
 }

@@ -68,6 +68,15 @@ inline TimeTable time_table(const Json& object, const char* key) {
   return table;
 }
 
+/// Rows [time, x, y, z].
+inline std::vector<DisplacementTable::Row> vector_table(const Json& object, const char* key) {
+  std::vector<DisplacementTable::Row> table;
+  for (const Json& row : part(object, key))
+    table.emplace_back(row[0].get<double>(),
+                       Eigen::Vector3d(row[1].get<double>(), row[2].get<double>(), row[3].get<double>()));
+  return table;
+}
+
 /// The enumerator whose text stands under the key; the first one if there is none.
 template <class Enum>
 Enum chosen(const Json& object, const char* key, const std::vector<std::pair<const char*, Enum>>& values) {

@@ -13,7 +13,7 @@ namespace nurbeam {
 
 namespace {
 
-using Exponents = std::array<int, 3>;  // of metre, kilogram, second
+using Exponents = std::array<int, 4>;  // of metre, kilogram, second, kelvin
 
 /// One unit is multiply / divide SI units: two factors, so that "350 ms" is the number nearest to 0.35.
 struct Unit {
@@ -58,6 +58,8 @@ const std::vector<Unit>& units() {
       {"bar", 1e5, 1, {-1, 1, -2}},
       {"psi", pound_force, inch * inch, {-1, 1, -2}},
       {"ksi", 1e3 * pound_force, inch * inch, {-1, 1, -2}},
+      {"K", 1, 1, {0, 0, 0, 1}},
+      {"rad", 1, 1, {0, 0, 0}},
   };
   return table;
 }
@@ -97,6 +99,12 @@ DimensionInfo info(Dimension dimension) {
       return {"force per length", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, lbf/ft"};
     case Dimension::pressure:
       return {"modulus", "Pa", {-1, 1, -2}, "Pa, kPa, MPa, GPa, N/mm^2, bar, psi, ksi"};
+    case Dimension::temperature:
+      return {"difference of temperature", "K", {0, 0, 0, 1}, "K"};
+    case Dimension::thermal_expansion:
+      return {"coefficient of thermal expansion", "1/K", {0, 0, 0, -1}, "m/m/K, mm/m/K, um/m/K"};
+    case Dimension::angular_speed:
+      return {"angular velocity", "rad/s", {0, 0, -1}, "rad/s"};
   }
   return {};
 }
@@ -177,7 +185,8 @@ UnitProduct parse_units(const std::string& text) {
     }
     product.multiply *= std::pow(power > 0 ? unit->multiply : unit->divide, std::abs(power));
     product.divide *= std::pow(power > 0 ? unit->divide : unit->multiply, std::abs(power));
-    for (int i = 0; i < 3; ++i) product.exponents[i] += power * unit->exponents[i];
+    for (std::size_t i = 0; i < product.exponents.size(); ++i)
+      product.exponents[i] += power * unit->exponents[i];
     sign = 1;
   }
   if (sign == -1) product.error = "a unit is missing after \"/\"";

@@ -19,7 +19,10 @@ enum class Dimension {
   force,
   moment,
   force_per_length,
-  pressure
+  pressure,
+  temperature,
+  thermal_expansion,
+  angular_speed
 };
 
 /// "length", "force per length", ...

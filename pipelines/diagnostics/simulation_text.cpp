@@ -105,6 +105,8 @@ std::string name_of(EventKind kind) {
       return "carried as a node";
     case EventKind::left_beam:
       return "left the beam";
+    case EventKind::released:
+      return "released";
     case EventKind::stopped_at_end:
       break;
   }

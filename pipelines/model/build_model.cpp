@@ -43,6 +43,13 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   std::vector<Eigen::Vector3d> forces = {resolved.gravity}, moments;
   for (const CaseLoad& load : resolved.loads)
     (load.kind == CaseLoad::Kind::moment ? moments : forces).push_back(load.value);
+  for (const CaseSupport& support : resolved.supports)
+    for (const auto& [time, displacement] : support.motion) forces.push_back(displacement);
+  for (const CaseBeam& beam : resolved.beams)
+    if (beam.velocity) {
+      forces.push_back(beam.velocity->translation);
+      moments.push_back(beam.velocity->rotation);
+    }
   const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(),
                                    [](const CaseBeam& beam) { return beam.torsion; });
   return model_frame(segments, forces, moments, torsion);
@@ -117,9 +124,37 @@ void check_nothing_slides(const CaseBeam& beam, const std::vector<CaseSlidingJoi
           "body \"" + joint.body + "\" slides on this beam; only a beam without torsion can carry it");
 }
 
+// The unstressed over the drawn length.
+double free_stretch(const CaseBeam& from, const ReferenceCurve& drawn, Findings& findings) {
+  constexpr double least = 0.5, most = 2;
+  const double stretch = from.unstressed_length.value_or(drawn.length()) / drawn.length();
+  if (stretch < least || stretch > most)
+    findings.error(from.path + ".unstressed_length",
+                   "is " + text_of(*from.unstressed_length) + " m of a beam that is drawn " +
+                       text_of(drawn.length()) + " m long; must be between " +
+                       text_of(least * drawn.length()) + " and " + text_of(most * drawn.length()) +
+                       " m (is the unit right?)");
+  return std::clamp(stretch, least, most);
+}
+
+// Expansion is relative to the unstressed length, Green's strain to the drawn one.
+void add_temperature(const CaseBeam& from, BeamProperties& properties) {
+  const double stretch_squared = 1 + 2 * properties.free_strain.constant;
+  for (const auto& [time, kelvin] : from.temperature)
+    properties.free_strain.thermal.emplace_back(time,
+                                                stretch_squared * *from.material.thermal_expansion * kelvin);
+}
+
+std::optional<BeamVelocity> initial_velocity(const CaseBeam& from, const ModelFrame& frame) {
+  if (!from.velocity) return {};
+  return BeamVelocity{frame.direction_to_local(from.velocity->translation),
+                      frame.moment_to_local(from.velocity->rotation), frame.to_local(from.velocity->about),
+                      from.velocity->along};
+}
+
 // A beam without elements yet.
 Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& curve,
-             const BeamSection& drawn, Findings& findings) {
+             const BeamSection& drawn, const ModelFrame& frame, Findings& findings) {
   const CaseSection& section = drawn.section;
   if (from.metric == Metric::label) check_without_metric(from, resolved.sliding_joints, findings);
   const Section sizes{.area = section.area,
@@ -140,6 +175,9 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
       stresses = section_of_beam->stresses;
     }
   }
+  if (const double stretch = free_stretch(from, curve, findings); stretch != 1)
+    properties = properties.with_free_stretch(stretch);
+  add_temperature(from, properties);
   const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
           .curve = oriented(from, stress_free, findings),
@@ -150,12 +188,32 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
           .weights = from.element == ElementKind::ale_ancf ? WeightRule::ones : from.weights,
           .merge = from.merge,
           .form = from.form,
+          .velocity = initial_velocity(from, frame),
           .home = {}};
 }
 
+// A motion begins where the beam is drawn, unless the run begins with a search for rest.
+std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const CaseSupport& support,
+                                           const ModelFrame& frame, Findings& findings) {
+  if (support.motion.empty()) return {};
+  std::vector<DisplacementTable::Row> rows;
+  for (const auto& [time, displacement] : support.motion)
+    rows.emplace_back(time, frame.direction_to_local(displacement));
+  const DisplacementTable motion(std::move(rows));
+  const double start = motion.at(0).value.norm();
+  const CaseAnalysis& analysis = resolved.analysis;
+  if (start > 0 && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
+    findings.error(
+        support.path + ".motion",
+        "is " + text_of(start) +
+            " m from the drawn place at time 0, but the run starts as drawn; begin with [0, 0, 0, 0], "
+            "or start with \"initial\": \"equilibrium\"");
+  return motion;
+}
+
 // Adds the supports of one beam; returns their places in reference arc length [m].
-std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam, BeamModel& model,
-                                 Findings& findings) {
+std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
+                                 const ModelFrame& frame, BeamModel& model, Findings& findings) {
   const double same = same_place * beam.measured.length();
   std::vector<double> places;
   std::vector<std::string> paths;
@@ -175,14 +233,22 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
                      "\"fork\" holds the roll of a section; beam \"" + support.beam +
                          "\" has no torsion: give it \"torsion\": true, or use \"pinned\"");
     model.constraints.push_back(Support{b, beam.material_coordinate(s),
-                                        support.type == CaseSupport::Type::clamped, fork, support.name});
+                                        support.type == CaseSupport::Type::clamped, fork, support.name,
+                                        motion_of(resolved, support, frame, findings)});
   }
   return places;
 }
 
+// The factor of a load over time; in load steps time is the load factor.
+TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
+  if (!load.time.empty() || analysis.load_factors.empty()) return load.time;
+  const double last = analysis.load_factors.back();
+  return last > 0 ? TimeTable{{0, 0}, {last, last}} : TimeTable{{0, 0}};
+}
+
 // That of a force or a moment at a place.
 LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, const Eigen::Vector3d& value,
-                          Findings& findings) {
+                          const CaseAnalysis& analysis, Findings& findings) {
   const double s = beam.material_coordinate(place_on(beam, load.at, load.path, findings));
   const double speed = load.moving_speed.value_or(0);
   const bool at_start = s == 0, at_end = s == beam.curve.length();
@@ -192,7 +258,7 @@ LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, co
                                                   "nothing; it moves from the " +
                                                   (at_start ? "start" : "end") + " into the beam with a " +
                                                   (at_start ? "positive" : "negative") + " speed");
-  return {b, s, speed, value, load.follower, load.time};
+  return {b, s, speed, value, load.follower, time_of(load, analysis)};
 }
 
 // A beam without torsion takes no moment along itself.
@@ -212,17 +278,19 @@ void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
     const DrawnBeam& beam = beams[b];
     switch (load.kind) {
       case CaseLoad::Kind::force:
-        model.forces.push_back(
-            PointLoad{load_at_place(load, b, beam, frame.direction_to_local(load.value), findings)});
+        model.forces.push_back(PointLoad{
+            load_at_place(load, b, beam, frame.direction_to_local(load.value), resolved.analysis, findings)});
         break;
       case CaseLoad::Kind::moment: {
-        const LoadAtPlace moment = load_at_place(load, b, beam, frame.moment_to_local(load.value), findings);
+        const LoadAtPlace moment =
+            load_at_place(load, b, beam, frame.moment_to_local(load.value), resolved.analysis, findings);
         if (!resolved.beams[b].torsion) check_moment(load, moment, beam, findings);
         model.forces.push_back(Moment{moment});
         break;
       }
       case CaseLoad::Kind::force_per_length:
-        model.forces.push_back(LineLoad{b, frame.direction_to_local(load.value), load.time});
+        model.forces.push_back(
+            LineLoad{b, frame.direction_to_local(load.value), time_of(load, resolved.analysis)});
         break;
     }
   }
@@ -256,7 +324,7 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     from.torsion = from.torsion || is_given_torsion(from, drawn->curve, resolved.sliding_joints);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!section) break;
-    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, findings));
+    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     if (built.frame.dimension == 3)
       built.sources.back().torsion =
@@ -275,7 +343,7 @@ void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
                   const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model, Findings& findings) {
   for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
     const CaseBeam& from = resolved.beams[b];
-    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], model, findings);
+    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], frame, model, findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
     model.beams[b].home =
         divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), frame, findings);

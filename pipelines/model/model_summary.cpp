@@ -93,23 +93,44 @@ Json to_json(const SlidingJoint& joint, const BeamModel& model) {
           {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};
 }
 
-Json to_json(const CaseLoad& load) {
-  const char* kind = load.kind == CaseLoad::Kind::force    ? "force [N]"
-                     : load.kind == CaseLoad::Kind::moment ? "moment [N m]"
-                                                           : "force per length [N/m]";
-  return {{"beam", load.beam},
+Json to_json(const TimeTable& table) {
+  Json rows = Json::array();
+  for (const auto& [time, value] : table) rows.push_back({time, value});
+  return rows;
+}
+
+Json load_json(const char* kind, int beam, const Eigen::Vector3d& value, const TimeTable& time,
+               const BuiltModel& built) {
+  return {{"beam", built.model.beams[beam].name},
           {"kind", kind},
-          {"value", to_json(load.value)},
-          {"direction", load.follower ? "turns with the beam" : "fixed"},
-          {"place speed [m/s]", load.moving_speed.value_or(0)},
-          {"in time", load.time.empty() ? "constant" : "table"}};
+          {"value", to_json(built.frame.direction_to_world(value))},
+          {"in time", time.empty() ? "constant" : "table"},
+          {"factor", to_json(time)}};
+}
+
+Json load_json(const char* kind, const LoadAtPlace& load, const BuiltModel& built) {
+  Json json = load_json(kind, load.beam, load.value, load.time, built);
+  json.update({{"direction", load.follower ? "turns with the beam" : "fixed"},
+               {"s [m]", load.s},
+               {"place speed [m/s]", load.speed}});
+  return json;
+}
+
+Json to_json(const PointLoad& load, const BuiltModel& built) { return load_json("force [N]", load, built); }
+Json to_json(const Moment& load, const BuiltModel& built) { return load_json("moment [N m]", load, built); }
+Json to_json(const LineLoad& load, const BuiltModel& built) {
+  Json json = load_json("force per length [N/m]", load.beam, load.value, load.time, built);
+  json.update({{"direction", "fixed"}, {"place speed [m/s]", 0}});
+  return json;
 }
 
 }  // namespace
 
 std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   const BeamModel& model = built.model;
+  const bool statics = case_file.analysis.type == CaseAnalysis::Type::statics;
   Json json = {
+      {"analysis", statics ? "static" : "dynamic"},
       {"dimension", model.dimension},
       {"plane_normal",
        model.dimension == 2 ? to_json(built.frame.direction_to_world(Eigen::Vector3d::UnitZ())) : Json()},
@@ -127,7 +148,12 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
     if (const auto* support = std::get_if<Support>(&constraint))
       json["supports"].push_back(to_json(*support, built));
   for (const SlidingJoint& joint : model.joints) json["joints"].push_back(to_json(joint, model));
-  for (const CaseLoad& load : case_file.loads) json["loads"].push_back(to_json(load));
+  for (const Force& force : model.forces)
+    std::visit(
+        [&](const auto& load) {
+          if constexpr (requires { to_json(load, built); }) json["loads"].push_back(to_json(load, built));
+        },
+        force);
   // Names from files need not be valid UTF-8: what is not is replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

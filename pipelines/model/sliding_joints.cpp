@@ -134,6 +134,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                        place_on(beams[b], joint.at, joint.path, findings),
                        joint.speed,
                        std::nullopt,
+                       joint.release,
                        joint.continuous_slope,
                        joint.leave_at_end};
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
@@ -147,6 +148,8 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       added.motion = steady_motion(added.s, *joint.motion_speed, curve, resolved.analysis.end_time);
     if (joint.leave_at_end && resolved.analysis.type != CaseAnalysis::Type::statics)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
+    if (joint.release && resolved.analysis.type == CaseAnalysis::Type::statics)
+      findings.warn(joint.path + ".release", "has no effect in a static analysis: bodies come to rest");
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);
     model.joints.push_back(std::move(added));

@@ -65,10 +65,10 @@ struct Field {
   Eigen::Vector4d (*values)(const ElementRecord& element);
   double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
 
-  /// A value as a byte: 0 is min, 255 is max.
-  unsigned char byte_of(double value) const {
+  /// A value as a whole number: 0 is min, 65535 is max.
+  std::uint16_t number_of(double value) const {
     const double part = max > min && !std::isnan(value) ? (value - min) / (max - min) : 0;
-    return static_cast<unsigned char>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
+    return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(part, 0.0, 1.0)));
   }
 };
 
@@ -116,8 +116,8 @@ struct Survey {
   std::size_t bytes_of_frame(std::size_t frame) const {
     std::size_t bytes = columns.size() * sizeof(double);
     for (const std::size_t n : element_counts[frame])
-      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + (sections ? 12 * n : 0)) +
-               4 * n * fields.size();
+      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + (sections ? 12 * n : 0) + n + 1) +
+               sizeof(std::uint16_t) * 4 * n * fields.size();
     return bytes;
   }
 
@@ -161,9 +161,18 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
         const Eigen::Matrix<float, 3, 4> d1 = element.d1.cast<float>();
         append(bytes, d1.data(), 12);
       }
+    const auto add_place = [&](double s) {
+      const auto place = static_cast<float>(s);
+      append(bytes, &place, 1);
+    };
+    for (const ElementRecord& element : beam.elements) add_place(element.s_start);
+    add_place(beam.elements.back().s_end);
     for (const Field& field : survey.fields) {
       for (const ElementRecord& element : beam.elements)
-        for (const double value : field.values(element)) bytes.push_back(field.byte_of(value));
+        for (const double value : field.values(element)) {
+          const std::uint16_t number = field.number_of(value);
+          append(bytes, &number, 1);
+        }
     }
   }
   return bytes;

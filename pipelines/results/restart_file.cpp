@@ -237,6 +237,10 @@ void exchange(Archive& archive, Checkpoint& p) {
       [](double& place, auto& slot) { slot(place); });
   exchange_rows(archive, "joint_modes", "node, point, stopped, free", p.plan.modes,
                 [](JointMode& mode, auto& slot) { slot(mode); });
+  std::vector<int> held(p.plan.held.begin(), p.plan.held.end());
+  exchange_rows(archive, "held_joints", "whether a body waits for its release", held,
+                [](int& each, auto& slot) { slot(each); });
+  p.plan.held.assign(held.begin(), held.end());
   exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", p.plan.weights,
                 [](MeshPlan::Weights& weights, auto& slot) {
                   slot(weights.beam);

@@ -50,7 +50,9 @@ CadOutput::CadOutput(const CaseFile& case_file, const BuiltModel& built, std::fi
     : case_(case_file), built_(built), directory_(std::move(directory)), frame_(first_frame) {}
 
 bool CadOutput::is_wanted(const Snapshot& frame) const {
-  if (case_.analysis.type == CaseAnalysis::Type::statics || case_.output.cad_at_all_times) return true;
+  const bool one_frame =
+      case_.analysis.type == CaseAnalysis::Type::statics && case_.analysis.load_factors.empty();
+  if (one_frame || case_.output.cad_at_all_times) return true;
   const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
   return std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
                      [&](double t) { return std::abs(t - frame.time) < same; });
@@ -60,12 +62,17 @@ bool CadOutput::is_wanted(const Snapshot& frame) const {
 std::string CadOutput::stem(const Snapshot& frame) const {
   std::ostringstream name;
   name << "deformed";
-  if (case_.analysis.type == CaseAnalysis::Type::statics) return name.str();
+  const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
+  const std::vector<double>& factors = case_.analysis.load_factors;
+  if (statics && (factors.empty() || (!case_.output.cad_at_all_times && case_.output.cad_times.size() == 1)))
+    return name.str();
   if (!case_.output.cad_at_all_times) {
     name << "_t" << frame.time;
     return name.str();
   }
-  const double last = case_.analysis.end_time / case_.output.every.value_or(case_.analysis.end_time);
+  const double last = statics
+                          ? static_cast<double>(factors.size())
+                          : case_.analysis.end_time / case_.output.every.value_or(case_.analysis.end_time);
   const std::size_t width = std::max<std::size_t>(4, std::to_string(std::lround(last) + 1).size());
   name << '_' << std::setfill('0') << std::setw(int(width)) << frame_;
   return name.str();

@@ -56,7 +56,7 @@ SimulationOptions simulation_options(const CaseFile& c) {
   options.step = a.step;
   options.integrator = a.integrator;
   options.length_control = a.length_control;
-  if (!options.statics) options.output_times = output_times(c);
+  options.output_times = options.statics ? a.load_factors : output_times(c);
   return options;
 }
 

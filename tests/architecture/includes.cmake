@@ -16,7 +16,7 @@ set(pipelines_may_include pipelines cad_import fem nurbs solver)
 set(nurbs_floors . smooth)
 set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
-set(fem_floors material element comparison structure mesh constraints forces model system motion)
+set(fem_floors . material element comparison structure mesh constraints forces model system motion)
 set(pipelines_floors diagnostics case section model results report run verification papers command)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.

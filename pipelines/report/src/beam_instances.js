@@ -71,7 +71,7 @@ export class BeamInstances {
       }
     }
     if (uniforms.map) {
-      this.values = new InstancedBufferAttribute(new Uint8Array(4 * most_elements), 4, true);
+      this.values = new InstancedBufferAttribute(new Uint16Array(4 * most_elements), 4, true);
       this.values.setUsage(DynamicDrawUsage);
       this.geometry.setAttribute('values', this.values);
       defines.COLOURED = '';
@@ -96,7 +96,7 @@ export class BeamInstances {
       this.axes.needsUpdate = true;
     }
     if (this.values) {
-      copy(this.values.array, shapes.bytes, shapes.field_start(frame, beam, field), 4 * n);
+      copy(this.values.array, shapes.shorts, shapes.field_start(frame, beam, field), 4 * n);
       this.values.needsUpdate = true;
     }
     this.geometry.instanceCount = n;

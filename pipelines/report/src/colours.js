@@ -21,11 +21,10 @@ function table(stops) {
 }
 
 /**
- * How a field is coloured over the whole run: `low` and `high` are the values at the ends of the map. Fields of both
- * signs get a diverging map that is symmetric about zero.
+ * How a field is coloured whose values go from min to max: `low` and `high` are the values at the ends of the map.
+ * Fields of both signs get a diverging map that is symmetric about zero.
  */
-export function field_colours(field) {
-  const { min, max } = field;
+export function field_colours({ min, max }) {
   const largest = Math.max(-min, max);
   const both_signs = min < -0.01 * largest && max > 0.01 * largest;
   return both_signs

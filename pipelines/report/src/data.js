@@ -67,8 +67,9 @@ class Column {
  *   points   3 n + 1 control points (x, y, z), float32, relative to `origin`; neighbours share their end
  *   weights  4 n, float32, if `rational`
  *   axes     12 n, float32, if `sections`: the section's x axis d1 at u = 0, 1/3, 2/3, 1; not a number without torsion
- *   fields   per field 4 n bytes: the values at u = 0, 1/3, 2/3, 1, from 0 at the field's least value of the
- *            whole run to 255 at its greatest
+ *   places   n + 1, float32: reference arc length s of the nodes
+ *   fields   per field 4 n uint16: the values at u = 0, 1/3, 2/3, 1, from 0 at the field's least value of the
+ *            whole run to 65535 at its greatest
  */
 class Shapes {
   constructor(description, text, beam_count, frame_count) {
@@ -96,6 +97,7 @@ class Shapes {
     }
     this.bytes = new Uint8Array(most_bytes);
     this.floats = new Float32Array(this.bytes.buffer, 0, most_bytes >> 2);
+    this.shorts = new Uint16Array(this.bytes.buffer, 0, most_bytes >> 1);
     this.starts = new Uint32Array(beam_count);
     this.frame = -1;
   }
@@ -103,10 +105,10 @@ class Shapes {
     return this.counts[frame * this.beam_count + beam];
   }
   bytes_of(n) {
-    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0)
-      + 4 * n * this.fields.length;
+    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0) + 4 * (n + 1)
+      + 8 * n * this.fields.length;
   }
-  /** Decodes a frame into `bytes` (also seen as `floats`), the beams from `starts` on. */
+  /** Decodes a frame into `bytes` (also seen as `floats` and `shorts`), the beams from `starts` on. */
   load(frame) {
     if (frame === this.frame) {
       return;
@@ -128,10 +130,59 @@ class Shapes {
   axes_start(frame, beam) {
     return this.weights_start(frame, beam) + (this.rational ? 4 * this.count(frame, beam) : 0);
   }
+  places_start(frame, beam) {
+    const n = this.count(frame, beam);
+    return this.axes_start(frame, beam) + (this.sections ? 12 * n : 0);
+  }
+  /** Where a field's values start in `shorts`. */
   field_start(frame, beam, field) {
     const n = this.count(frame, beam);
-    return this.starts[beam] + 12 * (3 * n + 1) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0)
-      + 4 * n * field;
+    return 2 * (this.places_start(frame, beam) + n + 1) + 4 * n * field;
+  }
+  /** The value that a number in `shorts` stands for. */
+  field_value(field, short) {
+    const { min, max } = this.fields[field];
+    return min + ((max - min) * short) / 65535;
+  }
+  /** Least and greatest value of a field in the loaded frame. */
+  field_range(field) {
+    let low = 65535, high = 0;
+    for (let beam = 0; beam < this.beam_count; ++beam) {
+      const start = this.field_start(this.frame, beam, field), end = start + 4 * this.count(this.frame, beam);
+      for (let i = start; i < end; ++i) {
+        low = Math.min(low, this.shorts[i]);
+        high = Math.max(high, this.shorts[i]);
+      }
+    }
+    return { min: this.field_value(field, low), max: this.field_value(field, high) };
+  }
+  /** Position (relative to `origin`) and tangent of a beam of the loaded frame at s; nothing where it does not reach. */
+  point(beam, s) {
+    const n = this.count(this.frame, beam), places = this.places_start(this.frame, beam);
+    const slack = 1e-6 * (this.floats[places + n] - this.floats[places]);
+    if (s < this.floats[places] - slack || s > this.floats[places + n] + slack) {
+      return null;
+    }
+    let element = 0;
+    while (element < n - 1 && this.floats[places + element + 1] <= s) { ++element; }
+    const [a, b] = [this.floats[places + element], this.floats[places + element + 1]];
+    const u = Math.min(Math.max((s - a) / (b - a), 0), 1), v = 1 - u;
+    const basis = [v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u];
+    const slopes = [-v * v, v * v - 2 * u * v, 2 * u * v - u * u, u * u];
+    const point = [0, 0, 0], slope = [0, 0, 0];
+    let w = 0, dw = 0;
+    for (let k = 0; k < 4; ++k) {
+      const weight = this.rational ? this.floats[this.weights_start(this.frame, beam) + 4 * element + k] : 1;
+      const from = this.points_start(beam) + 9 * element + 3 * k;
+      w += basis[k] * weight;
+      dw += slopes[k] * weight;
+      for (let c = 0; c < 3; ++c) {
+        point[c] += basis[k] * weight * this.floats[from + c];
+        slope[c] += slopes[k] * weight * this.floats[from + c];
+      }
+    }
+    const r = point.map((x) => x / w), t = slope.map((x, c) => x - dw * r[c]), size = Math.hypot(...t) || 1;
+    return { r, t: t.map((x) => x / size) };
   }
 }
 

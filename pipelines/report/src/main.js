@@ -3,7 +3,7 @@ import { css_gradient } from './colours.js';
 import { read_data } from './data.js';
 import { common_exponent, element, number, scaled_unit } from './format.js';
 import { Player, speeds } from './player.js';
-import { Plot, plots_of } from './plots.js';
+import { AlongPlot, Plot, plots_of } from './plots.js';
 import { diagnostics_list, energy_table, events_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
 import { View } from './view.js';
 
@@ -11,10 +11,14 @@ const $ = (id) => document.getElementById(id);
 const data = read_data();
 const { time, run } = data;
 const is_static = time.length === 1;
+const is_load_steps = run?.model?.analysis === 'static' && !is_static;  // time is the load factor
+const time_unit = is_load_steps ? '' : 's';
 const events = run?.events ?? [];
 
 let view = null;
 let plots = [];
+let along = null;
+let choose_colours = () => {};
 let last_reading = 0;
 const player = new Player(time, show);
 
@@ -22,9 +26,13 @@ const player = new Player(time, show);
 function show() {
   const { frame, playing } = player;
   view?.show(frame);
+  if ($('instant').checked) {
+    choose_colours();
+  }
   for (const plot of plots) {
     plot.move_cursor(frame);
   }
+  along?.show(frame);
   const now = performance.now();
   if (!playing || now - last_reading > 100) {
     last_reading = now;
@@ -36,7 +44,7 @@ function show_numbers(frame) {
   for (const plot of plots) {
     plot.read(frame);
   }
-  const text = `${time[frame].toFixed(time_decimals)} s`;
+  const text = is_load_steps ? `load × ${time[frame].toFixed(time_decimals)}` : `${time[frame].toFixed(time_decimals)} s`;
   $('time').textContent = text;
   $('slider').value = frame;
   $('slider').setAttribute('aria-valuetext', text);
@@ -65,7 +73,8 @@ function set_header() {
   $('status').classList.toggle('early', !done);
   $('status').title = run.status;
   const warnings = run.diagnostics.filter(({ severity }) => severity !== 'note').length;
-  const facts = [is_static ? 'static equilibrium' : `${number(time[0])} to ${number(time[time.length - 1])} s`,
+  const facts = [is_static ? 'static equilibrium'
+    : is_load_steps ? `static equilibrium, loads times ${number(time[0])} to ${number(time[time.length - 1])}` : `${number(time[0])} to ${number(time[time.length - 1])} s`,
     is_static ? null : `${time.length} frames`,
     warnings ? `${warnings} warning${warnings > 1 ? 's' : ''}` : null, `nurbeam ${run.nurbeam}`];
   $('facts').textContent = facts.filter(Boolean).join(' · ');
@@ -94,23 +103,28 @@ function start_view() {
   }
   const fields = data.shapes.fields;
   $('field').append(...fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
-  $('field').value = is_static ? 0 : fields.findIndex(({ name }) => name === 'speed');
-  const choose = () => {
-    const { low, high, stops } = view.set_field(Number($('field').value));
+  $('field').value = is_static || is_load_steps ? 0 : fields.findIndex(({ name }) => name === 'speed');
+  choose_colours = () => {
+    const { low, high, stops } = view.set_field(Number($('field').value), $('instant').checked);
     $('legend-bar').style.background = css_gradient(stops);
     const exponent = common_exponent(Math.max(Math.abs(low), Math.abs(high)));
     const texts = [low, (low + high) / 2, high].map((value) => number(value / 10 ** exponent, 4));
     ['legend-low', 'legend-middle', 'legend-high'].forEach((id, i) => { $(id).textContent = texts[i]; });
     $('legend-unit').textContent = scaled_unit(exponent, '');
   };
-  $('field').addEventListener('change', choose);
-  choose();
+  for (const id of ['field', 'instant']) {
+    $(id).addEventListener('change', choose_colours);
+  }
+  choose_colours();
+  $('loads-choice').hidden = !run?.model?.loads?.length;
   for (const button of document.querySelectorAll('[data-view]')) {
     button.addEventListener('click', () => view.set_view(button.dataset.view));
   }
   $('fit').addEventListener('click', () => view.fit());
   $('sections').parentElement.hidden = !view.has_sections;
-  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', sections: 'show_sections' };
+  const options = {
+    paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', loads: 'show_loads', sections: 'show_sections',
+  };
   for (const [id, method] of Object.entries(options)) {
     $(id).addEventListener('change', () => view[method]($(id).checked));
     view[method]($(id).checked);
@@ -217,10 +231,20 @@ function start_plots() {
     player.playing = false;
     player.go_to_time(t);
   };
-  plots = plots_of(data).map((description) => {
-    const plot = new Plot(description, time, marks, pick);
+  const descriptions = plots_of(data, is_load_steps);
+  plots = descriptions.map((description) => {
+    const plot = new Plot({ ...description, time_unit }, time, marks, pick);
     plot.element.dataset.plot = description.id;
     return plot;
+  });
+  // Small motions of what is far from the origin are seen only from where they start.
+  const positions = plots.map((plot, i) => ({ plot, values: descriptions[i].series.map(({ values }) => values) }))
+    .filter((_, i) => descriptions[i].is_position);
+  $('from-start-choice').hidden = positions.length === 0;
+  $('from-start').addEventListener('change', () => {
+    for (const { plot, values } of positions) {
+      plot.set_values($('from-start').checked ? values.map((x) => x.map((value) => value - x[0])) : values);
+    }
   });
   $('plots').append(...plots.map((plot) => plot.element));
   const layout = () => {
@@ -236,10 +260,22 @@ function start_plots() {
   }
 }
 
+function start_along() {
+  if (data.shapes.fields.length === 0) {
+    $('along').closest('section').hidden = true;
+    return;
+  }
+  along = new AlongPlot(data);
+  $('along').append(along.element);
+  const layout = () => along.layout(Math.floor(along.element.clientWidth - 24));
+  new ResizeObserver(layout).observe($('along'));
+  layout();
+}
+
 function fill_tables() {
   const fill = (id, ...parts) => $(id).append(...parts.flat().filter(Boolean));
   fill('model', model_tables(run));
-  fill('extremes', [extremes_table(run, (time) => player.go_to_time(time))]);
+  fill('extremes', [extremes_table(run, time_unit, (time) => player.go_to_time(time))]);
   fill('balance', energy_table(data));
   fill('events', events_table(events, (t) => player.go_to_time(t)));
   fill('warnings', diagnostics_list(run?.diagnostics ?? []));
@@ -250,6 +286,7 @@ set_header();
 set_notes();
 start_view();
 start_player();
+start_along();
 start_plots();
 fill_tables();
 show();

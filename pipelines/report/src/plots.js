@@ -1,4 +1,4 @@
-// Time histories as small SVG pictures with one common cursor.
+// Time histories as small SVG pictures with one common cursor, and fields along the beams.
 import { line_style } from './colours.js';
 import { common_exponent, element, number, number_beside, round_down, scaled_unit } from './format.js';
 
@@ -87,13 +87,47 @@ function path_of(time, values, x_of, y_of, pixels, steps) {
   return path;
 }
 
+/** Axes, their ticks and labels, for a width in pixels; x_of and y_of turn values into pixels. */
+function axes(svg, width, [start, end], [low, high], x_unit) {
+  const x_of = (x) => left + ((x - start) / (end - start)) * (width - left - right);
+  const y_of = (value) => height - bottom - ((value - low) / (high - low)) * (height - bottom - top);
+  svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+  svg.setAttribute('width', width);
+  const y_ticks = ticks(low, high, 4), x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90)));
+  const y_labels = labels_of(y_ticks), x_labels = labels_of(x_ticks);
+  const parts = [];
+  y_ticks.values.forEach((value, i) => {
+    const y = y_of(value).toFixed(1);
+    parts.push(element('svg:line', { class: value === 0 ? 'zero' : 'gridline', x1: left, x2: width - right, y1: y, y2: y }),
+      element('svg:text', { x: left - 6, y, dy: '0.35em', 'text-anchor': 'end' }, y_labels.texts[i]));
+  });
+  x_ticks.values.forEach((value, i) => {
+    const x = x_of(value).toFixed(1);
+    const last = i === x_ticks.values.length - 1 && x > width - right - 12;
+    parts.push(element('svg:line', { class: 'tick', x1: x, x2: x, y1: height - bottom, y2: height - bottom + 4 }),
+      element('svg:text', { x: last ? width - 2 : x, y: height - 7, 'text-anchor': last ? 'end' : 'middle' },
+        x_labels.texts[i] + (last ? ` ${scaled_unit(x_labels.exponent, x_unit)}` : '')));
+  });
+  if (y_labels.exponent) {
+    parts.push(element('svg:text', { x: 2, y: height - 7 }, scaled_unit(y_labels.exponent, '')));
+  }
+  parts.push(element('svg:line', { class: 'axis', x1: left, x2: width - right, y1: height - bottom, y2: height - bottom }));
+  return { parts, x_of, y_of };
+}
+
+/** A line and a name, for the key of a plot. */
+const key_of = (name, style, reading) => element('li', {}, element('svg:svg', { class: 'swatch', viewBox: '0 0 26 8',
+  'aria-hidden': 'true' }, element('svg:line', { x1: 0, x2: 26, y1: 4, y2: 4, style: `stroke: ${style.colour}`,
+  'stroke-dasharray': style.dash })), element('span', { class: 'key' }, name), reading);
+
 export class Plot {
   /**
    * series: [{ name, values, style }]; marks: { mesh: [times], body: [{ time, text }] };
    * pick(time) is called when the reader points at a time.
    */
-  constructor({ title, unit, series, steps = false }, time, marks, pick) {
+  constructor({ title, unit, series, steps = false, time_unit = 's' }, time, marks, pick) {
     this.title = title;
+    this.time_unit = time_unit;
     this.unit = unit;
     this.series = series;
     this.largest = 0;
@@ -105,10 +139,7 @@ export class Plot {
     this.cursor = element('svg:line', { class: 'cursor', y1: top - 4, y2: height - bottom });
     this.keys = series.map((one) => {
       const reading = element('data', { class: 'reading' });
-      const swatch = element('svg:svg', { class: 'swatch', viewBox: '0 0 26 8', 'aria-hidden': 'true' },
-        element('svg:line', { x1: 0, x2: 26, y1: 4, y2: 4, style: `stroke: ${one.style.colour}`,
-          'stroke-dasharray': one.style.dash }));
-      return { reading, item: element('li', {}, swatch, element('span', { class: 'key' }, one.name), reading) };
+      return { reading, item: key_of(one.name, one.style, reading) };
     });
     this.element = element('figure', { class: 'card plot-card' },
       element('figcaption', {}, element('span', { class: 'plot-title' }, title), ' ',
@@ -131,6 +162,15 @@ export class Plot {
     });
   }
 
+  /** Takes other values in place of those it has, in the order of its series. */
+  set_values(values) {
+    this.series.forEach((one, i) => { one.values = values[i]; });
+    const { width } = this;
+    this.width = undefined;
+    this.layout(width);
+    this.read(this.frame ?? 0);
+  }
+
   /** Draws for a width in pixels. */
   layout(width) {
     if (width === this.width || width < 120) {
@@ -141,30 +181,8 @@ export class Plot {
     const [low, high] = range_of(this.series);
     this.largest = Math.max(Math.abs(low), Math.abs(high));
     const [start, end] = [time[0], time[time.length - 1]];
-    const x_of = (t) => left + ((t - start) / (end - start)) * (width - left - right);
-    const y_of = (value) => height - bottom - ((value - low) / (high - low)) * (height - bottom - top);
+    const { parts, x_of, y_of } = axes(svg, width, [start, end], [low, high], this.time_unit);
     this.x_of = x_of;
-    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    svg.setAttribute('width', width);
-    const y_ticks = ticks(low, high, 4), x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90)));
-    const y_labels = labels_of(y_ticks), x_labels = labels_of(x_ticks);
-    const parts = [];
-    y_ticks.values.forEach((value, i) => {
-      const y = y_of(value).toFixed(1);
-      parts.push(element('svg:line', { class: value === 0 ? 'zero' : 'gridline', x1: left, x2: width - right, y1: y, y2: y }),
-        element('svg:text', { x: left - 6, y, dy: '0.35em', 'text-anchor': 'end' }, y_labels.texts[i]));
-    });
-    x_ticks.values.forEach((value, i) => {
-      const x = x_of(value).toFixed(1);
-      const last = i === x_ticks.values.length - 1 && x > width - right - 12;
-      parts.push(element('svg:line', { class: 'tick', x1: x, x2: x, y1: height - bottom, y2: height - bottom + 4 }),
-        element('svg:text', { x: last ? width - 2 : x, y: height - 7, 'text-anchor': last ? 'end' : 'middle' },
-          x_labels.texts[i] + (last ? ` ${scaled_unit(x_labels.exponent, 's')}` : '')));
-    });
-    if (y_labels.exponent) {
-      parts.push(element('svg:text', { x: 2, y: height - 7 }, scaled_unit(y_labels.exponent, '')));
-    }
-    parts.push(element('svg:line', { class: 'axis', x1: left, x2: width - right, y1: height - bottom, y2: height - bottom }));
     parts.push(element('svg:path', { class: 'mesh-marks',
       d: this.marks.mesh.map((t) => `M${x_of(t).toFixed(1)} ${height - bottom}v-5`).join('') }));
     for (const { time: t, text } of this.marks.body) {
@@ -198,8 +216,80 @@ export class Plot {
   }
 }
 
+/** A field over the reference arc length of the beams, in the shown frame. */
+export class AlongPlot {
+  constructor(data) {
+    this.data = data;
+    const { shapes, names } = data;
+    this.svg = element('svg:svg', { class: 'plot', role: 'img', height });
+    this.select = element('select', { id: 'along-field', 'aria-label': 'What is shown along the beams' },
+      ...shapes.fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
+    this.readings = names.beams.map(() => element('data', { class: 'reading' }));
+    this.styles = names.beams.map((_, i) => line_style(i));
+    this.element = element('figure', { class: 'card plot-card', 'data-plot': 'along' },
+      element('figcaption', {}, this.select),
+      element('ul', { class: 'keys' }, ...names.beams.map((name, i) => key_of(name, this.styles[i], this.readings[i]))), this.svg);
+    const wanted = ['bending moment', 'axial force'].map((name) => shapes.fields.findIndex((f) => f.name === name));
+    this.select.value = wanted.find((i) => i >= 0) ?? 0;
+    this.select.addEventListener('change', () => this.layout(this.width, true));
+    this.frame = 0;
+  }
+
+  layout(width, again = false) {
+    if ((width === this.width && !again) || width < 120) {
+      return;
+    }
+    this.width = width;
+    const { data: { shapes }, svg } = this;
+    this.field = Number(this.select.value);
+    const { name, unit, min, max } = shapes.fields[this.field];
+    let end = 0;
+    shapes.load(this.frame);
+    for (let beam = 0; beam < shapes.beam_count; ++beam) {
+      const first = shapes.places_start(this.frame, beam), n = shapes.count(this.frame, beam);
+      end = Math.max(end, shapes.floats[first + n]);
+    }
+    // One scale for the whole run: a curve that grows is seen to grow.
+    const { parts, x_of, y_of } = axes(svg, width, [0, end], range_of([{ values: [min, max] }]), 'm');
+    this.x_of = x_of;
+    this.y_of = y_of;
+    this.paths = this.styles.map((style) => element('svg:path',
+      { class: 'history', style: `stroke: ${style.colour}`, 'stroke-dasharray': style.dash }));
+    svg.replaceChildren(...parts, ...this.paths);
+    svg.setAttribute('aria-label', `${name} [${unit}] over the reference arc length of the beams`);
+    this.show(this.frame);
+  }
+
+  show(frame) {
+    this.frame = frame;
+    if (!this.x_of) {
+      return;
+    }
+    const { shapes } = this.data;
+    shapes.load(frame);
+    const { min, max } = shapes.fields[this.field];
+    const largest = Math.max(Math.abs(min), Math.abs(max));
+    this.paths.forEach((path, beam) => {
+      const n = shapes.count(frame, beam), places = shapes.places_start(frame, beam);
+      const values = shapes.field_start(frame, beam, this.field);
+      let d = '', low = Infinity, high = -Infinity, at_low = 0, at_high = 0;
+      for (let i = 0; i < 4 * n; ++i) {
+        const a = shapes.floats[places + (i >> 2)], b = shapes.floats[places + (i >> 2) + 1];
+        const s = a + ((b - a) * (i & 3)) / 3, value = shapes.field_value(this.field, shapes.shorts[values + i]);
+        d += `${i ? 'L' : 'M'}${this.x_of(s).toFixed(1)} ${this.y_of(value).toFixed(1)}`;
+        if (value < low) { low = value; at_low = s; }
+        if (value > high) { high = value; at_high = s; }
+      }
+      path.setAttribute('d', d);
+      const text = (value, s) => `${number_beside(value, largest, 4)} at ${number(s, 4)} m`;
+      this.readings[beam].value = `${low} ${high}`;
+      this.readings[beam].textContent = `${text(low, at_low)} … ${text(high, at_high)}`;
+    });
+  }
+}
+
 /** What there is to plot of a run; nothing is read before it is drawn. */
-export function plots_of(data) {
+export function plots_of(data, at_rest = false) {
   const { names, time } = data;
   const values = (of, index, name) => data.column(of, index, name).values;
   const length_of = (of, index, parts) => {
@@ -209,10 +299,10 @@ export function plots_of(data) {
   const points = [...names.bodies.map((name, index) => ({ of: 'body', name, index })),
     ...names.probes.map((name, index) => ({ of: 'probe', name, index }))];
   const plots = points.map(({ of, name, index }) => ({
-    title: `Position of ${name}`, unit: 'm', id: `${of}-${index}-position`,
+    title: `Position of ${name}`, unit: 'm', id: `${of}-${index}-position`, is_position: true,
     series: ['x', 'y', 'z'].map((part) => ({ name: part, values: values(of, index, part) })),
   }));
-  if (points.length) {
+  if (points.length && !at_rest) {
     plots.push({ title: 'Speed', unit: 'm/s', id: 'speed',
       series: points.map(({ of, name, index }) => ({ name, values: length_of(of, index, ['vx', 'vy', 'vz']) })) });
   }
@@ -251,6 +341,9 @@ export function plots_of(data) {
   const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'];
   plots.push({ title: 'Energy', unit: 'J', id: 'energy',
     series: energies.map((name) => ({ name, values: values('energy', 0, name) })) });
+  if (at_rest) {
+    return plots;
+  }
   const total = values('energy', 0, 'total');
   plots.push({ title: 'Change of the total energy', unit: 'J', id: 'energy-change',
     series: [{ name: 'total − start', values: total.map((e) => e - total[0]), style: 5 }] });

@@ -80,7 +80,8 @@ export function model_tables(run) {
     table_of('Bodies', model.bodies),
     table_of('Supports', model.supports.map(({ outward, ...rest }) => rest)),
     table_of_columns('Sliding joints', model.joints),
-    table_of('Loads', model.loads),
+    table_of('Loads', model.loads,
+      ['beam', 'kind', 'value', 's [m]', 'direction', 'place speed [m/s]', 'in time']),
   ];
 }
 
@@ -101,8 +102,8 @@ export function energy_table(data) {
   ];
 }
 
-/** The extremes of the run; a button shows their time. */
-export function extremes_table(run, go_to_time) {
+/** The extremes of the run; a button shows their time, or the load factor that has no unit. */
+export function extremes_table(run, time_unit, go_to_time) {
   const extremes = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
   if (!extremes.length) {
     return element('p', { class: 'none' }, 'run.json of these results does not name any.');
@@ -118,7 +119,7 @@ export function extremes_table(run, go_to_time) {
     unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': 'Extremes' },
     element('table', {}, element('thead', {}, element('tr', {}, head('quantity'), element('th', { scope: 'col', class: 'number' }, 'value'),
-      head('unit'), head('at s', 'm'), moving ? head('at time', 's') : null)), element('tbody', {}, ...rows)));
+      head('unit'), head('at s', 'm'), moving ? head(time_unit ? 'at time' : 'at load', time_unit || '–') : null)), element('tbody', {}, ...rows)));
 }
 
 /** Events with a button that shows their time. */

@@ -9,6 +9,7 @@ import { SectionMesh } from './section_mesh.js';
 import { ViewCamera, steer, view_directions } from './camera.js';
 import { field_colours } from './colours.js';
 import { element, number, round_down } from './format.js';
+import { LoadArrows } from './loads.js';
 
 const y_axis = new Vector3(0, 1, 0);
 
@@ -57,6 +58,7 @@ export class View {
       pixels: { value: new Vector2(1, 1) },
       width: { value: 1 },
       map: { value: this.map_texture() },
+      range: { value: new Vector2(0, 1) },
       outline: { value: [0, 0, 0] },
     };
     this.pinned_size = [];  // objects drawn in pixels: their scale follows the zoom
@@ -65,6 +67,8 @@ export class View {
     this.add_beams();
     this.add_supports(model?.supports ?? []);
     this.add_points();
+    this.loads = new LoadArrows(model?.loads ?? [], data, (symbol) => this.pinned_size.push(symbol));
+    this.scene.add(this.loads.object);
     this.add_overlay(overlay, model?.['gravity [m/s^2]']);
     steer(canvas, this.view, () => this.moved());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
@@ -138,7 +142,7 @@ export class View {
       if (!shapes.sections || !outlines[beam]) {
         return null;
       }
-      const mesh = new SectionMesh(shapes.most_elements[beam], shapes.rational, outlines[beam], this.uniforms.map);
+      const mesh = new SectionMesh(shapes.most_elements[beam], shapes.rational, outlines[beam], this.uniforms);
       this.scene.add(mesh.object);
       return mesh;
     });
@@ -164,6 +168,7 @@ export class View {
   }
 
   add_supports(supports) {
+    this.supports = [];
     this.support_material = new MeshLambertMaterial();
     const cone = new ConeGeometry(0.62, 1, 4, 1).translate(0, -0.5, 0);  // its tip at the support
     const block = new BoxGeometry(1.5, 0.45, 1.5).translate(0, 0.225, 0);  // behind the clamped end
@@ -171,6 +176,7 @@ export class View {
       const clamped = support.type === 'clamped';
       const symbol = this.add_symbol(clamped ? block : cone, this.support_material, 17);
       symbol.position.copy(this.local(support['position [m]']));
+      this.supports.push({ symbol, beam: this.data.names.beams.indexOf(support.beam), s: support['s [m]'] });
       const away = clamped ? new Vector3(...support.outward) : this.directions.up;
       symbol.quaternion.copy(new Quaternion().setFromUnitVectors(y_axis, away));
     }
@@ -248,24 +254,29 @@ export class View {
     this.show(this.frame);
   }
 
+  show_loads(visible) {
+    this.loads.object.visible = visible;
+    this.redraw();
+  }
+
   show_start(visible) {
     this.ghost.visible = visible;
     this.redraw();
   }
 
-  set_field(field) {
+  /** Colours by a field, over its range in the whole run or, with `instant`, in the shown frame. */
+  set_field(field, instant) {
     this.field = field;
-    const colours = field_colours(this.data.shapes.fields[field]);
-    const { min, max } = this.data.shapes.fields[field];
-    // Bytes go from min to max, the map from low to high.
+    const { shapes } = this.data;
+    const { min, max } = shapes.fields[field];
+    shapes.load(this.frame);
+    const colours = field_colours(instant ? shapes.field_range(field) : { min, max });
     const texture = this.uniforms.map.value;
-    const span = colours.high - colours.low;
-    for (let k = 0; k < 256; ++k) {
-      const value = min + ((max - min) * k) / 255;
-      const i = span > 0 ? Math.round((255 * (value - colours.low)) / span) : 0;
-      texture.image.data.set(colours.table.subarray(4 * i, 4 * i + 4), 4 * k);
-    }
+    texture.image.data.set(colours.table);
     texture.needsUpdate = true;
+    // The shader has values from 0 at min to 1 at max.
+    const span = max > min ? max - min : 1;
+    this.uniforms.range.value.set((colours.low - min) / span, Math.max((colours.high - colours.low) / span, 1e-9));
     this.show(this.frame);
     return colours;
   }
@@ -280,6 +291,7 @@ export class View {
     this.body_material.color = colour('--scene-body');
     this.probe_material.color = colour('--scene-probe');
     this.path_material.color = colour('--scene-path');
+    this.loads.material.color = colour('--scene-load');
     this.node_material.color = colour('--scene-node');
     // The beams' own shaders write the colours of the screen as they are.
     const screen_colour = (name) => colour(name).convertLinearToSRGB().toArray();
@@ -340,6 +352,13 @@ export class View {
       symbol.position.set(histories[0].values[frame] - shapes.origin[0], histories[1].values[frame] - shapes.origin[1],
         histories[2].values[frame] - shapes.origin[2]);
     }
+    for (const { symbol, beam, s } of this.supports) {
+      const place = shapes.point(beam, s);
+      if (place) {
+        symbol.position.set(...place.r);
+      }
+    }
+    this.loads.show(frame);
     if (this.nodes.visible) {
       this.load_nodes(frame);
     }

@@ -469,12 +469,37 @@ void collect_used_keys(const Json& value, std::set<std::string>& keys) {
 }
 
 TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
-  std::set<std::string> in_schema,
-      in_cases = {
-          "extreme_fibre", "profile",  "in_plane",       "from",    "longest",          "chains",
-          "tolerance",     "polyline", "speed",          "torsion", "orientation",      "up",
-          "frenet",        "twist",    "second_moments", "product", "torsion_constant", "shear_modulus",
-          "poissons_ratio"};
+  std::set<std::string> in_schema, in_cases = {"extreme_fibre",
+                                               "profile",
+                                               "in_plane",
+                                               "from",
+                                               "longest",
+                                               "chains",
+                                               "tolerance",
+                                               "polyline",
+                                               "speed",
+                                               "torsion",
+                                               "orientation",
+                                               "up",
+                                               "frenet",
+                                               "twist",
+                                               "second_moments",
+                                               "product",
+                                               "torsion_constant",
+                                               "shear_modulus",
+                                               "poissons_ratio",
+                                               "thermal_expansion",
+                                               "temperature",
+                                               "unstressed_length",
+                                               "initial",
+                                               "velocity",
+                                               "translation",
+                                               "rotation",
+                                               "about",
+                                               "along",
+                                               "release",
+                                               "load_steps",
+                                               "columns"};
   collect_keys(Json::parse(case_file_schema()), in_schema);
   collect_used_keys(Json::parse(full_case, nullptr, true, true), in_cases);
   EXPECT_EQ(in_schema, in_cases);

@@ -1,4 +1,4 @@
-#include "fem/structure/time_table.h"
+#include "fem/time_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,18 @@
+#pragma once
+#include "fem/time_table.h"
+
+namespace nurbeam {
+
+/// Green's axial strain against the drawing at which a section carries no axial force: of a beam that is
+/// longer or shorter than it is drawn, or warmer. Along the whole beam the same.
+struct FreeStrain {
+  double constant = 0;     ///< (lambda^2 - 1)/2 of the unstressed length over the drawn one, lambda
+  TimeTable thermal = {};  ///< of expansion, over time; empty: none
+
+  double at(double t) const {
+    return thermal.empty() ? constant : constant + value_and_slope(thermal, t).first;
+  }
+  bool is_none() const { return constant == 0 && thermal.empty(); }
+};
+
+}  // namespace nurbeam

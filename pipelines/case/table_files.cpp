@@ -1,0 +1,189 @@
+#include "pipelines/case/table_files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Kind = Shape::Kind;
+constexpr std::size_t most_rows = 1'000'000;
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t\r\""), end = text.find_last_not_of(" \t\r\"");
+  return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
+}
+
+// What stands between commas or, where there are none, semicolons, tabs or spaces.
+std::vector<std::string> cells_of(const std::string& line) {
+  char separator = ' ';
+  for (const char each : {',', ';', '\t'})
+    if (separator == ' ' && line.find(each) != std::string::npos) separator = each;
+  std::vector<std::string> cells;
+  std::string cell;
+  for (const char c : line + separator) {
+    if (c != separator) {
+      cell += c;
+    } else if (separator != ' ' || !trimmed(cell).empty()) {
+      cells.push_back(trimmed(cell));
+      cell.clear();
+    }
+  }
+  return cells;
+}
+
+std::optional<double> number_of(const std::string& cell) {
+  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  const char* const end = cell.data() + cell.size();
+  double number = 0;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  const bool whole = error == std::errc{} && stop == end && std::isfinite(number);
+  return whole ? std::optional(number) : std::nullopt;
+}
+
+// The lines of a file that count, with their numbers.
+struct Line {
+  int number;
+  std::vector<std::string> cells;
+};
+
+class TableFile {
+ public:
+  TableFile(const Json& json, std::string path, const std::filesystem::path& directory, std::size_t columns,
+            Findings& findings)
+      : json_(json), path_(std::move(path)), count_(columns), findings_(findings) {
+    if (has_text("file")) file_ = (directory / json["file"].get<std::string>()).lexically_normal();
+  }
+
+  // Null where there is something wrong.
+  Json rows() {
+    for (const auto& [key, unused] : json_.items())
+      if (key != "file" && key != "columns")
+        return failed(child(path_, key),
+                      "unknown key " + in_quotes(key) + known_names(key, {"file", "columns"}));
+    if (!has_text("file")) return failed(path_, "\"file\" is missing (a CSV file with the rows)");
+    if (!read()) return nullptr;
+    if (!choose_columns()) return nullptr;
+    Json rows = Json::array();
+    for (const Line& line : lines_) {
+      Json row = Json::array();
+      for (const std::size_t column : columns_) {
+        const auto number =
+            column < line.cells.size() ? number_of(line.cells[column]) : std::optional<double>{};
+        if (!number)
+          return failed(
+              child(path_, "file"),
+              where(line) + "column " + std::to_string(column + 1) +
+                  (column < line.cells.size() ? " is " + in_quotes(line.cells[column]) : " is missing") +
+                  "; expected a number in SI units");
+        row.push_back(*number);
+      }
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+
+ private:
+  bool has_text(const char* key) const { return json_.contains(key) && json_[key].is_string(); }
+
+  Json failed(const std::string& at, const std::string& message) {
+    findings_.error(at, message);
+    return nullptr;
+  }
+  std::string where(const Line& line) const {
+    return in_quotes(file_.string()) + ", line " + std::to_string(line.number) + ": ";
+  }
+
+  bool read() {
+    std::error_code ignored;
+    std::ifstream stream(file_);
+    if (!std::filesystem::is_regular_file(file_, ignored) || !stream) {
+      findings_.error(child(path_, "file"), "there is no file " + in_quotes(file_.string()) +
+                                                "; expected a CSV file, relative to the case file");
+      return false;
+    }
+    std::string text;
+    for (int number = 1; std::getline(stream, text); ++number) {
+      if (number == 1 && text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+      if (trimmed(text).empty() || trimmed(text).starts_with('#')) continue;
+      Line line{number, cells_of(text)};
+      const bool names = lines_.empty() && header_.empty() && !number_of(line.cells.front());
+      if (names)
+        header_ = line.cells;
+      else
+        lines_.push_back(std::move(line));
+      if (lines_.size() > most_rows) {
+        findings_.error(child(path_, "file"),
+                        in_quotes(file_.string()) + " has more than " + std::to_string(most_rows) + " rows");
+        return false;
+      }
+    }
+    if (!lines_.empty()) return true;
+    findings_.error(child(path_, "file"), in_quotes(file_.string()) + " has no rows of numbers");
+    return false;
+  }
+
+  // By their names; without them the first ones.
+  bool choose_columns() {
+    if (!json_.contains("columns")) {
+      for (std::size_t i = 0; i < count_; ++i) columns_.push_back(i);
+      return true;
+    }
+    const Json& names = json_["columns"];
+    const bool texts = names.is_array() && std::all_of(names.begin(), names.end(),
+                                                       [](const Json& name) { return name.is_string(); });
+    if (!texts || names.size() != count_) {
+      findings_.error(child(path_, "columns"),
+                      "expected the names of " + std::to_string(count_) + " columns");
+      return false;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto name = names[i].get<std::string>();
+      const auto found = std::find(header_.begin(), header_.end(), name);
+      if (found == header_.end()) {
+        findings_.error(child(child(path_, "columns"), i),
+                        in_quotes(file_.string()) + (header_.empty() ? " has no line with names of columns"
+                                                                     : " has no column " + in_quotes(name) +
+                                                                           known_names(name, header_)));
+        return false;
+      }
+      columns_.push_back(static_cast<std::size_t>(found - header_.begin()));
+    }
+    return true;
+  }
+
+  const Json& json_;
+  std::string path_;
+  std::size_t count_;
+  Findings& findings_;
+  std::filesystem::path file_;
+  std::vector<std::string> header_;
+  std::vector<Line> lines_;
+  std::vector<std::size_t> columns_;
+};
+
+}  // namespace
+
+void put_in_tables(const Shape& shape, Json& value, const std::string& path,
+                   const std::filesystem::path& directory, Findings& findings) {
+  if (shape.kind == Kind::object && value.is_object()) {
+    for (const Key& key : shape.keys)
+      if (value.contains(key.name))
+        put_in_tables(key.shape, value[key.name], child(path, key.name), directory, findings);
+  } else if (shape.kind == Kind::array && value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      put_in_tables(shape.items[0], value[i], child(path, i), directory, findings);
+  } else if (shape.kind == Kind::either) {
+    for (const Shape& item : shape.items) put_in_tables(item, value, path, directory, findings);
+  } else if (shape.kind == Kind::table && value.is_object()) {
+    value = TableFile(value, path, directory, 1 + static_cast<std::size_t>(shape.values), findings).rows();
+  }
+}
+
+}  // namespace nurbeam
