@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/equilibrated_kkt.h"
+
 namespace nurbeam {
 
 namespace {
@@ -17,32 +19,12 @@ constexpr double zero_eigenvalue = 1e-13;
 /// drown the soft ones in round-off.
 constexpr double epsilon = 1e-2;
 
-/// Factors that bring the largest entry of each row and column of K, and of each row of G, to about 1.
-Vector equilibration(const Matrix& kkt, int n) {
-  Vector largest = Vector::Zero(kkt.cols());
-  for (int column = 0; column < n; ++column)
-    for (Matrix::InnerIterator entry(kkt, column); entry; ++entry)
-      if (entry.row() < n) largest[column] = std::max(largest[column], std::abs(entry.value()));
-  Vector factor = (largest.array() > 0).select(largest.cwiseSqrt().cwiseInverse(), 1.0);
-  Vector of_constraints = Vector::Zero(kkt.cols());
-  for (int column = 0; column < n; ++column)
-    for (Matrix::InnerIterator entry(kkt, column); entry; ++entry)
-      if (entry.row() >= n)
-        of_constraints[entry.row()] =
-            std::max(of_constraints[entry.row()], std::abs(entry.value() * factor[column]));
-  for (Eigen::Index i = n; i < kkt.cols(); ++i) factor[i] = of_constraints[i] > 0 ? 1 / of_constraints[i] : 1;
-  return factor;
-}
-
 /// [[K + shift, G'], [G, -epsilon]], equilibrated and factorised. By Sylvester's law it has as many negative
 /// pivots as the augmented K + shift + G'G/epsilon has negative eigenvalues, and one for each constraint.
 class ShiftedTangent {
  public:
-  ShiftedTangent(const Matrix& kkt, int n) : kkt_(kkt), factor_(equilibration(kkt, n)), n_(n) {
-    for (int column = 0; column < kkt_.cols(); ++column)
-      for (Matrix::InnerIterator entry(kkt_, column); entry; ++entry)
-        entry.valueRef() *= factor_[entry.row()] * factor_[column];
-    shifted_ = kkt_;
+  ShiftedTangent(const Matrix& kkt, int n)
+      : factor_(equilibration(kkt, n)), kkt_(scaled(kkt, factor_)), shifted_(kkt_), n_(n) {
     solver_.analyzePattern(shifted_);
   }
 
@@ -81,11 +63,13 @@ class ShiftedTangent {
   }
 
  private:
-  Matrix kkt_, shifted_;
   Vector factor_;
+  Matrix kkt_, shifted_;
   int n_;
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
+
+}  // namespace
 
 bool is_symmetric(const Matrix& kkt, int n) {
   const Matrix K = kkt.topLeftCorner(n, n);
@@ -93,8 +77,6 @@ bool is_symmetric(const Matrix& kkt, int n) {
   const double largest = K.coeffs().size() > 0 ? K.coeffs().abs().maxCoeff() : 0;
   return difference.nonZeros() == 0 || difference.coeffs().abs().maxCoeff() <= 1e-9 * largest;
 }
-
-}  // namespace
 
 std::optional<Stability> stability(const Matrix& kkt, int n) {
   if (!is_symmetric(kkt, n)) return std::nullopt;

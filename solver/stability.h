@@ -12,6 +12,9 @@ struct Stability {
   Eigen::VectorXd direction = {};
 };
 
+/// Whether K (n x n) of [[K, G'], [G, 0]] is symmetric, but for round-off: else there is no energy.
+bool is_symmetric(const Eigen::SparseMatrix<double>& kkt, int n);
+
 /// Of [[K, G'], [G, 0]] with K n x n. What round-off may have made of zero counts as zero. Nothing where K is
 /// not symmetric (follower loads): there is no energy.
 std::optional<Stability> stability(const Eigen::SparseMatrix<double>& kkt, int n);

@@ -7,6 +7,7 @@
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESData_NameEntity.hxx>
+#include <IGESDraw_CircArraySubfigure.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_EntityIterator.hxx>
@@ -94,7 +95,7 @@ void add_origins(const TopoDS_Shape& shape, TopAbs_ShapeEnum part, const Origin&
     if (known.appearance.layer.empty()) known.appearance.layer = origin.appearance.layer;
     if (known.appearance.colour.empty()) known.appearance.colour = origin.appearance.colour;
     known.appearance.hidden |= origin.appearance.hidden;
-    known.defective |= origin.defective && shape.ShapeType() != TopAbs_COMPOUND;
+    known.left_out |= origin.left_out && shape.ShapeType() != TopAbs_COMPOUND;
   }
 }
 
@@ -134,6 +135,23 @@ bool refers_to(const Handle(Standard_Transient) & start, const Entities& wanted,
     for (next.Start(); next.More(); next.Next()) open.push_back(next.Value());
   }
   return false;
+}
+
+// What circular arrays (414) repeat, which OpenCASCADE takes for curves of the file besides.
+Entities repeated_entities(const Interface_InterfaceModel& model, const Interface_Graph& graph) {
+  Entities repeated;
+  std::vector<Handle(Standard_Transient)> open;
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto array = Handle(IGESDraw_CircArraySubfigure)::DownCast(model.Value(i)))
+      open.push_back(array->BaseEntity());
+  while (!open.empty()) {
+    const Handle(Standard_Transient) entity = open.back();
+    open.pop_back();
+    if (entity.IsNull() || !repeated.insert(entity.get()).second) continue;
+    const auto next = references_of(entity, graph);
+    open.insert(open.end(), next.begin(), next.end());
+  }
+  return repeated;
 }
 
 /// An entity of the file and the shape that was made of it.
@@ -177,10 +195,21 @@ std::string entity_label(const Interface_InterfaceModel& model, const Handle(Sta
   return trimmed_text(model.StringLabel(entity)) + " " + std::string(type.substr(type.find('_') + 1));
 }
 
+std::vector<Handle(Standard_Transient)> references_of(const Handle(Standard_Transient) & entity,
+                                                      const Interface_Graph& graph) {
+  std::vector<Handle(Standard_Transient)> references;
+  Interface_EntityIterator next = graph.Shareds(entity);
+  for (next.Start(); next.More(); next.Next()) references.push_back(next.Value());
+  if (const auto array = Handle(IGESDraw_CircArraySubfigure)::DownCast(entity))
+    if (!array->BaseEntity().IsNull()) references.push_back(array->BaseEntity());
+  return references;
+}
+
 Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report) {
   Origins origins;
   const Entities defective = defective_splines(*reader.Model(), report);
   const Interface_Graph& graph = reader.WS()->Graph();
+  const Entities repeated = repeated_entities(*reader.Model(), graph);
   const Appearances appearances = appearances_of(*reader.WS());
   for (const auto& [entity, shape] : translated_entities(reader)) {
     const auto shown = appearances.find(entity.get());
@@ -189,7 +218,7 @@ Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport&
     if (names_its_edges(entity, shape)) {
       origin.name = entity_name(entity);
       origin.label = entity_label(*reader.Model(), entity);
-      origin.defective = refers_to(entity, defective, graph);
+      origin.left_out = repeated.contains(entity.get()) || refers_to(entity, defective, graph);
     }
     add_origins(shape, TopAbs_EDGE, origin, origins);
     if (shape.ShapeType() > TopAbs_FACE) continue;

@@ -1,10 +1,12 @@
 #pragma once
+#include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Standard_Transient.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <XSControl_Reader.hxx>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "cad_import/occt/appearance.h"
 #include "cad_import/report/import_report.h"
@@ -18,7 +20,7 @@ struct Origin {
   std::string name;
   std::string label;
   Appearance appearance;
-  bool defective = false;
+  bool left_out = false;  // defective, or only there to be copied
 };
 // By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
 using Origins = std::unordered_map<const TopoDS_TShape*, Origin>;
@@ -32,6 +34,10 @@ std::string entity_name(const opencascade::handle<Standard_Transient>& entity);
 /// "#17 TrimmedCurve" in STEP, "D15 BSplineCurve" in IGES.
 std::string entity_label(const Interface_InterfaceModel& model,
                          const opencascade::handle<Standard_Transient>& entity);
+
+/// What an entity refers to, and what a circular array (414) repeats, which OpenCASCADE's graph leaves out.
+std::vector<opencascade::handle<Standard_Transient>> references_of(
+    const opencascade::handle<Standard_Transient>& entity, const Interface_Graph& graph);
 
 /// Of an edge's own entity first, then of the smallest of those that hold it: wire or set, face, solid. Of a
 /// face's own entity, then of its shell or solid. B-spline curves of the file that cannot be are warned of.

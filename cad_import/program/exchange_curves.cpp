@@ -1,6 +1,7 @@
 #include "cad_import/program/exchange_curves.h"
 
 #include <BRep_Tool.hxx>
+#include <STEPConstruct_ExternRefs.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
@@ -14,6 +15,7 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <gp_Trsf.hxx>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -22,8 +24,11 @@
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/drawing_text.h"
+#include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
+#include "cad_import/step/bspline_text.h"
 #include "cad_import/step/encoded_text.h"
+#include "cad_import/step/representations.h"
 #include "cad_import/step/step_instances.h"
 #include "cad_import/step/step_units.h"
 
@@ -32,12 +37,13 @@ namespace {
 
 constexpr double import_tolerance = 1e-7;  ///< of ImportOptions [m]
 
-/// An edge as OpenCASCADE made it, and the instance it is made of.
-struct FoundEdge {
-  TopoDS_Edge edge;
+/// Where a drawn curve stands in the file.
+struct FoundCurve {
   int instance;
-  bool free;
-  int places;  // how often its part is placed
+  gp_Trsf to_world = {};   // of its part
+  bool backwards = false;  // against the instance
+  bool free = true;
+  int places = 1;  // how often its part is placed
 };
 
 bool is_same(const NurbsCurve& a, const NurbsCurve& b) {
@@ -56,10 +62,10 @@ int instance_of(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
   throw std::runtime_error("OpenCASCADE does not tell which instance of the file an edge came from");
 }
 
-FoundEdge find_edge(const NurbsCurve& drawn, const std::string& name, const STEPControl_Reader& reader,
-                    const TopoDS_Shape& shape) {
+std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const STEPControl_Reader& reader) {
   TopTools_IndexedDataMapOfShapeListOfShape faces;
-  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  const TopoDS_Shape shape = reader.OneShape();
+  if (!shape.IsNull()) TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
     if (BRep_Tool::Degenerated(edge)) continue;
@@ -70,49 +76,25 @@ FoundEdge find_edge(const NurbsCurve& drawn, const std::string& name, const STEP
     }
     int places = 0;
     for (int k = 1; k <= faces.Extent(); ++k) places += faces.FindKey(k).TShape() == edge.TShape();
-    return {edge, instance_of(edge, reader), faces(i).IsEmpty(), places};
+    return FoundCurve{instance_of(edge, reader), edge.Location().Transformation(),
+                      edge.Orientation() == TopAbs_REVERSED, faces(i).IsEmpty(), places};
   }
-  throw std::runtime_error("the curve '" + name + "' is not in the file as it was when it was imported");
+  return std::nullopt;
 }
 
-// ---------------------------------------------------------------------------------------- representation
-
-bool is_shape_representation(const StepInstances& step, int number) {
-  return step.keyword(number).ends_with("SHAPE_REPRESENTATION");
-}
-
-/// The shape representation that holds an instance.
-int representation_of(int instance, const StepInstances& step) {
-  std::set<int> seen;
-  std::vector<int> open{instance};
-  while (!open.empty()) {
-    const int number = open.back();
-    open.pop_back();
-    if (is_shape_representation(step, number)) return number;
-    if (!seen.insert(number).second) continue;
-    for (const int user : step.users(number)) open.push_back(user);
+/// One that OpenCASCADE makes no edge of.
+std::optional<FoundCurve> find_lost(const NurbsCurve& drawn, const STEPControl_Reader& reader) {
+  const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
+  const std::set<double> units = length_units_of(*model);
+  ImportReport report;
+  report.unit_in_metres = units.empty() ? metres_per_millimetre : *units.begin();
+  const auto recovered = add_lost_curves(reader, import_tolerance, report).recovered;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto known = recovered.find(model->Value(i).get());
+    if (known != recovered.end() && is_same(report.curves[known->second].curve, drawn))
+      return FoundCurve{model->IdentLabel(model->Value(i))};
   }
-  throw std::runtime_error("no shape representation holds #" + std::to_string(instance));
-}
-
-/// The representation of the product that `representation` belongs to: itself, or the one it is related to.
-int of_product(int representation, const StepInstances& step) {
-  const auto defines_product = [&](int number) {
-    const std::vector<int>& users = step.users(number);
-    return std::any_of(users.begin(), users.end(),
-                       [&](int user) { return step.keyword(user) == "SHAPE_DEFINITION_REPRESENTATION"; });
-  };
-  if (defines_product(representation)) return representation;
-  for (const int user : step.users(representation))
-    if (step.keyword(user) == "SHAPE_REPRESENTATION_RELATIONSHIP")
-      for (const int other : step.references(user))
-        if (other != representation && is_shape_representation(step, other) && defines_product(other))
-          return other;
-  return representation;
-}
-
-int context_of(int representation, const StepInstances& step) {
-  return step.references(representation).back();
+  return std::nullopt;
 }
 
 /// The length unit of a representation context [mm].
@@ -123,52 +105,9 @@ double unit_of(int context, const StepData_StepModel& model) {
   return 1;  // import_curves() takes a file without unit for one in millimetres, too
 }
 
-// ------------------------------------------------------------------------------------------ text of a curve
-
-std::string real(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17E", value);
-  return text;
-}
-
-template <typename Items, typename Text>
-std::string list_of(const Items& items, const Text& text) {
-  std::string list = "(";
-  for (const auto& item : items) list += (list.size() > 1 ? "," : "") + text(item);
-  return list + ")";
-}
-
-int add_point(const Eigen::Vector3d& point, StepInstances& step) {
-  return step.add("CARTESIAN_POINT(''," + list_of(point, real) + ")");
-}
-
-/// The value of a B-spline instance; its points are added. ISO 10303-42: b_spline_curve_with_knots, in a
-/// complex instance with rational_b_spline_curve where the weights differ.
-std::string bspline_value(const NurbsCurve& curve, const std::string& encoded_name, StepInstances& step) {
-  const auto reference = [](int number) { return "#" + std::to_string(number); };
-  std::vector<int> points;
-  std::vector<double> weights;
-  for (const auto& column : curve.control_points().colwise()) {
-    points.push_back(add_point(column.head<3>() / column(3), step));
-    weights.push_back(column(3));
-  }
-  std::vector<double> knots = curve.knots().knots();
-  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
-  const std::string form =
-      std::to_string(curve.degree()) + "," + list_of(points, reference) + ",.UNSPECIFIED.,.F.,.F.";
-  const std::string knot_lists =
-      list_of(knots, [&](double u) { return std::to_string(curve.knots().multiplicity(u)); }) + "," +
-      list_of(knots, real) + ",.UNSPECIFIED.";
-  const std::string name = "'" + encoded_name + "'";
-  if (!curve.is_rational()) return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + form + "," + knot_lists + ")";
-  return "(BOUNDED_CURVE()B_SPLINE_CURVE(" + form + ")B_SPLINE_CURVE_WITH_KNOTS(" + knot_lists +
-         ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + list_of(weights, real) +
-         ")REPRESENTATION_ITEM(" + name + "))";
-}
-
-/// The curve in the coordinates and the unit [mm] of the part that holds the edge.
-NurbsCurve in_part(const NurbsCurve& world, const TopoDS_Edge& edge, double unit) {
-  const gp_Trsf to_part = edge.Location().Transformation().Inverted();
+/// The curve in the coordinates and the unit [mm] of its part.
+NurbsCurve in_part(const NurbsCurve& world, const gp_Trsf& to_world, double unit) {
+  const gp_Trsf to_part = to_world.Inverted();
   Eigen::Matrix4Xd points = world.control_points();
   for (auto column : points.colwise()) {
     const Eigen::Vector3d p = millimetres_per_metre / column(3) * column.head<3>();
@@ -208,21 +147,12 @@ void exchange(int instance, const NurbsCurve& curve, StepInstances& step) {
     step.replace(instance, "EDGE_CURVE(" + name + first + last + number(geometry) + ",.T.)");
   } else if (kind == "TRIMMED_CURVE") {
     const int basis = put_in_place(step.references(instance).at(0), curve, step);
-    const auto trim = [](double u) { return "(PARAMETER_VALUE(" + real(u) + ")),"; };
+    const auto trim = [](double u) { return "(PARAMETER_VALUE(" + step_real(u) + ")),"; };
     step.replace(instance, "TRIMMED_CURVE(" + name + number(basis) + "," + trim(start) + trim(end) +
                                ".T.,.PARAMETER.)");
   } else {
     step.replace(instance, bspline_value(curve, step.encoded_name(instance), step));
   }
-}
-
-/// The set of curves that holds the instance, if one does.
-std::optional<int> set_of(int instance, const StepInstances& step) {
-  for (const int user : step.users(instance)) {
-    const std::string kind = step.keyword(user);
-    if (kind == "GEOMETRIC_CURVE_SET" || kind == "GEOMETRIC_SET") return user;
-  }
-  return std::nullopt;
 }
 
 /// Adds the element to the set: at the end of the list that is its last parameter.
@@ -232,13 +162,13 @@ void add_to_set(int element, int set, StepInstances& step) {
   step.replace(set, value.insert(end_of_list, ",#" + std::to_string(element)));
 }
 
-/// Into the set that holds the drawn curve, else into a representation of its own beside the part's.
-void add_beside(int instance, int representation, const NurbsCurve& curve, const std::string& name,
+/// Into this set of curves, else into a representation of its own beside the part's.
+void add_beside(int representation, std::optional<int> own, const NurbsCurve& curve, const std::string& name,
                 StepInstances& step) {
   const auto number = [](int n) { return "#" + std::to_string(n); };
   const std::string context = number(context_of(representation, step));
   const int geometry = step.add(bspline_value(curve, name, step));
-  if (const auto own = set_of(instance, step)) return add_to_set(geometry, *own, step);
+  if (own) return add_to_set(geometry, *own, step);
   const int set = step.add("GEOMETRIC_CURVE_SET('" + name + "',(" + number(geometry) + "))");
   const int wires = step.add("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('" + name + "',(" +
                              number(set) + ")," + context + ")");
@@ -247,7 +177,7 @@ void add_beside(int instance, int representation, const NurbsCurve& curve, const
 }
 
 /// Why the curve cannot change where it stands; nothing if it can.
-std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundEdge& found,
+std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundCurve& found,
                                     const StepInstances& step) {
   if (wanted.beside) return "the beam is a chain of several curves";
   if (!found.free) return "the edge bounds faces, which do not move with it";
@@ -258,26 +188,49 @@ std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundEdge
   return std::nullopt;
 }
 
-std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
-                               const TopoDS_Shape& shape, StepInstances& step) {
-  const FoundEdge found = find_edge(wanted.drawn, wanted.name, reader, shape);
+std::vector<std::string> place_found(const DeformedCurve& wanted, const FoundCurve& found,
+                                     const StepData_StepModel& model, StepInstances& step) {
   const int representation = representation_of(found.instance, step);
-  const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
-  const double unit = unit_of(context_of(representation, step), *model);
-  const NurbsCurve curve = in_part(wanted.deformed, found.edge, unit);
+  const double unit = unit_of(context_of(representation, step), model);
+  const NurbsCurve curve = in_part(wanted.deformed, found.to_world, unit);
   const std::string label = "#" + std::to_string(found.instance) + " '" + wanted.name + "': ";
   std::vector<std::string> warnings;
   if (const auto reason = obstacle(wanted, found, step)) {
-    add_beside(found.instance, representation, curve, step_string(wanted.name), step);
+    const std::optional<int> own = set_holding(found.instance, step);
+    add_beside(representation, own ? own : curve_set_of(representation, step), curve,
+               step_string(wanted.name), step);
     warnings.push_back(label + *reason + "; the deformed curve was added beside it");
   } else {
-    const bool backwards = found.edge.Orientation() == TopAbs_REVERSED;
-    exchange(found.instance, backwards ? curve.reversed() : curve, step);
+    exchange(found.instance, found.backwards ? curve.reversed() : curve, step);
   }
   if (found.places > 1)
     warnings.push_back(label + "its part stands at " + std::to_string(found.places) +
                        " places; the deformed curve shows at each of them");
   return warnings;
+}
+
+/// A curve of a part in another file, which stays as it is: the deformed one comes into the assembly.
+std::vector<std::string> place_in_assembly(const DeformedCurve& wanted, const StepData_StepModel& model,
+                                           StepInstances& step) {
+  const std::optional<int> representation = topmost_representation(step);
+  if (!representation) throw std::runtime_error("the assembly has no shape representation");
+  const double unit = unit_of(context_of(*representation, step), model);
+  add_beside(*representation, curve_set_of(*representation, step), in_part(wanted.deformed, gp_Trsf(), unit),
+             step_string(wanted.name), step);
+  return {"'" + wanted.name +
+          "': its part lies in another file, which stays as it is; the deformed curve was added to the "
+          "assembly"};
+}
+
+std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
+                               StepInstances& step) {
+  const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
+  std::optional<FoundCurve> found = find_edge(wanted.drawn, reader);
+  if (!found) found = find_lost(wanted.drawn, reader);
+  if (found) return place_found(wanted, *found, *model, step);
+  if (STEPConstruct_ExternRefs(reader.WS()).LoadExternRefs()) return place_in_assembly(wanted, *model, step);
+  throw std::runtime_error("the curve '" + wanted.name +
+                           "' is not in the file as it was when it was imported");
 }
 
 }  // namespace
@@ -297,7 +250,7 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     StepInstances step(content);
     Exchanged result;
     for (const DeformedCurve& curve : curves) {
-      const std::vector<std::string> warnings = place(curve, reader, reader.OneShape(), step);
+      const std::vector<std::string> warnings = place(curve, reader, step);
       result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     }
     result.text = step.text();

@@ -1,6 +1,9 @@
 #include "cad_import/program/lost_curves.h"
 
+#include <IGESBasic_SubfigureDef.hxx>
 #include <IGESData_IGESEntity.hxx>
+#include <IGESDraw_CircArraySubfigure.hxx>
+#include <IGESDraw_RectArraySubfigure.hxx>
 #include <IGESGeom_ConicArc.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
@@ -30,7 +33,9 @@
 
 #include "cad_import/iges/hyperbola.h"
 #include "cad_import/occt/spline_defect.h"
+#include "cad_import/program/array_curves.h"
 #include "cad_import/program/step_curve.h"
+#include "cad_import/step/step_units.h"
 
 namespace nurbeam {
 namespace {
@@ -67,16 +72,17 @@ void add_references(const std::vector<Entity>& from, bool with_itself, const Int
   std::vector<Entity> open = from;
   if (!with_itself) {
     open.clear();
-    for (const Entity& entity : from)
-      for (Interface_EntityIterator next = graph.Shareds(entity); next.More(); next.Next())
-        open.push_back(next.Value());
+    for (const Entity& entity : from) {
+      const auto next = references_of(entity, graph);
+      open.insert(open.end(), next.begin(), next.end());
+    }
   }
   while (!open.empty()) {
     const Entity entity = open.back();
     open.pop_back();
     if (!seen.insert(entity.get()).second) continue;
-    for (Interface_EntityIterator next = graph.Shareds(entity); next.More(); next.Next())
-      open.push_back(next.Value());
+    const auto next = references_of(entity, graph);
+    open.insert(open.end(), next.begin(), next.end());
   }
 }
 
@@ -100,6 +106,11 @@ Handle(IGESGeom_ConicArc) hyperbola_of(const Entity& entity) {
   return !conic.IsNull() && conic->IsFromHyperbola() ? conic : nullptr;
 }
 
+bool is_array(const Entity& entity) {
+  return entity->IsKind(STANDARD_TYPE(IGESDraw_RectArraySubfigure)) ||
+         entity->IsKind(STANDARD_TYPE(IGESDraw_CircArraySubfigure));
+}
+
 bool failed_to_translate(const Entity& entity, const XSControl_Reader& reader) {
   const Handle(Transfer_Binder) result = reader.WS()->TransferReader()->TransientProcess()->Find(entity);
   return !result.IsNull() && result->Check()->HasFailed();
@@ -114,8 +125,9 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader) {
   std::vector<Entity> lost;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Entity entity = model.Value(i);
-    const bool told = spline_defect(*entity) || model.Check(i, /*syntactic=*/Standard_True)->HasFailed() ||
-                      (failed_to_translate(entity, reader) && hyperbola_of(entity).IsNull());
+    const bool told =
+        spline_defect(*entity) || model.Check(i, /*syntactic=*/Standard_True)->HasFailed() ||
+        (failed_to_translate(entity, reader) && hyperbola_of(entity).IsNull() && !is_array(entity));
     if (is_curve(entity) && !used.contains(entity.get()) && !told) lost.push_back(entity);
   }
   Entities below;
@@ -124,8 +136,9 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader) {
   return lost;
 }
 
-// Whether the entities of the file have their places in it: no part is placed by another.
+// Whether the numbers of the file are places in it: no part is placed by another, and all have one unit.
 bool is_one_part(const Interface_InterfaceModel& model) {
+  if (length_units_of(model).size() > 1) return false;
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_NextAssemblyUsageOccurrence)) ||
         model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_MappedItem)))
@@ -133,25 +146,56 @@ bool is_one_part(const Interface_InterfaceModel& model) {
   return true;
 }
 
-// Why the curve was not added; nothing if it was.
-std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph& graph, double tolerance,
-                                    ImportReport& report) {
-  const Handle(IGESGeom_ConicArc) hyperbola = hyperbola_of(entity);
-  const bool iges = entity->IsKind(STANDARD_TYPE(IGESData_IGESEntity));
-  if (!iges && graph.Sharings(entity).NbEntities() == 0) return "no representation holds it";
+// The part of an IGES file that other ones place: a subfigure (308) that instances (408) refer to.
+bool is_in_subfigure(const Entity& start, const Interface_Graph& graph) {
+  Entities seen;
+  std::vector<Entity> open{start};
+  while (!open.empty()) {
+    const Entity entity = open.back();
+    open.pop_back();
+    if (entity->IsKind(STANDARD_TYPE(IGESBasic_SubfigureDef))) return true;
+    if (!seen.insert(entity.get()).second) continue;
+    for (Interface_EntityIterator next = graph.Sharings(entity); next.More(); next.Next())
+      open.push_back(next.Value());
+  }
+  return false;
+}
+
+// Why there is no curve of the entity; nothing if there may be.
+std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph& graph) {
+  if (entity->IsKind(STANDARD_TYPE(IGESData_IGESEntity))) {
+    if (hyperbola_of(entity).IsNull() && !is_array(entity)) return "OpenCASCADE makes nothing of its kind";
+    if (is_in_subfigure(entity, graph)) return "it stands in a subfigure (308), which others place";
+    return std::nullopt;
+  }
+  if (graph.Sharings(entity).NbEntities() == 0) return "no representation holds it";
   if (entity->IsKind(STANDARD_TYPE(StepGeom_Pcurve))) return "it lies in the parameters of a surface";
-  if (hyperbola.IsNull() && !entity->IsKind(STANDARD_TYPE(StepGeom_Curve)) &&
-      !entity->IsKind(STANDARD_TYPE(StepShape_PolyLoop)) &&
+  if (!entity->IsKind(STANDARD_TYPE(StepGeom_Curve)) && !entity->IsKind(STANDARD_TYPE(StepShape_PolyLoop)) &&
       !entity->IsKind(STANDARD_TYPE(StepShape_EdgeCurve)))
     return "OpenCASCADE makes nothing of its kind";
+  return std::nullopt;
+}
+
+std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reader& reader, double unit,
+                                     double tolerance) {
+  if (is_array(entity))
+    return array_curves(Handle(IGESData_IGESEntity)::DownCast(entity), reader, unit, tolerance);
+  const Handle(IGESGeom_ConicArc) hyperbola = hyperbola_of(entity);
+  ImportedCurve curve = hyperbola.IsNull()
+                            ? step_curve(entity, unit, tolerance)
+                            : ImportedCurve{.entity = "hyperbola", .curve = hyperbola_arc(*hyperbola, unit)};
+  curve.name = entity_name(entity);
+  return {std::move(curve)};
+}
+
+// Why no curve was added; nothing if one was.
+std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_Reader& reader,
+                                         double tolerance, ImportReport& report) {
+  if (auto reason = obstacle(entity, reader.WS()->Graph())) return reason;
   try {
     OCC_CATCH_SIGNALS
-    ImportedCurve curve =
-        hyperbola.IsNull()
-            ? step_curve(entity, report.unit_in_metres, tolerance)
-            : ImportedCurve{.entity = "hyperbola", .curve = hyperbola_arc(*hyperbola, report.unit_in_metres)};
-    curve.name = entity_name(entity);
-    report.curves.push_back(std::move(curve));
+    for (ImportedCurve& curve : curves_of(entity, reader, report.unit_in_metres, tolerance))
+      report.curves.push_back(std::move(curve));
     return std::nullopt;
   } catch (const Standard_Failure& e) {
     return std::string("OpenCASCADE makes no curve of it: ") + e.DynamicType()->Name() + " " +
@@ -165,18 +209,20 @@ std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph&
 
 }  // namespace
 
-Recovered add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+LostCurves add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
   const bool placed = is_one_part(model);
   int unnamed = 0, named = 0;
-  Recovered recovered;
+  LostCurves found;
   for (const Entity& entity : lost_curves(reader)) {
-    const std::optional<std::string> why = placed ? obstacle(entity, reader.WS()->Graph(), tolerance, report)
-                                                  : "its place in the assembly is not known";
+    const std::size_t first = report.curves.size();
+    const std::optional<std::string> why = placed ? add_curves_of(entity, reader, tolerance, report)
+                                                  : "its place or its unit in the assembly is not known";
     if (!why) {
-      recovered.insert(entity.get());
+      found.recovered.emplace(entity.get(), first);
       continue;
     }
+    found.named.insert(entity.get());
     if (++named > most_named) {
       ++unnamed;
       continue;
@@ -188,7 +234,7 @@ Recovered add_lost_curves(const XSControl_Reader& reader, double tolerance, Impo
   }
   if (unnamed > 0)
     add_diagnostic(report, Severity::warning, "", std::to_string(unnamed) + " more curves were not read");
-  return recovered;
+  return found;
 }
 
 }  // namespace nurbeam

@@ -1,14 +1,13 @@
-#include <optional>
 #include <stdexcept>
+#include <string>
+#include <variant>
 
 #include "cad_import/dxf/dxf_text.h"
-#include "cad_import/files/cad_format.h"
 #include "cad_import/files/child_work.h"
 #include "cad_import/iges/iges_text.h"
 #include "cad_import/program/brep_text.h"
-#include "cad_import/program/drawing_text.h"
 #include "cad_import/program/exchange_curves.h"
-#include "cad_import/program/read_cad_file.h"
+#include "cad_import/program/read_file.h"
 #include "cad_import/report/report_bytes.h"
 #include "cad_import/report/request.h"
 #include "cad_import/step/step_text.h"
@@ -16,34 +15,6 @@
 /// nurbeam-cad: reads and writes CAD files for nurbeam, one request a process. A bad file may crash it.
 namespace nurbeam {
 namespace {
-
-namespace fs = std::filesystem;
-
-ImportReport refusal(const fs::path& file, const std::string& message) {
-  ImportReport report;
-  report.file = file.string();
-  report.diagnostics.push_back({Severity::error, report.file, message});
-  return report;
-}
-
-ImportReport read_file(const fs::path& file, double tolerance) {
-  std::string content;
-  try {
-    content = drawing_text(file);
-  } catch (const std::runtime_error& e) {
-    return refusal(file, e.what());
-  }
-  const std::optional<CadFormat> format = format_of(content);
-  if (!format) {
-    return refusal(
-        file,
-        "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
-        "first line) nor DXF (must begin with a SECTION) nor OpenCASCADE's BREP (must begin with "
-        "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
-  }
-  if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
-  return read_cad_file(file, content, *format, tolerance);
-}
 
 std::string answer(const ReadRequest& request) {
   return to_bytes(read_file(request.file, request.tolerance));

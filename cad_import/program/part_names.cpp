@@ -67,6 +67,7 @@ void name_below(const TopoDS_Shape& own, const TopoDS_Shape& placed, PartName na
     return;
   }
   TopoDS_Iterator below(own, /*cumOri=*/Standard_False, /*cumLoc=*/Standard_False), there(placed);
+  if (!below.More()) parts.Bind(placed, name);
   for (; below.More() && there.More(); below.Next(), there.Next())
     name_below(below.Value(), there.Value(), name, names, parts);
 }

@@ -15,7 +15,6 @@
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 #include <OSD.hxx>
-#include <STEPConstruct_ExternRefs.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
@@ -64,6 +63,7 @@
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/brep_text.h"
 #include "cad_import/program/entity_origins.h"
+#include "cad_import/program/external_parts.h"
 #include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
 #include "cad_import/program/part_names.h"
@@ -133,7 +133,7 @@ void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const P
   for (CentreLine& line : found.lines) {
     const auto known = origins.find(faces(line.face).TShape().get());
     if (known != origins.end()) {
-      if (known->second.defective) continue;
+      if (known->second.left_out) continue;
       line.curve.name = known->second.name;
       line.curve.layer = known->second.appearance.layer;
       line.curve.colour = known->second.appearance.colour;
@@ -163,33 +163,32 @@ void add_edges_of(const TopoDS_Shape& shape, const Origins& origins, const PartN
     if (BRep_Tool::Degenerated(edge)) continue;
     const auto known = origins.find(edge.TShape().get());
     const Origin origin = known == origins.end() ? Origin{} : known->second;
-    if (origin.defective) continue;
+    if (origin.left_out) continue;
     add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
   }
 }
 
-Recovered add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+LostCurves add_edges(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
   const Origins origins = origins_of_edges_and_faces(reader, report);
   const PartNames parts = part_names(reader, shape);
   add_edges_of(shape, origins, parts, tolerance, report);
-  Recovered recovered = add_lost_curves(reader, tolerance, report);
+  LostCurves lost = add_lost_curves(reader, tolerance, report);
   add_centre_lines(shape, origins, parts, tolerance, report);
-  note_hidden(report);
-  return recovered;
+  return lost;
 }
 
-// What OpenCASCADE failed to read or to translate, and nobody else made a curve of.
+// What OpenCASCADE failed to read or to translate, and nobody else made a curve of or named.
 void add_failures(const Interface_CheckIterator& checks, const Interface_InterfaceModel& model,
-                  const Recovered& recovered, ImportReport& report) {
+                  const LostCurves& lost, ImportReport& report) {
   Interface_CheckIterator failures = checks.Extract(Interface_CheckFail);
   int count = 0;
   for (failures.Start(); failures.More(); failures.Next()) {
     const auto entity = model.NbEntities() >= failures.Number() && failures.Number() > 0
                             ? model.Value(failures.Number())
                             : Handle(Standard_Transient)();
-    if (recovered.contains(entity.get()) || ++count > most_reported_failures) continue;
+    if (lost.contain(entity.get()) || ++count > most_reported_failures) continue;
     add_diagnostic(report, Severity::warning, entity.IsNull() ? "" : entity_label(model, entity),
                    std::string("OpenCASCADE: ") + failures.Value()->CFail(1));
   }
@@ -201,10 +200,10 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
 
 void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
   reader.TransferRoots();
-  const Recovered recovered = add_edges(reader, tolerance, report);
+  const LostCurves lost = add_edges(reader, tolerance, report);
   const Handle(XSControl_WorkSession) session = reader.WS();
-  add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(),
-               recovered, report);
+  add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(), lost,
+               report);
 }
 
 // OpenCASCADE goes on after an error of syntax, with other numbers than those of the file.
@@ -325,26 +324,15 @@ void report_step_unit(const Interface_InterfaceModel& model, ImportReport& repor
   report_unit(units.empty() ? metres_per_millimetre : *units.begin(), report);
 }
 
-// The parts of an assembly that lie in other files.
-void add_external_files(const XSControl_Reader& reader, ImportReport& report) {
-  STEPConstruct_ExternRefs files(reader.WS());
-  if (!files.LoadExternRefs()) return;
-  for (int i = 1; i <= files.NbExternRefs(); ++i) {
-    const std::string part = product_name(files.ProdDef(i));
-    add_diagnostic(report, Severity::warning, "",
-                   (part.empty() ? "a part" : "the part '" + part + "'") + " lies in the file '" +
-                       as_utf8(files.FileName(i)) +
-                       "', which is not read; name that file, or export the assembly as one");
-  }
-}
-
-void read_step(const std::string& content, double tolerance, ImportReport& report) {
+void read_step(const std::string& content, double tolerance, const ReadFile& read_other,
+               ImportReport& report) {
   start_step();
   STEPControl_Reader reader;
   read(reader, content, report);
   report_step_unit(*reader.Model(), report);
   transfer(reader, tolerance, report);
-  add_external_files(reader, report);
+  add_external_parts(reader, read_other, report);
+  note_hidden(report);
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -377,6 +365,7 @@ void read_iges(const std::string& content, double tolerance, ImportReport& repor
   const double resolution = reader.IGESModel()->GlobalSection().Resolution();
   if (std::isfinite(resolution) && resolution > 0) report.resolution = resolution * global.unit_in_metres;
   transfer(reader, tolerance, report);
+  note_hidden(report);
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -400,10 +389,11 @@ void read_brep(const std::string& content, double tolerance, ImportReport& repor
   add_centre_lines(shape, {}, {}, tolerance, report);
 }
 
-void read_format(const std::string& content, CadFormat format, double tolerance, ImportReport& report) {
+void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,
+                 ImportReport& report) {
   switch (format) {
     case CadFormat::step:
-      return read_step(content, tolerance, report);
+      return read_step(content, tolerance, read_other, report);
     case CadFormat::iges:
       return read_iges(content, tolerance, report);
     case CadFormat::dxf:
@@ -416,13 +406,13 @@ void read_format(const std::string& content, CadFormat format, double tolerance,
 }  // namespace
 
 ImportReport read_cad_file(const std::filesystem::path& file, const std::string& content, CadFormat format,
-                           double tolerance) {
+                           double tolerance, const ReadFile& read_other) {
   ImportReport report;
   report.file = file.string();
   be_silent();
   try {
     OCC_CATCH_SIGNALS
-    read_format(content, format, tolerance, report);
+    read_format(content, format, tolerance, read_other, report);
   } catch (const Standard_Failure& e) {
     add_diagnostic(report, Severity::error, "",
                    std::string("OpenCASCADE failed (") + e.DynamicType()->Name() + " " +

@@ -87,10 +87,16 @@ const std::string& StepInstances::value(int number) const {
   return found->second.value;
 }
 
-void StepInstances::replace(int number, std::string value) { instances_.at(number).value = std::move(value); }
+void StepInstances::replace(int number, std::string value) {
+  std::string& kept = instances_.at(number).value;
+  for (const int used : references_in(kept)) std::erase(users_[used], number);
+  kept = std::move(value);
+  for (const int used : references_in(kept)) users_[used].push_back(number);
+}
 
 int StepInstances::add(std::string value) {
   const int number = instances_.rbegin()->first + 1;
+  for (const int used : references_in(value)) users_[used].push_back(number);
   instances_[number] = {0, 0, std::move(value)};
   added_.push_back(number);
   return number;

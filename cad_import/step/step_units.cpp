@@ -27,4 +27,11 @@ std::optional<double> length_unit_of(const Handle(Standard_Transient) & context)
   return factors.LengthFactor() * metres_per_millimetre;
 }
 
+std::set<double> length_units_of(const Interface_InterfaceModel& model) {
+  std::set<double> units;
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto unit = length_unit_of(model.Value(i))) units.insert(*unit);
+  return units;
+}
+
 }  // namespace nurbeam

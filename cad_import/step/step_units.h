@@ -1,7 +1,9 @@
 #pragma once
+#include <Interface_InterfaceModel.hxx>
 #include <Standard_Transient.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <optional>
+#include <set>
 
 namespace nurbeam {
 
@@ -11,5 +13,8 @@ opencascade::handle<StepRepr_GlobalUnitAssignedContext> units_of(
 
 /// The length unit of a representation context [m], where it has one.
 std::optional<double> length_unit_of(const opencascade::handle<Standard_Transient>& context);
+
+/// The length units of all contexts of a file [m].
+std::set<double> length_units_of(const Interface_InterfaceModel& model);
 
 }  // namespace nurbeam

@@ -19,26 +19,42 @@ using std::numbers::pi;
 
 constexpr double smallest_angle = pi / 180;  ///< between the tangent and `up`
 
-// Tangent and curvature vector at a parameter.
-struct Bend {
-  Vector3d t, K;
-  double torsion_numerator;  // (r' x r'') . r''' over |r'|^6: torsion times curvature^2
+// A parameter, or one that varies: value, first and second derivative.
+using Varying = Dual<1, Dual<1>>;
 
-  explicit Bend(const Eigen::Matrix<double, 3, 6>& r) {
-    const double speed = r.col(1).norm();
-    const Vector3d across = r.col(1).cross(r.col(2));
-    t = r.col(1) / speed;
-    K = across / std::pow(speed, 3);
-    torsion_numerator = across.dot(r.col(3)) / std::pow(speed, 6);
+// Derivative k of the segment by its parameter, at u.
+Vector3d column(const Eigen::Matrix<double, 3, 6>& r, int k, double) { return r.col(k); }
+Vector3<Varying> column(const Eigen::Matrix<double, 3, 6>& r, int k, const Varying& u) {
+  Vector3<Varying> x;
+  const Varying step = u - plain(u);
+  for (int d = 0; d < 3; ++d)
+    x[d] = Varying(r(d, k)) + r(d, k + 1) * step + (r(d, k + 2) / 2) * (step * step);
+  return x;
+}
+
+// Speed, tangent and curvature vector at a parameter.
+template <class T>
+struct Bend {
+  T speed;
+  Vector3<T> t, K;
+  T torsion_numerator;  // (r' x r'') . r''' over |r'|^6: torsion times curvature^2
+
+  Bend(const RationalCubic& segment, const T& u) {
+    using std::sqrt;
+    const Eigen::Matrix<double, 3, 6> r = segment.derivatives(plain(u));
+    const Vector3<T> r1 = column(r, 1, u), across = r1.cross(column(r, 2, u));
+    speed = sqrt(r1.dot(r1));
+    const T cubed = speed * speed * speed;
+    t = r1 / speed;
+    K = across / cubed;
+    torsion_numerator = across.dot(column(r, 3, u)) / (cubed * cubed);
   }
-  Bend(const RationalCubic& segment, double u) : Bend(segment.derivatives(u)) {}
 };
 
 // d(angle)/du of parallel transport against the smallest rotation from t_a.
 double transport_rate_by_parameter(const RationalCubic& segment, double u, const Vector3d& t_a) {
-  const Eigen::Matrix<double, 3, 6> r = segment.derivatives(u);
-  const Bend bend(r);
-  return transport_rate<double>(bend.K, bend.t, t_a) * r.col(1).norm();
+  const Bend<double> bend(segment, u);
+  return transport_rate<double>(bend.K, bend.t, t_a) * bend.speed;
 }
 
 double transport_angle(const RationalCubic& segment, double from, double to, const Vector3d& t_a) {
@@ -49,8 +65,8 @@ double transport_angle(const RationalCubic& segment, double from, double to, con
 bool is_short(const RationalCubic& segment, double u_0, double u_1) {
   if (u_1 - u_0 < 1e-6) return true;
   const double middle = (u_0 + u_1) / 2;
-  const Vector3d t = Bend(segment, u_0).t;
-  if (t.dot(Bend(segment, middle).t) < 0.7 || t.dot(Bend(segment, u_1).t) < 0.5) return false;
+  const Vector3d t = Bend<double>(segment, u_0).t;
+  if (t.dot(Bend<double>(segment, middle).t) < 0.7 || t.dot(Bend<double>(segment, u_1).t) < 0.5) return false;
   const double whole = transport_angle(segment, u_0, u_1, t);
   return std::abs(transport_angle(segment, u_0, middle, t) + transport_angle(segment, middle, u_1, t) -
                   whole) < 1e-14;
@@ -91,22 +107,22 @@ DrawnSections::DrawnSections(const std::vector<RationalCubic>& segments, const s
   slopes_ = monotone_slopes(orientation_.twist);
   check(segments, breaks);
   if (orientation_.rule != Orientation::Rule::start) return;
-  const Vector3d t = Bend(segments.front(), 0).t;
+  const Vector3d t = Bend<double>(segments.front(), 0).t;
   Vector3d& direction = orientation_.direction;
   if (direction.isZero(0)) direction = default_direction(t);
   transport(segments, first_axis(direction, t, 0));
   if (!closed) return;
   const Piece& start = pieces_.front().front();
-  const Vector3d end =
-      transported(segments.back(), static_cast<int>(segments.size()) - 1, 1, Bend(segments.back(), 1).t);
-  const Vector3d back = turned_with<double>(end, Bend(segments.back(), 1).t, start.t);
+  const Vector3d end = transported(segments.back(), static_cast<int>(segments.size()) - 1, 1,
+                                   Bend<double>(segments.back(), 1).t);
+  const Vector3d back = turned_with<double>(end, Bend<double>(segments.back(), 1).t, start.t);
   holonomy_ = std::atan2(back.dot(start.t.cross(start.d1)), back.dot(start.d1));
 }
 
 void DrawnSections::transport(const std::vector<RationalCubic>& segments, const Vector3d& start) {
-  Vector3d t = Bend(segments.front(), 0).t, d1 = start;
+  Vector3d t = Bend<double>(segments.front(), 0).t, d1 = start;
   for (int j = 0; j < static_cast<int>(segments.size()); ++j) {
-    const Vector3d t_j = Bend(segments[j], 0).t;
+    const Vector3d t_j = Bend<double>(segments[j], 0).t;
     if (t.dot(t_j) < -1 + 1e-9)
       throw std::invalid_argument("the axis turns back on itself where segment " + std::to_string(j + 1) +
                                   " starts: no section can be carried over");
@@ -114,7 +130,7 @@ void DrawnSections::transport(const std::vector<RationalCubic>& segments, const 
     std::vector<double> ends;
     add_pieces(segments[j], 0, 1, ends);
     for (const double u : ends) {
-      t = Bend(segments[j], u).t;
+      t = Bend<double>(segments[j], u).t;
       d1 = across(transported(segments[j], j, u, t), t).normalized();
       pieces_[j].push_back({u, t, d1});
     }
@@ -131,7 +147,7 @@ Vector3d DrawnSections::transported(const RationalCubic& segment, int j, double 
 }
 
 DrawnSection DrawnSections::at(const RationalCubic& segment, int j, double u, double s) const {
-  const Bend bend(segment, u);
+  const Bend<double> bend(segment, u);
   Vector3d d1;
   switch (orientation_.rule) {
     case Orientation::Rule::start:
@@ -147,7 +163,7 @@ DrawnSection DrawnSections::at(const RationalCubic& segment, int j, double u, do
   const Vector3d d2 = bend.t.cross(d1);
   const double angle = added_turn(s).angle, c = std::cos(angle), sine = std::sin(angle);
   return {c * d1 + sine * d2, c * d2 - sine * d1, bend.t, bend.K,
-          rule_twist(segment, u) + added_turn(s).rate};
+          rule_twist(segment, u) + added_turn(s).rate[0]};
 }
 
 double DrawnSections::turn(const RationalCubic& segment, double u_0, double u_1, double s_0,
@@ -161,18 +177,65 @@ double DrawnSections::turn(const RationalCubic& segment, double u_0, double u_1,
 }
 
 // The twist of the rule, without what turns it besides.
-double DrawnSections::rule_twist(const RationalCubic& segment, double u) const {
-  if (orientation_.rule == Orientation::Rule::start) return 0;
-  const Bend bend(segment, u);
-  if (orientation_.rule == Orientation::Rule::frenet) return bend.torsion_numerator / bend.K.squaredNorm();
+template <class T>
+T DrawnSections::rule_twist(const RationalCubic& segment, const T& u) const {
+  if (orientation_.rule == Orientation::Rule::start) return 0.0;
+  const Bend<T> bend(segment, u);
+  if (orientation_.rule == Orientation::Rule::frenet) return bend.torsion_numerator / bend.K.dot(bend.K);
   // (up . t) k2/|up across t|
-  const Vector3d& up = orientation_.direction;
-  const Vector3d up_across = across(up, bend.t);
-  return up.dot(bend.t) * bend.K.dot(up_across) / up_across.squaredNorm();
+  const Vector3<T> up = orientation_.direction.cast<T>();
+  const Vector3<T> up_across = up - up.dot(bend.t) * bend.t;
+  return up.dot(bend.t) * bend.K.dot(up_across) / up_across.dot(up_across);
+}
+
+namespace {
+
+// The derivatives by s of what varies with the parameter, of stretch J = ds/du.
+std::array<double, 3> by_length(const Varying& f, const Varying& J) {
+  const double first = f.d[0].value / J.value.value;
+  return {f.value.value, first, (f.d[0].d[0] - first * J.d[0].value) / (J.value.value * J.value.value)};
+}
+
+// y with y' = W x y, and its derivatives.
+std::array<Vector3d, 3> turning(const Vector3d& y, const std::array<Vector3d, 3>& W) {
+  const Vector3d first = W[0].cross(y);
+  return {y, first, W[1].cross(y) + W[0].cross(first)};
+}
+
+std::array<double, 3> product(const std::array<Vector3d, 3>& x, const std::array<Vector3d, 3>& y) {
+  return {x[0].dot(y[0]), x[1].dot(y[0]) + x[0].dot(y[1]),
+          x[2].dot(y[0]) + 2 * x[1].dot(y[1]) + x[0].dot(y[2])};
+}
+
+}  // namespace
+
+// The triad turns with K + twist t per length.
+DrawnSectionSeries DrawnSections::series(const RationalCubic& segment, int j, double u, double s) const {
+  const DrawnSection here = at(segment, j, u, s);
+  const Varying varying = Varying::variable(Dual<1>::variable(u, 0), 0);
+  const Bend<Varying> bend(segment, varying);
+  DrawnSectionSeries series;
+  std::array<Vector3d, 3> K;
+  for (int d = 0; d < 3; ++d) {
+    const std::array<double, 3> along = by_length(bend.K[d], bend.speed);
+    for (int k = 0; k < 3; ++k) K[k][d] = along[k];
+  }
+  series.twist = by_length(rule_twist(segment, varying), bend.speed);
+  const std::array<double, 3> added = added_turn(s).rate;
+  for (int k = 0; k < 3; ++k) series.twist[k] += added[k];
+  series.t = turning(here.t, K);
+  std::array<Vector3d, 3> W = K;
+  W[0] += series.twist[0] * series.t[0];
+  W[1] += series.twist[1] * series.t[0] + series.twist[0] * series.t[1];
+  series.d1 = turning(here.d1, W);
+  series.d2 = turning(here.d2, W);
+  series.k1 = product(K, series.d1);
+  series.k2 = product(K, series.d2);
+  return series;
 }
 
 DrawnSections::Turn DrawnSections::added_turn(double s) const {
-  Turn turn{-holonomy_ * s / length_, -holonomy_ / length_};
+  Turn turn{-holonomy_ * s / length_, {-holonomy_ / length_, 0, 0}};
   const auto& rows = orientation_.twist;
   if (rows.empty()) return turn;
   const auto next =
@@ -187,7 +250,9 @@ DrawnSections::Turn DrawnSections::added_turn(double s) const {
   // Cubic Hermite: y_0 + a x + (3 rise - 2 a - b) x^2 + (a + b - 2 rise) x^3.
   const double c2 = 3 * rise - 2 * a - b, c3 = a + b - 2 * rise;
   turn.angle += rows[i].second + x * (a + x * (c2 + x * c3));
-  turn.rate += (a + x * (2 * c2 + x * 3 * c3)) / l;
+  turn.rate[0] += (a + x * (2 * c2 + x * 3 * c3)) / l;
+  turn.rate[1] += (2 * c2 + 6 * c3 * x) / (l * l);
+  turn.rate[2] += 6 * c3 / (l * l * l);
   return turn;
 }
 
@@ -211,7 +276,7 @@ void DrawnSections::check(const std::vector<RationalCubic>& segments,
   for (std::size_t j = 0; j < segments.size(); ++j)
     for (int i = 0; i < samples; ++i) {
       const double u = i / (samples - 1.0), s = breaks[j] + u * (breaks[j + 1] - breaks[j]);
-      const Bend bend(segments[j], u);
+      const Bend<double> bend(segments[j], u);
       if (orientation_.rule == Orientation::Rule::up)
         first_axis(orientation_.direction, bend.t, s);
       else if (!(bend.K.norm() * length_ > 1e-6))
@@ -220,8 +285,8 @@ void DrawnSections::check(const std::vector<RationalCubic>& segments,
     }
   if (orientation_.rule == Orientation::Rule::up) return;
   for (std::size_t j = 0; j + 1 < segments.size(); ++j) {
-    const Vector3d before = Bend(segments[j], 1).K.normalized(),
-                   after = Bend(segments[j + 1], 0).K.normalized();
+    const Vector3d before = Bend<double>(segments[j], 1).K.normalized(),
+                   after = Bend<double>(segments[j + 1], 0).K.normalized();
     if (before.cross(after).norm() > 1e-6 || before.dot(after) < 0)
       throw std::invalid_argument(
           "the direction of the centre of curvature jumps at s = " + text_of(breaks[j + 1]) + " m");

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "fem/element/orientation.h"
@@ -12,6 +13,13 @@ struct DrawnSection {
   Eigen::Vector3d d1, d2, t;
   Eigen::Vector3d curvature;  ///< t x dt/ds [1/m]
   double twist;               ///< d1' . d2, turns about t per length [rad/m]
+};
+
+/// A drawn section and how it changes: values with their first and second derivatives by s.
+struct DrawnSectionSeries {
+  std::array<Eigen::Vector3d, 3> d1, d2, t;
+  std::array<double, 3> k1, k2;  ///< curvature about d1 and d2 [1/m]
+  std::array<double, 3> twist;   ///< [rad/m]
 };
 
 /// The sections of a drawn curve in space, by its orientation.
@@ -31,6 +39,7 @@ class DrawnSections {
 
   /// In segment j, given again with its number, at its parameter u, which is the arc length s.
   DrawnSection at(const RationalCubic& segment, int j, double u, double s) const;
+  DrawnSectionSeries series(const RationalCubic& segment, int j, double u, double s) const;
   /// The integral of the twist over the part [u_0, u_1] of a segment, between the arc lengths s_0 and s_1.
   double turn(const RationalCubic& segment, double u_0, double u_1, double s_0, double s_1) const;
   /// The angle by which parallel transport along a closed curve comes back turned [rad]; 0 on an open one.
@@ -42,15 +51,17 @@ class DrawnSections {
     double u;
     Eigen::Vector3d t, d1;
   };
-  // What turns a section about its tangent, and its rate.
+  // What turns a section about its tangent, and its rate with two derivatives.
   struct Turn {
-    double angle, rate;
+    double angle;
+    std::array<double, 3> rate;
   };
   void transport(const std::vector<RationalCubic>& segments, const Eigen::Vector3d& start);
   void check(const std::vector<RationalCubic>& segments, const std::vector<double>& breaks) const;
   Eigen::Vector3d transported(const RationalCubic& segment, int j, double u, const Eigen::Vector3d& t) const;
   Turn added_turn(double s) const;
-  double rule_twist(const RationalCubic& segment, double u) const;
+  template <class T>
+  T rule_twist(const RationalCubic& segment, const T& u) const;
   void check_twist(bool closed) const;
 
   Orientation orientation_;

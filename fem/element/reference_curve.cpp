@@ -127,6 +127,11 @@ DrawnSection ReferenceCurve::section(double s, bool from_left) const {
   return sections_->at(segments_[j], j, u, arc_length(j, u));
 }
 
+DrawnSectionSeries ReferenceCurve::section_series(int j, double s) const {
+  const double u = parameter(j, s);
+  return sections_->series(segments_[j], j, u, arc_length(j, u));
+}
+
 double ReferenceCurve::section_turn(double s_a, double s_b) const {
   double sum = 0;
   for (double s = s_a; s < s_b;) {

@@ -56,6 +56,8 @@ class ReferenceCurve {
   bool has_sections() const { return sections_ != nullptr; }
   /// The section at s, of a curve that has sections; at a break as tangent().
   DrawnSection section(double s, bool from_left = false) const;
+  /// The same with derivatives by s, as segment j goes on.
+  DrawnSectionSeries section_series(int j, double s) const;
   /// The angle by which sections turn about the tangent, against parallel transport, from s_a to s_b: the
   /// integral of their twist [rad].
   double section_turn(double s_a, double s_b) const;

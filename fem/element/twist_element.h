@@ -1,11 +1,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
+#include "fem/element/beam_element.h"
 #include "fem/element/layout.h"
 #include "fem/element/quadrature.h"
-#include "fem/element/rancf_basis.h"
 #include "fem/element/section_frame.h"
+#include "fem/element/twist_drawing.h"
 #include "fem/material/section_moments.h"
 #include "solver/second_order_system.h"
 
@@ -31,6 +33,10 @@ struct TwistState {
 struct TwistEnergy {
   double kinetic = 0, bending = 0, torsion = 0;  ///< [J]; kinetic: of the spin about the tangent
   double dissipation = 0;                        ///< [W]
+
+  /// The strain energy and dissipation of a point of this weight [m].
+  void add(const SectionStrain<double>& strain, const SectionStrain<double>& rate, double weight,
+           const BeamProperties& properties);
 };
 
 /// A section in motion, and what it carries.
@@ -40,8 +46,9 @@ struct SectionPoint {
   SectionMoments<double> moments;  ///< elastic [N m]
 };
 
-/// The sections of one element whose ends are fixed: bending about their own axes and torsion, with the
-/// inertia of the spin about the tangent. What it adds to a BeamElement<3> whose axis alone does not bend.
+/// The sections of one element: bending about their own axes and torsion, with the inertia of the spin about
+/// the tangent. What it adds to a BeamElement<3> whose axis alone does not bend. Where its ends move over the
+/// material it has form V of docs/theory.md, as that has.
 ///
 /// Inside the element the section is carried from end A by parallel transport, turned by the drawn twist and
 /// by the twist since the drawing, theta(xi) = theta_B xi + beta 4 xi (1 - xi), xi = (s - s_A)/h. So the
@@ -54,19 +61,22 @@ class TwistElement {
   /// A chart of a node: fixed axes M1, M2, m, columns.
   using SectionChart = Eigen::Matrix3d;
 
-  /// `curve`, with sections, and `properties`, with theirs, must outlive the element. `charts`: of both ends,
-  /// in any present orientation; `turn`: of the section at B against that at A, which says which of the
-  /// angles 2 pi apart is meant [rad]. Throws std::invalid_argument without sections, for a stiffness that is
-  /// not positive definite and a spatial measure of curvature.
+  /// `curve`, with sections, and `properties`, with theirs, must outlive the element. `s_a`, `s_b`: of fixed
+  /// ends; of moving ones at first. `charts`: of both ends, in any present orientation; `turn`: of the
+  /// section at B against that at A, which says which of the angles 2 pi apart is meant [rad], else as drawn.
+  /// Throws std::invalid_argument without sections, for a stiffness that is not positive definite and a
+  /// spatial measure of curvature.
   TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
-               double s_b, const std::array<SectionChart, 2>& charts, double turn);
+               double s_b, Ends ends, const std::array<SectionChart, 2>& charts, std::optional<double> turn);
   /// In the charts of the drawing.
   TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
-               double s_b);
+               double s_b, Ends ends = Ends::fixed);
 
   const SectionChart& chart(int end) const { return charts_[end]; }
 
-  /// d/dt(dT/dv) - dT/dq + dU/dq + damping of the sections; zero in the rows of the places.
+  bool fixed() const { return ends_ == Ends::fixed; }
+
+  /// d/dt(dT/dv) - dT/dq + dU/dq + damping of the sections; zero in the rows of fixed places.
   Coordinates force(const TwistState& x) const;
   /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
   Matrix tangent(const TwistState& x, const TangentWeights& w) const;
@@ -89,6 +99,11 @@ class TwistElement {
 
   /// The section at material point s.
   SectionPoint section(const Coordinates& q, double s) const;
+  /// The turn of the section at material point s against that at A [rad].
+  double turn_to(const Coordinates& q, double s) const;
+  /// Spin of the material section at s about its tangent [rad/s], and its derivative in the velocities.
+  double material_spin(const TwistState& x, double s) const;
+  Coordinates material_spin_row(const Coordinates& q, double s) const;
   /// A vector that turns with the section at s from where it is drawn, and its derivative in q.
   struct TurnedWithSection {
     Eigen::Vector3d value;
@@ -104,55 +119,60 @@ class TwistElement {
 
  private:
   static constexpr int points = GaussRule::size;
-  // The coordinates that count: r_B - r_A, r_sA, r_sB, both angles, the bubble.
-  static constexpr int reduced = 12;
+  // Rows of the coordinates that count: of fixed ends, and with the places.
+  static constexpr int fixed_rows = twist::reduced, moving_rows = twist::reduced + 2;
   template <class T>
-  using Reduced = Eigen::Matrix<T, reduced, 1>;
+  using Reduced = twist::Reduced<T>;
+  using FixedPoint = twist::Point<double, points>;
+  using FixedFields = twist::Fields<double, points>;
 
-  // One material point: shape functions of the reduced coordinates, and what the drawing says there.
-  struct Point {
-    double xi;
-    Eigen::Vector3d S1, S2;                      // of r_B - r_A, r_sA, r_sB
-    Eigen::Matrix<double, points, 1> transport;  // Omega there is this times the rates at the Gauss points
-    double angle;                                // of the drawn section against A, less that Omega [rad]
-    double k1, k2;                               // drawn [1/m]
+  // The section at a place for coordinates of which n count, n = fixed_rows or moving_rows.
+  template <class T>
+  struct At {
+    SectionTriad<T> a;  // at the start
+    twist::PointField<T> point;
+    SectionStrain<T> strain;  // against the drawing
   };
-  template <class T>
-  struct PointField;
-  template <class T>
-  struct Fields;
+  template <class T, int n>
+  At<T> at_place(const Eigen::Matrix<T, n, 1>& x, double s) const;
+  At<double> at_place(const Coordinates& q, double s) const;
+  template <class T, int n>
+  Eigen::Matrix<T, n, 1> moment_on(const Eigen::Matrix<T, n, 1>& q, double s,
+                                   const Eigen::Vector3d& components, bool follower) const;
+  template <int n>
+  TurnedWithSection turned_on(const Coordinates& q, double s, const Eigen::Vector3d& components) const;
+  Eigen::Vector3d drawn_components(double s, const Eigen::Vector3d& vector) const;
 
   bool near_charts(const Coordinates& q, double cosine, double turn_reach) const;
-  Point point_at(double s) const;
-  Eigen::Vector3d drawn_components(double s, const Eigen::Vector3d& vector) const;
+  twist::DrawnElement drawn_element(const Coordinates& q) const;
+  void set_fixed(const twist::DrawnElement& drawn);
+  static FixedPoint fixed_point(const twist::AnyPoint<double>& p);
   template <class T>
-  PointField<T> axis_at(const Point& p, const Reduced<T>& x, const Vector3<T>& t_a) const;
-  template <class T>
-  void set_strain(const Point& p, const Fields<T>& fields, const T& bubble, PointField<T>& at) const;
-  template <class T>
-  Fields<T> fields(const Reduced<T>& x) const;
-  template <class T>
-  Reduced<T> gradient(const Fields<T>& fields, const std::array<SectionMoments<T>, points>& moments) const;
+  twist::Fields<T, points> fields(const Reduced<T>& x) const;
+
   template <class T>
   Reduced<T> section_force(const Reduced<T>& q, const Reduced<T>& v) const;
-  template <class T>
-  Reduced<T> spin_force(const Reduced<T>& q, const Reduced<T>& v, const Reduced<T>& a) const;
+  Reduced<double> spin_force(const Reduced<double>& q, const Reduced<double>& v,
+                             const Reduced<double>& a) const;
   template <class T>
   std::array<SectionStrain<T>, points> strain_rates(const Reduced<T>& q, const Reduced<T>& v) const;
-  template <class T>
-  Reduced<T> moment_on(const Point& p, const Reduced<T>& q, const Eigen::Vector3d& components,
-                       bool follower) const;
+  Coordinates fixed_force(const TwistState& x) const;
+  Matrix fixed_tangent(const TwistState& x, const TangentWeights& w) const;
+  TwistEnergy fixed_energy(const TwistState& x) const;
+
+  Coordinates moving_force(const TwistState& x) const;
+  Matrix moving_tangent(const TwistState& x, const TangentWeights& w) const;
+  TwistEnergy moving_energy(const TwistState& x) const;
 
   const ReferenceCurve* curve_;
   const BeamProperties* properties_;
   Chart chart_;
-  double s_a_, h_;
+  Ends ends_;
+  double s_a_, s_b_;  // when it was made
   std::array<SectionChart, 2> charts_;
-  double turn_;                                   // Theta_ref
-  double drawn_turn_, drawn_transport_;           // Theta_0, Omega_0 at B
-  Eigen::Matrix<double, points, 1> drawn_rates_;  // of transport, at the Gauss points
-  std::array<Point, points> points_;
-  Eigen::Matrix3d spin_mass_;  // on the spins of both ends and the bubble's rate
+  double turn_;                             // Theta_ref
+  twist::Drawing<double, points> drawing_;  // fixed ends only
+  Eigen::Matrix3d spin_mass_;  // fixed ends only: on the spins of both ends and the bubble's rate
 };
 
 }  // namespace nurbeam

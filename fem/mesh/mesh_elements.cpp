@@ -52,8 +52,6 @@ std::array<int, element_size<D>> dofs_of(const Mesh& mesh, const MeshSpan& span)
 
 std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam) {
   if (!beam.has_torsion()) return nullptr;
-  if (!e.element.fixed())
-    throw std::invalid_argument("nothing slides along a beam with torsion: its elements do not move");
   if (beam.form == Form::virtual_work)
     throw std::invalid_argument("a beam in form P (virtual work) has no torsion");
   std::array<int, TwistLayout::size> dofs;
@@ -61,13 +59,14 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
   dofs[TwistLayout::angle(0)] = mesh.node_a(e).angle_right;
   dofs[TwistLayout::angle(1)] = mesh.node_b(e).angle_left;
   dofs[TwistLayout::bubble] = e.bubble;
+  const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
+  const Chart& chart = e.element.chart();
   for (const MeshPlan::SectionCharts& now : mesh.plan.section_charts)
     if (now.beam == e.beam && now.s_a == e.s_a && now.s_b == e.s_b)
       return std::make_unique<const MeshTwist>(MeshTwist{
-          dofs,
-          TwistElement(beam.curve, beam.properties, e.element.chart(), e.s_a, e.s_b, now.charts, now.turn)});
+          dofs, TwistElement(beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now.charts, now.turn)});
   return std::make_unique<const MeshTwist>(
-      MeshTwist{dofs, TwistElement(beam.curve, beam.properties, e.element.chart(), e.s_a, e.s_b)});
+      MeshTwist{dofs, TwistElement(beam.curve, beam.properties, chart, e.s_a, e.s_b, ends)});
 }
 
 }  // namespace

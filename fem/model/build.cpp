@@ -143,8 +143,7 @@ SlidingJoint& ModelBuilder::slide(int body, int beam, double s, double speed) {
   if (body < 0 || body >= static_cast<int>(model_.bodies.size()))
     refuse("there is no body " + std::to_string(body) + "; the model has " +
            std::to_string(model_.bodies.size()));
-  if (checked_beam(beam).has_torsion())
-    refuse("beam \"" + model_.beams[beam].name + "\" has torsion: nothing slides along it");
+  checked_beam(beam);
   model_.joints.push_back({.body = body, .beam = beam, .s = place(beam, s), .speed = speed, .motion = {}});
   return model_.joints.back();
 }
@@ -169,6 +168,9 @@ ModelBuilder& ModelBuilder::add(Constraint constraint) {
 
 BeamModel ModelBuilder::build() const {
   BeamModel model = model_;
+  for (const SlidingJoint& joint : model.joints)
+    if (const Beam& beam = model.beam_of(joint); beam.has_torsion() && !joint.continuous_slope)
+      refuse("beam \"" + beam.name + "\" has torsion: its slope is continuous where a body slides");
   for (int b = 0; b < static_cast<int>(model.beams.size()); ++b)
     if (!parts_[b].divided) model.beams[b].home = divided(model, b, parts_[b].division);
   mark_held_nodes(model);

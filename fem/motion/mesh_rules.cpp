@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/motion/carried_sections.h"
 #include "fem/motion/carried_weights.h"
 #include "fem/system/observables.h"
 
@@ -204,7 +205,7 @@ class JointRules {
   int left_ = -1, right_ = -1;  // of nodes_
 };
 
-// The present plan but for constant weights, which still belong to the places of the old one.
+// The present plan but for constant weights and charts, which still belong to the places of the old one.
 MeshPlan plan_at(const BeamSystem& system, const State& state) {
   MeshPlan plan = system.mesh().plan;
   for (int j = 0; j < static_cast<int>(plan.places.size()); ++j)
@@ -217,6 +218,7 @@ MeshPlan plan_at(const BeamSystem& system, const State& state) {
 MeshPlan present_plan(const BeamSystem& system, const State& state) {
   MeshPlan plan = plan_at(system, state);
   carry_weights(system, state, plan);
+  carry_sections(system, state, plan);
   return plan;
 }
 
@@ -226,6 +228,7 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
   for (std::size_t j = 0; j < next.plan.places.size(); ++j)
     if (JointRules(system, state, control, static_cast<int>(j), next).apply()) {
       carry_weights(system, state, next.plan);
+      carry_sections(system, state, next.plan);
       return next;
     }
   return next;

@@ -25,15 +25,14 @@ bool recentring_due(const BeamSystem& system, const State& state) {
 }
 
 MeshedState recentred(const BeamSystem& system, const State& state, const std::vector<bool>& held) {
-  MeshPlan plan = present_plan(system, state);
-  plan.section_charts.clear();
+  MeshPlan plan = present_plan(system, state);  // of the same elements, in their order
+  auto charts = plan.section_charts.begin();
   State next = state;
   for (const MeshElement<3>& e : system.assembly<3>()->elements()) {
     if (!e.twist) continue;
     const TwistElement& element = e.twist->element;
     const TwistState x = gather_twist(e, state);
-    MeshPlan::SectionCharts now{
-        e.beam, e.s_a, e.s_b, {element.chart(0), element.chart(1)}, element.turn(x.q)};
+    MeshPlan::SectionCharts& now = *charts++;
     for (const int end : {0, 1}) {
       if (is_clamped(system, e, end)) continue;
       now.charts[end] = element.end_section(x.q, end).matrix();
@@ -41,7 +40,6 @@ MeshedState recentred(const BeamSystem& system, const State& state, const std::v
       next.q[angle] = 0;
       next.v[angle] = element.spin(x, end);
     }
-    plan.section_charts.push_back(now);
   }
   return {std::make_unique<BeamSystem>(system.shared_model(), std::move(plan), held), std::move(next)};
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/motion/carried_sections.h"
 #include "fem/motion/recentring.h"
 #include "fem/motion/sliding_bodies.h"
 #include "fem/system/material_points.h"
@@ -32,6 +33,7 @@ double room_to_move(const MeshedState& at, int joint, int direction) {
 MeshPlan held_at(const MeshedState& at, const std::vector<double>& places) {
   MeshPlan plan = at.system->mesh().plan;
   plan.places = places;
+  carry_sections(*at.system, at.state, plan);
   return plan;
 }
 

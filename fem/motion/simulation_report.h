@@ -32,7 +32,12 @@ struct Failure {
     mesh_energy,         ///< a change of the mesh for the joint's body would change the energy by `energy`
     bodies_meet,         ///< sliding bodies on one beam
     equilibrium,         ///< is not found: `equilibrium`
-    resting_place        ///< of a sliding body is not found
+    resting_place,       ///< of a sliding body is not found
+    unstable_state,      ///< vibrations about it would grow with the rate `growth`
+    no_energy,           ///< behind the tangent, which is not symmetric
+    not_held,            ///< the tangent is singular
+    nothing_buckles,     ///< by the loads
+    eigenvalues          ///< are not found
   };
   Kind kind;
   double time = 0;  ///< [s]
@@ -41,6 +46,7 @@ struct Failure {
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};
   double energy = 0;  ///< [J]
+  double growth = 0;  ///< [1/s]
 };
 
 /// The least and the greatest of an energy in the frames so far [J].

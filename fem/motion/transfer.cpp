@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "fem/motion/carried_sections.h"
 #include "fem/motion/matched_node.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
@@ -14,13 +15,6 @@
 namespace nurbeam {
 
 namespace {
-
-// The node for the same home node or the same joint; -1 where there is none.
-int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted) {
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes[i].home == wanted.home && nodes[i].joint == wanted.joint) return static_cast<int>(i);
-  return -1;
-}
 
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
@@ -66,11 +60,14 @@ class Remap {
   }
 
  private:
-  // int rho A N' v_old ds over the new elements, N = dr/dq at fixed material, plus the bodies' momenta.
+  // The momentum of the old motion over the new elements, plus the bodies' momenta.
   Eigen::VectorXd momentum_on(const State& next) const {
     const Mesh& old = from_.mesh();
     const int D = old.dimension;
-    const auto velocity = [&](int beam, double s) { return material_point(from_, state_, beam, s).velocity; };
+    const auto motion = [&](int beam, double s) {
+      return MaterialMotion{material_point(from_, state_, beam, s).velocity,
+                            material_spin(from_, state_, beam, s)};
+    };
     const auto breaks = [&](int beam) {
       std::vector<double> places;
       for (const MeshNode& node : old.nodes[beam])
@@ -83,7 +80,7 @@ class Remap {
       bodies.emplace_back(Eigen::Vector3d::Zero());
       bodies.back().head(D) = state_.v.segment(r, D);
     }
-    return generalised_momentum(to_, next, velocity, breaks, bodies);
+    return generalised_momentum(to_, next, motion, breaks, bodies);
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
@@ -147,8 +144,9 @@ class Remap {
     return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
   }
 
-  // Positions and slopes of the nodes of new elements, and of the given rings of neighbours: but for
-  // supported positions, clamped slopes and positions of bodies.
+  // Positions, slopes and sections of the nodes of new elements, and of the given rings of neighbours, and
+  // the bubbles of new elements: but for supported positions, clamped slopes, sections at supports and
+  // positions of bodies.
   std::vector<int> free_coordinates(int rings) const {
     const Mesh& mesh = to_.mesh();
     std::set<std::pair<int, int>> nodes;  // beam, node
@@ -166,7 +164,10 @@ class Remap {
         if (node.joint < 0 && hold == Hold::nothing) free.insert(node.r + k);
         if (hold != Hold::clamp) free.insert({node.slope_left + k, node.slope_right + k});
       }
+      if (node.angle_left >= 0 && hold == Hold::nothing) free.insert({node.angle_left, node.angle_right});
     }
+    for (const MeshSpan& span : mesh.spans)
+      if (span.bubble >= 0 && !was_there(span)) free.insert(span.bubble);
     return {free.begin(), free.end()};
   }
 
@@ -184,7 +185,7 @@ class Remap {
   const BeamSystem& to_;
 };
 
-// Position, slopes and place of a node that the old mesh had too.
+// Position, slopes, sections and place of a node that the old mesh had too.
 void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, int D, State& next) {
   const auto copy = [&](int target, int source, int n) {
     next.q.segment(target, n) = state.q.segment(source, n);
@@ -193,6 +194,10 @@ void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, i
   copy(node.r, kept.r, D);
   copy(node.slope_left, kept.slope_left, D);
   copy(node.slope_right, kept.slope_right, D);
+  if (node.angle_left >= 0) {
+    copy(node.angle_left, kept.angle_left, 1);
+    copy(node.angle_right, kept.angle_right, 1);
+  }
   if (node.place >= 0) copy(node.place, kept.place, 1);
 }
 
@@ -206,9 +211,36 @@ void place_node(const BeamSystem& from, const State& state, int beam, const Mesh
     next.q.segment(slope, D) = p.rs.head(D);
     next.v.segment(slope, D) = (p.velocity_s + rate * p.rss).head(D);
   }
+  // In the chart of the section there (carry_sections): what the node sees is the spin of the material and,
+  // as it moves over it, the twist.
+  if (node.angle_left >= 0)
+    for (const int angle : {node.angle_left, node.angle_right})
+      next.v[angle] =
+          material_spin(from, state, beam, node.s) + rate * section_twist(from, state, beam, node.s);
   if (node.place < 0) return;
   next.q[node.place] = node.s;
   next.v[node.place] = rate;
+}
+
+// The bubbles of twist: those of elements that the old mesh had too, or its twist.
+void set_bubbles(const BeamSystem& from, const State& state, const BeamSystem& to, State& next) {
+  const Mesh &old = from.mesh(), &mesh = to.mesh();
+  for (const MeshSpan& span : mesh.spans) {
+    if (span.bubble < 0) continue;
+    const int a = same_node(old.nodes[span.beam], mesh.node_a(span)),
+              b = same_node(old.nodes[span.beam], mesh.node_b(span));
+    const auto kept = std::find_if(old.spans.begin(), old.spans.end(), [&](const MeshSpan& x) {
+      return x.beam == span.beam && x.node_a == a && x.node_b == b;
+    });
+    if (kept != old.spans.end()) {
+      next.q[span.bubble] = state.q[kept->bubble];
+      next.v[span.bubble] = state.v[kept->bubble];
+      continue;
+    }
+    const CarriedTwist carried = carried_twist(from, state, span, next);
+    next.q[span.bubble] = carried.bubble;
+    next.v[span.bubble] = carried.bubble_rate;
+  }
 }
 
 }  // namespace
@@ -239,6 +271,7 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
     next.q[mesh.joints[j].place] = state.q[old.joints[j].place];
     next.v[mesh.joints[j].place] = state.v[old.joints[j].place];
   }
+  set_bubbles(from, state, to, next);
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
   return next;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "fem/mesh/drawn_coordinates.h"
+#include "fem/system/assembly.h"
 #include "fem/system/material_points.h"
 #include "fem/system/with_assembly.h"
 
@@ -78,13 +79,36 @@ void add_given_spins(const BeamSystem& system, const State& added, Eigen::Vector
     for (const int end : {0, 1}) {
       const TwistState x = gather_twist(e, added);
       const Eigen::Vector3d t = x.q.segment<3>(TwistLayout::slope(end)).normalized();
-      const double drawn = e.element.curve().section(end == 0 ? e.s_a : e.s_b, end == 1).twist;
+      const double drawn = e.element.curve().section(x.q[TwistLayout::place(end)], end == 1).twist;
       const double spin = given->rotation.dot(t) + given->along * drawn;
       rates.add(e.twist->dofs[TwistLayout::angle(end)], 1,
                 Eigen::Vector3d::Constant(spin - e.twist->element.spin(x, end)));
     }
   }
   v += rates.means();
+}
+
+// The rates of the angles of a moving node, and of the bubbles beside it, over sections at rest. The slopes
+// have theirs.
+void slide_sections(const BeamSystem& system, const MeshNode& node, int left, int right, double speed,
+                    State& state) {
+  const auto& elements = system.assembly<3>()->elements();
+  const auto angle_rate = [&](const MeshElement<3>& e, int end) {
+    const TwistElement& element = e.twist->element;
+    const TwistState x = gather_twist(e, state);
+    const double s = x.q[TwistLayout::place(end)];
+    const double twist = e.element.curve().section(s, end == 1).twist + element.section(x.q, s).strain.twist;
+    return speed * twist - (element.spin(x, end) - x.v[TwistLayout::angle(end)]);
+  };
+  const double before = angle_rate(elements[left], 1), after = angle_rate(elements[right], 0);
+  const bool shared = node.angle_left == node.angle_right;
+  state.v[node.angle_left] = shared ? (before + after) / 2 : before;
+  if (!shared) state.v[node.angle_right] = after;
+  for (const int i : {left, right}) {
+    const MeshSpan& span = system.mesh().spans[i];
+    const double rate = (i == left ? 1 : -1) * speed / (span.end(state.q) - span.start(state.q));
+    state.v[span.bubble] += 2 * state.q[span.bubble] * rate;
+  }
 }
 
 }  // namespace
@@ -123,6 +147,8 @@ void start_moving(const BeamSystem& system, State& state) {
     state.v.segment(node.slope_left, D) =
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);
     if (!shared) state.v.segment(node.slope_right, D) = speed * right.rss.head(D);
+    if (node.angle_left >= 0)
+      slide_sections(system, node, (index > first ? index : end) - 1, index, speed, state);
   }
   State given = state;
   given.v = given_velocities(system, state);

@@ -129,10 +129,18 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   return record;
 }
 
+// That of a section's spin, times the length [rad m/s] that has it.
+void add_spin(const MeshElement<3>& e, const State& state, double s, double spin, Eigen::VectorXd& p) {
+  const double inertia = e.element.properties().sections->spin_inertia;
+  const TwistLayout::Coordinates row = e.twist->element.material_spin_row(gather_twist(e, state.q), s);
+  for (int k = 0; k < TwistLayout::size; ++k)
+    if (e.twist->dofs[k] >= 0) p[e.twist->dofs[k]] += inertia * spin * row[k];
+}
+
 // That of one element.
 template <int D>
 void add_momentum(const MeshElement<D>& e, const State& state,
-                  const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                  const std::function<MaterialMotion(int beam, double s)>& field,
                   const std::vector<double>& breaks, Eigen::VectorXd& p) {
   const ReferenceCurve& curve = e.element.curve();
   std::vector<double> parts{e.s_a, e.s_b};
@@ -146,11 +154,14 @@ void add_momentum(const MeshElement<D>& e, const State& state,
   for (std::size_t i = 0; i + 1 < parts.size(); ++i)
     for (int g = 0; g < GaussRule::size; ++g) {
       const double length = parts[i + 1] - parts[i], s = parts[i] + length * GaussRule::points[g];
-      const Eigen::Matrix<double, D, 1> velocity = field(e.beam, s).template head<D>();
+      const MaterialMotion motion = field(e.beam, s);
+      const Eigen::Matrix<double, D, 1> velocity = motion.velocity.template head<D>();
       const PointField<D> r(e.element.shape_series(x, s).value, nodes);
       const double mass = e.element.properties().mass_per_length * length * GaussRule::weights[g];
       for (int k = 0; k < element_size<D>; ++k)
         if (e.dofs[k] >= 0) p[e.dofs[k]] += mass * r.gradient.col(k).dot(velocity);
+      if constexpr (D == 3)
+        if (e.twist) add_spin(e, state, s, length * GaussRule::weights[g] * motion.spin, p);
     }
 }
 
@@ -173,7 +184,20 @@ SectionPoint section_point(const BeamSystem& system, const State& state, int bea
   if (!of.has_torsion()) throw std::invalid_argument("beam \"" + of.name + "\" has no torsion");
   const MeshElement<3>& e =
       system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
-  return section_of(e, state, of.curve.unrolled(s, (e.s_a + e.s_b) / 2));
+  return section_of(e, state, e.local(gather<3>(e, state.q), s));
+}
+
+double material_spin(const BeamSystem& system, const State& state, int beam, double s) {
+  if (!system.model().beams.at(beam).has_torsion()) return 0;
+  const MeshElement<3>& e =
+      system.assembly<3>()->elements()[find_span(system.model(), system.mesh(), state.q, beam, s)];
+  return e.twist->element.material_spin(gather_twist(e, state), e.local(gather<3>(e, state.q), s));
+}
+
+double section_twist(const BeamSystem& system, const State& state, int beam, double s) {
+  const Beam& of = system.model().beams.at(beam);
+  if (!of.has_torsion()) return 0;
+  return of.curve.section(s).twist + section_point(system, state, beam, s).strain.twist;
 }
 
 SectionRecord section_at(const BeamSystem& system, const State& state, int span,
@@ -238,7 +262,7 @@ Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, in
 }
 
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
-                                     const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                                     const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
                                      const std::vector<Eigen::Vector3d>& body_velocities) {
   const int D = system.dimension();

@@ -19,7 +19,10 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 /// after it has it (the last one at the end of a beam that is no ring). Throws std::invalid_argument where
 /// the beam has none.
 SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s);
-
+/// Spin of the material section at s about its tangent [rad/s], and the present twist of the beam there
+/// [rad/m]; 0 without torsion.
+double material_spin(const BeamSystem& system, const State& state, int beam, double s);
+double section_twist(const BeamSystem& system, const State& state, int beam, double s);
 /// What one section of a beam carries.
 struct SectionRecord {
   double strain = 0;          ///< Green's axial strain that carries [-]
@@ -85,11 +88,17 @@ StrainIntegral strain_integral(const BeamSystem& system, const State& state, int
 /// The weights w_0..w_3 of the element in a span.
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span);
 
-/// int rho A N' v ds over all elements, N = dr/dq at fixed material, plus the bodies' momenta m v: what the
-/// velocity `field`(beam, s) [m/s] and the bodies' velocities (3 each) mean for the coordinates of `state`.
-/// Elements are integrated in parts between the places that `breaks`(beam) lists [m].
+/// The motion of a material point: its velocity [m/s] and the spin of its section [rad/s].
+struct MaterialMotion {
+  Eigen::Vector3d velocity;
+  double spin = 0;
+};
+/// int (rho A N' v + rho I_p W' w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
+/// material, plus the bodies' momenta m v: what the motion `field`(beam, s), of velocity v and spin w, and
+/// the bodies' velocities (3 each) mean for the coordinates of `state`. Elements are integrated in parts
+/// between the places that `breaks`(beam) lists [m].
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
-                                     const std::function<Eigen::Vector3d(int beam, double s)>& field,
+                                     const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
                                      const std::vector<Eigen::Vector3d>& body_velocities);
 

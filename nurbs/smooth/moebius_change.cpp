@@ -8,40 +8,89 @@ namespace nurbeam::smooth {
 
 namespace {
 
+/// What the joint of two pieces asks of their charts: c_{j+1} = mu / (gamma - c_j). Theory, back to CAD, with
+/// the lengths l measured by the speeds.
+struct Joint {
+  double mu, gamma;
+
+  Joint(const Piece& left, const Piece& right) {
+    const Eigen::Index p = left.degree();
+    const double alpha = right.weight(1) / right.weight(0), beta = left.weight(p - 1) / left.weight(p);
+    mu = beta * leg(left, p - 1).norm() / (alpha * leg(right, 0).norm());
+    gamma = beta + mu * alpha;
+  }
+
+  /// The c of the piece after it; nothing where no positive one does.
+  std::optional<double> next(double c) const {
+    constexpr double same = 1e-11;
+    const double rest = gamma - c;
+    if (!(rest > 0) || !std::isfinite(mu)) return std::nullopt;
+    return c == 1 && std::abs(mu / rest - 1) < same ? 1 : mu / rest;
+  }
+};
+
 /// The chart of `right` that makes it continue `left` in C1, in homogeneous coordinates if `right` has the
-/// sense of it (they share their tangent); nothing where no positive c does. Theory, back to CAD, with the
-/// lengths l measured by the speeds: c_{j+1} = mu / (gamma - c_j), Delta_{j+1} = Delta_j c_j c_{j+1} / mu.
+/// sense of it (they share their tangent); nothing where there is none. Delta_{j+1} = Delta_j c_j c_{j+1} /
+/// mu.
 std::optional<MoebiusChange> next_change(const Piece& left, const MoebiusChange& chart, const Piece& right) {
-  constexpr double same = 1e-11;
-  const Eigen::Index p = left.degree();
-  const double alpha = right.weight(1) / right.weight(0), beta = left.weight(p - 1) / left.weight(p);
-  const double mu = beta * leg(left, p - 1).norm() / (alpha * leg(right, 0).norm());
-  const double rest = beta + mu * alpha - chart.c;
-  if (!(rest > 0) || !std::isfinite(mu)) return std::nullopt;
-  const bool keeps = chart.c == 1 && std::abs(mu / rest - 1) < same;
-  const double c = keeps ? 1 : mu / rest;
-  return MoebiusChange{c, chart.length * chart.c * c / mu};
+  const Joint joint(left, right);
+  const std::optional<double> c = joint.next(chart.c);
+  if (!c) return std::nullopt;
+  return MoebiusChange{*c, chart.length * chart.c * *c / joint.mu};
 }
 
-/// Charts of the pieces first..last, C1 in homogeneous coordinates, with the least ratio of weights; and the
-/// logarithm of that ratio.
-std::pair<double, std::vector<MoebiusChange>> mildest_changes(const Pieces& pieces, int first, int last) {
-  constexpr int steps = 60;
-  const auto spread_at = [&](double log_c) {
-    const auto charts = changes_of_run(pieces, first, last, {std::exp(log_c), 1}, CurveParameter::free);
-    if (!charts) return 1e3 + log_c;  // c was too large
-    double low = never, high = -never;
-    for (const Piece& piece : changed(pieces, first, *charts)) {
-      low = std::min(low, piece.points.row(3).minCoeff());
-      high = std::max(high, piece.points.row(3).maxCoeff());
+/// The weights of pieces and the joints between them: what the charts of a run are chosen by, again and
+/// again.
+class Weights {
+ public:
+  Weights(const Pieces& pieces, int first, int last)
+      : weights_(pieces[first].points.cols(), last - first + 1) {
+    for (int j = first; j <= last; ++j) weights_.col(j - first) = pieces[j].points.row(3).transpose();
+    for (int j = first; j < last; ++j) joints_.emplace_back(pieces[j], pieces[j + 1]);
+  }
+
+  /// The logarithm of the ratio of all weights of the pieces first..last in the charts that begin with c;
+  /// nothing where there are none.
+  std::optional<double> spread(int first, int last, double c) const {
+    double low = never, high = -never, end = 0;
+    for (int j = first; j <= last; ++j) {
+      double factor = j == first ? 1 : end / weights_(0, j);
+      for (Eigen::Index i = 0; i < weights_.rows(); ++i, factor *= c) {
+        end = weights_(i, j) * factor;
+        low = std::min(low, end);
+        high = std::max(high, end);
+      }
+      if (j == last) break;
+      const std::optional<double> next = joints_[j].next(c);
+      if (!next) return std::nullopt;
+      c = *next;
     }
     return std::log(high / low);
-  };
-  const double reach = widest_spread + spread(pieces[first].points.row(3));
-  double log_c = minimum_place(spread_at, -reach, reach, steps);
-  if (spread_at(0) <= spread_at(log_c) + 1e-9) log_c = 0;
-  const auto charts = changes_of_run(pieces, first, last, {std::exp(log_c), 1}, CurveParameter::free);
-  return {charts ? spread_at(log_c) : never, charts.value_or(std::vector<MoebiusChange>{})};
+  }
+
+  /// The c of the first piece with the least spread, and that spread, never where there is none.
+  std::pair<double, double> mildest(int first, int last) const {
+    constexpr int steps = 60;
+    const auto spread_at = [&](double log_c) {
+      return spread(first, last, std::exp(log_c)).value_or(1e3 + log_c);  // c was too large
+    };
+    const Eigen::RowVectorXd own = weights_.col(first).transpose();
+    const double reach = widest_spread + smooth::spread(own);
+    double log_c = minimum_place(spread_at, -reach, reach, steps);
+    if (spread_at(0) <= spread_at(log_c) + 1e-9) log_c = 0;
+    const double c = std::exp(log_c);
+    return {c, spread(first, last, c).value_or(never)};
+  }
+
+ private:
+  Eigen::MatrixXd weights_;  // a column for each piece
+  std::vector<Joint> joints_;
+};
+
+/// The charts of the pieces first..last that begin with c, which has them.
+std::vector<MoebiusChange> charts_from(const Pieces& pieces, int first, int last, double c) {
+  return changes_of_run(pieces, first, last, {c, 1}, CurveParameter::free)
+      .value_or(std::vector<MoebiusChange>{});
 }
 
 }  // namespace
@@ -71,9 +120,9 @@ bool share_tangent(const Piece& left, const Piece& right, double tolerance) {
 }
 
 std::optional<std::vector<MoebiusChange>> mild_changes(const Pieces& pieces, int first, int last) {
-  auto [spread, changes] = mildest_changes(pieces, first, last);
+  const auto [c, spread] = Weights(pieces, first, last).mildest(0, last - first);
   if (!(spread <= widest_spread)) return std::nullopt;
-  return std::move(changes);
+  return charts_from(pieces, first, last, c);
 }
 
 Pieces changed(const Pieces& pieces, int first, const std::vector<MoebiusChange>& charts) {
@@ -93,18 +142,21 @@ double spread(const Eigen::RowVectorXd& weights) {
 
 std::vector<MoebiusChange> free_changes(const Pieces& pieces, double tolerance) {
   const int count = static_cast<int>(pieces.size());
+  const Weights weights(pieces, 0, count - 1);
   std::vector<bool> smooth(pieces.size());  // with the piece after it
   for (int j = 0; j + 1 < count; ++j) smooth[j] = share_tangent(pieces[j], pieces[j + 1], tolerance);
   const auto cost = [&](int first, int last) {
     if (!std::all_of(smooth.begin() + first, smooth.begin() + last, [](bool joins) { return joins; }))
       return never;
-    return mildest_changes(pieces, first, last).first;
+    return weights.mildest(first, last).second;
   };
   const std::vector<int> starts = fewest_runs(count, cost, widest_spread);
   std::vector<MoebiusChange> charts;
   for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
     const int first = starts[i];
-    std::vector<MoebiusChange> run = mildest_changes(pieces, first, starts[i + 1] - 1).second;
+    const int last = starts[i + 1] - 1;
+    const std::vector<MoebiusChange> run =
+        charts_from(pieces, first, last, weights.mildest(first, last).first);
     double scale = 1;
     if (first > 0) {
       // r' of the piece before at its end is p beta leg / (c Delta), that of this one at its start

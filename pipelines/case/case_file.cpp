@@ -114,8 +114,11 @@ std::vector<double> read_load_factors(const Json& json, Findings& findings) {
 
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;
-  analysis.type = chosen<CaseAnalysis::Type>(
-      json, "type", {{"dynamic", CaseAnalysis::Type::dynamic}, {"static", CaseAnalysis::Type::statics}});
+  analysis.type = chosen<CaseAnalysis::Type>(json, "type",
+                                             {{"dynamic", CaseAnalysis::Type::dynamic},
+                                              {"static", CaseAnalysis::Type::statics},
+                                              {"modes", CaseAnalysis::Type::modes},
+                                              {"buckling", CaseAnalysis::Type::buckling}});
   analysis.start_from_equilibrium = text(json, "initial") == "equilibrium";
   const Json& control = part(json, "length_control");
   analysis.length_control = {number(control, "min", analysis.length_control.min),
@@ -127,13 +130,23 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   } else {
     for (const char* key : {"end_time", "step", "tolerance", "initial"})
       if (has(json, key))
-        findings.add(Severity::warning, child("analysis", key), "has no effect in a static analysis");
-    analysis.load_factors = read_load_factors(json, findings);
+        findings.add(Severity::warning, child("analysis", key),
+                     analysis.has_modes() ? "has no effect on modes and buckling"
+                                          : "has no effect in a static analysis");
+    if (analysis.type == CaseAnalysis::Type::statics)
+      analysis.load_factors = read_load_factors(json, findings);
     if (!analysis.load_factors.empty()) analysis.end_time = analysis.load_factors.back();
   }
-  if (dynamic && has(json, "load_steps"))
+  if (analysis.type != CaseAnalysis::Type::statics && has(json, "load_steps"))
     findings.error("analysis.load_steps",
                    "is for a static analysis; give loads a \"time\" table, or \"type\": \"static\"");
+  const Json& modes = part(json, "modes");
+  if (has(json, "modes") && !analysis.has_modes())
+    findings.add(Severity::warning, "analysis.modes",
+                 "has no effect but with the type \"modes\" or \"buckling\"");
+  analysis.modes = {.count = optional_integer(modes, "count").value_or(CaseModes{}.count),
+                    .about_equilibrium = text(modes, "about") != "drawn",
+                    .bodies_held = text(modes, "bodies") != "free"};
   analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
                                         analysis.step.has_value(), findings);
   if (dynamic && analysis.is_explicit() && !analysis.step)

@@ -175,8 +175,16 @@ struct CaseBeamJoint {
   std::optional<Eigen::Vector3d> near;  ///< where [m]; else where an end of one meets the other
 };
 
+/// Of modes and buckling.
+struct CaseModes {
+  int count = 10;
+  bool about_equilibrium = true;  ///< else as drawn, without loads
+  bool bodies_held = true;
+};
+
 struct CaseAnalysis {
-  enum class Type { dynamic, statics } type = Type::dynamic;
+  enum class Type { dynamic, statics, modes, buckling } type = Type::dynamic;
+  CaseModes modes;
   bool start_from_equilibrium = false;
   double end_time = 0;               ///< [s]; with load factors the last one
   std::vector<double> load_factors;  ///< of a static analysis, increasing; empty: 1
@@ -184,6 +192,7 @@ struct CaseAnalysis {
   IntegratorSettings integrator;
   LengthControl length_control;
 
+  bool has_modes() const { return type == Type::modes || type == Type::buckling; }
   /// An explicit method, which is for models without constraints between moving parts.
   bool is_explicit() const { return std::holds_alternative<ExplicitRungeKutta>(integrator); }
 };

@@ -209,9 +209,9 @@ Shape beam() {
         "spatial "
         "curvature and no sliding bodies; reference when omitted"},
        {"torsion", boolean(),
-        "the beam bends about its section's own axes and twists, in space and where nothing slides on it; when omitted "
-        "true with `orientation` or `second_moments`, and where the axis is curved in space and `stress_free` does not "
-        "say \"straight\""},
+        "the beam bends about its section's own axes and twists, in space and where no slope is discontinuous; when "
+        "omitted true with `orientation` or `second_moments`, and where the axis is curved in space and `stress_free` "
+        "does not say \"straight\""},
        {"orientation", orientation(), "how the sections of a beam with torsion are drawn"},
        {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
         "the unstressed shape; when omitted as-drawn in planar models and with torsion, else straight"},
@@ -312,8 +312,18 @@ Shape analysis() {
                "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
               {"max", quantity(Dimension::number, {.lower = 1, .open = true}),
                "a longer element is split; 1.15 when omitted (the paper's: 1.5)"}});
+  const Shape modes = object(
+      {{"count", integer({.lower = 1, .upper = 1000}), "how many, from the lowest on; 10 when omitted"},
+       {"about", choice({"equilibrium", "drawn"}),
+        "the state: in equilibrium under all loads, for buckling under gravity; or as drawn, without loads; "
+        "equilibrium when omitted"},
+       {"bodies", choice({"held", "free"}),
+        "sliding bodies are held at their `at`, or slide, about where they rest; held when omitted"}});
   return object(
-      {{"type", choice({"dynamic", "static"}), "motion or equilibrium; dynamic when omitted"},
+      {{"type", choice({"dynamic", "static", "modes", "buckling"}),
+        "motion, equilibrium, natural frequencies, or the factors of the loads that are not gravity "
+        "under which it buckles; dynamic when omitted"},
+       {"modes", modes, "of modes and buckling"},
        {"initial", choice({"as-drawn", "equilibrium"}),
         "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
         "when omitted"},

@@ -154,6 +154,24 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   }
 }
 
+/// Small vibrations and buckling want loads with an energy; buckling wants loads.
+void check_modes(const CaseFile& c, Findings& findings) {
+  if (!c.analysis.has_modes()) return;
+  const bool buckling = c.analysis.type == CaseAnalysis::Type::buckling;
+  if (buckling && c.loads.empty())
+    findings.error(
+        "analysis.type",
+        "is \"buckling\", but there are no \"loads\", whose factors it computes; gravity is none of "
+        "them");
+  if (!buckling && !c.analysis.modes.about_equilibrium) return;
+  for (const CaseLoad& load : c.loads)
+    if (load.follower)
+      findings.error(
+          child(load.path, "follower"),
+          "is true: a load that follows the section has no energy, and without one there are neither "
+          "natural frequencies nor buckling factors; use a load that is fixed in space");
+}
+
 void check_solids(const CaseFile& c, Findings& findings) {
   const std::vector<std::string>& formats = c.output.cad_formats;
   const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
@@ -205,6 +223,7 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_references(json, findings);
   check_bodies(json, case_file, findings);
   check_times(json, case_file, findings);
+  check_modes(case_file, findings);
   check_solids(case_file, findings);
   check_brep(case_file, findings);
   check_source(case_file, findings);

@@ -1,6 +1,7 @@
 #include "pipelines/command/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <ostream>
 #include <string>
@@ -30,17 +31,23 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
     longest = std::max(longest, length);
   }
   const BeamProperties& p = beam.properties;
+  const double stretch =
+      std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   const auto size = [](double value) { return text_of(value, size_digits); };
   out << "beam      " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
       << text_of(L, place_digits) << " m, mass " << size(L * p.mass_per_length) << " kg, "
       << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
-      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.axial_stiffness) << " N, ";
+      << size(shortest) << " to " << size(longest) << " m, EA "
+      << size(p.axial_stiffness * stretch * stretch * stretch) << " N, ";
   if (p.sections)
-    out << "EI1 " << size(p.sections->bending_1) << ", EI2 " << size(p.sections->bending_2) << ", EI12 "
-        << size(p.sections->bending_product) << ", GJ " << size(p.sections->torsion);
+    out << "EI1 " << size(p.sections->bending_1 * stretch) << ", EI2 "
+        << size(p.sections->bending_2 * stretch) << ", EI12 " << size(p.sections->bending_product * stretch)
+        << ", GJ " << size(p.sections->torsion * stretch);
   else
-    out << "EI " << size(p.bending_stiffness);
+    out << "EI " << size(p.bending_stiffness * stretch);
   out << " N m^2, stress-free " << (beam.curve.straight() ? "straight" : "as drawn");
+  if (stretch != 1) out << ", unstressed length " << text_of(L * stretch, place_digits) << " m";
+  if (!p.free_strain.thermal.empty()) out << ", with a temperature";
   if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
   out << '\n';
 }

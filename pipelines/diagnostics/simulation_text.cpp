@@ -85,6 +85,18 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
              "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) + slope_hint(model);
+    case Failure::Kind::unstable_state:
+      return "the state is unstable: an eigenvalue is negative, and a small disturbance grows like exp(" +
+             text_of(failure.growth, 6) + " t); there are no natural frequencies";
+    case Failure::Kind::no_energy:
+      return "the tangent is not symmetric: loads that follow the section and moments in space have no energy, "
+             "and without one there are neither natural frequencies nor buckling factors";
+    case Failure::Kind::not_held:
+      return "the tangent is singular (is the model held everywhere?)";
+    case Failure::Kind::nothing_buckles:
+      return "the loads do not change the stiffness: nothing buckles under them";
+    case Failure::Kind::eigenvalues:
+      return "the eigenvalues are not found; a smaller \"count\" may help";
     case Failure::Kind::resting_place:
       break;
   }

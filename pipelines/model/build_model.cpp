@@ -115,13 +115,18 @@ ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, Findings& fi
   }
 }
 
-void check_nothing_slides(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints,
-                          Findings& findings) {
+// Whether a body bends the beam by an angle where it is: a beam with torsion cannot have that.
+bool kinks(const CaseSlidingJoint& joint, const CaseBeam& beam) {
+  return joint.beam == beam.name && !joint.continuous_slope;
+}
+
+void check_no_kink(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints, Findings& findings) {
   for (const CaseSlidingJoint& joint : joints)
-    if (joint.beam == beam.name)
-      findings.error(
-          beam.path + ".torsion",
-          "body \"" + joint.body + "\" slides on this beam; only a beam without torsion can carry it");
+    if (kinks(joint, beam))
+      findings.error(beam.path + ".torsion",
+                     "body \"" + joint.body +
+                         "\" slides on this beam with a \"discontinuous\" slope, which only a beam without "
+                         "torsion can have; use \"continuous\"");
 }
 
 // The unstressed over the drawn length.
@@ -169,7 +174,7 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   properties.axial_strain = from.axial_strain;
   std::optional<SectionStresses> stresses;
   if (from.torsion) {
-    check_nothing_slides(from, resolved.sliding_joints, findings);
+    check_no_kink(from, resolved.sliding_joints, findings);
     if (const auto section_of_beam = torsion_section(from, curve.length(), drawn, findings)) {
       properties.sections = section_of_beam->stiffness;
       stresses = section_of_beam->stresses;
@@ -304,12 +309,12 @@ double mass_of(const BeamModel& model) {
 }
 
 // Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
-// another one than drawn. As yet only a beam without torsion carries a sliding body.
+// another one than drawn. As yet none that a body bends by an angle where it slides.
 bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve,
                       const std::vector<CaseSlidingJoint>& joints) {
-  const bool carries = std::any_of(joints.begin(), joints.end(),
-                                   [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
-  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve) && !carries;
+  const bool kinked = std::any_of(joints.begin(), joints.end(),
+                                  [&](const CaseSlidingJoint& joint) { return kinks(joint, beam); });
+  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve) && !kinked;
 }
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.

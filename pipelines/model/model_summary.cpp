@@ -39,26 +39,43 @@ std::string name_of(WeightRule rule) {
   return {};
 }
 
+std::string name_of(CaseAnalysis::Type type) {
+  switch (type) {
+    case CaseAnalysis::Type::dynamic:
+      return "dynamic";
+    case CaseAnalysis::Type::statics:
+      return "static";
+    case CaseAnalysis::Type::modes:
+      return "modes";
+    case CaseAnalysis::Type::buckling:
+      return "buckling";
+  }
+  return {};
+}
+
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
+  const double stretch =
+      std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   Json json = {{"name", beam.name},
                {"length [m]", beam.curve.length()},
+               {"unstressed length [m]", beam.curve.length() * stretch},
                {"mass [kg]", beam.curve.length() * p.mass_per_length},
                {"elements", beam.home.size() - 1},
                {"CAD segments", beam.curve.segment_count()},
                {"element", name_of(beam.weights)},
                {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
                {"bending as drawn [J]", source.drawn_bending},
-               {"EA [N]", p.axial_stiffness},
-               {"EI [N m^2]", p.bending_stiffness},
+               {"EA [N]", p.axial_stiffness * stretch * stretch * stretch},
+               {"EI [N m^2]", p.bending_stiffness * stretch},
                {"damping [s]", p.damping}};
   if (p.sections) {
     json.erase("EI [N m^2]");
     json["torsion"] = source.torsion;
-    json.update({{"EI1 [N m^2]", p.sections->bending_1},
-                 {"EI2 [N m^2]", p.sections->bending_2},
-                 {"EI12 [N m^2]", p.sections->bending_product},
-                 {"GJ [N m^2]", p.sections->torsion}});
+    json.update({{"EI1 [N m^2]", p.sections->bending_1 * stretch},
+                 {"EI2 [N m^2]", p.sections->bending_2 * stretch},
+                 {"EI12 [N m^2]", p.sections->bending_product * stretch},
+                 {"GJ [N m^2]", p.sections->torsion * stretch}});
     json["section outline [m]"] = to_json(source.outline);
   }
   return json;
@@ -128,9 +145,8 @@ Json to_json(const LineLoad& load, const BuiltModel& built) {
 
 std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   const BeamModel& model = built.model;
-  const bool statics = case_file.analysis.type == CaseAnalysis::Type::statics;
   Json json = {
-      {"analysis", statics ? "static" : "dynamic"},
+      {"analysis", name_of(case_file.analysis.type)},
       {"dimension", model.dimension},
       {"plane_normal",
        model.dimension == 2 ? to_json(built.frame.direction_to_world(Eigen::Vector3d::UnitZ())) : Json()},

@@ -146,7 +146,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     }
     if (joint.motion_speed)
       added.motion = steady_motion(added.s, *joint.motion_speed, curve, resolved.analysis.end_time);
-    if (joint.leave_at_end && resolved.analysis.type != CaseAnalysis::Type::statics)
+    if (joint.leave_at_end && resolved.analysis.type == CaseAnalysis::Type::dynamic)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     if (joint.release && resolved.analysis.type == CaseAnalysis::Type::statics)
       findings.warn(joint.path + ".release", "has no effect in a static analysis: bodies come to rest");

@@ -12,7 +12,7 @@ std::string why_torsion(const CaseBeam& beam, bool asked, bool curved,
   if (!curved) return "no, as it is drawn straight and bends alike in all directions";
   const bool carries = std::any_of(joints.begin(), joints.end(),
                                    [&](const CaseSlidingJoint& joint) { return joint.beam == beam.name; });
-  return carries ? "no, as a body slides on it" : "no";
+  return carries ? "no, as a body with a discontinuous slope slides on it" : "no";
 }
 
 }  // namespace nurbeam

@@ -65,10 +65,18 @@ struct Field {
   Eigen::Vector4d (*values)(const ElementRecord& element);
   double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
 
-  /// A value as a whole number: 0 is min, 65535 is max.
-  std::uint16_t number_of(double value) const {
+  void add(const ElementRecord& element) {
+    const Eigen::Vector4d now = values(element);
+    for (const double value : now) {
+      if (std::isnan(value)) continue;
+      min = std::min(min, value);
+      max = std::max(max, value);
+    }
+  }
+  /// A value as a byte: 0 is min, 255 is max.
+  unsigned char byte_of(double value) const {
     const double part = max > min && !std::isnan(value) ? (value - min) / (max - min) : 0;
-    return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(part, 0.0, 1.0)));
+    return static_cast<unsigned char>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
   }
 };
 
@@ -117,7 +125,7 @@ struct Survey {
     std::size_t bytes = columns.size() * sizeof(double);
     for (const std::size_t n : element_counts[frame])
       bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + (sections ? 12 * n : 0) + n + 1) +
-               sizeof(std::uint16_t) * 4 * n * fields.size();
+               (2 * sizeof(float) + 4 * n) * fields.size();
     return bytes;
   }
 
@@ -127,14 +135,7 @@ struct Survey {
     for (int i = 0; i < 4; ++i)
       box.extend(Eigen::Vector3d(element.control_points.col(i).head<3>() / weights[i]));
     rational = rational || weights.minCoeff() != weights.maxCoeff();
-    for (Field& field : fields) {
-      const Eigen::Vector4d values = field.values(element);
-      for (const double value : values) {
-        if (std::isnan(value)) continue;
-        field.min = std::min(field.min, value);
-        field.max = std::max(field.max, value);
-      }
-    }
+    for (Field& field : fields) field.add(element);
   }
 };
 
@@ -161,18 +162,22 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
         const Eigen::Matrix<float, 3, 4> d1 = element.d1.cast<float>();
         append(bytes, d1.data(), 12);
       }
-    const auto add_place = [&](double s) {
-      const auto place = static_cast<float>(s);
-      append(bytes, &place, 1);
+    const auto add_float = [&](double value) {
+      const auto number = static_cast<float>(value);
+      append(bytes, &number, 1);
     };
-    for (const ElementRecord& element : beam.elements) add_place(element.s_start);
-    add_place(beam.elements.back().s_end);
+    for (const ElementRecord& element : beam.elements) add_float(element.s_start);
+    add_float(beam.elements.back().s_end);
+    std::vector<Field> here;  // with their ranges in this beam and frame
     for (const Field& field : survey.fields) {
+      here.push_back({field.name, field.unit, field.values});
+      for (const ElementRecord& element : beam.elements) here.back().add(element);
+      add_float(here.back().min);
+      add_float(here.back().max);
+    }
+    for (const Field& field : here) {
       for (const ElementRecord& element : beam.elements)
-        for (const double value : field.values(element)) {
-          const std::uint16_t number = field.number_of(value);
-          append(bytes, &number, 1);
-        }
+        for (const double value : field.values(element)) bytes.push_back(field.byte_of(value));
     }
   }
   return bytes;

@@ -20,7 +20,7 @@ struct ReportFrames {
 
 /// Writes the page (HTML) with the frames and run.json in it; it needs nothing else, no network either.
 /// Histories are stored as they are (float64), control points as float32 relative to the middle of the model,
-/// fields as one byte of their range over the whole run. Where shapes and histories would take more than
+/// fields as one byte of their range in the beam and frame. Where shapes and histories would take more than
 /// `most_bytes` it holds every second, third, ... frame and the last, and says so.
 /// Throws std::invalid_argument unless `run_json` is a JSON object and there is a frame.
 void write_report_page(std::ostream& stream, const ReportFrames& frames, const std::string& run_json,

@@ -185,13 +185,6 @@ Grid body_grid(const std::vector<BodyRecord>& bodies) {
   return grid;
 }
 
-// "frames/beams_000042.vtu"
-std::string frame_file(const char* kind, std::size_t frame) {
-  char name[64];
-  std::snprintf(name, sizeof name, "frames/%s_%06zu.vtu", kind, frame);
-  return name;
-}
-
 }  // namespace
 
 Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eigen::Vector4d& weights) {
@@ -207,12 +200,23 @@ Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eige
   return (inverse * samples.cwiseProduct(bernstein * weights)).cwiseQuotient(weights);
 }
 
-ParaviewSeries::ParaviewSeries(fs::path directory, SnapshotNames names, std::vector<double> times)
-    : directory_(std::move(directory)), names_(std::move(names)), times_(std::move(times)) {
+ParaviewSeries::ParaviewSeries(fs::path directory, SnapshotNames names, std::vector<double> times,
+                               const std::string& name)
+    : directory_(std::move(directory)),
+      index_((name.empty() ? "frames" : name) + ".pvd"),
+      prefix_(name.empty() ? "" : name + "_"),
+      names_(std::move(names)),
+      times_(std::move(times)) {
   std::error_code error;
   fs::create_directory(directory_ / "frames", error);
   if (error)
     throw std::runtime_error((directory_ / "frames").string() + ": cannot be made: " + error.message());
+}
+
+std::string ParaviewSeries::frame_file(const char* kind, std::size_t frame) const {
+  char end[64];
+  std::snprintf(end, sizeof end, "%s_%06zu.vtu", kind, frame);
+  return "frames/" + prefix_ + end;
 }
 
 void ParaviewSeries::write(const Snapshot& frame) {
@@ -227,7 +231,7 @@ void ParaviewSeries::write(const Snapshot& frame) {
 
 void ParaviewSeries::write_index() const {
   write_xml(
-      directory_ / "frames.pvd",
+      directory_ / index_,
       [&](std::ostream& out) {
         out << "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
         const auto entry = [&](std::size_t frame, int part, const char* kind) {

@@ -16,15 +16,21 @@ namespace nurbeam {
 /// after a body has left its beam).
 class ParaviewSeries {
  public:
-  /// `directory` exists. The first frames of an earlier run, with these times, are kept.
-  ParaviewSeries(std::filesystem::path directory, SnapshotNames names, std::vector<double> times = {});
+  /// `directory` exists. The first frames of an earlier run, with these times, are kept. A series of another
+  /// name has NAME.pvd and frames/NAME_beams_000000.vtu, ...
+  ParaviewSeries(std::filesystem::path directory, SnapshotNames names, std::vector<double> times = {},
+                 const std::string& name = {});
   /// Writes one frame. This and the other throw std::runtime_error (file and reason).
   void write(const Snapshot& frame);
-  /// Writes frames.pvd for the frames so far.
+  /// Writes the .pvd for the frames so far.
   void write_index() const;
 
  private:
+  /// "frames/beams_000042.vtu"
+  std::string frame_file(const char* kind, std::size_t frame) const;
+
   std::filesystem::path directory_;
+  std::string index_, prefix_;  // frames.pvd; NAME_
   SnapshotNames names_;
   std::vector<double> times_;
 };

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 /// The names that a run gives to its files.
 bool is_of_a_run(const std::string& name) {
   static const std::regex ours(
-      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|frames\.pvd|report\.html)(\.part)?|)"
+      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|frames\.pvd|)"
+      R"(modes\.csv|mode_[0-9]+\.pvd|report\.html)(\.part)?|)"
       R"(run\.log|deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs)(\.part[0-9]+)?)");
   return std::regex_match(name, ours);
 }
@@ -33,7 +34,7 @@ constexpr const char* frames_directory = "frames";
 
 /// The names that a run gives to the files in frames/.
 bool is_a_frame(const std::string& name) {
-  static const std::regex ours(R"((beams|bodies|reactions)_[0-9]+\.vtu(\.part)?)");
+  static const std::regex ours(R"((mode_[0-9]+_)?(beams|bodies|reactions)_[0-9]+\.vtu(\.part)?)");
   return std::regex_match(name, ours);
 }
 

@@ -52,6 +52,22 @@ Json to_json(const RunExtreme& extreme) {
           {"time [s]", extreme.time}};
 }
 
+Json to_json(const ModeTable& table) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const ModeRow& row = table.rows[i];
+    if (table.buckling)
+      list.push_back({{"number", i + 1}, {"factor", row.factor}});
+    else
+      list.push_back({{"number", i + 1},
+                      {"frequency [Hz]", row.frequency()},
+                      {"period [s]", row.omega > 0 ? Json(1 / row.frequency()) : Json()},
+                      {"effective_mass [kg]", to_json(row.effective_mass())},
+                      {"participation [sqrt(kg)]", to_json(row.participation)}});
+  }
+  return list;
+}
+
 template <class Item>
 Json list(const std::vector<Item>& items) {
   Json list = Json::array();
@@ -63,28 +79,33 @@ Json to_json(const RunSummary& summary) {
   const PhaseTimes& wall = summary.wall_times;
   Json events = Json::array();
   for (const RunEvent& event : summary.events) events.push_back(to_json(event, summary));
-  return {{"nurbeam", summary.version},
-          {"case", summary.case_name},
-          {"status", summary.status},
-          {"resumed_at [s]", summary.resumed_at ? Json(*summary.resumed_at) : Json()},
-          {"end_time [s]", summary.end_time},
-          {"steps", summary.steps},
-          {"rejected_steps", summary.rejected_steps},
-          {"newton_iterations", summary.newton_iterations},
-          {"energy_drift [J]", summary.energy_drift},
-          {"axial_mismatch", to_json(summary.axial_mismatch)},
-          {"extremes", list(summary.extremes)},
-          {"wall_times [s]",
-           {{"import", wall.import},
-            {"model", wall.model},
-            {"motion", wall.motion},
-            {"length_control", wall.length_control},
-            {"output", wall.output}}},
-          {"inputs", list(summary.inputs)},
-          {"model", summary.model.empty() ? Json() : Json::parse(summary.model)},
-          {"events", events},
-          {"diagnostics", list(summary.diagnostics)},
-          {"files", list(summary.files)}};
+  Json json = {{"nurbeam", summary.version},
+               {"case", summary.case_name},
+               {"status", summary.status},
+               {"resumed_at [s]", summary.resumed_at ? Json(*summary.resumed_at) : Json()},
+               {"end_time [s]", summary.end_time},
+               {"steps", summary.steps},
+               {"rejected_steps", summary.rejected_steps},
+               {"newton_iterations", summary.newton_iterations},
+               {"energy_drift [J]", summary.energy_drift},
+               {"axial_mismatch", to_json(summary.axial_mismatch)},
+               {"extremes", list(summary.extremes)},
+               {"wall_times [s]",
+                {{"import", wall.import},
+                 {"model", wall.model},
+                 {"motion", wall.motion},
+                 {"length_control", wall.length_control},
+                 {"output", wall.output}}},
+               {"inputs", list(summary.inputs)},
+               {"model", summary.model.empty() ? Json() : Json::parse(summary.model)},
+               {"events", events},
+               {"diagnostics", list(summary.diagnostics)},
+               {"files", list(summary.files)}};
+  if (summary.modes) {
+    json[summary.modes->buckling ? "buckling" : "modes"] = to_json(*summary.modes);
+    if (!summary.modes->buckling) json["mass [kg]"] = summary.modes->mass;
+  }
+  return json;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/run_event.h"
 #include "fem/motion/snapshot.h"
+#include "pipelines/results/mode_table.h"
 #include "pipelines/results/run_extremes.h"
 
 namespace nurbeam {
@@ -52,6 +53,7 @@ struct RunSummary {
       0;  ///< largest departure of the total energy, with the dissipated, from its start [J]
   Mismatch axial_mismatch;
   std::vector<RunExtreme> extremes;
+  std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling
   std::vector<Diagnostic> diagnostics;
   std::vector<std::filesystem::path> files;  ///< written, relative to the results directory
 };

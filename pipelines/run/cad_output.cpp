@@ -70,9 +70,9 @@ std::string CadOutput::stem(const Snapshot& frame) const {
     name << "_t" << frame.time;
     return name.str();
   }
-  const double last = statics
-                          ? static_cast<double>(factors.size())
-                          : case_.analysis.end_time / case_.output.every.value_or(case_.analysis.end_time);
+  const double last = statics              ? static_cast<double>(factors.size())
+                      : case_.output.every ? case_.analysis.end_time / *case_.output.every
+                                           : 0;
   const std::size_t width = std::max<std::size_t>(4, std::to_string(std::lround(last) + 1).size());
   name << '_' << std::setfill('0') << std::setw(int(width)) << frame_;
   return name.str();

@@ -20,6 +20,7 @@
 #include "pipelines/results/file_hash.h"
 #include "pipelines/results/results_directory.h"
 #include "pipelines/results/run_summary.h"
+#include "pipelines/run/mode_run.h"
 #include "pipelines/run/progress.h"
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
@@ -142,7 +143,8 @@ class Run {
   ExitCode play() {
     begin_log();
     RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
-    const SimulationReport simulated = simulate_into(outputs);
+    const SimulationReport simulated =
+        case_.analysis.has_modes() ? find_modes_into(outputs) : simulate_into(outputs);
     outputs.finish();
     // A run that ended before its first frame has nothing to show.
     const bool with_report = case_.output.report && !StoredFrames(options_.out).times().empty();
@@ -166,6 +168,19 @@ class Run {
     *log_ << "nurbeam " << NURBEAM_VERSION << ": " << case_.path.string()
           << (from_ ? ", resumed at t = " + text_of(from_->state.t) + " s" : std::string()) << std::endl;
     print_diagnostics(*log_, summary_.diagnostics);
+  }
+
+  SimulationReport find_modes_into(RunOutputs& outputs) {
+    const InterruptGuard guard;
+    ModeTable table;
+    const SimulationReport report = run_modes(
+        case_, built_, [&] { return guard.interrupted(); }, outputs, table);
+    if (report.status != SimulationStatus::done) return report;
+    write_mode_table(options_.out / "modes.csv", table);
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+      options_.quiet ? void(*log_ << mode_text(table, i) << std::endl) : tell(mode_text(table, i));
+    summary_.modes = std::move(table);
+    return report;
   }
 
   SimulationReport simulate_into(RunOutputs& outputs) {

@@ -135,6 +135,23 @@ void RunOutputs::write(const Snapshot& local) {
   });
 }
 
+void RunOutputs::write_shape(const Snapshot& local) {
+  timed([&] {
+    const Snapshot frame = to_world(built_.frame, local);
+    results_.write(frame);
+    if (paraview_) paraview_->write(frame);
+    cad_.write(frame, diagnostics_);
+  });
+}
+
+void RunOutputs::write_series(const std::string& name, const std::vector<Snapshot>& local) {
+  timed([&] {
+    ParaviewSeries series(directory_, snapshot_names(built_), {}, name);
+    for (const Snapshot& frame : local) series.write(to_world(built_.frame, frame));
+    series.write_index();
+  });
+}
+
 bool RunOutputs::checkpoint_due() const { return Clock::now() - last_restart_ >= restart_interval; }
 
 void RunOutputs::write(const Checkpoint& point) {

@@ -26,6 +26,10 @@ class RunOutputs {
 
   /// Writes one frame, in the model's own coordinates.
   void write(const Snapshot& local);
+  /// Writes a frame that shows a shape, in the model's own coordinates: no extreme counts.
+  void write_shape(const Snapshot& local);
+  /// Writes frames as a ParaView series NAME.pvd.
+  void write_series(const std::string& name, const std::vector<Snapshot>& local);
   /// Whether the last restart point is old enough for another.
   bool checkpoint_due() const;
   /// Puts all frames so far, and the point, on the disk.

@@ -199,6 +199,53 @@ report_test('colours follow the chosen field, signed ones symmetrically about ze
   assert.equal(new Set([pictures.strain, pictures['curvature [1/m]'], pictures['speed [m/s]']]).size, 3);
 });
 
+report_test('colours can show the range of the instant', falling_beam, {}, async (page) => {
+  await page.selectOption('#field', { label: 'speed [m/s]' });
+  await go_to(page, 0);
+  const high = () => page.textContent('#legend-high');
+  const of_run = await high(), whole = (await picture(page)).hash;
+  await go_to(page, 10);
+  assert.equal(await high(), of_run);
+  await page.check('#instant');
+  const of_instant = await high();
+  assert.notEqual(of_instant, of_run);
+  assert.notEqual((await picture(page)).hash, whole);
+  await go_to(page, 40);
+  assert.notEqual(await high(), of_instant);
+});
+
+report_test('a field along the beams is the one of the histories', falling_beam, {}, async (page) => {
+  const csv = histories('falling_beam');
+  const beam = csv.names.find((name) => name.endsWith('.axial_force.min [N]')).replace('.axial_force.min [N]', '');
+  await page.selectOption('#along-field', { label: 'axial force [N]' });
+  const of = (frame, part) => csv.value(frame, `${beam}.axial_force.${part} [N]`);
+  const range = Math.max(...csv.rows.map((_, i) => of(i, 'max'))) - Math.min(...csv.rows.map((_, i) => of(i, 'min')));
+  for (const frame of [0, 25, 40]) {
+    await go_to(page, frame);
+    const [low, high] = (await readings(page, 'along'))[beam].split(' ').map(Number);
+    assert.ok(Math.abs(low - of(frame, 'min')) < 1e-3 * range, `${low}, not ${of(frame, 'min')}`);
+    assert.ok(Math.abs(high - of(frame, 'max')) < 1e-3 * range, `${high}, not ${of(frame, 'max')}`);
+  }
+  const box = await page.$eval('[data-plot="along"] path.history', (path) => path.getBBox());
+  assert.ok(box.width > 300);
+});
+
+report_test('positions can be shown from where they start', falling_beam, {}, async (page) => {
+  const start = await readings(page, 'probe-0-position');
+  await page.check('#from-start');
+  for (const value of Object.values(await readings(page, 'probe-0-position'))) {
+    assert.equal(Number(value), 0);
+  }
+  await page.uncheck('#from-start');
+  assert.deepEqual(await readings(page, 'probe-0-position'), start);
+});
+
+report_test('loads are drawn where they act', still, {}, async (page) => {
+  const drawn_loads = (await picture(page)).hash;
+  await page.uncheck('#loads');
+  assert.notEqual((await picture(page)).hash, drawn_loads);
+});
+
 /** How high the hued pixels are in the columns from `from` to `to`, parts of the beam's extent. */
 function height_between({ points, left, right }, from, to) {
   const inside = points.filter(([x]) => x >= left + from * (right - left) && x <= left + to * (right - left));
@@ -237,53 +284,6 @@ report_test('rectangles, disks, pipes and profiles are drawn', 'sections.html', 
 
 report_test('beams without torsion have no sections to choose', falling_beam, {}, async (page) => {
   assert.equal(await page.isVisible('#sections'), false);
-});
-
-report_test('colours can show the range of the instant', falling_beam, {}, async (page) => {
-  await page.selectOption('#field', { label: 'speed [m/s]' });
-  await go_to(page, 0);
-  const high = () => page.textContent('#legend-high');
-  const of_run = await high(), whole = (await picture(page)).hash;
-  await go_to(page, 10);
-  assert.equal(await high(), of_run);
-  await page.check('#instant');
-  const of_instant = await high();
-  assert.notEqual(of_instant, of_run);
-  assert.notEqual((await picture(page)).hash, whole);
-  await go_to(page, 40);
-  assert.notEqual(await high(), of_instant);
-});
-
-report_test('a field along the beams is the one of the histories', falling_beam, {}, async (page) => {
-  const csv = histories('falling_beam');
-  const beam = csv.names.find((name) => name.endsWith('.axial_force.min [N]')).replace('.axial_force.min [N]', '');
-  await page.selectOption('#along-field', { label: 'axial force [N]' });
-  const of = (frame, part) => csv.value(frame, `${beam}.axial_force.${part} [N]`);
-  const range = Math.max(...csv.rows.map((_, i) => of(i, 'max'))) - Math.min(...csv.rows.map((_, i) => of(i, 'min')));
-  for (const frame of [0, 25, 40]) {
-    await go_to(page, frame);
-    const [low, high] = (await readings(page, 'along'))[beam].split(' ').map(Number);
-    assert.ok(Math.abs(low - of(frame, 'min')) < 1e-3 * range, `${low}, not ${of(frame, 'min')}`);
-    assert.ok(Math.abs(high - of(frame, 'max')) < 1e-3 * range, `${high}, not ${of(frame, 'max')}`);
-  }
-  const box = await page.$eval('[data-plot="along"] path.history', (path) => path.getBBox());
-  assert.ok(box.width > 300 && box.height > 5);
-});
-
-report_test('positions can be shown from where they start', falling_beam, {}, async (page) => {
-  const start = await readings(page, 'probe-0-position');
-  await page.check('#from-start');
-  for (const value of Object.values(await readings(page, 'probe-0-position'))) {
-    assert.equal(Number(value), 0);
-  }
-  await page.uncheck('#from-start');
-  assert.deepEqual(await readings(page, 'probe-0-position'), start);
-});
-
-report_test('loads are drawn where they act', still, {}, async (page) => {
-  const drawn_loads = (await picture(page)).hash;
-  await page.uncheck('#loads');
-  assert.notEqual((await picture(page)).hash, drawn_loads);
 });
 
 report_test('a rational segment is drawn as the circle it is', 'arc.html', {}, async (page) => {

@@ -293,6 +293,96 @@ TEST(ExportIntoStep, EveryFreeCurveOfTheCorpusCanBeExchanged) {
   EXPECT_GE(exchanged, 1);
 }
 
+TEST(ExportIntoStep, CurvesThatOpenCascadeDoesNotReadAreExchangedToo) {
+  const ScratchDirectory scratch;
+  const fs::path target = scratch.path() / "target.step";
+  const std::string supplemental =
+      "#100 = CIRCLE('hoop',#11,1.);\n#110 = ELLIPSE('rim',#11,3.,1.);\n"
+      "#150 = CONSTRUCTIVE_GEOMETRY_REPRESENTATION('supplemental geometry',(#110),#26);\n"
+      "#151 = CONSTRUCTIVE_GEOMETRY_REPRESENTATION_RELATIONSHIP('supplemental geometry','',#10,#150);\n";
+  const std::string bezier =
+      "#100 = CIRCLE('hoop',#11,1.);\n#200 = CARTESIAN_POINT('',(1.,0.,0.));\n"
+      "#201 = CARTESIAN_POINT('',(1.,1.,0.));\n#202 = CARTESIAN_POINT('',(0.,1.,0.));\n"
+      "#110 = ( BEZIER_CURVE() BOUNDED_CURVE() B_SPLINE_CURVE(2,(#200,#201,#202),.UNSPECIFIED.,.F.,.F.) CURVE() "
+      "GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((1.,0.70710678118654752,1.)) "
+      "REPRESENTATION_ITEM('rim') );\n";
+  for (const std::string& text : {step_text_of("#100", supplemental), step_text_of("#100,#110", bezier)}) {
+    const fs::path source = scratch.file("source.step", text);
+    const ImportReport before = import_curves(source);
+    ASSERT_EQ(before.curves.size(), 2u);
+    ASSERT_EQ(before.curves[1].name, "rim");
+    EXPECT_TRUE(export_into_step(source, target, {{before.curves[1].curve, bent(0.1, true), "rim"}}).empty());
+    const ImportReport after = import_curves(target);
+    ASSERT_EQ(after.curves.size(), 2u);
+    const auto rim = std::find_if(after.curves.begin(), after.curves.end(),
+                                  [](const ImportedCurve& curve) { return curve.name == "rim"; });
+    ASSERT_NE(rim, after.curves.end());
+    EXPECT_LE(difference(rim->curve, bent(0.1, true)), 2e-15);
+  }
+}
+
+TEST(ExportIntoStep, ACurveOfDegreeFourteenIsExchanged) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  Eigen::Matrix3Xd points(3, 15);
+  for (int i = 0; i < 15; ++i) points.col(i) << i, i % 3, i % 2;
+  std::vector<double> knots(15, 0);
+  knots.insert(knots.end(), 15, 1);
+  const NurbsCurve steep = make_nurbs_curve(KnotVector(14, knots), points, Eigen::VectorXd::Ones(15));
+  ASSERT_TRUE(export_curves(source, {{"steep", steep}}, LengthUnit::millimetre).empty());
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 1u);
+  ASSERT_EQ(before.curves[0].curve.degree(), 14);
+  EXPECT_TRUE(
+      export_into_step(source, target, {{before.curves[0].curve, bent(0.1, false), "steep"}}).empty());
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 1u);
+  EXPECT_EQ(after.curves[0].name, "steep");
+  EXPECT_LE(difference(after.curves[0].curve, bent(0.1, false)), 2e-15);
+}
+
+TEST(ExportIntoStep, ATrimmedCurveOfAnEdgeIsExchangedInItsPlace) {
+  const ScratchDirectory scratch;
+  const fs::path target = scratch.path() / "target.step";
+  const fs::path source =
+      scratch.file("source.step", step_text_of("#110",
+                                               "#100 = CIRCLE('',#11,1.);\n"
+                                               "#110 = TRIMMED_CURVE('bow',#100,(PARAMETER_VALUE(0.)),"
+                                               "(PARAMETER_VALUE(1.)),.T.,.PARAMETER.);"));
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 1u);
+  const auto warnings = export_into_step(source, target, {{before.curves[0].curve, bent(0.1, true), "bow"}});
+  EXPECT_TRUE(warnings.empty()) << warnings.at(0).message;
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 1u);
+  EXPECT_EQ(after.curves[0].name, "bow");
+  EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
+}
+
+int count_of(const std::string& word, const fs::path& file) {
+  const std::string text = content_of(file);
+  int count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+TEST(ExportIntoStep, WhatIsAddedToAPartComesIntoOneSetOfCurves) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  write_assembly(source, assembly(BRepPrimAPI_MakeBox(100, 50, 20).Shape(), 1));
+  const ImportReport box = import_curves(source);
+  ASSERT_EQ(export_into_step(source, target,
+                             {{box.curves[3].curve, bent(0.3, true), "one"},
+                              {box.curves[4].curve, bent(0.5, true), "two"}})
+                .size(),
+            2u);
+  EXPECT_EQ(count_of("GEOMETRIC_CURVE_SET(", target), 1);
+  EXPECT_EQ(count_of("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION(", target), 1);
+  const ImportReport after = import_curves(target);
+  EXPECT_EQ(after.curves.size(), 14u);
+  EXPECT_TRUE(after.diagnostics.empty());
+}
+
 TEST(ExportIntoStep, SaysWhatItCannotReadOrFindAndWritesNothing) {
   const ScratchDirectory scratch;
   const fs::path target = scratch.path() / "target.step";

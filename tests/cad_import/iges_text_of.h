@@ -14,6 +14,7 @@ struct IgesEntity {
   std::string label = {};
   int subscript = 0;
   int status = 0;
+  int matrix = 0;  // the line of its transformation (124)
 };
 
 /// A line of an IGES file: 72 columns of content, the section's letter, the number.
@@ -35,7 +36,7 @@ inline std::string iges_text_of(const std::vector<IgesEntity>& entities) {
                      iges_line(global.substr(72) + "13H240101.000000,1D-3,10.,4Htest,4Htest,11,0;", 'G', 2);
   int line = 0;
   for (const IgesEntity& e : entities) {
-    text += iges_line(fields({e.type, line / 2 + 1, 0, 0, e.level, 0, 0, 0, e.status}), 'D', line + 1);
+    text += iges_line(fields({e.type, line / 2 + 1, 0, 0, e.level, 0, e.matrix, 0, e.status}), 'D', line + 1);
     std::ostringstream second;
     second << fields({e.type, 0, e.colour, 1, e.form}) << std::string(16, ' ') << std::setw(8) << e.label
            << std::setw(8) << e.subscript;

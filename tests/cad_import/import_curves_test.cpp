@@ -238,19 +238,6 @@ TEST(ImportCurves, TheOffsetOfALineOrOfACircleInItsPlaneIsExact) {
   EXPECT_LE((end_of(beside.curve) - Eigen::Vector3d(0.04, 0.005, 0)).norm(), 1e-16);
 }
 
-TEST(ImportCurves, APartInAnotherFileIsNamed) {
-  const std::string reference =
-      "#100 = CIRCLE('good',#11,1.);\n"
-      "#200 = DOCUMENT_TYPE('');\n#201 = DOCUMENT_FILE('bolt.stp','','',#200,'',$);\n"
-      "#202 = APPLIED_DOCUMENT_REFERENCE(#201,'',(#5));\n#203 = DOCUMENT_REPRESENTATION_TYPE('digital',#201);\n";
-  const ImportReport report = import_text(step_text_of("#100", reference));
-  EXPECT_EQ(report.curves.size(), 1U);
-  ASSERT_EQ(report.diagnostics.size(), 1U);
-  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
-  for (const char* part : {"'curves'", "'bolt.stp'", "not read"})
-    EXPECT_NE(report.diagnostics[0].message.find(part), std::string::npos) << report.diagnostics[0].message;
-}
-
 TEST(ImportCurves, ACurveWithoutANameTakesThatOfItsSet) {
   EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "zipline")).name, "zipline");
   EXPECT_EQ(only_curve(step_text_of("#100", "#100 = CIRCLE('own',#11,1.);", "zipline")).name, "own");

@@ -172,9 +172,11 @@ TEST(Torsion, OfAModelIsRefusedWhereItMeansNothing) {
   ModelBuilder space(3);
   space.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {2, 0, 0})}, 3), with_sections());
   space.add_beam(ReferenceCurve({line_cubic({0, 1, 0}, {2, 1, 0})}, 3), BeamProperties{300, 2, 0.7});
-  EXPECT_THROW(space.slide(space.add_body("bead", 1), 0, 1), std::invalid_argument);
-  EXPECT_NO_THROW(space.slide(0, 1, 1));
   EXPECT_THROW(space.fork(1, 0), std::invalid_argument);
+  SlidingJoint& joint = space.slide(space.add_body("bead", 1), 0, 1);
+  EXPECT_NO_THROW(space.build());
+  joint.continuous_slope = false;
+  EXPECT_THROW(space.build(), std::invalid_argument);
 }
 
 }  // namespace

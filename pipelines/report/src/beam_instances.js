@@ -1,7 +1,7 @@
 // What is instanced along a beam: each instance is one rational cubic, evaluated in the vertex shader.
 import {
   DoubleSide, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, InstancedInterleavedBuffer,
-  InterleavedBufferAttribute, Mesh, RawShaderMaterial,
+  InterleavedBufferAttribute, Mesh, RawShaderMaterial, Vector2,
 } from 'three';
 
 /** GLSL: r and its derivative dr at u of the instance, and the field's value there. */
@@ -14,6 +14,7 @@ in vec4 weights;
 #endif
 #ifdef COLOURED
 in vec4 values;        // of the field at u = 0, 1/3, 2/3, 1
+uniform vec2 range;     // from the beam's range to that of the map: factor and offset
 out float value;
 #endif
 
@@ -36,6 +37,7 @@ void set_value(float u) {
   float t = 3.0 * u;
   value = t < 1.0 ? mix(values.x, values.y, t) : t < 2.0 ? mix(values.y, values.z, t - 1.0)
                                                          : mix(values.z, values.w, t - 2.0);
+  value = range.x * value + range.y;
 #endif
 }`;
 
@@ -71,15 +73,23 @@ export class BeamInstances {
       }
     }
     if (uniforms.map) {
-      this.values = new InstancedBufferAttribute(new Uint16Array(4 * most_elements), 4, true);
+      this.values = new InstancedBufferAttribute(new Uint8Array(4 * most_elements), 4, true);
       this.values.setUsage(DynamicDrawUsage);
       this.geometry.setAttribute('values', this.values);
       defines.COLOURED = '';
     }
+    this.range = { value: new Vector2(1, 0) };
     this.object = new Mesh(this.geometry, new RawShaderMaterial({
-      vertexShader, fragmentShader, glslVersion: GLSL3, defines, uniforms, side: DoubleSide,
+      vertexShader, fragmentShader, glslVersion: GLSL3, defines, uniforms: { ...uniforms, range: this.range },
+      side: DoubleSide,
     }));
     this.object.frustumCulled = false;
+  }
+
+  /** Colours values, of which the beam has them from min to max, by a map from low to high. */
+  set_range({ min, max }, { low, high }) {
+    const extent = high > low ? high - low : 1;
+    this.range.value.set((max - min) / extent, (min - low) / extent);
   }
 
   /** Takes the shape of a beam, and the field's values, from the loaded frame. */
@@ -96,7 +106,7 @@ export class BeamInstances {
       this.axes.needsUpdate = true;
     }
     if (this.values) {
-      copy(this.values.array, shapes.shorts, shapes.field_start(frame, beam, field), 4 * n);
+      copy(this.values.array, shapes.bytes, shapes.field_start(frame, beam, field), 4 * n);
       this.values.needsUpdate = true;
     }
     this.geometry.instanceCount = n;

@@ -27,7 +27,6 @@ in float side;
 out vec4 colour;
 #ifdef COLOURED
 uniform sampler2D map;
-uniform vec2 range;    // of the map, in parts of the field's range: its low end and its extent
 uniform vec3 outline;  // tells the ends of the map from the background
 in float value;
 #else
@@ -37,8 +36,7 @@ uniform vec3 plain;
 void main() {
 #ifdef COLOURED
   // The middle of the first and last texel are the ends of the map.
-  float part = clamp((value - range.x) / range.y, 0.0, 1.0);
-  vec3 rgb = texture(map, vec2((0.5 + 255.0 * part) / 256.0, 0.5)).rgb;
+  vec3 rgb = texture(map, vec2((0.5 + 255.0 * value) / 256.0, 0.5)).rgb;
   float light = sqrt(max(0.0, 1.0 - side * side));  // of a round bar lit from the viewer
   rgb *= mix(0.7, 1.0, light);
   colour = vec4(mix(outline, rgb, smoothstep(1.0, 0.6, abs(side))), 1.0);

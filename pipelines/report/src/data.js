@@ -68,8 +68,8 @@ class Column {
  *   weights  4 n, float32, if `rational`
  *   axes     12 n, float32, if `sections`: the section's x axis d1 at u = 0, 1/3, 2/3, 1; not a number without torsion
  *   places   n + 1, float32: reference arc length s of the nodes
- *   fields   per field 4 n uint16: the values at u = 0, 1/3, 2/3, 1, from 0 at the field's least value of the
- *            whole run to 65535 at its greatest
+ *   ranges   per field 2, float32: its least and greatest value in this beam and frame
+ *   fields   per field 4 n bytes: the values at u = 0, 1/3, 2/3, 1, from 0 at the least to 255 at the greatest
  */
 class Shapes {
   constructor(description, text, beam_count, frame_count) {
@@ -97,7 +97,6 @@ class Shapes {
     }
     this.bytes = new Uint8Array(most_bytes);
     this.floats = new Float32Array(this.bytes.buffer, 0, most_bytes >> 2);
-    this.shorts = new Uint16Array(this.bytes.buffer, 0, most_bytes >> 1);
     this.starts = new Uint32Array(beam_count);
     this.frame = -1;
   }
@@ -106,9 +105,9 @@ class Shapes {
   }
   bytes_of(n) {
     return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0) + 4 * (n + 1)
-      + 8 * n * this.fields.length;
+      + (8 + 4 * n) * this.fields.length;
   }
-  /** Decodes a frame into `bytes` (also seen as `floats` and `shorts`), the beams from `starts` on. */
+  /** Decodes a frame into `bytes` (also seen as `floats`), the beams from `starts` on. */
   load(frame) {
     if (frame === this.frame) {
       return;
@@ -131,30 +130,26 @@ class Shapes {
     return this.weights_start(frame, beam) + (this.rational ? 4 * this.count(frame, beam) : 0);
   }
   places_start(frame, beam) {
-    const n = this.count(frame, beam);
-    return this.axes_start(frame, beam) + (this.sections ? 12 * n : 0);
+    return this.axes_start(frame, beam) + (this.sections ? 12 * this.count(frame, beam) : 0);
   }
-  /** Where a field's values start in `shorts`. */
+  /** Least and greatest value of a field in a beam of the loaded frame. */
+  beam_range(frame, beam, field) {
+    const at = this.places_start(frame, beam) + this.count(frame, beam) + 1 + 2 * field;
+    return { min: this.floats[at], max: this.floats[at + 1] };
+  }
   field_start(frame, beam, field) {
     const n = this.count(frame, beam);
-    return 2 * (this.places_start(frame, beam) + n + 1) + 4 * n * field;
+    return 4 * (this.places_start(frame, beam) + n + 1 + 2 * this.fields.length) + 4 * n * field;
   }
-  /** The value that a number in `shorts` stands for. */
-  field_value(field, short) {
-    const { min, max } = this.fields[field];
-    return min + ((max - min) * short) / 65535;
-  }
-  /** Least and greatest value of a field in the loaded frame. */
+  /** Least and greatest value of a field in all beams of the loaded frame; of its whole run where it has none there. */
   field_range(field) {
-    let low = 65535, high = 0;
+    let low = Infinity, high = -Infinity;
     for (let beam = 0; beam < this.beam_count; ++beam) {
-      const start = this.field_start(this.frame, beam, field), end = start + 4 * this.count(this.frame, beam);
-      for (let i = start; i < end; ++i) {
-        low = Math.min(low, this.shorts[i]);
-        high = Math.max(high, this.shorts[i]);
-      }
+      const { min, max } = this.beam_range(this.frame, beam, field);
+      low = Math.min(low, min);
+      high = Math.max(high, max);
     }
-    return { min: this.field_value(field, low), max: this.field_value(field, high) };
+    return low <= high ? { min: low, max: high } : this.fields[field];
   }
   /** Position (relative to `origin`) and tangent of a beam of the loaded frame at s; nothing where it does not reach. */
   point(beam, s) {

@@ -2,6 +2,7 @@
 import { css_gradient } from './colours.js';
 import { read_data } from './data.js';
 import { common_exponent, element, number, scaled_unit } from './format.js';
+import { modes_of, modes_table, start_modes } from './modes.js';
 import { Player, speeds } from './player.js';
 import { AlongPlot, Plot, plots_of } from './plots.js';
 import { diagnostics_list, energy_table, events_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
@@ -10,7 +11,8 @@ import { View } from './view.js';
 const $ = (id) => document.getElementById(id);
 const data = read_data();
 const { time, run } = data;
-const is_static = time.length === 1;
+const has_modes = modes_of(run).length > 0;
+const is_static = time.length === 1 || has_modes;
 const is_load_steps = run?.model?.analysis === 'static' && !is_static;  // time is the load factor
 const time_unit = is_load_steps ? '' : 's';
 const events = run?.events ?? [];
@@ -73,7 +75,7 @@ function set_header() {
   $('status').classList.toggle('early', !done);
   $('status').title = run.status;
   const warnings = run.diagnostics.filter(({ severity }) => severity !== 'note').length;
-  const facts = [is_static ? 'static equilibrium'
+  const facts = [has_modes ? `${modes_of(run).length} modes` : is_static ? 'static equilibrium'
     : is_load_steps ? `static equilibrium, loads times ${number(time[0])} to ${number(time[time.length - 1])}` : `${number(time[0])} to ${number(time[time.length - 1])} s`,
     is_static ? null : `${time.length} frames`,
     warnings ? `${warnings} warning${warnings > 1 ? 's' : ''}` : null, `nurbeam ${run.nurbeam}`];
@@ -103,7 +105,7 @@ function start_view() {
   }
   const fields = data.shapes.fields;
   $('field').append(...fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
-  $('field').value = is_static || is_load_steps ? 0 : fields.findIndex(({ name }) => name === 'speed');
+  $('field').value = (is_static && !has_modes) || is_load_steps ? 0 : fields.findIndex(({ name }) => name === 'speed');
   choose_colours = () => {
     const { low, high, stops } = view.set_field(Number($('field').value), $('instant').checked);
     $('legend-bar').style.background = css_gradient(stops);
@@ -122,9 +124,7 @@ function start_view() {
   }
   $('fit').addEventListener('click', () => view.fit());
   $('sections').parentElement.hidden = !view.has_sections;
-  const options = {
-    paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', loads: 'show_loads', sections: 'show_sections',
-  };
+  const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', loads: 'show_loads', sections: 'show_sections' };
   for (const [id, method] of Object.entries(options)) {
     $(id).addEventListener('change', () => view[method]($(id).checked));
     view[method]($(id).checked);
@@ -168,6 +168,10 @@ function start_view() {
 }
 
 function start_player() {
+  if (has_modes) {
+    start_modes(data, view, $);
+    return;
+  }
   if (is_static) {
     $('transport').hidden = true;
     for (const label of document.querySelectorAll('.of-time')) {
@@ -218,7 +222,7 @@ function on_key(event) {
 function start_plots() {
   if (is_static) {
     $('plots-title').textContent = 'Values';
-    $('plots').append(...values_tables(data).filter(Boolean));
+    $('plots').append(...[has_modes ? modes_table(run) : null, ...values_tables(data)].filter(Boolean));
     return;
   }
   const mesh_kinds = ['split', 'merge'];
@@ -289,5 +293,7 @@ start_player();
 start_along();
 start_plots();
 fill_tables();
-show();
+if (!has_modes) {
+  show();
+}
 document.documentElement.classList.add('ready');

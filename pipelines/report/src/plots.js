@@ -272,13 +272,14 @@ export class AlongPlot {
     this.paths.forEach((path, beam) => {
       const n = shapes.count(frame, beam), places = shapes.places_start(frame, beam);
       const values = shapes.field_start(frame, beam, this.field);
-      let d = '', low = Infinity, high = -Infinity, at_low = 0, at_high = 0;
+      const { min: low, max: high } = shapes.beam_range(frame, beam, this.field);
+      let d = '', at_low = 0, at_high = 0, least = 256, greatest = -1;
       for (let i = 0; i < 4 * n; ++i) {
         const a = shapes.floats[places + (i >> 2)], b = shapes.floats[places + (i >> 2) + 1];
-        const s = a + ((b - a) * (i & 3)) / 3, value = shapes.field_value(this.field, shapes.shorts[values + i]);
-        d += `${i ? 'L' : 'M'}${this.x_of(s).toFixed(1)} ${this.y_of(value).toFixed(1)}`;
-        if (value < low) { low = value; at_low = s; }
-        if (value > high) { high = value; at_high = s; }
+        const s = a + ((b - a) * (i & 3)) / 3, byte = shapes.bytes[values + i];
+        d += `${i ? 'L' : 'M'}${this.x_of(s).toFixed(1)} ${this.y_of(low + ((high - low) * byte) / 255).toFixed(1)}`;
+        if (byte < least) { least = byte; at_low = s; }
+        if (byte > greatest) { greatest = byte; at_high = s; }
       }
       path.setAttribute('d', d);
       const text = (value, s) => `${number_beside(value, largest, 4)} at ${number(s, 4)} m`;

@@ -30,15 +30,13 @@ void main() {
 const fragment_shader = /* glsl */ `
 precision highp float;
 uniform sampler2D map;
-uniform vec2 range;    // of the map, as for the lines
 in vec3 normal;
 in float value;
 out vec4 colour;
 
 void main() {
   // The middle of the first and last texel are the ends of the map.
-  float part = clamp((value - range.x) / range.y, 0.0, 1.0);
-  vec3 rgb = texture(map, vec2((0.5 + 255.0 * part) / 256.0, 0.5)).rgb;
+  vec3 rgb = texture(map, vec2((0.5 + 255.0 * value) / 256.0, 0.5)).rgb;
   vec3 n = normalize(normal) * (gl_FrontFacing ? 1.0 : -1.0);
   float light = max(0.0, dot(n, normalize(vec3(-0.3, 0.6, 0.9))));
   colour = vec4(rgb * mix(0.45, 1.0, light), 1.0);
@@ -92,8 +90,7 @@ function vertices_of(outline, pieces) {
 const size_of = (outline) => Math.max(...outline.flat().map(([x, y]) => Math.hypot(x, y)));
 
 export class SectionMesh extends BeamInstances {
-  /** `map` and `range`: uniforms of the colours. */
-  constructor(most_elements, rational, outline, { map, range }) {
+  constructor(most_elements, rational, outline, map) {
     const { place, outward, index } = vertices_of(outline, Math.min(pieces_of(most_elements), 12));
     const enlarged = { value: 1 }, last = { value: 0 };
     super(most_elements, rational, true, {
@@ -101,7 +98,7 @@ export class SectionMesh extends BeamInstances {
       attributes: { place: new BufferAttribute(place, 3), outward: new BufferAttribute(outward, 3) },
       vertexShader: vertex_shader,
       fragmentShader: fragment_shader,
-    }, { map, range, enlarged, last });
+    }, { map, enlarged, last });
     this.enlarged = enlarged;
     this.last = last;
     this.size = size_of(outline);

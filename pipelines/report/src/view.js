@@ -58,7 +58,6 @@ export class View {
       pixels: { value: new Vector2(1, 1) },
       width: { value: 1 },
       map: { value: this.map_texture() },
-      range: { value: new Vector2(0, 1) },
       outline: { value: [0, 0, 0] },
     };
     this.pinned_size = [];  // objects drawn in pixels: their scale follows the zoom
@@ -142,7 +141,7 @@ export class View {
       if (!shapes.sections || !outlines[beam]) {
         return null;
       }
-      const mesh = new SectionMesh(shapes.most_elements[beam], shapes.rational, outlines[beam], this.uniforms);
+      const mesh = new SectionMesh(shapes.most_elements[beam], shapes.rational, outlines[beam], this.uniforms.map);
       this.scene.add(mesh.object);
       return mesh;
     });
@@ -268,17 +267,13 @@ export class View {
   set_field(field, instant) {
     this.field = field;
     const { shapes } = this.data;
-    const { min, max } = shapes.fields[field];
     shapes.load(this.frame);
-    const colours = field_colours(instant ? shapes.field_range(field) : { min, max });
+    this.colours = field_colours(instant ? shapes.field_range(field) : shapes.fields[field]);
     const texture = this.uniforms.map.value;
-    texture.image.data.set(colours.table);
+    texture.image.data.set(this.colours.table);
     texture.needsUpdate = true;
-    // The shader has values from 0 at min to 1 at max.
-    const span = max > min ? max - min : 1;
-    this.uniforms.range.value.set((colours.low - min) / span, Math.max((colours.high - colours.low) / span, 1e-9));
     this.show(this.frame);
-    return colours;
+    return this.colours;
   }
 
   /** Colours of the page's present scheme. */
@@ -347,6 +342,11 @@ export class View {
     for (let beam = 0; beam < this.beams.length; ++beam) {
       this.beams[beam].load(shapes, frame, beam, this.field);
       this.sections[beam]?.load(shapes, frame, beam, this.field);
+      if (this.colours) {
+        const range = shapes.beam_range(frame, beam, this.field);
+        this.beams[beam].set_range(range, this.colours);
+        this.sections[beam]?.set_range(range, this.colours);
+      }
     }
     for (const { symbol, histories } of this.points) {
       symbol.position.set(histories[0].values[frame] - shapes.origin[0], histories[1].values[frame] - shapes.origin[1],

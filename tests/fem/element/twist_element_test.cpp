@@ -1,101 +1,14 @@
 #include "fem/element/twist_element.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Dense>
-#include <random>
-
-#include "nurbs/primitives.h"
+#include "tests/fem/element/twist_states.h"
 
 namespace nurbeam {
 namespace {
 
-using Coordinates = TwistElement::Coordinates;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
+using Matrix3d = Eigen::Matrix3d;
+using Vector3d = Eigen::Vector3d;
 using Layout = TwistLayout;
-
-RationalCubic cubic(const std::array<Vector3d, 4>& P, const std::array<double, 4>& w) {
-  Eigen::Matrix4d points;
-  for (int i = 0; i < 4; ++i) points.col(i) << w[i] * P[i], w[i];
-  return RationalCubic(points);
-}
-
-/// A space curve that turns by 108 degrees, of 2.67 m, with sections that turn by 2.5 rad/m.
-ReferenceCurve bent_curve() {
-  return ReferenceCurve(
-             {cubic({Vector3d(0, 0, 0), Vector3d(1, 0, 0.2), Vector3d(1.2, 1, 0.4), Vector3d(0.6, 1.5, 1.4)},
-                    {1, 0.8, 1.3, 1})},
-             3)
-      .oriented({Orientation::Rule::start, {0, 1, 0}, {{0, 0}, {3, 7.5}}});
-}
-
-BeamProperties properties(double damping = 0) {
-  BeamProperties p(1e4, 0, 1, damping);
-  p.sections = SectionStiffness{3, 1, 0.2, 0.7, 0.04};
-  return p;
-}
-
-Coordinates drawn_state(const ReferenceCurve& curve, double s_a, double s_b) {
-  Coordinates q = Coordinates::Zero();
-  q.segment<3>(Layout::r(0)) = curve.position(s_a);
-  q.segment<3>(Layout::slope(0)) = curve.tangent(s_a);
-  q.segment<3>(Layout::r(1)) = curve.position(s_b);
-  q.segment<3>(Layout::slope(1)) = curve.tangent(s_b, true);
-  q[Layout::place(0)] = s_a;
-  q[Layout::place(1)] = s_b;
-  return q;
-}
-
-Coordinates random_coordinates(std::mt19937& random, double amount) {
-  std::uniform_real_distribution<double> unit(-amount, amount);
-  Coordinates y = Coordinates::NullaryExpr([&] { return unit(random); });
-  y[Layout::place(0)] = y[Layout::place(1)] = 0;
-  return y;
-}
-
-/// An element on a part of the curve, strongly deformed and in motion.
-struct Deformed {
-  ReferenceCurve curve = bent_curve();
-  BeamProperties beam;
-  double s_a, s_b;
-  TwistElement element;
-  TwistState x;
-
-  explicit Deformed(int seed, double damping = 0, double from = 0.4, double to = 1.3)
-      : beam(properties(damping)),
-        s_a(from),
-        s_b(to),
-        element(curve, beam, Chart{.segment = 0, .constant_weights = {}}, from, to) {
-    std::mt19937 random(seed);
-    x.q = drawn_state(curve, s_a, s_b) + random_coordinates(random, 0.25);
-    x.v = random_coordinates(random, 1);
-    x.a = random_coordinates(random, 1);
-  }
-  Deformed(const Deformed&) = delete;
-  Deformed& operator=(const Deformed&) = delete;
-
-  TwistState moved(const Coordinates& q, const Coordinates& v, const Coordinates& a, double h) const {
-    return {x.q + h * q, x.v + h * v, x.a + h * a};
-  }
-};
-
-// Central differences of f about 0: their error must fall with the square of the step.
-template <class F, class Value>
-void expect_derivative(const F& f, const Value& derivative, double h) {
-  const auto error = [&](double step) {
-    return Value((f(step) - f(-step)) / (2 * step) - derivative).norm();
-  };
-  const double coarse = error(h), fine = error(h / 2);
-  EXPECT_LT(coarse, 0.02 * derivative.norm());
-  EXPECT_NEAR(coarse / fine, 4, 0.25) << coarse << " " << fine;
-}
-using Scalar = Eigen::Matrix<double, 1, 1>;
-
-double strain_energy(const TwistElement& element, const TwistState& x) {
-  const TwistEnergy energy = element.energy(x);
-  return energy.bending + energy.torsion;
-}
+using Coordinates = TwistElement::Coordinates;
 
 TEST(TwistElement, HasTheGradientOfItsStrainEnergyAsForce) {
   for (int seed = 1; seed <= 4; ++seed) {
@@ -243,8 +156,8 @@ TEST(TwistElement, DoesNotKnowItsCharts) {
     x.q[Layout::angle(end)] = 0;
     x.v[Layout::angle(end)] = d.element.spin(d.x, end);
   }
-  const TwistElement other(d.curve, d.beam, Chart{.segment = 0, .constant_weights = {}}, d.s_a, d.s_b, charts,
-                           d.element.turn(d.x.q));
+  const TwistElement other(d.curve, d.beam, Chart{.segment = 0, .constant_weights = {}}, d.s_a, d.s_b,
+                           Ends::fixed, charts, d.element.turn(d.x.q));
   const TwistEnergy energy = d.element.energy(d.x), same = other.energy(x);
   EXPECT_NEAR(same.kinetic, energy.kinetic, 1e-14 * energy.kinetic);
   EXPECT_NEAR(same.bending, energy.bending, 1e-13 * energy.bending);

@@ -499,7 +499,8 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "along",
                                                "release",
                                                "load_steps",
-                                               "columns"};
+                                               "columns",
+                                               "modes"};
   collect_keys(Json::parse(case_file_schema()), in_schema);
   collect_used_keys(Json::parse(full_case, nullptr, true, true), in_cases);
   EXPECT_EQ(in_schema, in_cases);

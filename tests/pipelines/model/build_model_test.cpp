@@ -63,14 +63,14 @@ TEST(BuildModel, AGradingWithoutEffectIsMentioned) {
   EXPECT_NE(report.diagnostics[0].message.find("no effect"), std::string::npos);
 }
 
-/// The half circle as a cable of EI = 20 MPa pi (0.01 m)^4 / 4, out of the plane of gravity, with one more
-/// override.
-BuildReport build_in_space(const std::string& override) {
+/// The half circle as a cable of EI = 20 MPa pi (0.01 m)^4 / 4, out of the plane of gravity, with more
+/// overrides.
+BuildReport build_in_space(const std::vector<std::string>& more) {
   const test::TemporaryDirectory directory;
   std::vector<std::string> overrides = half_circle;
   overrides.insert(overrides.end(), {"gravity=[0, -3, -9]", "beams[0].section={\"radius\": 0.01}",
                                      "beams[0].material={\"density\": 7200, \"youngs_modulus\": 2e7}"});
-  overrides.push_back(override);
+  overrides.insert(overrides.end(), more.begin(), more.end());
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
   return build_model(report.value.value());
 }
@@ -78,7 +78,7 @@ BuildReport build_in_space(const std::string& override) {
 TEST(BuildModel, ABentDrawingOfAStraightBeamIsToldWithItsEnergy) {
   const double pi = std::numbers::pi;
   const double energy = 0.5 * 2e7 * pi * 1e-8 / 4 * pi;  // EI kappa^2 L / 2 with kappa = 1 / m
-  const BuildReport report = build_in_space("beams[0].torsion=false");
+  const BuildReport report = build_in_space({"beams[0].torsion=false"});
   ASSERT_EQ(report.value.value().model.dimension, 3);
   EXPECT_NEAR(report.value->sources[0].drawn_bending, energy, 1e-9 * energy);
   ASSERT_EQ(report.diagnostics.size(), 1u);
@@ -89,7 +89,7 @@ TEST(BuildModel, ABentDrawingOfAStraightBeamIsToldWithItsEnergy) {
 }
 
 TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhenNothingIsSaid) {
-  const BuildReport report = build_in_space("name=default");
+  const BuildReport report = build_in_space({});
   ASSERT_TRUE(report.value);
   EXPECT_TRUE(report.value->model.beams[0].has_torsion());
   EXPECT_FALSE(report.value->model.beams[0].curve.straight());
@@ -98,17 +98,30 @@ TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhenNothingIsSaid) {
   EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
 }
 
+TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhereABodySlidesOnItButNotWhereThatBendsItByAnAngle) {
+  for (const bool continuous : {true, false}) {
+    const std::string slope = continuous ? "continuous" : "discontinuous";
+    const BuildReport report = build_in_space(
+        {R"(bodies=[{"name": "bead", "mass": 1}])",
+         R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5}, "slope": ")" + slope +
+             "\"}]"});
+    ASSERT_TRUE(report.value);
+    EXPECT_EQ(report.value->model.beams[0].has_torsion(), continuous);
+    EXPECT_EQ(report.value->model.beams[0].curve.straight(), !continuous);
+  }
+}
+
 TEST(BuildModel, ABentDrawingThatIsSaidToBeStraightKeepsItsEnergyWithoutAWarning) {
-  const BuildReport report = build_in_space(straight);
+  const BuildReport report = build_in_space({straight});
   EXPECT_TRUE(report.diagnostics.empty());
   EXPECT_NEAR(report.value.value().sources[0].drawn_bending, 0.2467, 1e-4);
 }
 
 TEST(BuildModel, ADrawingThatHoldsNothingIsNotTold) {
-  const BuildReport as_drawn = build_in_space("beams[0].stress_free=as-drawn-without-torsion");
+  const BuildReport as_drawn = build_in_space({"beams[0].stress_free=as-drawn-without-torsion"});
   EXPECT_TRUE(as_drawn.diagnostics.empty());
   EXPECT_EQ(as_drawn.value.value().sources[0].drawn_bending, 0);
-  const BuildReport straight = build_in_space(R"(beams[0].axis={"polyline": [[0, 0, 0], [1, 1, 1]]})");
+  const BuildReport straight = build_in_space({R"(beams[0].axis={"polyline": [[0, 0, 0], [1, 1, 1]]})"});
   EXPECT_TRUE(straight.diagnostics.empty());
   EXPECT_EQ(straight.value.value().sources[0].drawn_bending, 0);
 }
@@ -191,10 +204,10 @@ TEST(BuildModel, RefusesWhatABeamWithTorsionCannotBe) {
                       "beams[0].section", {"torsion_constant"}));
   EXPECT_TRUE(refuses(built({R"(beams[0].section={"area": 1e-4, "second_moments": [1e-9]})"}),
                       "beams[0].section.second_moments", {"expected"}));
-  EXPECT_TRUE(
-      refuses(built({on, R"(bodies=[{"name": "bead", "mass": 1}])",
-                     R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5}}])"}),
-              "beams[0].torsion", {"bead", "slides"}));
+  EXPECT_TRUE(refuses(built({on, R"(bodies=[{"name": "bead", "mass": 1}])",
+                             R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5},
+                                         "slope": "discontinuous"}])"}),
+                      "beams[0].torsion", {"bead", "slides", "continuous"}));
   EXPECT_TRUE(refuses(built({on, R"(beams[0].orientation={"twist": [[1, 0], [0, 9]]})"}),
                       "beams[0].orientation.twist", {"places must increase"}));
 }

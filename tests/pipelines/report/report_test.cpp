@@ -129,19 +129,23 @@ TEST(Report, HoldsShapesFarFromTheOriginToAFloatOfTheirOwnSize) {
   EXPECT_FALSE(shapes["rational"]);
   EXPECT_EQ(decoded<std::uint32_t>(shapes["element_counts"]), (std::vector<std::uint32_t>{1, 2}));
   // Box 1e6 <= x <= 1e6 + 2, 0 <= y <= 3. The first frame: four points, two places s, then eight
-  // fields of four numbers of two bytes.
+  // fields: their ranges, and four bytes each.
   EXPECT_EQ(shapes["origin"], Json({1e6 + 1, 1.5, 0.0}));
-  const std::size_t first_frame = (4 * 3 * 4 + 2 * 4 + 8 * 4 * 2 + 2) / 3 * 4;
+  const std::size_t first_frame = (4 * 3 * 4 + 2 * 4 + 8 * (8 + 4) + 2) / 3 * 4;
   const std::vector<float> points = decoded<float>(page.shapes().substr(0, first_frame));
   EXPECT_EQ(std::vector<float>(points.begin(), points.begin() + 12),
             (std::vector<float>{-1, -1.5, 0, -0.75, -0.5, 0, -0.5, 0.5, 0, 0, 1.5, 0}));
   // The second has seven: neighbours share one.
   const std::string second = page.shapes().substr(first_frame);
-  EXPECT_EQ(second.size(), (7 * 3 * 4 + 3 * 4 + 2 * 8 * 4 * 2 + 2) / 3 * 4);
-  const std::vector<std::uint16_t> numbers = decoded<std::uint16_t>(second);
-  // Strain goes from -1 to 0.1 over the run: -1, 0, 0 and 0.1 of each element as parts of 65535.
-  const std::vector<std::uint16_t> strain(numbers.begin() + 48, numbers.begin() + 56);
-  EXPECT_EQ(strain, (std::vector<std::uint16_t>{0, 59577, 59577, 65535, 0, 59577, 59577, 65535}));
+  EXPECT_EQ(second.size(), (7 * 3 * 4 + 3 * 4 + 8 * (8 + 2 * 4) + 2) / 3 * 4);
+  const std::vector<unsigned char> bytes = decoded<unsigned char>(second);
+  // Strain goes from -1 to 0.1 in the second frame: -1, 0, 0 and 0.1 of each element as parts of 255.
+  float range[2];
+  std::memcpy(range, bytes.data() + 96, sizeof range);
+  EXPECT_EQ(range[0], -1.0F);
+  EXPECT_EQ(range[1], 0.1F);
+  const std::vector<unsigned char> strain(bytes.begin() + 160, bytes.begin() + 168);
+  EXPECT_EQ(strain, (std::vector<unsigned char>{0, 232, 232, 255, 0, 232, 232, 255}));
   EXPECT_EQ(shapes["fields"][0]["min"], -1);
   EXPECT_EQ(shapes["fields"][0]["max"], 0.1);
   EXPECT_NEAR(shapes["fields"][6]["max"].get<double>(), std::sqrt(12), 1e-15);

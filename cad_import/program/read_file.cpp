@@ -1,0 +1,56 @@
+#include "cad_import/program/read_file.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cad_import/files/cad_format.h"
+#include "cad_import/program/drawing_text.h"
+#include "cad_import/program/read_cad_file.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+ImportReport refusal(const fs::path& file, const std::string& message) {
+  ImportReport report;
+  report.file = file.string();
+  report.diagnostics.push_back({Severity::error, report.file, message});
+  return report;
+}
+
+// `assemblies`: the files that refer to this one, directly or not.
+ImportReport read_file_of(const fs::path& file, double tolerance, std::vector<fs::path> assemblies) {
+  std::error_code error;
+  const fs::path itself = fs::weakly_canonical(file, error);
+  if (std::find(assemblies.begin(), assemblies.end(), itself) != assemblies.end())
+    return refusal(file, "the assembly is a part of itself; export it as one file");
+  assemblies.push_back(itself);
+  std::string content;
+  try {
+    content = drawing_text(file);
+  } catch (const std::runtime_error& e) {
+    return refusal(file, e.what());
+  }
+  const std::optional<CadFormat> format = format_of(content);
+  if (!format) {
+    return refusal(
+        file,
+        "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
+        "first line) nor DXF (must begin with a SECTION) nor OpenCASCADE's BREP (must begin with "
+        "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
+  }
+  if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
+  return read_cad_file(file, content, *format, tolerance,
+                       [&](const fs::path& part) { return read_file_of(part, tolerance, assemblies); });
+}
+
+}  // namespace
+
+ImportReport read_file(const fs::path& file, double tolerance) { return read_file_of(file, tolerance, {}); }
+
+}  // namespace nurbeam

@@ -1,0 +1,120 @@
+#pragma once
+#include "fem/element/rancf_basis.h"
+#include "fem/element/twist_kinematics.h"
+
+namespace nurbeam::twist {
+
+/// What varies with the places of both ends of an element: value, gradient and Hessian.
+using PlaceSeries = Dual<2, Dual<2>>;
+
+/// A series at the places (a, b), whose plain values are those that it was made for: exact for scalars that
+/// carry first or second derivatives.
+inline double at_places(const Dual<2>& f, double, double) { return f.value; }
+template <int N>
+Dual<N> at_places(const Dual<2>& f, const Dual<N>& a, const Dual<N>& b) {
+  Dual<N> y(f.value);
+  for (int k = 0; k < N; ++k) y.d[k] = f.d[0] * a.d[k] + f.d[1] * b.d[k];
+  return y;
+}
+inline double at_places(const PlaceSeries& f, double, double) { return f.value.value; }
+template <int N, class T>
+Dual<N, T> at_places(const PlaceSeries& f, const Dual<N, T>& a, const Dual<N, T>& b) {
+  Dual<N, T> y;
+  y.value = at_places(f.value, a.value, b.value);
+  const T by_a = at_places(f.d[0], a.value, b.value), by_b = at_places(f.d[1], a.value, b.value);
+  for (int k = 0; k < N; ++k) y.d[k] = by_a * a.d[k] + by_b * b.d[k];
+  return y;
+}
+
+template <class P>
+using AnyPoint = Point<P, Eigen::Dynamic>;
+template <class P>
+using AnyFields = Fields<P, Eigen::Dynamic>;
+
+/// A drawn element whose ends may move, of one or more parts.
+template <class P>
+struct AnyDrawing : Drawing<P, Eigen::Dynamic> {
+  /// What rates at fixed material need besides at a quadrature point.
+  struct Slide {
+    P s;            ///< its place [m]
+    Vector3<P> S3;  ///< of r_sss
+    P twist;        ///< of the drawing [rad/m]
+    P k1_s, k2_s;   ///< derivatives of the drawn curvatures by s [1/m^2]
+  };
+  std::vector<Slide> slides;
+  std::array<P, 2> end_twist;  ///< of the drawing, at both ends [rad/m]
+};
+
+/// What the drawing says of an element between two places, as series in both. Quadrature points are those of
+/// BeamElement::for_each_point: parts between breaks of the drawing have their own, and transport goes on
+/// from part to part.
+class DrawnElement {
+ public:
+  DrawnElement(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b);
+
+  const AnyDrawing<PlaceSeries>& drawing() const { return drawing_; }
+  /// Theta_0 at B [rad].
+  double turn() const { return turn_; }
+  /// At the material point s, in between.
+  AnyPoint<PlaceSeries> point(double s) const { return point(Jet(s)); }
+
+ private:
+  struct Part {
+    PlaceSeries lo, hi;
+  };
+  DrawnSectionSeries section(double s, bool from_left) const;
+  Eigen::Matrix<PlaceSeries, Eigen::Dynamic, 1> transport(const PlaceSeries& s) const;
+  AnyPoint<PlaceSeries> point(const Jet& s) const;
+  void set_axis(const Jet& s, AnyPoint<PlaceSeries>& p) const;
+  void add_parts();
+  void set_rates(const DrawnSectionSeries& a, const DrawnSectionSeries& b);
+
+  const ReferenceCurve* curve_;
+  Chart chart_;
+  double s_a_, s_b_;
+  ElementBasis<Jet> basis_;
+  std::vector<Part> parts_;
+  std::vector<Jet> places_;  // of the quadrature points
+  SectionTriad<PlaceSeries> a_;
+  Eigen::Matrix<PlaceSeries, Eigen::Dynamic, 1> rates_;  // of transport in the drawing, at the points
+  AnyDrawing<PlaceSeries> drawing_;
+  double turn_;
+};
+
+/// The point and the drawing at the places (a, b).
+template <class T>
+AnyPoint<T> at_places(const AnyPoint<PlaceSeries>& p, const T& a, const T& b) {
+  AnyPoint<T> y;
+  const auto at = [&](const PlaceSeries& f) { return at_places(f, a, b); };
+  y.xi = at(p.xi);
+  for (int k = 0; k < 3; ++k) {
+    y.S1[k] = at(p.S1[k]);
+    y.S2[k] = at(p.S2[k]);
+  }
+  y.transport.resize(p.transport.size());
+  for (Eigen::Index j = 0; j < p.transport.size(); ++j) y.transport[j] = at(p.transport[j]);
+  y.angle = at(p.angle);
+  y.k1 = at(p.k1);
+  y.k2 = at(p.k2);
+  return y;
+}
+template <class T>
+AnyDrawing<T> at_places(const AnyDrawing<PlaceSeries>& drawing, const T& a, const T& b) {
+  AnyDrawing<T> y;
+  const auto at = [&](const PlaceSeries& f) { return at_places(f, a, b); };
+  y.h = at(drawing.h);
+  y.end_angle = at(drawing.end_angle);
+  y.weights.resize(drawing.weights.size());
+  for (Eigen::Index g = 0; g < drawing.weights.size(); ++g) y.weights[g] = at(drawing.weights[g]);
+  for (const AnyPoint<PlaceSeries>& p : drawing.points) y.points.push_back(at_places(p, a, b));
+  for (const auto& slide : drawing.slides)
+    y.slides.push_back({at(slide.s),
+                        {at(slide.S3[0]), at(slide.S3[1]), at(slide.S3[2])},
+                        at(slide.twist),
+                        at(slide.k1_s),
+                        at(slide.k2_s)});
+  y.end_twist = {at(drawing.end_twist[0]), at(drawing.end_twist[1])};
+  return y;
+}
+
+}  // namespace nurbeam::twist

@@ -1,0 +1,24 @@
+#pragma once
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// Gives a new plan the charts of the sections of all beams with torsion: nodes that the present mesh has
+/// keep theirs, so that their angles stay; those of new nodes are the present sections, angles zero. Nothing
+/// without torsion.
+void carry_sections(const BeamSystem& system, const State& state, MeshPlan& plan);
+
+/// The twist of the present mesh, as an element of a new one has it.
+struct CarriedTwist {
+  double bubble = 0, bubble_rate = 0;  ///< [rad], [rad/s]
+};
+/// In a span of a new mesh of the same model, which has the coordinates `next`. The bubble's strain is the
+/// least-squares line through the present one, and exact inside one present element; the rate is that there,
+/// and zero where there were several.
+CarriedTwist carried_twist(const BeamSystem& system, const State& state, const MeshSpan& span,
+                           const State& next);
+
+/// The node for the same home node or the same joint; -1 where there is none.
+int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted);
+
+}  // namespace nurbeam

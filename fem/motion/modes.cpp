@@ -1,0 +1,307 @@
+#include "fem/motion/modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "fem/system/initial_state.h"
+#include "fem/system/observables.h"
+#include "solver/eigenpairs.h"
+#include "solver/equilibrated_kkt.h"
+#include "solver/stability.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
+
+Matrix tangent(const BeamSystem& system, const State& state, const TangentWeights& w) {
+  Matrix kkt = system.tangent_pattern();
+  system.tangent(state, w, kkt);
+  return kkt;
+}
+
+Matrix coordinate_block(const Matrix& kkt, int n) { return kkt.topLeftCorner(n, n); }
+
+Failure failure_of(Failure::Kind kind, double growth = 0) { return {.kind = kind, .growth = growth}; }
+
+// ---- The state ----
+
+// At rest, or as drawn without loads.
+MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
+                          const std::function<bool()>& interrupted, RestReport& report) {
+  MeshedState at = MeshedState::drawn(std::move(model));
+  if (options.about_equilibrium) {
+    report =
+        options.bodies_held ? find_held_equilibrium(at) : find_rest(at, options.length_control, interrupted);
+  } else if (options.bodies_held) {
+    const std::vector<bool> held(at.system->model().joints.size(), true);
+    at.system = std::make_unique<BeamSystem>(at.system->shared_model(), at.system->mesh().plan, held);
+    at.state = drawn_state(*at.system);
+  }
+  if (!options.about_equilibrium) at.state.load = 0;
+  return at;
+}
+
+// Nothing where the state is stable, and K symmetric.
+std::optional<Failure> instability(const MeshedState& at, const Matrix& kkt) {
+  const int n = at.system->coordinate_count();
+  const std::optional<Stability> found = stability(kkt, n);
+  if (!found) return failure_of(Failure::Kind::no_energy);
+  if (found->unstable_directions == 0) return std::nullopt;
+  const Matrix M = coordinate_block(tangent(*at.system, at.state, {.mass = 1}), n);
+  const Vector& x = found->direction;
+  const double square = x.dot(coordinate_block(kkt, n) * x) / x.dot(M * x);
+  return failure_of(Failure::Kind::unstable_state, std::sqrt(std::max(0.0, -square)));
+}
+
+// ---- Vibration ----
+
+// What round-off leaves of a vanishing x'K x / x'M x.
+double round_off(const Matrix& K, const Matrix& M, const Vector& x) {
+  const Vector size = x.cwiseAbs();
+  return 100 * std::numeric_limits<double>::epsilon() * size.dot(Matrix(K.cwiseAbs()) * size) / x.dot(M * x);
+}
+
+struct SquaredFrequencies {
+  Vector values;           // increasing [1/s^2]
+  Eigen::MatrixXd shapes;  // x'M x = 1
+};
+
+// The lowest, by the inverse of K + shift M: as many digits are lost as the shift is away from them.
+std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_kkt, int n, int count,
+                                         double shift) {
+  const Matrix M = coordinate_block(mass_kkt, n);
+  // Constraints once: both have them.
+  Matrix shifted = kkt;
+  Matrix mass_alone = mass_kkt;
+  for (int column = 0; column < mass_alone.cols(); ++column)
+    for (Matrix::InnerIterator entry(mass_alone, column); entry; ++entry)
+      if (entry.row() >= n || column >= n) entry.valueRef() = 0;
+  shifted += shift * mass_alone;
+  std::optional<Eigenpairs> found = largest_eigenpairs(shift * M, shifted, count);
+  if (!found) return std::nullopt;
+  SquaredFrequencies result{shift * (found->values.cwiseInverse().array() - 1).matrix(), found->vectors};
+  for (Eigen::Index i = 0; i < result.values.size(); ++i) {
+    Vector x = result.shapes.col(i) / std::sqrt(result.shapes.col(i).dot(M * result.shapes.col(i)));
+    Eigen::Index largest = 0;
+    x.cwiseAbs().maxCoeff(&largest);
+    result.shapes.col(i) = x[largest] < 0 ? Vector(-x) : x;
+  }
+  return result;
+}
+
+// The same with a shift that is a hundredth of the last one, whatever that is.
+std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_kkt, int n, int count) {
+  double largest = 0;
+  for (int i = 0; i < n; ++i)
+    if (mass_kkt.coeff(i, i) > 0) largest = std::max(largest, kkt.coeff(i, i) / mass_kkt.coeff(i, i));
+  double shift = largest > 0 ? 1e-12 * largest : 1;
+  constexpr int most_attempts = 12;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    const std::optional<SquaredFrequencies> found = lowest(kkt, mass_kkt, n, count, shift);
+    if (!found) {
+      shift *= 1e3;  // K + shift M was singular to the last digit
+      continue;
+    }
+    const double last = found->values.size() > 0 ? found->values[found->values.size() - 1] : 0;
+    const bool moves_freely = !(last > 1e-6 * shift);  // nothing but rigid motions
+    if (moves_freely && shift <= 1e-12 * largest) return found;
+    if (shift > 1e-5 * last && shift < 0.2 * last) return found;
+    shift = moves_freely ? shift / 1e4 : 1e-2 * last;
+  }
+  return std::nullopt;
+}
+
+/// (n) The coordinates' rates of a translation of everything.
+Vector translation(const BeamSystem& system, int axis) {
+  Vector e = Vector::Zero(system.coordinate_count());
+  if (axis >= system.dimension()) return e;
+  for (const auto& nodes : system.mesh().nodes)
+    for (const MeshNode& node : nodes) e[node.r + axis] = 1;
+  for (const int r : system.mesh().bodies) e[r + axis] = 1;
+  return e;
+}
+
+std::optional<Failure> find_vibrations(const ModesOptions& options, ModesReport& report) {
+  const BeamSystem& system = *report.at.system;
+  const int n = system.coordinate_count();
+  const Matrix kkt = tangent(system, report.at.state, {.stiffness = 1});
+  if (auto failure = instability(report.at, kkt)) return failure;
+  const Matrix mass_kkt = tangent(system, report.at.state, {.mass = 1});
+  const Matrix K = coordinate_block(kkt, n), M = coordinate_block(mass_kkt, n);
+  const int most = std::max(0, n - system.constraint_count());
+  const auto found = lowest(kkt, mass_kkt, n, std::min(options.count, most));
+  if (!found) return failure_of(Failure::Kind::eigenvalues);
+  for (Eigen::Index i = 0; i < found->values.size(); ++i) {
+    Mode mode;
+    mode.shape = found->shapes.col(i);
+    const double square = found->values[i];
+    const bool rigid = std::abs(square) <= round_off(K, M, mode.shape);
+    if (!rigid && square < 0) return failure_of(Failure::Kind::unstable_state, std::sqrt(-square));
+    mode.omega = rigid ? 0 : std::sqrt(square);
+    for (int axis = 0; axis < 3; ++axis)
+      mode.participation[axis] = mode.shape.dot(M * translation(system, axis));
+    report.modes.push_back(std::move(mode));
+  }
+  const Vector e = translation(system, 0);
+  report.mass = e.dot(M * e);
+  return std::nullopt;
+}
+
+// ---- Buckling ----
+
+// The state a little way along the path that starts at a state under gravity.
+State along(const State& from, const Vector& direction, double amount) {
+  State state = from;
+  const auto n = state.q.size();
+  state.q += amount * direction.head(n);
+  state.lambda += amount * direction.tail(direction.size() - n);
+  return state;
+}
+
+// d(tangent)/d(factor) on the path of equilibria under `loaded`'s own loads beside those of `system`.
+std::optional<Matrix> stiffness_of_loads(const BeamSystem& system, const BeamSystem& loaded,
+                                         const State& state, const Matrix& kkt) {
+  const int n = system.coordinate_count(), m = system.constraint_count();
+  Vector without(n + m), with(n + m);
+  system.residual(state, without.head(n), without.tail(m));
+  loaded.residual(state, with.head(n), with.tail(m));
+  const EquilibratedKkt solver(kkt, n);
+  if (!solver.regular()) return std::nullopt;
+  const Vector path = solver.solve(without - with);
+  const double fastest = path.head(n).cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>();
+  if (!(fastest > 0)) return Matrix(loaded.coordinate_count(), loaded.coordinate_count());
+  const auto slope = [&](double h) -> Matrix {
+    const Matrix ahead = tangent(system, along(state, path, h), {.stiffness = 1});
+    const Matrix behind = tangent(system, along(state, path, -h), {.stiffness = 1});
+    return (ahead - behind) / (2 * h);
+  };
+  const double h = 2e-3 / fastest;  // extrapolated: errors of h^4, round-off of 1e-13
+  const Matrix geometric = (4 * slope(h / 2) - slope(h)) / 3;
+  const Matrix of_loads = tangent(loaded, state, {.stiffness = 1}) - kkt;
+  return coordinate_block(geometric + of_loads, n);
+}
+
+std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions& options,
+                                     ModesReport& report) {
+  const MeshedState& at = report.at;
+  const int n = at.system->coordinate_count();
+  const Matrix kkt = tangent(*at.system, at.state, {.stiffness = 1});
+  if (auto failure = instability(at, kkt)) return failure;
+  const std::vector<bool> held(model.joints.size(), options.bodies_held);
+  const BeamSystem loaded(model, at.system->mesh().plan, held);
+  if (loaded.constraint_count() != at.system->constraint_count())
+    return failure_of(Failure::Kind::resting_place);
+  State state = at.state;
+  state.load = 1;
+  const auto geometric = stiffness_of_loads(*at.system, loaded, state, kkt);
+  if (!geometric) return failure_of(Failure::Kind::not_held);
+  if (!is_symmetric(*geometric, n)) return failure_of(Failure::Kind::no_energy);
+  const double largest = geometric->nonZeros() > 0 ? geometric->coeffs().abs().maxCoeff() : 0;
+  if (!(largest > 0)) return failure_of(Failure::Kind::nothing_buckles);
+  const Matrix A = -(*geometric + Matrix(geometric->transpose())) / 2;
+  const int most = std::max(0, n - at.system->constraint_count());
+  const auto found = largest_eigenpairs(A, kkt, std::min(options.count, most));
+  if (!found) return failure_of(Failure::Kind::eigenvalues);
+  for (Eigen::Index i = 0; i < found->values.size(); ++i) {
+    Mode mode;
+    mode.factor = 1 / found->values[i];
+    mode.shape = found->vectors.col(i);
+    report.modes.push_back(std::move(mode));
+  }
+  if (report.modes.empty()) return failure_of(Failure::Kind::nothing_buckles);
+  return std::nullopt;
+}
+
+// ---- Shapes ----
+
+Eigen::Vector3d vector_at(const BeamSystem& system, const Vector& x, int first) {
+  Eigen::Vector3d y = Eigen::Vector3d::Zero();
+  y.head(system.dimension()) = x.segment(first, system.dimension());
+  return y;
+}
+
+double size_of(const MeshedState& at) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& nodes : at.system->mesh().nodes)
+    for (const MeshNode& node : nodes) {
+      const Eigen::Vector3d r = vector_at(*at.system, at.state.q, node.r);
+      low = low.cwiseMin(r);
+      high = high.cwiseMax(r);
+    }
+  return (high - low).norm();
+}
+
+}  // namespace
+
+ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
+                       const std::function<bool()>& interrupted) {
+  ModesReport report;
+  std::shared_ptr<const BeamModel> at_rest = model;
+  const bool buckling = options.kind == ModesOptions::Kind::buckling;
+  if (buckling) {
+    BeamModel dead = *model;
+    dead.forces.clear();
+    at_rest = std::make_shared<const BeamModel>(std::move(dead));
+  }
+  report.at = state_at_rest(at_rest, options, interrupted, report.rest);
+  if (report.rest.failure || report.rest.interrupted) return report;
+  report.rest.failure = buckling ? find_buckling(*model, options, report) : find_vibrations(options, report);
+  return report;
+}
+
+double visible_amplitude(const MeshedState& at, const Mode& mode) {
+  constexpr double part = 0.05, turn = 0.5;
+  const double size = size_of(at);
+  double largest = 0;  // of what each quantity may be
+  const auto look_at = [&](int first, double limit) {
+    largest = std::max(largest, vector_at(*at.system, mode.shape, first).norm() / limit);
+  };
+  for (const auto& nodes : at.system->mesh().nodes)
+    for (const MeshNode& node : nodes) {
+      look_at(node.r, part * size);
+      look_at(node.slope_left, turn);
+      look_at(node.slope_right, turn);
+      for (const int angle : {node.angle_left, node.angle_right})
+        if (angle >= 0) largest = std::max(largest, std::abs(mode.shape[angle]) / turn);
+      if (node.place >= 0) largest = std::max(largest, std::abs(mode.shape[node.place]) / (part * size));
+    }
+  for (const int r : at.system->mesh().bodies) look_at(r, part * size);
+  return largest > 0 ? 1 / largest : 0;
+}
+
+Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, double rate,
+                     const std::vector<ProbePlace>& probes) {
+  Snapshot snapshot = record_snapshot(*at.system, at.state, probes);
+  State moved = at.state;
+  moved.q += amount * mode.shape;
+  moved.v = rate * mode.shape;
+  const Snapshot there = record_snapshot(*at.system, moved, probes);
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    static_cast<PointRecord&>(snapshot.probes[i]) = there.probes[i];
+    snapshot.probes[i].displacement = there.probes[i].displacement;
+  }
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    snapshot.bodies[i].point = there.bodies[i].point;
+    snapshot.bodies[i].s = there.bodies[i].s;
+  }
+  for (std::size_t b = 0; b < snapshot.beams.size(); ++b) {
+    BeamRecord& beam = snapshot.beams[b];
+    const BeamRecord& shape = there.beams[b];
+    for (std::size_t e = 0; e < beam.elements.size(); ++e) {
+      beam.elements[e].control_points = shape.elements[e].control_points;
+      beam.elements[e].velocity = shape.elements[e].velocity;
+    }
+    beam.node_positions = shape.node_positions;
+    beam.node_slopes = shape.node_slopes;
+    beam.length = shape.length;
+  }
+  return snapshot;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,64 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "fem/motion/mesh_rules.h"
+#include "fem/motion/meshed_state.h"
+#include "fem/motion/resting_place.h"
+#include "fem/motion/snapshot.h"
+
+namespace nurbeam {
+
+/// What is asked of the neighbourhood of a state at rest.
+struct ModesOptions {
+  enum class Kind {
+    vibration,  ///< (K - omega^2 M) x = 0
+    buckling    ///< (K + factor K_g) x = 0, K_g by the loads that are not gravity
+  };
+  Kind kind = Kind::vibration;
+  int count = 10;
+  bool about_equilibrium =
+      true;                 ///< under all loads, for buckling under gravity; else as drawn, without loads
+  bool bodies_held = true;  ///< where they are drawn; else they slide, about the place where they rest
+  LengthControl length_control = {};
+};
+
+struct Mode {
+  double omega = 0;       ///< of a vibration [rad/s]; 0 where it is a rigid motion
+  double factor = 0;      ///< on the loads, where the model buckles; below 0 for reversed loads
+  Eigen::VectorXd shape;  ///< of the coordinates; of a vibration with x'M x = 1 kg m^2 or kg
+  /// x'M e of a vibration, e the unit translation along each axis [sqrt(kg)]; its square is the effective
+  /// mass.
+  Eigen::Vector3d participation = Eigen::Vector3d::Zero();
+};
+
+struct ModesReport {
+  RestReport rest;          ///< how the state was found; its failure is also that of what followed
+  MeshedState at;           ///< the state
+  double mass = 0;          ///< of the whole model [kg]
+  std::vector<Mode> modes;  ///< increasing; fewer than asked for where the model has not so many
+};
+
+/// Small vibrations about a state at rest, or the factors on loads under which it buckles. Constraints hold
+/// exactly, in first order: shapes lie in the null space of their gradients. K is the tangent of the state,
+/// with the geometric stiffness of its section forces, supports and loads. K_g is the derivative of the
+/// tangent along the linear response to the loads, by central differences extrapolated once, with the
+/// stiffness of the loads themselves.
+///
+/// In the model's own coordinates. Fails where the state is unstable, the tangent is not symmetric (loads
+/// that follow a section, moments in space) or the eigenvalues are not found.
+ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
+                       const std::function<bool()>& interrupted);
+
+/// The amplitude [s.u.] that makes a shape well visible: no node moves by more than a twentieth of the
+/// model's size, no slope by more than 0.5 and no section turns by more than 0.5.
+double visible_amplitude(const MeshedState& at, const Mode& mode);
+
+/// The state at rest moved by `amount` times the shape: places of the points, and as velocities `rate` times
+/// the shape. Section forces, energies and reactions stay those at rest: of large linear displacements they
+/// would mean nothing.
+Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, double rate,
+                     const std::vector<ProbePlace>& probes);
+
+}  // namespace nurbeam

@@ -1,0 +1,33 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nurbeam {
+
+/// A mode of vibration, or of buckling, in the world's axes.
+struct ModeRow {
+  double omega = 0;   ///< [rad/s]; 0 of a rigid motion
+  double factor = 0;  ///< on the loads that are not gravity; below 0 for reversed loads
+  Eigen::Vector3d participation = Eigen::Vector3d::Zero();  ///< [sqrt(kg)]
+
+  double frequency() const;                                                     ///< [Hz]
+  Eigen::Vector3d effective_mass() const { return participation.cwiseAbs2(); }  ///< [kg]
+};
+
+/// The modes of a run, number 1 first.
+struct ModeTable {
+  bool buckling = false;
+  double mass = 0;  ///< of the whole model [kg]
+  std::vector<ModeRow> rows;
+};
+
+/// modes.csv. Numbers have the digits that give them back exactly; the period of a rigid motion is empty.
+/// Throws std::runtime_error (file and reason).
+void write_mode_table(const std::filesystem::path& file, const ModeTable& table);
+
+/// One line for people: "mode 3: 12.1 Hz, effective mass (0.3, 0, 0) kg".
+std::string mode_text(const ModeTable& table, std::size_t i);
+
+}  // namespace nurbeam

@@ -1,0 +1,74 @@
+#include "pipelines/run/mode_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "fem/motion/modes.h"
+
+namespace nurbeam {
+
+namespace {
+
+ModesOptions modes_options(const CaseAnalysis& a) {
+  ModesOptions options;
+  options.kind =
+      a.type == CaseAnalysis::Type::buckling ? ModesOptions::Kind::buckling : ModesOptions::Kind::vibration;
+  options.count = a.modes.count;
+  options.about_equilibrium = a.modes.about_equilibrium;
+  options.bodies_held = a.modes.bodies_held;
+  options.length_control = a.length_control;
+  return options;
+}
+
+/// Frames of one period, for ParaView: of a second where nothing swings.
+std::vector<Snapshot> oscillation(const MeshedState& at, const Mode& mode,
+                                  const std::vector<ProbePlace>& probes) {
+  constexpr int frames = 24;
+  const double amplitude = visible_amplitude(at, mode);
+  const double period = mode.omega > 0 ? 2 * std::numbers::pi / mode.omega : 1;
+  std::vector<Snapshot> turn;
+  for (int i = 0; i <= frames; ++i) {
+    const double phase = 2 * std::numbers::pi * i / frames;
+    turn.push_back(
+        record_mode(at, mode, amplitude * std::sin(phase), amplitude * mode.omega * std::cos(phase), probes));
+    turn.back().time = period * i / frames;
+  }
+  return turn;
+}
+
+}  // namespace
+
+SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
+                           const std::function<bool()>& interrupted, RunOutputs& outputs, ModeTable& table) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<ProbePlace> probes;
+  for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
+  const ModesReport found =
+      find_modes(std::make_shared<const BeamModel>(built.model), modes_options(c.analysis), interrupted);
+  SimulationReport report;
+  report.steps = found.rest.load_steps;
+  report.newton_iterations = found.rest.newton_iterations;
+  if (found.rest.failure) report.fail(*found.rest.failure);
+  if (found.rest.interrupted) report.status = SimulationStatus::interrupted;
+  if (report.status == SimulationStatus::done) {
+    outputs.write(record_snapshot(*found.at.system, found.at.state, probes));
+    table.buckling = c.analysis.type == CaseAnalysis::Type::buckling;
+    table.mass = found.mass;
+    for (std::size_t i = 0; i < found.modes.size(); ++i) {
+      const Mode& mode = found.modes[i];
+      const double amplitude = visible_amplitude(found.at, mode);
+      Snapshot shape = record_mode(found.at, mode, amplitude, amplitude * mode.omega, probes);
+      shape.time = static_cast<double>(i + 1);
+      outputs.write_shape(shape);
+      if (c.output.paraview)
+        outputs.write_series("mode_" + std::to_string(i + 1), oscillation(found.at, mode, probes));
+      table.rows.push_back({mode.omega, mode.factor, built.frame.direction_to_world(mode.participation)});
+    }
+  }
+  report.motion_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace nurbeam

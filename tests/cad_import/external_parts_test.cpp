@@ -1,0 +1,150 @@
+// Assemblies whose parts lie in other files: read from beside where the file is there, named where it is not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cad_import/export_curves.h"
+#include "cad_import/export_into_step.h"
+#include "cad_import/import_curves.h"
+#include "nurbs/primitives.h"
+#include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/step_text_of.h"
+#include "tests/support/curves.h"
+
+namespace nurbeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The instances that say that the part `product_definition` lies in the file.
+std::string lies_in(const std::string& file, const std::string& product_definition) {
+  return "#200 = DOCUMENT_TYPE('');\n#201 = DOCUMENT_FILE('" + file +
+         "','','',#200,'',$);\n#202 = APPLIED_DOCUMENT_REFERENCE(#201,'',(" + product_definition +
+         "));\n#203 = DOCUMENT_REPRESENTATION_TYPE('digital',#201);\n";
+}
+
+/// An occurrence of the part #51 in the assembly #5: its instances are numbered from `n`; its axes are moved
+/// to (x, 0, 0) and turned by 90 degrees about z.
+std::string occurrence(int n, const std::string& name, double x) {
+  const auto number = [&](int i) { return "#" + std::to_string(n + i); };
+  return number(0) + " = NEXT_ASSEMBLY_USAGE_OCCURRENCE('" + name + "','" + name + "','',#5,#51,$);\n" +
+         number(1) + " = PRODUCT_DEFINITION_SHAPE('',''," + number(0) + ");\n" + number(2) +
+         " = CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(" + number(3) + "," + number(1) + ");\n" + number(3) +
+         " = ( REPRESENTATION_RELATIONSHIP('','',#55,#10) "
+         "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(" +
+         number(4) + ") SHAPE_REPRESENTATION_RELATIONSHIP() );\n" + number(4) +
+         " = ITEM_DEFINED_TRANSFORMATION('','',#11," + number(5) + ");\n" + number(5) +
+         " = AXIS2_PLACEMENT_3D(''," + number(6) + ",#13," + number(7) + ");\n" + number(6) +
+         " = CARTESIAN_POINT('',(" + std::to_string(x) + ",0.,0.));\n" + number(7) +
+         " = DIRECTION('',(0.,1.,0.));\n";
+}
+
+/// An assembly, "bridge", with a hoop of its own and two ropes that lie in `file`.
+std::string bridge(const std::string& file) {
+  const std::string rope =
+      "#51 = PRODUCT_DEFINITION('design','',#52,#9);\n#52 = PRODUCT_DEFINITION_FORMATION('','',#53);\n"
+      "#53 = PRODUCT('rope','rope','',(#8));\n#54 = SHAPE_DEFINITION_REPRESENTATION(#56,#55);\n"
+      "#55 = SHAPE_REPRESENTATION('rope',(#11),#26);\n#56 = PRODUCT_DEFINITION_SHAPE('','',#51);\n";
+  std::string text =
+      step_text_of("#100", "#100 = CIRCLE('hoop',#11,1.);\n" + rope + occurrence(60, "left", 100) +
+                               occurrence(70, "right", 300) + lies_in(file, "#51"));
+  return with(text, "PRODUCT('curves','curves'", "PRODUCT('bridge','bridge'");
+}
+
+Eigen::Vector3d end_of(const NurbsCurve& curve) { return curve.point(curve.knots().end()); }
+
+const NurbsCurve rope = line({0.01, 0, 0}, {0.02, 0, 0.5});
+
+void write_rope(const fs::path& file) {
+  ASSERT_TRUE(export_curves(file, {{"strand", rope, "rope"}}, LengthUnit::inch).empty());
+}
+
+void expect_bridge_with_ropes(const ImportReport& report) {
+  ASSERT_EQ(report.curves.size(), 3U);
+  EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics.at(0).message;
+  EXPECT_EQ(report.curves[0].name, "hoop");
+  for (const int i : {1, 2}) {
+    const ImportedCurve& strand = report.curves[i];
+    EXPECT_EQ(strand.name, "strand");
+    EXPECT_EQ(strand.part, i == 1 ? "bridge/left" : "bridge/right");
+    EXPECT_LE((end_of(strand.curve) - Eigen::Vector3d(i == 1 ? 0.1 : 0.3, 0.02, 0.5)).norm(), 1e-15);
+  }
+}
+
+TEST(ExternalParts, AreReadFromBesideAndStandWhereTheAssemblyPutsThem) {
+  const ScratchDirectory scratch;
+  const fs::path assembly = scratch.file("bridge.step", bridge("rope.stp"));
+  write_rope(scratch.path() / "rope.stp");
+  expect_bridge_with_ropes(import_curves(assembly));
+  // By the last component of a path of another computer, or in a folder below.
+  expect_bridge_with_ropes(import_curves(scratch.file("bridge.step", bridge("C:\\\\parts\\\\rope.stp"))));
+  fs::create_directory(scratch.path() / "parts");
+  fs::rename(scratch.path() / "rope.stp", scratch.path() / "parts/rope.stp");
+  expect_bridge_with_ropes(import_curves(scratch.file("bridge.step", bridge("parts/rope.stp"))));
+}
+
+/// The one warning; the hoop is read all the same.
+std::string only_warning(const ImportReport& report) {
+  EXPECT_EQ(report.curves.size(), 1U);
+  EXPECT_EQ(report.diagnostics.size(), 1U);
+  if (report.diagnostics.empty()) return "";
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  return report.diagnostics[0].message;
+}
+
+TEST(ExternalParts, AreNamedWhereTheFileIsNotThereOrThePartIsHereToo) {
+  const ScratchDirectory scratch;
+  const std::string missing = only_warning(import_curves(scratch.file("bridge.step", bridge("rope.stp"))));
+  for (const char* part : {"'rope'", "'rope.stp'", "not read", "no such file"})
+    EXPECT_NE(missing.find(part), std::string::npos) << missing;
+  write_rope(scratch.path() / "rope.stp");
+  const std::string here = only_warning(import_curves(scratch.file(
+      "part.step", step_text_of("#100", "#100 = CIRCLE('good',#11,1.);\n" + lies_in("rope.stp", "#5")))));
+  EXPECT_NE(here.find("has shapes here"), std::string::npos) << here;
+}
+
+TEST(ExternalParts, DamagedOnesAndThoseThatHoldThemselvesHarmNothing) {
+  const ScratchDirectory scratch;
+  for (const std::string& content : {std::string("no CAD file"), bridge("bridge.step"), bridge("rope.stp")}) {
+    scratch.file("rope.stp", content);
+    const ImportReport report = import_curves(scratch.file("bridge.step", bridge("rope.stp")));
+    EXPECT_TRUE(report.ok());
+    EXPECT_EQ(report.curves.at(0).name, "hoop");
+    ASSERT_FALSE(report.diagnostics.empty());
+    EXPECT_TRUE(std::any_of(report.diagnostics.begin(), report.diagnostics.end(), [](const Diagnostic& d) {
+      return d.message.find("cannot be read (see above)") != std::string::npos;
+    }));
+  }
+}
+
+TEST(ExternalParts, OfIgesAreReadToo) {
+  const ScratchDirectory scratch;
+  scratch.file("rope.igs",
+               iges_text_of({{.type = 110, .parameters = "110,10.,0.,0.,20.,0.,500.;", .label = "strand"}}));
+  expect_bridge_with_ropes(import_curves(scratch.file("bridge.step", bridge("rope.igs"))));
+}
+
+TEST(ExternalParts, ADeformedCurveOfOneIsAddedToTheAssembly) {
+  const ScratchDirectory scratch;
+  const fs::path assembly = scratch.file("bridge.step", bridge("rope.stp")),
+                 target = scratch.path() / "target.step";
+  write_rope(scratch.path() / "rope.stp");
+  const ImportReport before = import_curves(assembly);
+  ASSERT_EQ(before.curves.size(), 3U);
+  const NurbsCurve moved = line({0.1, 0.01, 0}, {0.1, 0.05, 0.4});
+  const auto warnings = export_into_step(assembly, target, {{before.curves[1].curve, moved, "rope left"}});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].severity, Severity::warning);
+  EXPECT_NE(warnings[0].message.find("another file"), std::string::npos) << warnings[0].message;
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 4U);
+  const auto added = std::find_if(after.curves.begin(), after.curves.end(),
+                                  [](const ImportedCurve& curve) { return curve.name == "rope left"; });
+  ASSERT_NE(added, after.curves.end());
+  EXPECT_LE((end_of(added->curve) - Eigen::Vector3d(0.1, 0.05, 0.4)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace nurbeam

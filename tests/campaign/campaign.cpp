@@ -1,0 +1,213 @@
+// Random models, run and held to the laws of mechanics.
+//
+//   random_campaign [--seed N] [--count N] [--hours H] [--keep DIRECTORY]   N, N + 1, ... until count or time
+//   is up random_campaign --case FILE...                                         these cases alone
+//
+// Exits with 1 where a law is broken; the case is kept as seed_N.json, cut down to what still breaks it.
+
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/campaign/random_case.h"
+#include "tests/campaign/trial.h"
+
+namespace nurbeam::campaign {
+
+namespace {
+
+struct Options {
+  unsigned long seed = 1;
+  long count = 100;
+  std::optional<double> hours;
+  std::filesystem::path keep;
+  std::vector<std::string> cases;
+  std::optional<unsigned long> show;
+};
+
+Options read_options(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto value = [&]() -> std::string {
+      if (i + 1 >= argc) throw std::invalid_argument(word + " needs a value");
+      return argv[++i];
+    };
+    if (word == "--seed")
+      options.seed = std::stoul(value());
+    else if (word == "--count")
+      options.count = std::stol(value());
+    else if (word == "--hours")
+      options.hours = std::stod(value());
+    else if (word == "--keep")
+      options.keep = value();
+    else if (word == "--show")
+      options.show = std::stoul(value());
+    else if (word == "--case")
+      while (i + 1 < argc) options.cases.emplace_back(argv[++i]);
+    else
+      throw std::invalid_argument(word +
+                                  " is not known; known are --seed, --count, --hours, --keep, --case, "
+                                  "--show");
+  }
+  return options;
+}
+
+// A case that hangs is a defect like any other. Seconds of the processor's time: others may be at work.
+constexpr long longest_seconds = 60;
+void watch(long seconds) {
+  const itimerval time{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &time, nullptr);
+}
+char at_work[64] = "";
+extern "C" void hung(int) {
+  constexpr char text[] = ": hangs\n";
+  ssize_t written = write(STDOUT_FILENO, at_work, std::strlen(at_work));
+  written += write(STDOUT_FILENO, text, sizeof text - 1);
+  _exit(written > 0 ? 1 : 2);
+}
+
+Verdict watched(const Json& c, const std::string& name) {
+  std::strncpy(at_work, name.c_str(), sizeof at_work - 1);
+  watch(longest_seconds);
+  Verdict verdict;
+  try {
+    verdict = try_case(c);
+  } catch (const std::exception& error) {
+    verdict.outcome = "thrown";
+    verdict.complaint = std::string("throws: ") + error.what();
+  }
+  watch(0);
+  return verdict;
+}
+
+// The kind of a complaint: its words up to the first number.
+std::string kind_of(const std::string& complaint) {
+  return complaint.substr(0, complaint.find_first_of("0123456789"));
+}
+
+// Without what can go while the complaint stays.
+Json cut_down(Json c, const std::string& complaint, const std::string& name) {
+  const auto still = [&](const Json& smaller) {
+    return kind_of(watched(smaller, name).complaint) == kind_of(complaint);
+  };
+  const auto try_change = [&](const Json& smaller) {
+    const bool holds = still(smaller);
+    if (holds) c = smaller;
+    return holds;
+  };
+  for (const char* list : {"loads", "supports"})
+    for (std::size_t i = c.contains(list) ? c[list].size() : 0; i-- > 0;) {
+      Json smaller = c;
+      smaller[list].erase(i);
+      try_change(smaller);
+    }
+  for (std::size_t i = c.contains("bodies") ? c["bodies"].size() : 0; i-- > 0;) {
+    Json smaller = c;
+    smaller["bodies"].erase(i);
+    smaller["sliding_joints"].erase(i);
+    try_change(smaller);
+  }
+  for (const char* path : {"/beams/0/material/damping", "/analysis/initial", "/analysis/integrator",
+                           "/beams/0/orientation", "/gravity"}) {
+    Json smaller = c;
+    const Json::json_pointer pointer(path);
+    if (!smaller.contains(pointer)) continue;
+    smaller[pointer.parent_pointer()].erase(pointer.back());
+    try_change(smaller);
+  }
+  for (int count : {3, 4, 6, 8}) {
+    Json smaller = c;
+    for (Json& beam : smaller["beams"]) beam["elements"]["count"] = count;
+    if (try_change(smaller)) break;
+  }
+  return c;
+}
+
+struct Tally {
+  std::map<std::string, long> outcomes;
+  long runs = 0, complaints = 0;
+  double drift = 0, imbalance = 0, seconds = 0;
+
+  void add(const Verdict& verdict) {
+    ++runs;
+    ++outcomes[verdict.outcome];
+    if (!verdict.complaint.empty()) ++complaints;
+    if (verdict.outcome == "done" && verdict.complaint.empty()) {
+      drift = std::max(drift, verdict.drift);
+      imbalance = std::max(imbalance, verdict.imbalance);
+    }
+    seconds = std::max(seconds, verdict.seconds);
+  }
+  void print() const {
+    std::cout << runs << " cases, " << complaints << " break a law; largest imbalance of forces " << imbalance
+              << ", longest case " << seconds << " s\n";
+    for (const auto& [outcome, count] : outcomes) std::cout << "  " << count << "  " << outcome << '\n';
+  }
+};
+
+void report(const std::string& name, const Verdict& verdict) {
+  if (!verdict.complaint.empty())
+    std::cout << name << ": " << verdict.complaint << " (" << verdict.outcome << ")" << std::endl;
+}
+
+int run(const Options& options) {
+  if (options.show) {
+    std::cout << random_case(*options.show).dump(1) << '\n';
+    return 0;
+  }
+  std::signal(SIGPROF, hung);
+  Tally tally;
+  for (const std::string& file : options.cases) {
+    std::ifstream stream(file);
+    const Verdict verdict = watched(Json::parse(stream, nullptr, true, true), file);
+    std::cout << file << ": " << verdict.outcome << ", drift " << verdict.drift << ", imbalance "
+              << verdict.imbalance << ", " << verdict.seconds << " s\n";
+    report(file, verdict);
+    tally.add(verdict);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto goes_on = [&](long i) {
+    if (!options.cases.empty()) return false;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    return options.hours ? passed.count() < *options.hours * 3600 : i < options.count;
+  };
+  for (long i = 0; goes_on(i); ++i) {
+    const unsigned long seed = options.seed + static_cast<unsigned long>(i);
+    const std::string name = "seed " + std::to_string(seed);
+    const Json c = random_case(seed);
+    const Verdict verdict = watched(c, name);
+    tally.add(verdict);
+    report(name, verdict);
+    if (verdict.complaint.empty() || options.keep.empty()) continue;
+    std::filesystem::create_directories(options.keep);
+    std::ofstream(options.keep / ("seed_" + std::to_string(seed) + ".json"))
+        << cut_down(c, verdict.complaint, name).dump(1) << '\n';
+  }
+  tally.print();
+  return tally.complaints > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+}  // namespace nurbeam::campaign
+
+int main(int argc, char** argv) {
+  try {
+    return nurbeam::campaign::run(nurbeam::campaign::read_options(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "random_campaign: " << error.what() << '\n';
+    return 2;
+  }
+}

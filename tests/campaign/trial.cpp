@@ -1,0 +1,265 @@
+#include "tests/campaign/trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <variant>
+#include <vector>
+
+#include "fem/motion/simulation.h"
+#include "fem/system/observables.h"
+#include "pipelines/case/case_file.h"
+#include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/model/build_model.h"
+#include "solver/consistent.h"
+#include "tests/pipelines/case_text.h"
+
+namespace nurbeam::campaign {
+
+namespace {
+
+using Eigen::Vector3d;
+constexpr double most_imbalance = 1e-8;
+constexpr long most_steps = 1000;
+
+bool finite(const Snapshot& frame) {
+  double sum = frame.energy.total + frame.energy.kinetic + frame.energy.input + frame.energy.dissipated;
+  for (const ProbeRecord& p : frame.probes)
+    sum += p.position.sum() + p.velocity.sum() + p.displacement.sum() + p.section.axial_force +
+           p.section.bending_moment + p.section.torque + p.section.shear_force;
+  for (const BodyRecord& b : frame.bodies)
+    sum += b.point.position.sum() + b.point.velocity.sum() + b.joint_force.sum() + b.holding_force;
+  for (const BeamRecord& beam : frame.beams)
+    for (const ElementRecord& e : beam.elements)
+      sum += e.control_points.sum() + e.velocity.sum() + e.axial_force.sum() + e.bending_moment.sum() +
+             e.shear_force.sum() + e.torque.sum();
+  for (const ReactionRecord& r : frame.reactions) sum += r.force.sum() + r.couple.sum() + r.position.sum();
+  return std::isfinite(sum);
+}
+
+// ---- Balance of forces ----
+
+/// d(momentum)/dt at fixed force: by central differences along q', v'.
+Vector3d momentum_rate(const BeamSystem& system, const State& state) {
+  const auto at = [&](double h) {
+    State moved = state;
+    moved.q += h * state.v + h * h / 2 * state.a;
+    moved.v += h * state.a;
+    return momentum(system, moved);
+  };
+  // Momentum is linear in v and nearly so in q: the step only has to be short of what turns sections round.
+  const double fastest = state.v.cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>();
+  const double turn = std::sqrt(state.a.cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>());
+  const double h = 1e-3 / std::max({fastest, turn, 1e-3});
+  const auto slope = [&](double step) -> Vector3d { return (at(step) - at(-step)) / (2 * step); };
+  return (4 * slope(h / 2) - slope(h)) / 3;
+}
+
+struct Loads {
+  Vector3d sum = Vector3d::Zero();
+  double largest = 0;
+  void add(const Vector3d& force) {
+    sum += force;
+    largest = std::max(largest, force.norm());
+  }
+};
+
+/// Weight, loads and reactions at a moment.
+Loads external_forces(const BeamSystem& system, const State& state) {
+  Loads loads;
+  const BeamModel& model = system.model();
+  for (const Beam& beam : model.beams)
+    loads.add(beam.properties.mass_per_length * beam.curve.length() * model.gravity);
+  for (const Body& body : model.bodies) loads.add(body.mass * model.gravity);
+  // Residual without inertia, at rest and without multipliers, in the directions of translation: less the
+  // loads, whatever they are; weight is known already.
+  State free = state;
+  free.v.setZero();
+  free.a.setZero();
+  free.lambda.setZero();
+  Eigen::VectorXd rows(system.coordinate_count()), none(system.constraint_count());
+  system.residual(free, rows, none);
+  Vector3d of_rows = Vector3d::Zero();
+  const auto add = [&](int first) {
+    for (int d = 0; d < system.dimension(); ++d) of_rows[d] -= rows[first + d];
+  };
+  for (const auto& nodes : system.mesh().nodes)
+    for (const MeshNode& node : nodes)
+      if (node.joint < 0) add(node.r);
+  for (const int r : system.mesh().bodies) add(r);
+  loads.add(of_rows - loads.sum);
+  for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i) {
+    const Vector3d force = reaction(system, state, state.lambda, i).force;
+    if (std::holds_alternative<Support>(model.constraints[i]))
+      loads.add(force);
+    else
+      loads.largest = std::max(loads.largest, force.norm());  // between beams
+  }
+  return loads;
+}
+
+double imbalance(const BeamSystem& system, const State& state) {
+  const Loads loads = external_forces(system, state);
+  const Vector3d inertia = momentum_rate(system, state);
+  double largest = std::max(loads.largest, inertia.norm());
+  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
+    largest = std::max(largest, joint_force(system, state, j).norm());
+  return largest > 0 ? (inertia - loads.sum).norm() / largest : 0;
+}
+
+bool same_mesh(const MeshPlan& a, const MeshPlan& b) {
+  if (a.modes != b.modes || a.places != b.places || a.section_charts.size() != b.section_charts.size())
+    return false;
+  for (std::size_t i = 0; i < a.beams.size(); ++i)
+    if (a.beams[i].present != b.beams[i].present) return false;
+  for (std::size_t i = 0; i < a.section_charts.size(); ++i)
+    if (a.section_charts[i].charts != b.section_charts[i].charts) return false;
+  return true;
+}
+
+// ---- One run ----
+
+struct Trial {
+  SimulationReport report;
+  bool finite = true;
+  double imbalance = 0, imbalance_time = 0;
+  std::size_t frames = 0;
+};
+
+SimulationOptions options_of(const CaseAnalysis& a, int refinement) {
+  SimulationOptions options;
+  options.statics = a.type == CaseAnalysis::Type::statics;
+  options.start_from_equilibrium = a.start_from_equilibrium;
+  options.end_time = a.end_time;
+  options.length_control = a.length_control;
+  options.integrator = a.integrator;
+  const double finer = std::pow(2, refinement);
+  if (a.step) options.step = *a.step / finer;
+  if (auto* method = std::get_if<GeneralizedAlpha>(&options.integrator); method && method->tolerance > 0)
+    method->tolerance /= std::pow(finer, 3);
+  if (auto* method = std::get_if<Ida>(&options.integrator)) method->tolerance /= std::pow(finer, 3);
+  constexpr int frames = 20;
+  for (int i = 0; !options.statics && i <= frames; ++i)
+    options.output_times.push_back(i * a.end_time / frames);
+  return options;
+}
+
+/// `balanced`: forces are looked at after every step.
+Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanced, long step_limit) {
+  Trial trial;
+  const auto model = std::make_shared<const BeamModel>(built.model);
+  std::vector<ProbePlace> probes;
+  for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
+  long steps = 0;
+  const bool with_accelerations = std::holds_alternative<GeneralizedAlpha>(options.integrator);
+  SimulationObserver observer;
+  std::optional<MeshPlan> plan;
+  std::size_t events = 0;
+  observer.interrupted = [&] { return ++steps > step_limit; };
+  observer.snapshot = [&](const Snapshot& frame) {
+    trial.finite = trial.finite && finite(frame);
+    ++trial.frames;
+  };
+  observer.checkpoint_due = [&] { return balanced && with_accelerations && steps % 4 == 0; };
+  observer.checkpoint = [&](const Checkpoint& point) {
+    const bool goes_on = plan && same_mesh(*plan, point.plan) && events == point.report.events.size();
+    plan = point.plan;
+    events = point.report.events.size();
+    // Right after a change of the mesh accelerations are means over the next step.
+    if (!goes_on || !with_accelerations || point.steps.empty()) return;
+    const BeamSystem system(model, point.plan);
+    const double found = imbalance(system, point.state);
+    if (!(found <= trial.imbalance)) {
+      trial.imbalance = found;
+      trial.imbalance_time = point.state.t;
+    }
+  };
+  trial.report = simulate(model, probes, options, observer);
+  return trial;
+}
+
+double energy_change(const SimulationReport& report) {
+  return std::max(report.energy_drift, report.integration_error);
+}
+
+/// What a run that is not warned of may change the energy by.
+double noticed(const SimulationReport& report) {
+  return std::max(0.05 * report.energy_scale(), report.energy_round_off());
+}
+
+// A drift that does not fall with the step, or that nothing warns of.
+std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analysis,
+                             const SimulationReport& first) {
+  constexpr double small = 1e-3, order_seen = 1.8;
+  const auto is_small = [&](const SimulationReport& report) {
+    return energy_change(report) <= std::max(small * report.energy_scale(), report.energy_round_off());
+  };
+  if (is_small(first)) return {};
+  if (energy_change(first) > noticed(first)) return {};  // the run says so itself
+  double last = energy_change(first);
+  std::string seen = std::to_string(last / first.energy_scale());
+  for (int refinement = 1; refinement <= 3; ++refinement) {
+    const Trial finer = run(built, options_of(analysis, refinement), false, most_steps << refinement);
+    if (finer.report.status != SimulationStatus::done) return {};
+    const double change = energy_change(finer.report);
+    seen += ", " + std::to_string(change / finer.report.energy_scale());
+    if (is_small(finer.report) || change < last / order_seen) return {};
+    last = change;
+  }
+  return "energy changes by " + seen + " of what moves, as steps are halved";
+}
+
+std::string first_words(const std::string& text) {
+  std::istringstream words(text);
+  std::string result, word;
+  for (int i = 0; i < 6 && words >> word; ++i)
+    if (word.find_first_of("0123456789\"") == std::string::npos) result += (result.empty() ? "" : " ") + word;
+  return result;
+}
+
+std::string all_of(const std::vector<Diagnostic>& diagnostics) {
+  std::string text;
+  for (const Diagnostic& d : diagnostics) text += d.where + ": " + d.message + "; ";
+  return text;
+}
+
+}  // namespace
+
+Verdict try_case(const Json& c) {
+  const auto start = std::chrono::steady_clock::now();
+  Verdict verdict;
+  const auto finish = [&](std::string outcome, std::string complaint = {}) {
+    verdict.outcome = std::move(outcome);
+    verdict.complaint = std::move(complaint);
+    verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return verdict;
+  };
+  const test::TemporaryDirectory directory;
+  const CaseFileReport read = read_case_file(directory.write("case.json", c.dump()));
+  if (!read.value)
+    return finish("refused: " + first_words(all_of(read.diagnostics)),
+                  "not a case: " + all_of(read.diagnostics));
+  const BuildReport built = build_model(*read.value);
+  if (!built.value)
+    return finish("refused", all_of(built.diagnostics).empty() ? "refused without a word" : "");
+  const Trial trial = run(*built.value, options_of(read.value->analysis, 0), true, most_steps);
+  const SimulationReport& report = trial.report;
+  verdict.imbalance = trial.imbalance;
+  if (report.energy_scale() > 0) verdict.drift = energy_change(report) / report.energy_scale();
+  if (!trial.finite) return finish("done", "a number is not finite");
+  if (!(trial.imbalance <= most_imbalance))
+    return finish("done", "reactions, loads and inertia miss each other by " +
+                              std::to_string(trial.imbalance * 1e9) +
+                              "e-9 of the largest force at t = " + std::to_string(trial.imbalance_time));
+  if (report.status == SimulationStatus::interrupted) return finish("too many steps");
+  if (report.status == SimulationStatus::not_converged) {
+    const std::string text = outcome_text(report, built.value->model);
+    return finish(first_words(text), text.empty() || text == "done" ? "it ended without a word" : "");
+  }
+  if (trial.frames == 0) return finish("done", "there is no frame");
+  return finish("done", energy_complaint(*built.value, read.value->analysis, report));
+}
+
+}  // namespace nurbeam::campaign

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+using std::numbers::pi;
+
+/// A cantilever of 2 m along x, round, of steel; what comes behind its supports is `rest`.
+std::string cantilever(const std::string& analysis, const std::string& rest = "") {
+  return R"({ "nurbeam": 1,
+  "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": "1 cm" },
+              "material": { "density": 7850, "youngs_modulus": "210 GPa" }, "torsion": true }],
+  "supports": [{ "beam": "bar", "at": "start", "type": "clamped" }],)" +
+         rest + R"("analysis": )" + analysis + R"(, "output": { "paraview": true } })";
+}
+
+/// What a run leaves in its directory.
+struct Left {
+  int code;
+  std::string messages, table;
+  nlohmann::json run;
+  TemporaryDirectory directory;
+};
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void run_text(const std::string& text, Left& left) {
+  const auto results = left.directory.path() / "results";
+  std::ostringstream out, err;
+  const CapturedErrors errors;
+  left.code = run_command_line(
+      {"run", left.directory.write("case.json", text).string(), "--out", results.string()}, out, err);
+  left.messages = err.str() + errors.text();
+  left.table = text_of_file(results / "modes.csv");
+  if (std::filesystem::exists(results / "run.json"))
+    left.run = nlohmann::json::parse(text_of_file(results / "run.json"));
+}
+
+TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
+  Left left;
+  run_text(cantilever(R"({ "type": "modes", "modes": { "count": 5 } })"), left);
+  ASSERT_EQ(left.code, 0) << left.messages;
+  ASSERT_EQ(left.run["modes"].size(), 5u);
+  const double omega =
+      std::pow(1.87510407 / 2, 2) * std::sqrt(210e9 / 7850) * 0.005;  // under its own weight:
+  EXPECT_NEAR(left.run["modes"][0]["frequency [Hz]"].get<double>(), omega / (2 * pi), 1e-3 * omega);
+  EXPECT_NEAR(left.run["modes"][1]["frequency [Hz]"].get<double>(), omega / (2 * pi), 1e-3 * omega);
+  EXPECT_NEAR(left.run["mass [kg]"].get<double>(), 7850 * pi * 1e-4 * 2, 1e-9);
+  EXPECT_EQ(left.table.substr(0, 33), "number,frequency [Hz],period [s],");
+  EXPECT_NE(left.messages.find("mode 1: "), std::string::npos);
+  const auto results = left.directory.path() / "results";
+  for (const char* file : {"results.nc", "report.html", "frames.pvd", "mode_1.pvd", "mode_5.pvd"})
+    EXPECT_TRUE(std::filesystem::exists(results / file)) << file;
+  std::ostringstream out, err;
+  const auto shape = left.directory.path() / "shape.step";
+  EXPECT_EQ(run_command_line({"export", results.string(), "--time", "3", "--to", shape.string()}, out, err),
+            0)
+      << err.str();
+  // Another run clears away what this one left.
+  const auto again = left.directory.write(
+      "again.json", cantilever(R"({ "type": "modes", "modes": { "count": 1, "about": "drawn" } })"));
+  const CapturedErrors quiet;
+  EXPECT_EQ(run_command_line({"run", again.string(), "--quiet", "--out", results.string()}, out, err), 0);
+  EXPECT_FALSE(std::filesystem::exists(results / "mode_5.pvd"));
+  EXPECT_FALSE(std::filesystem::exists(results / "frames" / "mode_5_beams_000000.vtu"));
+}
+
+TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
+  const double EI = 210e9 * pi * 1e-8 / 4, euler = pi * pi * EI / 16;
+  Left left;
+  run_text(cantilever(
+               R"({ "type": "buckling", "modes": { "count": 2 } })",
+               R"("gravity": [0, 0, 0], "loads": [{ "beam": "bar", "at": "end", "force": [-100, 0, 0] }],)"),
+           left);
+  ASSERT_EQ(left.code, 0) << left.messages;
+  EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler / 100, 1e-4 * euler / 100);
+  EXPECT_EQ(left.table.substr(0, 13), "number,factor");
+}
+
+TEST(Modes, ThatCannotBeAreRefusedInWords) {
+  const auto expect = [](const std::string& text, int code, const std::string& words) {
+    Left left;
+    run_text(text, left);
+    EXPECT_EQ(left.code, code) << left.messages;
+    EXPECT_NE(left.messages.find(words), std::string::npos) << left.messages;
+  };
+  expect(cantilever(R"({ "type": "buckling" })"), 2, "there are no \"loads\"");
+  expect(cantilever(R"({ "type": "modes" })",
+                    R"("loads": [{ "beam": "bar", "at": "end", "force": [-1, 0, 0], "follower": true }],)"),
+         2, "has no energy");
+  expect(cantilever(R"({ "type": "modes" })",
+                    R"("loads": [{ "beam": "bar", "at": "end", "moment": [50, 20, 10] }],)"),
+         3, "moments in space");
+  expect(R"({ "nurbeam": 1,
+    "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                "material": { "density": 7850, "youngs_modulus": 2e11 } }],
+    "analysis": { "type": "modes" } })",
+         3, "is the model held everywhere?");
+}
+
+}  // namespace
+}  // namespace nurbeam::test

@@ -1,0 +1,157 @@
+#include "fem/motion/modes.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <memory>
+#include <random>
+
+#include "fem/system/initial_state.h"
+#include "tests/fem/torsion_models.h"
+
+namespace nurbeam {
+namespace {
+
+using testing::line_cubic;
+
+ModesReport modes_of(const BeamModel& model, const ModesOptions& options = {}) {
+  return find_modes(
+      std::make_shared<const BeamModel>(model), options, [] { return false; });
+}
+
+/// Squared frequencies on the null space of the constraints, dense.
+Eigen::VectorXd dense_squares(const BeamSystem& system, const State& state) {
+  const int n = system.coordinate_count();
+  const auto tangent = [&](const TangentWeights& w) {
+    Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+    system.tangent(state, w, kkt);
+    return Eigen::MatrixXd(kkt);
+  };
+  const Eigen::MatrixXd M = tangent({.mass = 1}), K = tangent({.stiffness = 1});
+  const Eigen::MatrixXd Z = M.bottomLeftCorner(system.constraint_count(), n).fullPivLu().kernel();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(Z.transpose() * K.topLeftCorner(n, n) * Z,
+                                                                   Z.transpose() * M.topLeftCorner(n, n) * Z)
+      .eigenvalues();
+}
+
+TEST(Modes, AreThoseOfTheDenseProblemAboutTheDrawing) {
+  std::mt19937 random(3);
+  for (const int dimension : {2, 3}) {
+    for (const BeamModel& model :
+         {testing::joined_model(random, dimension), testing::cornered_model(random, dimension)}) {
+      const ModesReport found = modes_of(model, {.count = 6, .about_equilibrium = false});
+      ASSERT_FALSE(found.rest.failure);
+      const Eigen::VectorXd exact = dense_squares(*found.at.system, found.at.state);
+      ASSERT_EQ(found.modes.size(), 6u);
+      for (int i = 0; i < 6; ++i)
+        EXPECT_NEAR(found.modes[i].omega * found.modes[i].omega, std::abs(exact[i]) < 1e-6 ? 0 : exact[i],
+                    1e-6 * exact[5])
+            << dimension << ", " << i;
+    }
+  }
+}
+
+TEST(Modes, AreThoseOfTheDenseProblemAboutAnEquilibriumWithCorners) {
+  std::mt19937 random(4);
+  BeamModel model = testing::cornered_model(random, 2);
+  model.forces = {PointLoad{{.beam = 0, .s = 2, .value = {0.3, -0.2, 0}, .time = {}}}};
+  const ModesReport found = modes_of(model, {.count = 4});
+  ASSERT_FALSE(found.rest.failure);
+  const Eigen::VectorXd exact = dense_squares(*found.at.system, found.at.state);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(found.modes[i].omega, std::sqrt(exact[i]), 1e-7 * std::sqrt(exact[i])) << i;
+}
+
+TEST(Modes, ShapesHoldTheConstraintsAndHaveUnitMass) {
+  std::mt19937 random(5);
+  const ModesReport found =
+      modes_of(testing::joined_model(random, 2), {.count = 5, .about_equilibrium = false});
+  ASSERT_FALSE(found.rest.failure);
+  const BeamSystem& system = *found.at.system;
+  const int n = system.coordinate_count(), m = system.constraint_count();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  system.tangent(found.at.state, {.mass = 1}, kkt);
+  const Eigen::MatrixXd dense(kkt);
+  for (const Mode& a : found.modes) {
+    EXPECT_LT((dense.bottomLeftCorner(m, n) * a.shape).norm(), 1e-9 * a.shape.norm());
+    for (const Mode& b : found.modes)
+      EXPECT_NEAR(a.shape.dot(dense.topLeftCorner(n, n) * b.shape), &a == &b ? 1 : 0, 1e-8);
+  }
+}
+
+TEST(Modes, EffectiveMassesSumUpToTheMassThatMoves) {
+  ModelBuilder builder(2);
+  builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {1, 0, 0})}, 2), BeamProperties{1e4, 1, 3}, {6});
+  const ModesReport free = modes_of(builder.build(), {.count = 28});
+  ASSERT_FALSE(free.rest.failure);
+  EXPECT_NEAR(free.mass, 3, 1e-12);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Mode& mode : free.modes) sum += mode.participation.cwiseAbs2();
+  EXPECT_NEAR(sum.x(), 3, 1e-8);
+  EXPECT_NEAR(sum.y(), 3, 1e-8);
+  EXPECT_EQ(sum.z(), 0);
+}
+
+/// A column that stands on its clamp, of 1 m with EI = 1, under the weight q per length.
+BeamModel column(double q) {
+  ModelBuilder builder(2, {0, -1, 0});
+  builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {0, 1, 0})}, 2), BeamProperties{1e6, 1, q}, {8});
+  return builder.clamp(0, 0).build();
+}
+
+TEST(Modes, OfAColumnThatIsTooHeavyAreRefusedAsUnstable) {
+  EXPECT_FALSE(modes_of(column(7.8), {.count = 1}).rest.failure);  // q L^3/EI = 7.837
+  const ModesReport heavy = modes_of(column(7.9), {.count = 1});
+  ASSERT_TRUE(heavy.rest.failure);
+}
+
+TEST(Buckling, OfAColumnUnderItsWeightAndALoad) {
+  // Timoshenko & Gere: with its weight alone it buckles at q L^3/EI = 7.837; near it hardly any load is left.
+  BeamModel model = column(7.8);
+  model.forces = {PointLoad{{.beam = 0, .s = 1, .value = {0, -1, 0}, .time = {}}}};
+  const ModesReport near = modes_of(model, {.kind = ModesOptions::Kind::buckling, .count = 1});
+  ASSERT_FALSE(near.rest.failure);
+  // P + 0.3 q L = 2.47 nearly: the interaction curve's slope.
+  EXPECT_NEAR(near.modes[0].factor, (7.8373 - 7.8) * 0.3, 0.003);
+}
+
+TEST(Buckling, ByALoadThatPullsHasANegativeFactor) {
+  BeamModel model = column(1e-9);
+  model.forces = {PointLoad{{.beam = 0, .s = 1, .value = {0, 1, 0}, .time = {}}}};
+  const ModesReport found = modes_of(model, {.kind = ModesOptions::Kind::buckling, .count = 1});
+  ASSERT_FALSE(found.rest.failure);
+  EXPECT_NEAR(found.modes[0].factor, -M_PI * M_PI / 4, 1e-3);
+}
+
+TEST(Buckling, WithoutAnEffectOnTheStiffnessIsRefused) {
+  BeamModel model = column(1e-9);
+  model.forces = {PointLoad{{.beam = 0, .s = 0, .value = {0, -1, 0}, .time = {}}}};  // on the clamp
+  const ModesReport found = modes_of(model, {.kind = ModesOptions::Kind::buckling, .count = 1});
+  ASSERT_TRUE(found.rest.failure);
+  EXPECT_EQ(found.rest.failure->kind, Failure::Kind::nothing_buckles);
+}
+
+TEST(Modes, UnderALoadThatFollowsAreRefused) {
+  BeamModel model = column(1e-9);
+  model.forces = {PointLoad{{.beam = 0, .s = 1, .value = {0, -1, 0}, .follower = true, .time = {}}}};
+  const ModesReport found = modes_of(model);
+  ASSERT_TRUE(found.rest.failure);
+  EXPECT_EQ(found.rest.failure->kind, Failure::Kind::no_energy);
+}
+
+TEST(ModeShapes, MoveThePointsAndLeaveTheSectionForces) {
+  const ModesReport found = modes_of(column(1), {.count = 1});
+  ASSERT_FALSE(found.rest.failure);
+  const double amplitude = visible_amplitude(found.at, found.modes[0]);
+  const Snapshot rest = record_snapshot(*found.at.system, found.at.state, {{0, 1}});
+  const Snapshot moved = record_mode(found.at, found.modes[0], amplitude, 2 * amplitude, {{0, 1}});
+  const double way = (moved.probes[0].position - rest.probes[0].position).norm();
+  EXPECT_NEAR(way, 0.05, 1e-3);
+  EXPECT_NEAR(moved.probes[0].velocity.norm(), 2 * way, 1e-9);
+  EXPECT_EQ(moved.beams[0].elements[0].axial_force, rest.beams[0].elements[0].axial_force);
+  EXPECT_NE(moved.beams[0].elements[3].control_points, rest.beams[0].elements[3].control_points);
+}
+
+}  // namespace
+}  // namespace nurbeam
