@@ -92,7 +92,7 @@ ChildResult result_of(const std::string& bytes) {
 }
 
 ChildResult result_of(int wait_status) {
-  if (!WIFSIGNALED(wait_status)) return {Status::failed, "", "it ended without a report"};
+  if (!WIFSIGNALED(wait_status)) return {Status::crashed, "", "it ended without a report"};
   const int number = WTERMSIG(wait_status);
   if (number == SIGXCPU) return {Status::timed_out, "", ""};
   return {Status::crashed, "", strsignal(number)};

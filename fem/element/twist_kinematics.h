@@ -40,11 +40,16 @@ struct Point {
   P k1, k2;                          ///< of the stress-free shape [1/m]
 };
 
+/// N of them, or as many as there are.
+template <class T, int N>
+using Several =
+    std::conditional_t<N == Eigen::Dynamic, std::vector<T>, std::array<T, N == Eigen::Dynamic ? 0 : N>>;
+
 /// The drawn element.
 template <class P, int N>
 struct Drawing {
   P h;  ///< [m]
-  std::conditional_t<N == Eigen::Dynamic, std::vector<Point<P, N>>, std::array<Point<P, N>, N>> points;
+  Several<Point<P, N>, N> points;
   Eigen::Matrix<P, N, 1> weights;  ///< [m]
   P end_angle;                     ///< Theta_0 - Omega_0 at B
 };
@@ -66,7 +71,7 @@ struct Fields {
   SectionTriad<T> a, b;
   Eigen::Matrix<T, N, 1> rates;  ///< of transport
   T turn, twist;                 ///< Theta and theta_B
-  std::conditional_t<N == Eigen::Dynamic, std::vector<PointField<T>>, std::array<PointField<T>, N>> at;
+  Several<PointField<T>, N> at;
 };
 
 template <class T, class P, int N>

@@ -1,6 +1,8 @@
 #include "nurbs/smooth/smooth_corners.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "nurbs/bezier_path.h"
 #include "nurbs/closest_point.h"
@@ -13,6 +15,29 @@ RationalCubic with_second_point(const RationalCubic& cubic, const Eigen::Vector3
   Eigen::Matrix4d points = cubic.points();
   points.col(1).head<3>() = cubic.weight(1) * point;
   return RationalCubic(points);
+}
+
+/// No less than the distance between two cubics of the same weights: the largest between their control
+/// points.
+double distance_bound(const RationalCubic& a, const RationalCubic& b) {
+  double largest = 0;
+  for (int i = 0; i < 4; ++i) largest = std::max(largest, (a.control_point(i) - b.control_point(i)).norm());
+  return largest;
+}
+
+/// The largest distance of the cubics from those that they are made of. It takes long to measure: where the
+/// bound is at the round-off of the coordinates, it is taken for the distance.
+double deviation(const std::vector<RationalCubic>& smooth, std::span<const RationalCubic> segments) {
+  constexpr double round_off = 1e-15;
+  double largest = 0;
+  for (std::size_t j = 0; j < segments.size(); ++j) {
+    const double bound = distance_bound(smooth[j], segments[j]);
+    if (bound <= largest) continue;
+    const double size = segments[j].control_point(0).norm() + segments[j].control_point(3).norm();
+    const bool measured = bound > round_off * size;
+    largest = std::max(largest, measured ? hausdorff_distance({&smooth[j], 1}, {&segments[j], 1}) : bound);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -30,10 +55,7 @@ SmoothCorners smooth_corners(std::span<const RationalCubic> segments, double ang
     before = with_second_point(before.reversed(), corner.point - in.norm() * along).reversed();
     after = with_second_point(after, after.control_point(0) + out.norm() * along);
   }
-  for (std::size_t j = 0; j < segments.size(); ++j)
-    if (smooth.segments[j].points() != segments[j].points())
-      smooth.deviation =
-          std::max(smooth.deviation, hausdorff_distance({&smooth.segments[j], 1}, {&segments[j], 1}));
+  smooth.deviation = deviation(smooth.segments, segments);
   return smooth;
 }
 

@@ -8,7 +8,7 @@ namespace nurbeam {
 
 struct SmoothCorners {
   std::vector<RationalCubic> segments;
-  double deviation = 0;  ///< largest distance from the given cubics, measured [m]
+  double deviation = 0;  ///< largest distance from the given cubics, measured above round-off [m]
 };
 
 /// The cubics, which meet end to end, with every corner of at most `angle` [rad] smoothed: both end tangents

@@ -48,7 +48,7 @@ TEST(ChildProcess, ACrashIsAResult) {
   }
 }
 
-TEST(ChildProcess, AnExitWithoutAReportIsAResult) { EXPECT_EQ(run("exit").status, Status::failed); }
+TEST(ChildProcess, AnExitWithoutAReportIsAResult) { EXPECT_EQ(run("exit").status, Status::crashed); }
 
 TEST(ChildProcess, AnEndlessLoopEndsAtTheTimeLimit) {
   const auto begin = std::chrono::steady_clock::now();

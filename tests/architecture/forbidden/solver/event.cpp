@@ -3,3 +3,5 @@
 #include <vector>
 
 #include "solver/event.h"
+
+bool same(const char* a, const char* b) { return strcmp(a, b) == 0; }
