@@ -19,7 +19,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Vectors = Eigen::MatrixXd;
 
-/// With S the constrained inverse of B (y = S x: B y + G'z = x, G y = 0) and B + G'G = L L', the symmetric
+/// With S the constrained inverse of B (y = S x: B y + G'z = x, G y = 0) and B + w G'G = L L', the symmetric
 /// matrix C = L'S A S L has the eigenvalues theta, with z = L'x for x; where S vanishes it is zero. All in
 /// the coordinates in which `kkt` is equilibrated.
 class Transformed {
@@ -28,8 +28,12 @@ class Transformed {
       : n_(static_cast<int>(A.rows())), factor_(equilibration(kkt, n_)), A_(scaled(A, factor_.head(n_))) {
     const Matrix level = scaled(kkt, factor_);
     const Matrix G = level.bottomLeftCorner(level.rows() - n_, n_);
-    cholesky_.compute(Matrix(level.topLeftCorner(n_, n_)) + Matrix(G.transpose() * G));
-    regular_ = cholesky_.info() == Eigen::Success && inverse_.factorise(level);
+    if (!inverse_.factorise(level)) return;
+    // B may be indefinite where G x is not 0: as much of G'G as it takes.
+    for (double weight = 1; weight < 1e7 && !regular_; weight *= 100) {
+      cholesky_.compute(Matrix(level.topLeftCorner(n_, n_)) + weight * Matrix(G.transpose() * G));
+      regular_ = cholesky_.info() == Eigen::Success;
+    }
   }
 
   bool regular() const { return regular_; }

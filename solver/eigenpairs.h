@@ -13,7 +13,7 @@ struct Eigenpairs {
 
 /// The `count` theta of the largest magnitude, fewer where others are zero. A (n x n) is symmetric, `kkt` is
 /// [[B, G'], [G, 0]] with B symmetric and positive definite where G x = 0. By the implicitly restarted
-/// Lanczos method (Spectra) with sparse factors of `kkt` and of B + G'G. One vector finds one of equal
+/// Lanczos method (Spectra) with sparse factors of `kkt` and of B + w G'G. One vector finds one of equal
 /// eigenvalues; so it is started again beside what is found until nothing is missing. Nothing is returned
 /// where `kkt` is singular, B not as it must be, or the iteration does not converge.
 std::optional<Eigenpairs> largest_eigenpairs(const Eigen::SparseMatrix<double>& A,

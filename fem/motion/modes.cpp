@@ -174,8 +174,14 @@ std::optional<Matrix> stiffness_of_loads(const BeamSystem& system, const BeamSys
   const EquilibratedKkt solver(kkt, n);
   if (!solver.regular()) return std::nullopt;
   const Vector path = solver.solve(without - with);
-  const double fastest = path.head(n).cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>();
-  if (!(fastest > 0)) return Matrix(loaded.coordinate_count(), loaded.coordinate_count());
+  const Vector scale = system.coordinate_scale();
+  const double fastest = path.head(n).cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+  // What the loads could move were nothing else there: loads on supports move round-off of it.
+  double free = 0;
+  for (int i = 0; i < n; ++i)
+    if (kkt.coeff(i, i) > 0)
+      free = std::max(free, std::abs(without[i] - with[i]) / kkt.coeff(i, i) / scale[i]);
+  if (!(fastest > 1e-10 * free)) return Matrix(n, n);
   const auto slope = [&](double h) -> Matrix {
     const Matrix ahead = tangent(system, along(state, path, h), {.stiffness = 1});
     const Matrix behind = tangent(system, along(state, path, -h), {.stiffness = 1});

@@ -54,7 +54,8 @@ std::string mode_text(const ModeTable& table, std::size_t i) {
   if (table.buckling)
     return number + "buckles at " + text_of(row.factor, read_by_people) + " times the loads" +
            (row.factor < 0 ? ", which are reversed" : "");
-  const Eigen::Vector3d part = row.effective_mass() / table.mass * 100;
+  Eigen::Vector3d part = row.effective_mass() / table.mass * 100;
+  part = (part.array() < 0.001).select(0, part);
   return number +
          (row.omega > 0 ? text_of(row.frequency(), read_by_people) + " Hz" : "0 Hz, a rigid motion") +
          ", effective mass " + text_of(part.x(), rough) + ", " + text_of(part.y(), rough) + ", " +

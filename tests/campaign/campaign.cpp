@@ -6,10 +6,12 @@
 // Exits with 1 where a law is broken; the case is kept as seed_N.json, cut down to what still breaks it.
 
 #include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -64,32 +66,55 @@ Options read_options(int argc, char** argv) {
   return options;
 }
 
-// A case that hangs is a defect like any other. Seconds of the processor's time: others may be at work.
+/// A case that hangs or crashes is a defect like any other: it runs in a process of its own, for so many
+/// seconds of the processor's time.
 constexpr long longest_seconds = 60;
-void watch(long seconds) {
-  const itimerval time{{0, 0}, {seconds, 0}};
-  setitimer(ITIMER_PROF, &time, nullptr);
-}
-char at_work[64] = "";
-extern "C" void hung(int) {
-  constexpr char text[] = ": hangs\n";
-  ssize_t written = write(STDOUT_FILENO, at_work, std::strlen(at_work));
-  written += write(STDOUT_FILENO, text, sizeof text - 1);
-  _exit(written > 0 ? 1 : 2);
-}
 
-Verdict watched(const Json& c, const std::string& name) {
-  std::strncpy(at_work, name.c_str(), sizeof at_work - 1);
-  watch(longest_seconds);
+void try_in_child(const Json& c, int out) {
+  const itimerval time{{0, 0}, {longest_seconds, 0}};
+  setitimer(ITIMER_PROF, &time, nullptr);
   Verdict verdict;
   try {
     verdict = try_case(c);
   } catch (const std::exception& error) {
-    verdict.outcome = "thrown";
-    verdict.complaint = std::string("throws: ") + error.what();
+    verdict = {.outcome = "thrown", .complaint = std::string("throws: ") + error.what()};
   }
-  watch(0);
-  return verdict;
+  const std::string text =
+      Json{verdict.outcome, verdict.complaint, verdict.drift, verdict.imbalance, verdict.seconds}.dump(
+          -1, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = write(out, text.data() + done, text.size() - done);
+    if (written <= 0) break;
+    done += static_cast<std::size_t>(written);
+  }
+  _exit(0);
+}
+
+Verdict watched(const Json& c) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  std::cout.flush();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process");
+  if (child == 0) {
+    close(ends[0]);
+    try_in_child(c, ends[1]);
+  }
+  close(ends[1]);
+  std::string text(1 << 16, '\0');
+  std::size_t length = 0;
+  for (ssize_t got = 1; got > 0 && length < text.size(); length += static_cast<std::size_t>(got))
+    if ((got = read(ends[0], text.data() + length, text.size() - length)) < 0) break;
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFSIGNALED(status))
+    return WTERMSIG(status) == SIGPROF
+               ? Verdict{.outcome = "hung", .complaint = "takes more than a minute"}
+               : Verdict{.outcome = "crashed", .complaint = strsignal(WTERMSIG(status))};
+  const Json told = Json::parse(text.substr(0, length));
+  const auto number = [](const Json& value) { return value.is_null() ? NAN : value.get<double>(); };
+  return {told[0], told[1], number(told[2]), number(told[3]), number(told[4])};
 }
 
 // The kind of a complaint: its words up to the first number.
@@ -98,9 +123,9 @@ std::string kind_of(const std::string& complaint) {
 }
 
 // Without what can go while the complaint stays.
-Json cut_down(Json c, const std::string& complaint, const std::string& name) {
+Json cut_down(Json c, const std::string& complaint) {
   const auto still = [&](const Json& smaller) {
-    return kind_of(watched(smaller, name).complaint) == kind_of(complaint);
+    return kind_of(watched(smaller).complaint) == kind_of(complaint);
   };
   const auto try_change = [&](const Json& smaller) {
     const bool holds = still(smaller);
@@ -167,11 +192,10 @@ int run(const Options& options) {
     std::cout << random_case(*options.show).dump(1) << '\n';
     return 0;
   }
-  std::signal(SIGPROF, hung);
   Tally tally;
   for (const std::string& file : options.cases) {
     std::ifstream stream(file);
-    const Verdict verdict = watched(Json::parse(stream, nullptr, true, true), file);
+    const Verdict verdict = watched(Json::parse(stream, nullptr, true, true));
     std::cout << file << ": " << verdict.outcome << ", drift " << verdict.drift << ", imbalance "
               << verdict.imbalance << ", " << verdict.seconds << " s\n";
     report(file, verdict);
@@ -187,13 +211,13 @@ int run(const Options& options) {
     const unsigned long seed = options.seed + static_cast<unsigned long>(i);
     const std::string name = "seed " + std::to_string(seed);
     const Json c = random_case(seed);
-    const Verdict verdict = watched(c, name);
+    const Verdict verdict = watched(c);
     tally.add(verdict);
     report(name, verdict);
     if (verdict.complaint.empty() || options.keep.empty()) continue;
     std::filesystem::create_directories(options.keep);
     std::ofstream(options.keep / ("seed_" + std::to_string(seed) + ".json"))
-        << cut_down(c, verdict.complaint, name).dump(1) << '\n';
+        << cut_down(c, verdict.complaint).dump(1) << '\n';
   }
   tally.print();
   return tally.complaints > 0 ? 1 : 0;

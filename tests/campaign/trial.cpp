@@ -24,19 +24,33 @@ using Eigen::Vector3d;
 constexpr double most_imbalance = 1e-8;
 constexpr long most_steps = 1000;
 
-bool finite(const Snapshot& frame) {
-  double sum = frame.energy.total + frame.energy.kinetic + frame.energy.input + frame.energy.dissipated;
-  for (const ProbeRecord& p : frame.probes)
-    sum += p.position.sum() + p.velocity.sum() + p.displacement.sum() + p.section.axial_force +
-           p.section.bending_moment + p.section.torque + p.section.shear_force;
-  for (const BodyRecord& b : frame.bodies)
-    sum += b.point.position.sum() + b.point.velocity.sum() + b.joint_force.sum() + b.holding_force;
+// The name of a quantity that is not finite; empty where all are.
+std::string not_finite(const Snapshot& frame) {
+  std::string name;
+  const auto look = [&](const char* what, double value) {
+    if (name.empty() && !std::isfinite(value)) name = what + (" at t = " + std::to_string(frame.time));
+  };
+  const EnergyRecord& e = frame.energy;
+  look("an energy", e.total + e.kinetic + e.input + e.dissipated);
+  for (const ProbeRecord& p : frame.probes) {
+    look("a probe's motion", p.position.sum() + p.velocity.sum() + p.displacement.sum());
+    look("a probe's section force",
+         p.section.axial_force + p.section.bending_moment + p.section.torque + p.section.shear_force);
+  }
+  for (const BodyRecord& b : frame.bodies) {
+    look("a body's motion", b.point.position.sum() + b.point.velocity.sum());
+    look("a joint's force", b.joint_force.sum());
+    look("a holding force", b.holding_force);
+  }
   for (const BeamRecord& beam : frame.beams)
-    for (const ElementRecord& e : beam.elements)
-      sum += e.control_points.sum() + e.velocity.sum() + e.axial_force.sum() + e.bending_moment.sum() +
-             e.shear_force.sum() + e.torque.sum();
-  for (const ReactionRecord& r : frame.reactions) sum += r.force.sum() + r.couple.sum() + r.position.sum();
-  return std::isfinite(sum);
+    for (const ElementRecord& element : beam.elements) {
+      look("a shape", element.control_points.sum() + element.velocity.sum());
+      look("a section force", element.axial_force.sum() + element.bending_moment.sum() +
+                                  element.shear_force.sum() + element.torque.sum());
+    }
+  for (const ReactionRecord& r : frame.reactions)
+    look("a reaction", r.force.sum() + r.couple.sum() + r.position.sum());
+  return name;
 }
 
 // ---- Balance of forces ----
@@ -123,7 +137,7 @@ bool same_mesh(const MeshPlan& a, const MeshPlan& b) {
 
 struct Trial {
   SimulationReport report;
-  bool finite = true;
+  std::string not_finite = {};
   double imbalance = 0, imbalance_time = 0;
   std::size_t frames = 0;
 };
@@ -159,7 +173,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   std::size_t events = 0;
   observer.interrupted = [&] { return ++steps > step_limit; };
   observer.snapshot = [&](const Snapshot& frame) {
-    trial.finite = trial.finite && finite(frame);
+    if (trial.not_finite.empty()) trial.not_finite = not_finite(frame);
     ++trial.frames;
   };
   observer.checkpoint_due = [&] { return balanced && with_accelerations && steps % 4 == 0; };
@@ -248,7 +262,10 @@ Verdict try_case(const Json& c) {
   const SimulationReport& report = trial.report;
   verdict.imbalance = trial.imbalance;
   if (report.energy_scale() > 0) verdict.drift = energy_change(report) / report.energy_scale();
-  if (!trial.finite) return finish("done", "a number is not finite");
+  // A run that has said that it goes wrong may leave anything in its last frame.
+  const bool warned =
+      report.status == SimulationStatus::not_converged && energy_change(report) > noticed(report);
+  if (!trial.not_finite.empty() && !warned) return finish("done", "not finite: " + trial.not_finite);
   if (!(trial.imbalance <= most_imbalance))
     return finish("done", "reactions, loads and inertia miss each other by " +
                               std::to_string(trial.imbalance * 1e9) +
