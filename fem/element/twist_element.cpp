@@ -136,8 +136,8 @@ bool TwistElement::admissible(const Coordinates& q) const {
   const Reduced<double> x = twist::reduced_of<fixed_rows>(q);
   const Eigen::Vector3d t_a = end_section(q, 0).t;
   if (!(t_a.dot(end_section(q, 1).t) > smallest_cosine)) return false;
-  const auto opens = [&](const auto& points) {
-    return std::all_of(points.begin(), points.end(), [&](const auto& p) {
+  const auto opens = [&](const auto& at) {
+    return std::all_of(at.begin(), at.end(), [&](const auto& p) {
       return twist::axis_at<double>(p, x, t_a).t.dot(t_a) > smallest_cosine;
     });
   };
