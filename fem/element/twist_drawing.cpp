@@ -1,7 +1,5 @@
 #include "fem/element/twist_drawing.h"
 
-#include "fem/element/quadrature.h"
-
 namespace nurbeam::twist {
 
 namespace {
@@ -32,20 +30,6 @@ Vector3<PlaceSeries> along(const std::array<Eigen::Vector3d, 3>& f, const PlaceS
 }
 SectionTriad<PlaceSeries> triad_along(const DrawnSectionSeries& section, const PlaceSeries& s) {
   return {along(section.d1, s), along(section.d2, s), along(section.t, s)};
-}
-
-// int_0^xi of the Lagrange polynomial j of the Gauss points on [0, 1].
-template <class P>
-P integrated_lagrange(int j, const P& xi) {
-  constexpr auto& x = GaussRule::points;
-  P integral = 0.0;
-  for (int k = 0; k < GaussRule::size; ++k) {  // exact: it is of degree 4
-    P L = GaussRule::weights[k] * xi;
-    for (int i = 0; i < GaussRule::size; ++i)
-      if (i != j) L = L * (xi * x[k] - x[i]) / (x[j] - x[i]);
-    integral += L;
-  }
-  return integral;
 }
 
 Vector3<PlaceSeries> on_reduced(const std::array<Jet, 4>& row) {

@@ -55,6 +55,8 @@ class DrawnElement {
   const AnyDrawing<PlaceSeries>& drawing() const { return drawing_; }
   /// Theta_0 at B [rad].
   double turn() const { return turn_; }
+  /// Of transport in the drawing, at quadrature point j [1/m].
+  double rate(int j) const { return plain(rates_[j]); }
   /// At the material point s, in between.
   AnyPoint<PlaceSeries> point(double s) const { return point(Jet(s)); }
 

@@ -74,6 +74,7 @@ void TwistElement::set_fixed(const twist::DrawnElement& drawn) {
   spin_mass_.setZero();
   for (int g = 0; g < points; ++g) {
     drawing_.points[g] = fixed_point(all.points[g]);
+    drawn_rates_[g] = drawn.rate(g);
     const double xi = drawing_.points[g].xi;
     const Eigen::Vector3d N(1 - xi, xi, twist::bubble_shape(xi));
     spin_mass_ += properties_->sections->spin_inertia * drawing_.weights[g] * N * N.transpose();
@@ -82,6 +83,24 @@ void TwistElement::set_fixed(const twist::DrawnElement& drawn) {
 
 TwistElement::FixedPoint TwistElement::fixed_point(const twist::AnyPoint<double>& p) {
   return {p.xi, p.S1, p.S2, p.transport, p.angle, p.k1, p.k2};
+}
+
+// DrawnElement::point where no place varies, which loads ask for at every evaluation.
+TwistElement::FixedPoint TwistElement::fixed_point(double s) const {
+  const ShapeFunctions<double> shape = ElementBasis<double>(*curve_, chart_, s_a_, s_b_).at(s);
+  const DrawnSection at_a = curve_->section(s_a_), here = curve_->section(s, s > (s_a_ + s_b_) / 2);
+  FixedPoint p;
+  p.xi = (s - s_a_) / drawing_.h;
+  p.S1 << shape.d1[2], shape.d1[1], shape.d1[3];
+  p.S2 << shape.d2[2], shape.d2[1], shape.d2[3];
+  for (int j = 0; j < points; ++j) p.transport[j] = drawing_.h * twist::integrated_lagrange(j, p.xi);
+  const double transported = p.transport.dot(drawn_rates_),
+               near = curve_->section_turn(s_a_, s) + transported;
+  p.angle = SectionTurn<double>(triad(at_a), triad(here), near).angle - transported;
+  const Eigen::Vector3d K = curve_->straight() ? Eigen::Vector3d::Zero() : here.curvature;
+  p.k1 = K.dot(here.d1);
+  p.k2 = K.dot(here.d2);
+  return p;
 }
 
 twist::DrawnElement TwistElement::drawn_element(const Coordinates& q) const {

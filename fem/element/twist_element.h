@@ -147,6 +147,7 @@ class TwistElement {
   twist::DrawnElement drawn_element(const Coordinates& q) const;
   void set_fixed(const twist::DrawnElement& drawn);
   static FixedPoint fixed_point(const twist::AnyPoint<double>& p);
+  FixedPoint fixed_point(double s) const;
   template <class T>
   twist::Fields<T, points> fields(const Reduced<T>& x) const;
 
@@ -172,6 +173,8 @@ class TwistElement {
   std::array<SectionChart, 2> charts_;
   double turn_;                             // Theta_ref
   twist::Drawing<double, points> drawing_;  // fixed ends only
+  Eigen::Matrix<double, points, 1>
+      drawn_rates_;            // fixed ends only: of transport in the drawing, at the points
   Eigen::Matrix3d spin_mass_;  // fixed ends only: on the spins of both ends and the bubble's rate
 };
 

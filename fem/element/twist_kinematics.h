@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "fem/element/quadrature.h"
 #include "fem/element/section_frame.h"
 #include "fem/material/section_moments.h"
 
@@ -28,6 +29,20 @@ P bubble_shape(const P& xi) {
 template <class P>
 P bubble_slope(const P& xi) {
   return 4.0 - 8.0 * xi;
+}
+
+/// int_0^xi of the Lagrange polynomial j of the Gauss points on [0, 1].
+template <class P>
+P integrated_lagrange(int j, const P& xi) {
+  constexpr auto& x = GaussRule::points;
+  P integral = 0.0;
+  for (int k = 0; k < GaussRule::size; ++k) {  // exact: it is of degree 4
+    P L = GaussRule::weights[k] * xi;
+    for (int i = 0; i < GaussRule::size; ++i)
+      if (i != j) L = L * (xi * x[k] - x[i]) / (x[j] - x[i]);
+    integral += L;
+  }
+  return integral;
 }
 
 /// A material point: shape functions, and what the drawing says there.

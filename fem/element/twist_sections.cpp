@@ -15,8 +15,7 @@ TwistElement::At<T> TwistElement::at_place(const Eigen::Matrix<T, n, 1>& x, doub
     return result;
   };
   if constexpr (n == fixed_rows) {
-    const twist::DrawnElement drawn(*curve_, chart_, s_a_, s_b_);
-    return at(drawing_, fixed_point(at_places(drawn.point(s), s_a_, s_b_)));
+    return at(drawing_, fixed_point(s));
   } else {
     const T &a = x[twist::place_a], &b = x[twist::place_a + 1];
     const twist::DrawnElement drawn(*curve_, chart_, plain(a), plain(b));
