@@ -40,7 +40,7 @@ Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::mo
 Shape choice(std::vector<std::string> choices) {
   return {.kind = Kind::choice, .choices = std::move(choices)};
 }
-Shape text() { return {.kind = Kind::text}; }
+Shape any_text() { return {.kind = Kind::text}; }
 Shape name() { return {.kind = Kind::name}; }
 Shape boolean() { return {.kind = Kind::boolean}; }
 Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(range)}; }
@@ -89,14 +89,14 @@ Shape axis() {
               {"end", vector(Dimension::length), "end point", required},
               {"normal", vector(Dimension::number), "the arc turns by the right hand about it", required}});
   return object(
-      {{"file", text(), "STEP or IGES file, relative to the case file"},
+      {{"file", any_text(), "STEP or IGES file, relative to the case file"},
        {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
         false, "file"},
        {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
-       {"part", text(), "only curves of this part (STEP) or group (IGES): its name, or the end of its path",
-        false, "file"},
-       {"layer", text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
-       {"colour", text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
+       {"part", any_text(),
+        "only curves of this part (STEP) or group (IGES): its name, or the end of its path", false, "file"},
+       {"layer", any_text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
+       {"colour", any_text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
        {"near", vector(Dimension::length), "the chain of curves nearest to this point", false, "file"},
        {"longest", boolean(), "the longest chain of curves", false, "file"},
        {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
@@ -110,8 +110,8 @@ Shape axis() {
 
 Shape section() {
   const Shape profile =
-      object({{"file", text(), "STEP or IGES file with an outline and its holes, relative to the case file",
-               required},
+      object({{"file", any_text(),
+               "STEP or IGES file with an outline and its holes, relative to the case file", required},
               {"in_plane", choice({"y", "x"}),
                "the profile's axis that lies in the plane of a planar model; y when omitted"}});
   return object(
@@ -402,10 +402,10 @@ std::string Range::rule() const {
 
 const Shape& case_keys() {
   static const Shape shape =
-      object({{"$schema", text(), "for editors; ignored"},
+      object({{"$schema", any_text(), "for editors; ignored"},
               {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
                "version of the case-file format", required},
-              {"name", text(), "title of the case; the file's name when omitted"},
+              {"name", any_text(), "title of the case; the file's name when omitted"},
               {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
                "acceleration of gravity; [0, 0, -9.81] when omitted"},
               {"beams", array(beam(), 1), "the beams", required},
