@@ -23,13 +23,15 @@ int node_to_replace(const Beam& beam, double s) {
   return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
-// A moving node changes the stored energy a little with its place, and that little is a force on the body: one
-// that is as light as this beside its element is dragged about by it. What kink its weight makes is as small.
+// A moving node changes the stored energy a little with its place, and that little is a force on the body:
+// one that is as light as this beside its element is dragged about by it. What kink its weight makes is as
+// small.
 bool too_light_for_node(const Structure& structure, const SlidingJoint& joint) {
   constexpr double light = 0.01;
   const Beam& beam = structure.beam_of(joint);
-  return joint.continuous_slope && structure.body_of(joint).mass <=
-                                       light * beam.properties.mass_per_length * beam.home_spacing(joint.s);
+  return joint.continuous_slope && !joint.motion &&
+         structure.body_of(joint).mass <=
+             light * beam.properties.mass_per_length * beam.home_spacing(joint.s);
 }
 
 }  // namespace

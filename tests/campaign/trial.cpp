@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "fem/motion/resting_place.h"
 #include "fem/motion/simulation.h"
 #include "fem/system/observables.h"
 #include "pipelines/case/case_file.h"
@@ -22,7 +23,6 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double most_imbalance = 1e-8;
-constexpr long most_steps = 1000;
 
 // The name of a quantity that is not finite; empty where all are.
 std::string not_finite(const Snapshot& frame) {
@@ -104,8 +104,11 @@ Loads external_forces(const BeamSystem& system, const State& state) {
       if (node.joint < 0) add(node.r);
   for (const int r : system.mesh().bodies) add(r);
   loads.add(of_rows - loads.sum);
+  double length = 0;
+  for (const Beam& beam : model.beams) length += beam.curve.length();
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i) {
-    const Vector3d force = reaction(system, state, state.lambda, i).force;
+    const auto [force, couple] = reaction(system, state, state.lambda, i);
+    loads.largest = std::max(loads.largest, couple.norm() / length);  // as a pair of forces
     if (std::holds_alternative<Support>(model.constraints[i]))
       loads.add(force);
     else
@@ -171,7 +174,11 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   SimulationObserver observer;
   std::optional<MeshPlan> plan;
   std::size_t events = 0;
-  observer.interrupted = [&] { return ++steps > step_limit; };
+  // IDA takes many steps within one of ours where waves are undamped.
+  const auto start = std::chrono::steady_clock::now();
+  observer.interrupted = [&] {
+    return ++steps > step_limit || std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
+  };
   observer.snapshot = [&](const Snapshot& frame) {
     if (trial.not_finite.empty()) trial.not_finite = not_finite(frame);
     ++trial.frames;
@@ -191,6 +198,11 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     }
   };
   trial.report = simulate(model, probes, options, observer);
+  if (options.statics && trial.report.status == SimulationStatus::done) {
+    MeshedState at = MeshedState::drawn(model);
+    if (!find_rest(at, options.length_control, observer.interrupted).failure)
+      trial.imbalance = imbalance(*at.system, at.state);
+  }
   return trial;
 }
 
@@ -205,7 +217,7 @@ double noticed(const SimulationReport& report) {
 
 // A drift that does not fall with the step, or that nothing warns of.
 std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analysis,
-                             const SimulationReport& first) {
+                             const SimulationReport& first, long most_steps) {
   constexpr double small = 1e-3, order_seen = 1.8;
   const auto is_small = [&](const SimulationReport& report) {
     return energy_change(report) <= std::max(small * report.energy_scale(), report.energy_round_off());
@@ -241,7 +253,7 @@ std::string all_of(const std::vector<Diagnostic>& diagnostics) {
 
 }  // namespace
 
-Verdict try_case(const Json& c) {
+Verdict try_case(const std::filesystem::path& file, long most_steps) {
   const auto start = std::chrono::steady_clock::now();
   Verdict verdict;
   const auto finish = [&](std::string outcome, std::string complaint = {}) {
@@ -250,8 +262,7 @@ Verdict try_case(const Json& c) {
     verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return verdict;
   };
-  const test::TemporaryDirectory directory;
-  const CaseFileReport read = read_case_file(directory.write("case.json", c.dump()));
+  const CaseFileReport read = read_case_file(file);
   if (!read.value)
     return finish("refused: " + first_words(all_of(read.diagnostics)),
                   "not a case: " + all_of(read.diagnostics));
@@ -270,13 +281,18 @@ Verdict try_case(const Json& c) {
     return finish("done", "reactions, loads and inertia miss each other by " +
                               std::to_string(trial.imbalance * 1e9) +
                               "e-9 of the largest force at t = " + std::to_string(trial.imbalance_time));
-  if (report.status == SimulationStatus::interrupted) return finish("too many steps");
+  if (report.status == SimulationStatus::interrupted) return finish("too many steps or seconds");
   if (report.status == SimulationStatus::not_converged) {
     const std::string text = outcome_text(report, built.value->model);
     return finish(first_words(text), text.empty() || text == "done" ? "it ended without a word" : "");
   }
   if (trial.frames == 0) return finish("done", "there is no frame");
-  return finish("done", energy_complaint(*built.value, read.value->analysis, report));
+  return finish("done", energy_complaint(*built.value, read.value->analysis, report, most_steps));
+}
+
+Verdict try_case(const Json& c, long most_steps) {
+  const test::TemporaryDirectory directory;
+  return try_case(directory.write("case.json", c.dump()), most_steps);
 }
 
 }  // namespace nurbeam::campaign
