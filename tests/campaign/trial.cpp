@@ -226,7 +226,7 @@ std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analys
   if (energy_change(first) > noticed(first)) return {};  // the run says so itself
   double last = energy_change(first);
   std::string seen = std::to_string(last / first.energy_scale());
-  for (int refinement = 1; refinement <= 3; ++refinement) {
+  for (int refinement = 1; refinement <= 6; ++refinement) {  // waves are damped until a step resolves them
     const Trial finer = run(built, options_of(analysis, refinement), false, most_steps << refinement);
     if (finer.report.status != SimulationStatus::done) return {};
     const double change = energy_change(finer.report);
