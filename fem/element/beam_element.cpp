@@ -147,7 +147,7 @@ ShapeFunctions<double> BeamElement<D>::shape(const ElementVector<D>& q, double s
 
 template <int D>
 ShapeFunctions<Jet> BeamElement<D>::shape_series(const ElementVector<D>& q, double s) const {
-  return ElementBasis<Jet>(*curve_, chart_, Jet::variable(q[ElementLayout<D>::place(0)], 0),
+  return MovingBasis(*curve_, chart_, Jet::variable(q[ElementLayout<D>::place(0)], 0),
                            Jet::variable(q[ElementLayout<D>::place(1)], 1))
       .at(Jet(s));
 }

@@ -2,10 +2,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "fem/element/axial_sums.h"
 #include "fem/element/layout.h"
+#include "fem/element/moving_basis.h"
 #include "fem/element/quadrature.h"
 #include "fem/element/rancf_basis.h"
 #include "fem/material/elastic.h"
@@ -111,7 +113,8 @@ class BeamElement {
 template <int D>
 template <class T, class Visit>
 void BeamElement<D>::for_each_point(const T& s_a, const T& s_b, Visit&& visit) const {
-  const ElementBasis<T> basis(*curve_, chart_, s_a, s_b);
+  const std::conditional_t<std::is_same_v<T, Jet>, MovingBasis, ElementBasis<T>> basis(*curve_, chart_, s_a,
+                                                                                       s_b);
   const auto visit_part = [&](const T& lo, const T& hi) {
     for (int g = 0; g < GaussRule::size; ++g) {
       const T s = lo + (hi - lo) * GaussRule::points[g];

@@ -10,7 +10,10 @@ namespace nurbeam {
 /// partial derivative that the equations of motion and their tangents need is a coefficient.
 class Jet {
  public:
+  using Coefficients = std::array<double, 10>;  ///< 1, a, b, aa, ab, bb, aaa, aab, abb, bbb
+
   constexpr Jet() = default;
+  explicit constexpr Jet(const Coefficients& c) : c_(c) {}
   constexpr Jet(double value) { c_[0] = value; }  // a constant is a series: implicit on purpose
   /// The variable a (index 0) or b (index 1) at `value`.
   static constexpr Jet variable(double value, int index) {
@@ -69,7 +72,7 @@ class Jet {
   }
 
  private:
-  std::array<double, 10> c_{};  // 1, a, b, aa, ab, bb, aaa, aab, abb, bbb
+  Coefficients c_{};
 };
 
 inline Jet operator/(const Jet& x, const Jet& y) {

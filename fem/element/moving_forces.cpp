@@ -143,7 +143,7 @@ void BeamElement<D>::add_ends(const ElementVector<D>& q, const ElementNodes<D>& 
                               AxialRates<D>& rates) const {
   const std::array<Jet, 2> s{Jet::variable(q[ElementLayout<D>::place(0)], 0),
                              Jet::variable(q[ElementLayout<D>::place(1)], 1)};
-  const ElementBasis<Jet> basis(*curve_, chart_, s[0], s[1]);
+  const MovingBasis basis(*curve_, chart_, s[0], s[1]);
   for (const int end : {0, 1}) {
     const ShapeFunctions<Jet> shape = basis.at(s[end]);
     rates.add(1 + end, PointField<D>(shape.d1, e), PointField<D>(shape.d2, e), s[end], Jet(1));

@@ -1,0 +1,256 @@
+#include "fem/element/moving_basis.h"
+
+namespace nurbeam {
+
+namespace {
+
+// Power series in two variables, truncated after total degree N; coefficients by degree: 1, a, b, aa, ab, bb,
+// ...
+template <int N>
+struct Series {
+  static constexpr int size = (N + 1) * (N + 2) / 2;
+  std::array<double, size> c{};
+
+  static constexpr int index(int i, int j) { return (i + j) * (i + j + 1) / 2 + j; }
+};
+
+template <int N>
+Series<N> operator+(Series<N> x, const Series<N>& y) {
+  for (int i = 0; i < Series<N>::size; ++i) x.c[i] += y.c[i];
+  return x;
+}
+template <int N>
+Series<N> operator*(double f, Series<N> x) {
+  for (double& c : x.c) c *= f;
+  return x;
+}
+template <int N>
+Series<N> operator-(const Series<N>& x, const Series<N>& y) {
+  return x + -1.0 * y;
+}
+template <int N>
+Series<N> operator*(const Series<N>& x, const Series<N>& y) {
+  Series<N> z;
+  for (int d = 0; d <= N; ++d)
+    for (int e = 0; d + e <= N; ++e)
+      for (int j = 0; j <= d; ++j)
+        for (int k = 0; k <= e; ++k)
+          z.c[Series<N>::index(d + e - j - k, j + k)] +=
+              x.c[Series<N>::index(d - j, j)] * y.c[Series<N>::index(e - k, k)];
+  return z;
+}
+
+template <int M, int N>
+Series<M> truncated(const Series<N>& x) {
+  Series<M> y;
+  for (int i = 0; i < Series<M>::size; ++i) y.c[i] = x.c[i];
+  return y;
+}
+
+// By variable 0 or 1.
+template <int N>
+Series<N - 1> derivative(const Series<N>& x, int variable) {
+  Series<N - 1> y;
+  for (int d = 0; d < N; ++d)
+    for (int j = 0; j <= d; ++j)
+      y.c[Series<N>::index(d - j, j)] = variable == 0 ? (d - j + 1) * x.c[Series<N>::index(d - j + 1, j)]
+                                                      : (j + 1) * x.c[Series<N>::index(d - j, j + 1)];
+  return y;
+}
+
+// Of one variable, from the value and derivatives there.
+template <int N>
+Series<N> of_variable(int variable, const std::array<double, 4>& f) {
+  Series<N> y;
+  constexpr std::array<double, 4> factorial{1, 1, 2, 6};
+  for (int d = 0; d <= N; ++d)
+    y.c[variable == 0 ? Series<N>::index(d, 0) : Series<N>::index(0, d)] = f[d] / factorial[d];
+  return y;
+}
+
+// f(u(s)) and its s-derivatives.
+std::array<double, 4> along(const std::array<double, 4>& f, const std::array<double, 4>& u) {
+  return {f[0], f[1] * u[1], f[2] * u[1] * u[1] + f[1] * u[2],
+          f[3] * u[1] * u[1] * u[1] + 3 * f[2] * u[1] * u[2] + f[1] * u[3]};
+}
+
+std::array<double, 4> product(const std::array<double, 4>& f, const std::array<double, 4>& g) {
+  return {f[0] * g[0], f[1] * g[0] + f[0] * g[1], f[2] * g[0] + 2 * f[1] * g[1] + f[0] * g[2],
+          f[3] * g[0] + 3 * f[2] * g[1] + 3 * f[1] * g[2] + f[0] * g[3]};
+}
+
+// The drawn curve at one place, by the parameter u of the chart and along s.
+struct ChartPlace {
+  std::array<double, 4> u;       // and its s-derivatives
+  std::array<double, 4> J, W;    // and their u-derivatives
+  std::array<double, 3> kappa0;  // and its s-derivatives
+};
+
+ChartPlace place_of(const ReferenceCurve& curve, int segment, double s) {
+  const int j = segment < 0 ? curve.segment_at(s) : segment;
+  const double u = curve.parameter(j, s);
+  const ChartGeometry g = curve.geometry(j, u);
+  const double i = 1 / g.stretch[0], i3 = i * i * i, J1 = g.stretch[1];
+  const std::array<double, 4> u_along{u, i, -J1 * i3,
+                                      (3 * J1 * J1 - g.stretch[0] * g.stretch[2]) * i3 * i * i};
+  const auto k = along(g.curvature, u_along);
+  if (segment < 0) return {{s, 1, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}, {k[0], k[1], k[2]}};
+  return {u_along, g.stretch, g.weight, {k[0], k[1], k[2]}};
+}
+
+// A cubic of u by its values and slopes at both ends of the element, as functions of the end positions.
+template <int N>
+struct Hermite {
+  Series<N> P, Q, R, T;
+};
+
+// 1 / l, and du/ds at the ends.
+struct Ends {
+  Series<2> inverse_length, rate_a, rate_b;
+};
+
+template <int N>
+Hermite<N - 1> by_start(const Hermite<N>& h, const Ends& ends) {
+  constexpr int M = N - 1;
+  const Series<M> i = truncated<M>(ends.inverse_length), rate = truncated<M>(ends.rate_a),
+                  Q = truncated<M>(h.Q);
+  const Series<M> second = i * (6.0 * i * (truncated<M>(h.R) - truncated<M>(h.P)) - 4.0 * Q -
+                                2.0 * truncated<M>(h.T));  // H''(u_A)
+  return {derivative(h.P, 0) - Q * rate, derivative(h.Q, 0) - second * rate, derivative(h.R, 0),
+          derivative(h.T, 0)};
+}
+
+template <int N>
+Hermite<N - 1> by_end(const Hermite<N>& h, const Ends& ends) {
+  constexpr int M = N - 1;
+  const Series<M> i = truncated<M>(ends.inverse_length), rate = truncated<M>(ends.rate_b),
+                  T = truncated<M>(h.T);
+  const Series<M> second = i * (6.0 * i * (truncated<M>(h.P) - truncated<M>(h.R)) + 2.0 * truncated<M>(h.Q) +
+                                4.0 * T);  // H''(u_B)
+  return {derivative(h.P, 1), derivative(h.Q, 1), derivative(h.R, 1) - T * rate,
+          derivative(h.T, 1) - second * rate};
+}
+
+}  // namespace
+
+MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b)
+    : curve_(&curve), segment_(chart.segment) {
+  if (chart.constant_weights) {
+    series_.emplace(curve, chart, s_a, s_b);
+    return;
+  }
+  const ChartPlace a = place_of(curve, segment_, s_a.value()), b = place_of(curve, segment_, s_b.value());
+  u_a_ = a.u[0];
+  length_ = b.u[0] - a.u[0];
+  const Series<2> l = of_variable<2>(1, b.u) - of_variable<2>(0, a.u);
+  Series<2> x = (1 / length_) * l;  // 1 + x
+  x.c[0] = 0;
+  Series<2> inverse = x * x - x;
+  inverse.c[0] += 1;
+  const Ends ends{(1 / length_) * inverse, of_variable<2>(0, {a.u[1], a.u[2], a.u[3], 0}),
+                  of_variable<2>(1, {b.u[1], b.u[2], b.u[3], 0})};
+  const auto shifted = [](const std::array<double, 4>& f) {
+    return std::array<double, 4>{f[1], f[2], f[3], 0};
+  };
+  const auto of_end = [&](int end, const ChartPlace& place, const std::array<double, 4>& f) {
+    return of_variable<3>(end, along(f, place.u));
+  };
+  const std::array<Hermite<3>, 4> shapes{Hermite<3>{of_end(0, a, a.W), of_end(0, a, shifted(a.W)), {}, {}},
+                                         Hermite<3>{{}, of_end(0, a, product(a.J, a.W)), {}, {}},
+                                         Hermite<3>{{}, {}, of_end(1, b, b.W), of_end(1, b, shifted(b.W))},
+                                         Hermite<3>{{}, {}, {}, of_end(1, b, product(b.J, b.W))}};
+  for (int k = 0; k < 4; ++k) {
+    const auto set = [&](int which, const auto& h) {
+      data_[which].col(k) << h.P.c[0], h.Q.c[0], h.R.c[0], h.T.c[0];
+    };
+    const Hermite<2> by_a = by_start(shapes[k], ends), by_b = by_end(shapes[k], ends);
+    const Hermite<1> by_aa = by_start(by_a, ends), by_ab = by_end(by_a, ends), by_bb = by_end(by_b, ends);
+    set(0, shapes[k]);
+    set(1, by_a);
+    set(2, by_b);
+    set(3, by_aa);
+    set(4, by_ab);
+    set(5, by_bb);
+    set(6, by_start(by_aa, ends));
+    set(7, by_end(by_aa, ends));
+    set(8, by_end(by_ab, ends));
+    set(9, by_end(by_bb, ends));
+  }
+}
+
+namespace {
+
+// Rows: H / W of the four Hermite functions and its first four s-derivatives.
+Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, double l) {
+  const double xi = (p.u[0] - u_a) / l, xi2 = xi * xi, xi3 = xi2 * xi, i = 1 / l;
+  Eigen::Matrix<double, 5, 4> f;  // by u
+  f.row(0) << 1 - 3 * xi2 + 2 * xi3, l * (xi - 2 * xi2 + xi3), 3 * xi2 - 2 * xi3, l * (xi3 - xi2);
+  f.row(1) << 6 * i * (xi2 - xi), 1 - 4 * xi + 3 * xi2, 6 * i * (xi - xi2), 3 * xi2 - 2 * xi;
+  f.row(2) << i * i * (12 * xi - 6), i * (6 * xi - 4), i * i * (6 - 12 * xi), i * (6 * xi - 2);
+  f.row(3) << 12 * i * i * i, 6 * i * i, -12 * i * i * i, 6 * i * i;
+  f.row(4).setZero();
+  const double iW = 1 / p.W[0], W1 = p.W[1], W2 = p.W[2], W3 = p.W[3];
+  f.row(0) *= iW;
+  f.row(1) = (f.row(1) - W1 * f.row(0)) * iW;
+  f.row(2) = (f.row(2) - 2 * W1 * f.row(1) - W2 * f.row(0)) * iW;
+  f.row(3) = (f.row(3) - 3 * W1 * f.row(2) - 3 * W2 * f.row(1) - W3 * f.row(0)) * iW;
+  f.row(4) = (-4 * W1 * f.row(3) - 6 * W2 * f.row(2) - 4 * W3 * f.row(1)) * iW;
+  const auto& [J, J1, J2, J3] = p.J;
+  const double iJ = 1 / J, iJ2 = iJ * iJ;
+  f.row(1) *= iJ;
+  f.row(2) = (f.row(2) - J1 * f.row(1)) * iJ2;
+  f.row(3) = (f.row(3) - J2 * f.row(1) - 3 * J1 * J * f.row(2)) * iJ2 * iJ;
+  f.row(4) = (f.row(4) - J3 * f.row(1) - (4 * J * J2 + 3 * J1 * J1) * f.row(2) - 6 * J * J * J1 * f.row(3)) *
+             iJ2 * iJ2;
+  return f;
+}
+
+}  // namespace
+
+ShapeFunctions<Jet> MovingBasis::at(const Jet& s) const {
+  if (series_) return series_->at(s);
+  const ChartPlace p = place_of(*curve_, segment_, s.value());
+  const Eigen::Matrix<double, 5, 4> f = hermite_along(p, u_a_, length_);
+  // rows[m](r, k): derivative m in the ends at fixed s of derivative r along s of shape function k.
+  std::array<Eigen::Matrix<double, 5, 4>, 6> rows;
+  rows[0] = f * data_[0];
+  for (int m = 1; m < 3; ++m) rows[m].topRows<4>() = f.topRows<4>() * data_[m];
+  for (int m = 3; m < 6; ++m) rows[m].topRows<3>() = f.topRows<3>() * data_[m];
+  Eigen::Matrix4d third;
+  for (int m = 6; m < 10; ++m) third.row(m - 6) = f.row(0) * data_[m];
+
+  const double a = s.d(0), b = s.d(1);
+  const auto moving = [&](int r, int k, bool second, bool all) {
+    const auto x = [&](int m, int order) { return rows[m](r + order, k); };
+    Jet::Coefficients c{};
+    c[0] = x(0, 0);
+    c[1] = x(1, 0) + a * x(0, 1);
+    c[2] = x(2, 0) + b * x(0, 1);
+    if (!second) return Jet(c);
+    c[3] = (x(3, 0) + 2 * a * x(1, 1) + a * a * x(0, 2)) / 2;
+    c[4] = x(4, 0) + b * x(1, 1) + a * x(2, 1) + a * b * x(0, 2);
+    c[5] = (x(5, 0) + 2 * b * x(2, 1) + b * b * x(0, 2)) / 2;
+    if (!all) return Jet(c);
+    c[6] = (third(0, k) + 3 * a * x(3, 1) + 3 * a * a * x(1, 2) + a * a * a * x(0, 3)) / 6;
+    c[7] = (third(1, k) + b * x(3, 1) + 2 * a * x(4, 1) + 2 * a * b * x(1, 2) + a * a * x(2, 2) +
+            a * a * b * x(0, 3)) /
+           2;
+    c[8] = (third(2, k) + a * x(5, 1) + 2 * b * x(4, 1) + 2 * a * b * x(2, 2) + b * b * x(1, 2) +
+            a * b * b * x(0, 3)) /
+           2;
+    c[9] = (third(3, k) + 3 * b * x(5, 1) + 3 * b * b * x(2, 2) + b * b * b * x(0, 3)) / 6;
+    return Jet(c);
+  };
+  ShapeFunctions<Jet> shape;
+  for (int k = 0; k < 4; ++k) {
+    shape.value[k] = moving(0, k, true, true);
+    shape.d1[k] = moving(1, k, true, false);
+    shape.d2[k] = moving(2, k, true, false);
+    shape.d3[k] = moving(3, k, false, false);
+  }
+  const auto& [k0, k1, k2] = p.kappa0;
+  shape.kappa0 = Jet(Jet::Coefficients{k0, a * k1, b * k1, a * a * k2 / 2, a * b * k2, b * b * k2 / 2});
+  return shape;
+}
+
+}  // namespace nurbeam

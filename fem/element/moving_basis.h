@@ -1,0 +1,39 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "fem/element/rancf_basis.h"
+
+namespace nurbeam {
+
+/// The shape functions of ElementBasis and their derivatives in the end positions, without series at the
+/// points.
+///
+/// With H = W r the numerator of an element's field is a cubic in u, given by its values and slopes (P, Q) at
+/// u_A and (R, T) at u_B. At fixed u its derivative in s_A is such a cubic again:
+///   P_a - Q u_A', Q_a - H''(u_A) u_A', R_a, T_a,
+/// and so on (in s_B alike): all derivatives of all four shape functions are Hermite cubics, found once for
+/// the element. At a point they are evaluated together, H / W and its derivatives in s; what a point that
+/// moves with the ends adds is the chain rule (docs/theory.md, moving elements).
+///
+/// Charts with constant weights, whose W moves with the ends, are left to the series of ElementBasis.
+class MovingBasis {
+ public:
+  MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b);
+
+  /// At a point whose place is linear in the end positions, `s` = value and derivatives. Of the third
+  /// derivatives only those of the shape functions themselves are set; of d3 the first ones.
+  ShapeFunctions<Jet> at(const Jet& s) const;
+
+ private:
+  static constexpr int derivatives = 10;  // 1, a, b, aa, ab, bb, aaa, aab, abb, bbb
+
+  const ReferenceCurve* curve_;
+  int segment_;
+  double u_a_ = 0, length_ = 0;
+  /// (P, Q, R, T) of the four shape functions (columns), by derivative.
+  std::array<Eigen::Matrix4d, derivatives> data_;
+  std::optional<ElementBasis<Jet>> series_;  // with constant weights
+};
+
+}  // namespace nurbeam

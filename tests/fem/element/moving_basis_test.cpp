@@ -1,0 +1,71 @@
+#include "fem/element/moving_basis.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/fem/random_models.h"
+
+namespace nurbeam {
+namespace {
+
+// The series of ElementBasis, carried through every product, are the witness of all derivatives.
+void expect_same(const std::array<Jet, 4>& row, const std::array<Jet, 4>& exact, int degree,
+                 const char* what) {
+  double size = 0;
+  for (const Jet& x : exact)
+    for (int i = 0; i < 2; ++i) size = std::max({size, std::abs(x.value()), std::abs(x.d(i))});
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(row[k].value(), exact[k].value(), 1e-12 * size) << what << k;
+    for (int i = 0; i < 2 && degree > 0; ++i) {
+      EXPECT_NEAR(row[k].d(i), exact[k].d(i), 1e-11 * size) << what << k;
+      for (int j = 0; j < 2 && degree > 1; ++j) {
+        const double second = std::abs(exact[k].d(i, j)) + size;
+        EXPECT_NEAR(row[k].d(i, j), exact[k].d(i, j), 1e-10 * second) << what << k << i << j;
+        for (int m = 0; m < 2 && degree > 2; ++m)
+          EXPECT_NEAR(row[k].d(i, j, m), exact[k].d(i, j, m), 1e-9 * (std::abs(exact[k].d(i, j, m)) + second))
+              << what << k << i << j << m;
+      }
+    }
+  }
+}
+
+void compare(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b) {
+  const Jet a = Jet::variable(s_a, 0), b = Jet::variable(s_b, 1);
+  const MovingBasis fast(curve, chart, a, b);
+  const ElementBasis<Jet> series(curve, chart, a, b);
+  for (const Jet& s :
+       {a, b, a + 0.3 * (b - a), a + 0.8 * (b - a), Jet(0.4 * s_a + 0.6 * s_b), 0.5 * (a + Jet(s_b))}) {
+    const ShapeFunctions<Jet> x = fast.at(s), y = series.at(s);
+    expect_same(x.value, y.value, 3, "value ");
+    expect_same(x.d1, y.d1, 2, "d1 ");
+    expect_same(x.d2, y.d2, 2, "d2 ");
+    expect_same(x.d3, y.d3, 1, "d3 ");
+    const std::array<Jet, 4> drawn{x.kappa0, {}, {}, {}}, exact{y.kappa0, {}, {}, {}};
+    expect_same(drawn, exact, 2, "kappa0 ");
+  }
+}
+
+TEST(MovingBasis, IsTheSeriesOfTheElement) {
+  std::mt19937 random(5);
+  for (int sample = 0; sample < 20; ++sample)
+    for (const int dimension : {2, 3}) {
+      const ReferenceCurve curve(testing::uneven_axis(random, dimension), dimension);
+      const auto& breaks = curve.breaks();
+      for (int j = 0; j < curve.segment_count(); ++j) {
+        const double h = breaks[j + 1] - breaks[j];
+        compare(curve, {.segment = j}, breaks[j] + 0.1 * h, breaks[j] + 0.45 * h);
+        compare(curve, {.segment = -1}, breaks[j] + 0.1 * h, breaks[j] + 0.45 * h);
+      }
+    }
+}
+
+TEST(MovingBasis, LeavesConstantWeightsToTheSeries) {
+  std::mt19937 random(6);
+  const ReferenceCurve curve(testing::uneven_axis(random, 2), 2);
+  compare(curve, {.segment = 0, .constant_weights = std::array{1.0, 0.8, 0.9, 1.0}}, 0.1 * curve.breaks()[1],
+          0.8 * curve.breaks()[1]);
+}
+
+}  // namespace
+}  // namespace nurbeam
