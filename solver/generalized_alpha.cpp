@@ -12,6 +12,7 @@ namespace nurbeam {
 namespace {
 
 constexpr double largest_growth = 2;     ///< of the step under error control
+constexpr double good_contraction = 0.1;  ///< of the corrections, for which a factorisation is kept
 constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
@@ -136,11 +137,14 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
                                .damping = gamma * step / mass_scale_,
                                .stiffness = scaling};
   double last_correction = std::numeric_limits<double>::infinity();
+  bool contracts = false;  // with the matrix of an iteration before
   for (int i = 0; i < settings_.max_iterations; ++i) {
     if (!residual_.allFinite()) return StepStatus::not_converged;
-    system_->tangent(trial_, weights, kkt_);
     ++report.newton_iterations;
-    if (!solver_.factorise(kkt_)) return StepStatus::singular_matrix;
+    if (!contracts) {
+      system_->tangent(trial_, weights, kkt_);
+      if (!solver_.factorise(kkt_)) return StepStatus::singular_matrix;
+    }
     correct(step);
     if (!all_finite(trial_)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
@@ -153,6 +157,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (residual_.allFinite() && correction <= tolerance &&
         (report.residual_norm <= tolerance || last_correction <= tolerance))
       return StepStatus::converged;
+    contracts = correction <= good_contraction * last_correction;
     last_correction = correction;
   }
   return StepStatus::not_converged;
