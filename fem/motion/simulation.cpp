@@ -13,6 +13,7 @@
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
 
@@ -413,6 +414,10 @@ class Simulation {
     MeshPlan plan = present_plan(*at_.system, at_.state);
     plan.places[joint] = ending.s;
     plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
+    if (leaves) {
+      plan.spins.resize(model_->joints.size());
+      plan.spins[joint] = body_motions(*at_.system, at_.state).spins[joint];
+    }
     auto next = std::make_unique<BeamSystem>(model_, std::move(plan));
     State moved = interpolated(*at_.system, at_.state, *next);
     if (!leaves) {

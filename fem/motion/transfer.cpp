@@ -33,6 +33,7 @@ class Remap {
       next.q.segment(mesh.bodies[model.joints[j].body], mesh.dimension) =
           material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
     }
+    carry_bodies(to_, next);
     const Projection projection = velocities_from_momentum(to_, momentum_on(next), next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
@@ -63,7 +64,6 @@ class Remap {
   // The momentum of the old motion over the new elements, plus the bodies' momenta.
   Eigen::VectorXd momentum_on(const State& next) const {
     const Mesh& old = from_.mesh();
-    const int D = old.dimension;
     const auto motion = [&](int beam, double s) {
       return MaterialMotion{material_point(from_, state_, beam, s).velocity,
                             material_spin(from_, state_, beam, s)};
@@ -75,12 +75,7 @@ class Remap {
       for (double s : to_.model().beams[beam].curve.breaks()) places.push_back(s);
       return places;
     };
-    std::vector<Eigen::Vector3d> bodies;
-    for (const int r : old.bodies) {
-      bodies.emplace_back(Eigen::Vector3d::Zero());
-      bodies.back().head(D) = state_.v.segment(r, D);
-    }
-    return generalised_momentum(to_, next, motion, breaks, bodies);
+    return generalised_momentum(to_, next, motion, breaks, body_motions(from_, state_));
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
@@ -273,6 +268,7 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   }
   set_bubbles(from, state, to, next);
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
+  carry_bodies(to, next);
   return next;
 }
 
