@@ -30,7 +30,7 @@ double turned_by_a_held_weight(double L, double s, double mass, double offset, d
   builder.fork(0, 0).fork(0, L);
   SlidingJoint& joint = builder.slide(builder.add_body("weight", mass), 0, s);
   joint.follows_section = true;
-  joint.offset = {offset, 0};  // d1 is -y where d2 is z
+  joint.offset = {offset, 0};  // d1 is y where d2 is z
   BeamModel model = builder.build();
   model.beams[0].properties.mass_per_length = 1e-9;
   const BeamSystem system(model, initial_plan(model), {true});
