@@ -107,6 +107,7 @@ class Remap {
     still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
     Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
     to_.residual(still, force, constraints);
+    add_carried_forces(still, force);
     const auto part = [&](const TangentWeights& weights) {
       Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
       to_.tangent(still, weights, kkt);
@@ -137,6 +138,26 @@ class Remap {
       (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
     }
     return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
+  }
+
+  // Adds to forces on the mesh those on bodies with an offset, which it carries: by the rows of the
+  // constraints that have the bodies' coordinates.
+  void add_carried_forces(const State& state, Eigen::VectorXd& force) const {
+    const auto& joints = to_.model().joints;
+    if (std::none_of(joints.begin(), joints.end(), [](const SlidingJoint& j) { return j.is_offset(); }))
+      return;
+    Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
+    to_.tangent(state, {}, kkt);
+    const int n = to_.coordinate_count();
+    const Eigen::SparseMatrix<double> G = kkt.block(n, 0, to_.constraint_count(), n);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (!joints[j].is_offset() || to_.mesh().plan.modes[j] == JointMode::free) continue;
+      for (int d = 0; d < 3; ++d) {
+        const int body = to_.mesh().bodies[joints[j].body] + d;
+        const Eigen::VectorXd row = G.transpose() * G.col(body);  // of that constraint, times -1
+        force -= row * force[body];
+      }
+    }
   }
 
   // Positions, slopes and sections of the nodes of new elements, and of the given rings of neighbours, and
