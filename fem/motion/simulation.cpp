@@ -403,7 +403,19 @@ class Simulation {
     const double beyond = landing_tolerance(*model_, crossing.joint);
     at_.state.q[at_.system->mesh().joints[crossing.joint].place] =
         crossing.s + (crossing.forward ? beyond : -beyond);
-    at_.system = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
+    auto next = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
+    if (!model_->joints[crossing.joint].follows_section) {
+      at_.system = std::move(next);
+      return restart();
+    }
+    // Curvature and twist jump from element to element, and with them the motion of a body that follows the
+    // section: an impact.
+    std::optional<Transferred> moved = projected(*at_.system, at_.state, *next);
+    if (!moved)
+      return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = crossing.joint});
+    const double before = energy(*at_.system, at_.state).mechanical();
+    at_ = {std::move(next), std::move(moved->state)};
+    dissipated_ += before - energy(*at_.system, at_.state).mechanical();
     return restart();
   }
 

@@ -10,7 +10,7 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
-#include "pipelines/verification/models.h"
+#include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
 #include "solver/consistent.h"
 #include "solver/explicit_integrator.h"
