@@ -226,7 +226,7 @@ std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analys
   if (energy_change(first) > noticed(first)) return {};  // the run says so itself
   double last = energy_change(first);
   std::string seen = std::to_string(last / first.energy_scale());
-  for (int refinement = 1; refinement <= 6; ++refinement) {  // waves are damped until a step resolves them
+  for (int refinement = 2; refinement <= 8; refinement += 2) {  // waves are damped until a step resolves them
     const Trial finer = run(built, options_of(analysis, refinement), false, most_steps << refinement);
     if (finer.report.status != SimulationStatus::done) return {};
     const double change = energy_change(finer.report);
@@ -234,7 +234,7 @@ std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analys
     if (is_small(finer.report) || change < last / order_seen) return {};
     last = change;
   }
-  return "energy changes by " + seen + " of what moves, as steps are halved";
+  return "energy changes by " + seen + " of what moves, with a quarter of the step each";
 }
 
 std::string first_words(const std::string& text) {
