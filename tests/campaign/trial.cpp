@@ -176,8 +176,10 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   std::size_t events = 0;
   // IDA takes many steps within one of ours where waves are undamped.
   const auto start = std::chrono::steady_clock::now();
+  bool left = false;
   observer.interrupted = [&] {
-    return ++steps > step_limit || std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
+    left = ++steps > step_limit || std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
+    return left;
   };
   observer.snapshot = [&](const Snapshot& frame) {
     if (trial.not_finite.empty()) trial.not_finite = not_finite(frame);
@@ -188,8 +190,8 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     const bool goes_on = plan && same_mesh(*plan, point.plan) && events == point.report.events.size();
     plan = point.plan;
     events = point.report.events.size();
-    // Right after a change of the mesh accelerations are means over the next step.
-    if (!goes_on || !with_accelerations || point.steps.empty()) return;
+    // Right after a change of the mesh, where it may be left, accelerations are means over the next step.
+    if (!goes_on || left || !with_accelerations || point.steps.empty()) return;
     const BeamSystem system(model, point.plan);
     const double found = imbalance(system, point.state);
     if (!(found <= trial.imbalance)) {
