@@ -2,10 +2,12 @@
 // OpenCASCADE warm, and checks that every one of them ends in curves or in a diagnostic that names the file.
 // Now and then a good file is read by import_curves().
 //
-//   fuzz_reader step|iges|dxf|brep [--seconds N] [--cases N] [--seed N] [--counts FILE] [--keep DIRECTORY]
+//   fuzz_reader step|iges|dxf|brep|packed [--seconds N] [--cases N] [--seed N] [--from DIRECTORY]
+//               [--counts FILE] [--keep DIRECTORY]
 //
-// Without --seed it is the date, 20240521. --counts adds up the outcomes of many runs in a file; --keep keeps
-// each input that crashed the reader or ran out of time. Exit code 1 when a case was not survived.
+// Without --seed it is the date, 20240521. --from names drawings to mutate besides; --counts adds up the
+// outcomes of many runs in a file; --keep keeps each input that crashed the reader or ran out of time. Exit
+// code 1 when a case was not survived.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,11 +25,14 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 
+#include "cad_import/files/cad_format.h"
 #include "cad_import/import_curves.h"
-#include "cad_import/program/read_cad_file.h"
+#include "cad_import/program/read_file.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/warm_reader.h"
 
@@ -44,11 +49,11 @@ constexpr std::chrono::seconds longest_case{8};
 constexpr std::uint64_t cases_between_canaries = 500;
 
 struct Options {
-  CadFormat format = CadFormat::step;
+  std::string format;
   double seconds = 1e9;
   std::uint64_t cases = ~std::uint64_t{0};
   std::uint64_t seed = 0;
-  std::string counts, keep;
+  std::string from, counts, keep;
 };
 
 using Counts = std::map<std::string, std::uint64_t>;
@@ -68,13 +73,10 @@ std::uint64_t today() {
 Options read_arguments(int count, char** arguments) {
   Options options;
   options.seed = today();
-  static const std::map<std::string, CadFormat> formats{{"step", CadFormat::step},
-                                                        {"iges", CadFormat::iges},
-                                                        {"dxf", CadFormat::dxf},
-                                                        {"brep", CadFormat::brep}};
-  const auto format = formats.find(count < 2 ? "" : arguments[1]);
-  if (format == formats.end()) throw std::invalid_argument("expected step, iges, dxf or brep");
-  options.format = format->second;
+  const std::set<std::string> formats{"step", "iges", "dxf", "brep", "packed"};
+  options.format = count < 2 ? "" : arguments[1];
+  if (!formats.contains(options.format))
+    throw std::invalid_argument("expected step, iges, dxf, brep or packed");
   for (int i = 2; i + 1 < count; i += 2) {
     const std::string key = arguments[i], value = arguments[i + 1];
     if (key == "--seconds")
@@ -83,6 +85,8 @@ Options read_arguments(int count, char** arguments) {
       options.cases = std::stoull(value);
     else if (key == "--seed")
       options.seed = std::stoull(value);
+    else if (key == "--from")
+      options.from = value;
     else if (key == "--counts")
       options.counts = value;
     else if (key == "--keep")
@@ -98,25 +102,47 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The corpus files of the format with the curves that each holds, the smallest first.
-std::vector<CorpusText> corpus_of(CadFormat format) {
+std::string format_name(const std::string& content) {
+  if (content.starts_with("PK") || content.starts_with("\x1F\x8B")) return "packed";
+  const std::optional<CadFormat> format = format_of(content);
+  if (!format) return "";
+  switch (*format) {
+    case CadFormat::step:
+      return "step";
+    case CadFormat::iges:
+      return "iges";
+    case CadFormat::dxf:
+      return "dxf";
+    case CadFormat::brep:
+      return "brep";
+  }
+  return "";
+}
+
+// The files of the format that can be read, with the curves that each holds, the smallest first.
+std::vector<CorpusText> corpus_of(const Options& options) {
+  const fs::path tests = fs::path(NURBEAM_SOURCE_DIR) / "tests";
+  std::vector<fs::path> directories{tests / "corpus", tests / "fuzz/seeds"};
+  if (!options.from.empty()) directories.emplace_back(options.from);
   std::vector<CorpusText> corpus;
-  for (const char* directory : {"corpus", "fuzz/seeds"})
-    for (const auto& entry : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests" / directory)) {
+  for (const fs::path& directory : directories)
+    for (const auto& entry : fs::directory_iterator(directory)) {
+      if (!entry.is_regular_file()) continue;
       const std::string content = content_of(entry.path());
-      if (format_of(content) != format) continue;
-      corpus.push_back({entry.path(), content, import_curves(entry.path()).curves.size()});
+      if (format_name(content) != options.format) continue;
+      const ImportReport report = import_curves(entry.path());
+      if (report.ok()) corpus.push_back({entry.path(), content, report.curves.size()});
     }
   std::sort(corpus.begin(), corpus.end(), [](const CorpusText& a, const CorpusText& b) {
     return std::pair(a.content.size(), a.name) < std::pair(b.content.size(), b.name);
   });
-  if (corpus.empty()) throw std::runtime_error("the corpus has no file of this format");
+  if (corpus.empty()) throw std::runtime_error("there is no file of this format");
   return corpus;
 }
 
 // Loads what OpenCASCADE sets up once into this process, so that the children need not.
-void warm_up(const CorpusText& text, CadFormat format) {
-  read_cad_file(text.name, text.content, format, 1e-7);
+void warm_up(const CorpusText& text) {
+  read_file(text.name, 1e-7);
   for (int number : {SIGSEGV, SIGFPE, SIGBUS, SIGILL}) std::signal(number, SIG_DFL);
 }
 
@@ -190,6 +216,7 @@ class Scratch {
   ~Scratch() { fs::remove_all(path_); }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
+  const fs::path& path() const { return path_; }
   fs::path file(const std::string& content) const {
     const fs::path file = path_ / "case.cad";
     std::ofstream(file, std::ios::binary) << content;
@@ -203,9 +230,12 @@ class Scratch {
 class Fuzzer {
  public:
   explicit Fuzzer(const Options& options)
-      : options_(options), random_(options.seed), corpus_(corpus_of(options.format)) {
+      : options_(options), random_(options.seed), corpus_(corpus_of(options)) {
     for (const CorpusText& text : corpus_) contents_.push_back(text.content);
-    warm_up(corpus_.front(), options.format);
+    // Assemblies find their parts beside them.
+    for (const auto& seed : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests/fuzz/seeds"))
+      fs::copy_file(seed.path(), scratch_.path() / seed.path().filename());
+    warm_up(corpus_.front());
   }
 
   // The number of cases that were not survived.
