@@ -8,16 +8,12 @@
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
 #include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
 namespace nurbeam {
 namespace {
-
-ImportReport import_text(const std::string& text) {
-  const ScratchDirectory scratch;
-  return import_curves(scratch.file("drawing.cad", text));
-}
 
 /// The file with a circle that is read anyhow, and these entities, which are in no set of curves.
 ImportReport import_beside_a_circle(const std::string& entities, const std::string& in_set = "",

@@ -7,6 +7,7 @@
 
 #include "cad_import/import_curves.h"
 #include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
@@ -15,11 +16,6 @@ namespace {
 
 const std::string circle =
     step_text_of("#100", "#100 = CIRCLE('rim, (1,) /* no comment */ ; DATA;',#11,1.);");
-
-ImportReport import_text(const std::string& text) {
-  const ScratchDirectory scratch;
-  return import_curves(scratch.file("drawing.cad", text));
-}
 
 void expect_the_circle(const std::string& text) {
   const ImportReport report = import_text(text);
