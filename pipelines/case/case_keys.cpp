@@ -361,12 +361,13 @@ Shape output() {
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});
-  return object({{"every", quantity(Dimension::time, time_step()),
-                  "time between stored frames; a hundredth of `end_time` when omitted"},
-                 {"cad", cad, "deformed axes as CAD files"},
-                 {"probes", short_array(probe), "points whose motion is stored"},
-                 {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
-                 {"report", boolean(), "report.html; true when omitted"}});
+  return object(
+      {{"every", quantity(Dimension::time, time_step()),
+        "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
+       {"cad", cad, "deformed axes as CAD files"},
+       {"probes", short_array(probe), "points whose motion is stored"},
+       {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
+       {"report", boolean(), "report.html; true when omitted"}});
 }
 
 Shape body() {
