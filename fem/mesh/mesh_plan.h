@@ -42,8 +42,11 @@ struct MeshPlan {
     double turn;
   };
   std::vector<SectionCharts> section_charts;
+  /// Per sliding joint: with which a body that followed a section has left it [rad/s]; empty: none.
+  std::vector<double> spins = {};
 
   bool holds(int joint) const { return joint < static_cast<int>(held.size()) && held[joint]; }
+  double spin(int joint) const { return joint < static_cast<int>(spins.size()) ? spins[joint] : 0; }
 };
 
 /// What becomes of a home node when a joint comes to it.
