@@ -23,13 +23,13 @@ namespace {
 constexpr std::size_t label_length = 8;
 constexpr int kVersion5_3 = 11;
 
-struct IgesUnit {
+struct UnitInFile {
   int flag;
   const char* name;
   double per_metre;
 };
 
-IgesUnit iges_unit(LengthUnit unit) {
+UnitInFile iges_unit(LengthUnit unit) {
   switch (unit) {
     case LengthUnit::metre:
       return {6, "M", 1};
@@ -84,7 +84,7 @@ void add(const NamedCurve& named, double units_per_metre, IGESData_IGESModel& mo
   model.AddEntity(name);
 }
 
-void set_global_section(const IgesUnit& unit, IGESData_IGESModel& model) {
+void set_global_section(const UnitInFile& unit, IGESData_IGESModel& model) {
   IGESData_GlobalSection global = model.GlobalSection();
   global.SetUnitFlag(unit.flag);
   global.SetUnitName(hollerith(unit.name));
@@ -113,7 +113,7 @@ std::string text(const Handle(IGESData_IGESModel) & model) {
 std::string iges_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   try {
     IGESControl_Controller::Init();
-    const IgesUnit in_file = iges_unit(unit);
+    const UnitInFile in_file = iges_unit(unit);
     const Handle(IGESData_IGESModel) model = new IGESData_IGESModel;
     set_global_section(in_file, *model);
     for (const NamedCurve& curve : curves) add(curve, in_file.per_metre, *model);

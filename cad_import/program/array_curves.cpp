@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t most_curves = 100'000;
 constexpr int deepest = 20;
 
-using Entity = Handle(IGESData_IGESEntity);
+using IgesEntity = Handle(IGESData_IGESEntity);
 
 /// What an entity and all that stands in it become.
 class Expansion {
@@ -39,7 +39,7 @@ class Expansion {
     process_->BeginTransfer();
   }
 
-  std::vector<ImportedCurve> curves_of(const Entity& entity, int depth = 0) {
+  std::vector<ImportedCurve> curves_of(const IgesEntity& entity, int depth = 0) {
     if (entity.IsNull()) return {};
     if (depth > deepest || ++visited_ > most_curves) throw std::runtime_error("it is nested too deeply");
     std::vector<ImportedCurve> curves;
@@ -57,7 +57,7 @@ class Expansion {
   }
 
  private:
-  std::vector<ImportedCurve> edges_of(const Entity& entity) const {
+  std::vector<ImportedCurve> edges_of(const IgesEntity& entity) const {
     process_->TransferOne(entity);
     const TopoDS_Shape shape = process_->ShapeResult(entity);
     TopTools_IndexedMapOfShape edges;
@@ -84,7 +84,7 @@ class Expansion {
   }
 
   // What the curve does not have yet.
-  void describe(const Entity& entity, ImportedCurve& curve) const {
+  void describe(const IgesEntity& entity, ImportedCurve& curve) const {
     if (curve.name.empty()) curve.name = entity_name(entity);
     const auto shown = appearances_.find(entity.get());
     if (shown == appearances_.end()) return;

@@ -20,13 +20,13 @@
 #include <gp_Circ.hxx>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/millimetres.h"
 
 namespace nurbeam {
 namespace {
 
 gp_Ax2 plane_at(const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d p = millimetres_per_metre * place;
-  return {gp_Pnt(p.x(), p.y(), p.z()), gp_Dir(normal.x(), normal.y(), normal.z())};
+  return {in_millimetres(place), gp_Dir(normal.x(), normal.y(), normal.z())};
 }
 
 /// Null where the run is not of lines and arcs.

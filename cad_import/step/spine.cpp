@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/millimetres.h"
 #include "nurbs/bezier.h"
 #include "nurbs/number_text.h"
 
@@ -39,11 +40,6 @@ struct Span {
   Eigen::Vector3d start_direction() const { return (point(1) - start()).normalized(); }
   Eigen::Vector3d end_direction() const { return (end() - point(points.cols() - 2)).normalized(); }
 };
-
-gp_Pnt in_millimetres(const Eigen::Vector3d& point) {
-  const Eigen::Vector3d p = millimetres_per_metre * point;
-  return {p.x(), p.y(), p.z()};
-}
 
 bool is_straight(const BezierPoints& points) {
   const Eigen::Vector3d start = points.col(0).hnormalized();

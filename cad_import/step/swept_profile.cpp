@@ -27,17 +27,11 @@
 #include <stdexcept>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/millimetres.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
-
-constexpr double sewing_tolerance = 1e-6;  // [mm]
-
-gp_Pnt in_millimetres(const Eigen::Vector3d& point) {
-  const Eigen::Vector3d p = millimetres_per_metre * point;
-  return {p.x(), p.y(), p.z()};
-}
 
 /// The cubic of the outline along u, the rails along v.
 Handle(Geom_BSplineSurface) surface_of(const SweptCubic& cubic) {

@@ -32,12 +32,11 @@
 #include <vector>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/millimetres.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
-
-constexpr double sewing_tolerance = 1e-6;  // [mm]
 
 /// The curve at one node of the surface, and the section there, whose axes turn about the tangent at the rate
 /// of `twist`.
@@ -234,11 +233,6 @@ Eigen::Vector3d pole_rate(const Node& node, double x, double y) {
   const Eigen::Vector2d place(x, y);
   return node.rate + x * across_rate + y * along_rate + node.lean_rate.dot(place) * t +
          node.lean.dot(place) * t_rate;
-}
-
-gp_Pnt in_millimetres(const Eigen::Vector3d& point) {
-  const Eigen::Vector3d p = millimetres_per_metre * point;
-  return {p.x(), p.y(), p.z()};
 }
 
 /// Cubics along the curve; round it circles of degree 6 without inner knots, over which OpenCASCADE

@@ -48,10 +48,24 @@ SectionPoint section_of(const MeshElement<3>& e, const State& state, double s) {
   return e.twist->element.section(gather_twist(e, state.q), s);
 }
 
+/// What is known of a place of an element before its forces are.
+template <int D>
+struct PlaceInElement {
+  double s;
+  MaterialPoint<D> point;
+  std::optional<SectionPoint> section;  ///< of a beam with torsion
+
+  PlaceInElement(const MeshElement<D>& e, const State& state, double place)
+      : s(place), point(material_point<D>(e, state.q, state.v, place)) {
+    if constexpr (D == 3)
+      if (e.twist) section = section_of(e, state, place);
+  }
+};
+
 // What a beam with torsion knows of its section besides.
 void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
-                  const Eigen::Vector3d& couple, double s, SectionRecord& record) {
-  const SectionTriad<double> triad = section_of(e, state, s).triad;
+                  const Eigen::Vector3d& couple, const PlaceInElement<3>& at, SectionRecord& record) {
+  const SectionTriad<double>& triad = at.section->triad;
   record.torque = couple.dot(triad.t);
   record.moment_1 = couple.dot(triad.d1);
   record.moment_2 = couple.dot(triad.d2);
@@ -59,7 +73,7 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
   record.bending_moment = std::hypot(record.moment_1, record.moment_2);
   const double s_a = e.start(state.q);
   // The strain of twist is linear in an element.
-  record.twist = (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
+  record.twist = at.s == s_a ? 0 : (at.s - s_a) * section_of(e, state, (s_a + at.s) / 2).strain.twist;
   record.stress = record.von_mises = SectionRecord::no_number;
   if (!beam.stresses) return;
   const auto [normal, von_mises] =
@@ -70,11 +84,11 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
 
 template <int D>
 SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
-                         const SpanResultants& carried, double s) {
+                         const SpanResultants& carried, const PlaceInElement<D>& at) {
   using Layout = ElementLayout<D>;
   const ElementVector<D> q = gather<D>(e, state.q);
-  const double s_a = q[Layout::place(0)], s_b = q[Layout::place(1)];
-  const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+  const double s = at.s, s_a = q[Layout::place(0)], s_b = q[Layout::place(1)];
+  const MaterialPoint<D>& p = at.point;
   const MaterialPoint<3> point = widened_point<D>(p);
   const double drawn = e.element.curve().strain(s);
   const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
@@ -93,7 +107,7 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.stress =
       beam.section.fibre_stress(record.axial_force, record.bending_moment).value_or(SectionRecord::no_number);
   if constexpr (D == 3)
-    if (e.twist) add_own_axes(beam, e, state, resultants.couple, s, record);
+    if (e.twist) add_own_axes(beam, e, state, resultants.couple, at, record);
   return record;
 }
 
@@ -108,8 +122,8 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.s_end = q[Layout::place(1)];
   record.axial_mismatch = e.element.axial_mismatch(q);
   for (int i = 0; i < 4; ++i) {
-    const double s = e.element.place(q, i / 3.0);
-    const SectionRecord section = section_of<D>(a, e, state, carried, s);
+    const PlaceInElement<D> at(e, state, e.element.place(q, i / 3.0));
+    const SectionRecord section = section_of<D>(a, e, state, carried, at);
     record.strain[i] = section.strain;
     record.curvature[i] = section.curvature;
     record.axial_force[i] = section.axial_force;
@@ -117,17 +131,15 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
     record.torque[i] = section.torque;
     record.shear_force[i] = section.shear_force;
     record.stress[i] = section.stress;
-    record.velocity.col(i) = widened<D>(material_point<D>(e, state.q, state.v, s).velocity);
+    record.velocity.col(i) = widened<D>(at.point.velocity);
     record.moment_1[i] = section.moment_1;
     record.moment_2[i] = section.moment_2;
     record.twist[i] = section.twist;
     record.von_mises[i] = section.von_mises;
-    if constexpr (D == 3)
-      if (e.twist) {
-        const SectionTriad<double> triad = section_of(e, state, s).triad;
-        record.d1.col(i) = triad.d1;
-        record.d2.col(i) = triad.d2;
-      }
+    if (at.section) {
+      record.d1.col(i) = at.section->triad.d1;
+      record.d2.col(i) = at.section->triad.d2;
+    }
   }
   return record;
 }
@@ -222,7 +234,8 @@ SectionRecord section_at(const BeamSystem& system, const State& state, int span,
       system,
       [&]<int D>(const Assembly<D>& a) {
         const MeshElement<D>& e = a.elements()[span];
-        return section_of<D>(a, e, state, carried, e.local(gather<D>(e, state.q), s));
+        return section_of<D>(a, e, state, carried,
+                             PlaceInElement<D>(e, state, e.local(gather<D>(e, state.q), s)));
       });
 }
 

@@ -186,7 +186,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   output.every = optional_number(json, "every");
   constexpr int default_frames = 100;
   if (!output.every && analysis.type == CaseAnalysis::Type::dynamic)
-    output.every = analysis.end_time / default_frames;
+    output.every = std::max(analysis.end_time / default_frames, analysis.step.value_or(0));
   if (has(json, "cad")) {
     const Json& cad = json["cad"];
     output.cad_formats = {"step"};

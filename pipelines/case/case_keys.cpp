@@ -46,7 +46,7 @@ Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::mo
 Shape choice(std::vector<std::string> choices) {
   return {.kind = Kind::choice, .choices = std::move(choices)};
 }
-Shape text() { return {.kind = Kind::text}; }
+Shape any_text() { return {.kind = Kind::text}; }
 Shape name() { return {.kind = Kind::name}; }
 Shape boolean() { return {.kind = Kind::boolean}; }
 Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(range)}; }
@@ -95,14 +95,14 @@ Shape axis() {
               {"end", vector(Dimension::length), "end point", required},
               {"normal", vector(Dimension::number), "the arc turns by the right hand about it", required}});
   return object(
-      {{"file", text(), "STEP or IGES file, relative to the case file"},
+      {{"file", any_text(), "STEP or IGES file, relative to the case file"},
        {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
         false, "file"},
        {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
-       {"part", text(), "only curves of this part (STEP) or group (IGES): its name, or the end of its path",
-        false, "file"},
-       {"layer", text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
-       {"colour", text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
+       {"part", any_text(),
+        "only curves of this part (STEP) or group (IGES): its name, or the end of its path", false, "file"},
+       {"layer", any_text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
+       {"colour", any_text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
        {"near", vector(Dimension::length), "the chain of curves nearest to this point", false, "file"},
        {"longest", boolean(), "the longest chain of curves", false, "file"},
        {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
@@ -116,8 +116,8 @@ Shape axis() {
 
 Shape section() {
   const Shape profile =
-      object({{"file", text(), "STEP or IGES file with an outline and its holes, relative to the case file",
-               required},
+      object({{"file", any_text(),
+               "STEP or IGES file with an outline and its holes, relative to the case file", required},
               {"in_plane", choice({"y", "x"}),
                "the profile's axis that lies in the plane of a planar model; y when omitted"}});
   return object(
@@ -381,12 +381,13 @@ Shape output() {
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});
-  return object({{"every", quantity(Dimension::time, time_step()),
-                  "time between stored frames; a hundredth of `end_time` when omitted"},
-                 {"cad", cad, "deformed axes as CAD files"},
-                 {"probes", short_array(probe), "points whose motion is stored"},
-                 {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
-                 {"report", boolean(), "report.html; true when omitted"}});
+  return object(
+      {{"every", quantity(Dimension::time, time_step()),
+        "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
+       {"cad", cad, "deformed axes as CAD files"},
+       {"probes", short_array(probe), "points whose motion is stored"},
+       {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
+       {"report", boolean(), "report.html; true when omitted"}});
 }
 
 Shape body() {
@@ -424,10 +425,10 @@ std::string Range::rule() const {
 
 const Shape& case_keys() {
   static const Shape shape =
-      object({{"$schema", text(), "for editors; ignored"},
+      object({{"$schema", any_text(), "for editors; ignored"},
               {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
                "version of the case-file format", required},
-              {"name", text(), "title of the case; the file's name when omitted"},
+              {"name", any_text(), "title of the case; the file's name when omitted"},
               {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
                "acceleration of gravity; [0, 0, -9.81] when omitted"},
               {"beams", array(beam(), 1), "the beams", required},
