@@ -6,6 +6,17 @@
 set(nurbeam_warnings -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   -Wzero-as-null-pointer-constant -Wsuggest-override -Wlogical-op -Wduplicated-cond -Wcatch-value=3)
 
+# With CMAKE_UNITY_BUILD the sources of a folder are compiled as one (scripts/check).
+function(nurbeam_compile_by_folder target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(folder ${source} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    string(MAKE_C_IDENTIFIER ${folder} group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+endfunction()
+
 function(nurbeam_room name)
   cmake_parse_arguments(PARSE_ARGV 1 room "" EXCEPT PRIVATE)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -20,6 +31,7 @@ function(nurbeam_room name)
     list(REMOVE_ITEM headers ${room_PRIVATE})
   endif()
   add_library(nurbeam_${name} STATIC ${sources})
+  nurbeam_compile_by_folder(nurbeam_${name} ${sources})
   add_library(nurbeam::${name} ALIAS nurbeam_${name})
   set_target_properties(nurbeam_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON
     INTERFACE_HEADER_SETS_TO_VERIFY headers_alone)

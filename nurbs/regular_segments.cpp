@@ -23,7 +23,7 @@ bool stands_still(const RationalCubic& cubic) {
 }
 
 /// The direction in which the cubic starts, from its first control point that is another one.
-Eigen::Vector3d start_direction(const RationalCubic& cubic) {
+Eigen::Vector3d leaving_direction(const RationalCubic& cubic) {
   const Eigen::Vector3d leg = cubic.control_point(2) - cubic.control_point(0);
   const bool leads = leg.norm() > 1e-9 * polygon_length(cubic);
   return (leads ? leg : Eigen::Vector3d(cubic.control_point(3) - cubic.control_point(0))).normalized();
@@ -35,9 +35,9 @@ RationalCubic evened(const RationalCubic& cubic) {
   const double third = length(cubic) / 3;
   Eigen::Matrix4d points = Eigen::Matrix4d::Ones();
   points.col(0).head<3>() = cubic.control_point(0);
-  points.col(1).head<3>() = cubic.control_point(0) + third * start_direction(cubic);
+  points.col(1).head<3>() = cubic.control_point(0) + third * leaving_direction(cubic);
   const Eigen::Vector3d in =
-      stands_still(back) ? start_direction(back)
+      stands_still(back) ? leaving_direction(back)
                          : Eigen::Vector3d(back.control_point(1) - back.control_point(0)).normalized();
   points.col(2).head<3>() = cubic.control_point(3) + third * in;
   points.col(3).head<3>() = cubic.control_point(3);

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -6,6 +7,9 @@
 
 /// What every method asks of its arguments.
 namespace nurbeam {
+
+/// Of a step, over |t|: less is no distance between two times.
+constexpr double shortest_step = 16 * std::numeric_limits<double>::epsilon();
 
 /// Throws std::invalid_argument "method: parts..." unless `rule`; numbers keep their digits.
 template <class... Parts>

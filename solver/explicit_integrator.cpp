@@ -20,9 +20,7 @@ using Vector = Eigen::VectorXd;
 using VectorRef = Eigen::Ref<Vector>;
 using ConstVectorRef = Eigen::Ref<const Vector>;
 
-constexpr double shortest_step = 16 * std::numeric_limits<double>::epsilon();  ///< over |t|
-
-constexpr const char* method = "explicit Runge-Kutta";
+constexpr const char* runge_kutta = "explicit Runge-Kutta";
 
 /// d/dt of y = (q / s, T v / s), with the coordinate scale s and the time scale T.
 class FirstOrderEquations {
@@ -232,14 +230,14 @@ struct ExplicitIntegrator::Implementation {
 
 ExplicitIntegrator::ExplicitIntegrator(ExplicitRungeKutta settings, const SecondOrderSystem& system,
                                        State start) {
-  require(settings.tolerance >= 0, method, "tolerance ", settings.tolerance, " is negative");
-  require(settings.time_scale > 0 && std::isfinite(settings.time_scale), method, "time_scale ",
+  require(settings.tolerance >= 0, runge_kutta, "tolerance ", settings.tolerance, " is negative");
+  require(settings.time_scale > 0 && std::isfinite(settings.time_scale), runge_kutta, "time_scale ",
           settings.time_scale, " is not positive and finite");
-  require(settings.max_halvings >= 0, method, "max_halvings ", settings.max_halvings, " is negative");
-  require(settings.max_steps > 0, method, "max_steps ", settings.max_steps, " is not positive");
-  require_size(method, "q", start.q.size(), system.coordinate_count());
-  require_size(method, "v", start.v.size(), system.coordinate_count());
-  require_size(method, "lambda", start.lambda.size(), system.constraint_count());
+  require(settings.max_halvings >= 0, runge_kutta, "max_halvings ", settings.max_halvings, " is negative");
+  require(settings.max_steps > 0, runge_kutta, "max_steps ", settings.max_steps, " is not positive");
+  require_size(runge_kutta, "q", start.q.size(), system.coordinate_count());
+  require_size(runge_kutta, "v", start.v.size(), system.coordinate_count());
+  require_size(runge_kutta, "lambda", start.lambda.size(), system.constraint_count());
   implementation_ = std::make_unique<Implementation>(settings, system, std::move(start));
 }
 

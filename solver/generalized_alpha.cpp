@@ -16,17 +16,19 @@ constexpr double largest_rescaling = 4;  ///< of the step, beyond which the meth
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
-constexpr const char* method = "generalized-alpha";
+constexpr const char* generalized_alpha_method = "generalized-alpha";
 
 void check(const GeneralizedAlpha& settings) {
-  require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1, method, "rho_infinity ",
+  require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1, generalized_alpha_method, "rho_infinity ",
           settings.rho_infinity, " is not in [0, 1]");
-  require(settings.newton_tolerance > 0, method, "newton_tolerance ", settings.newton_tolerance,
+  require(settings.newton_tolerance > 0, generalized_alpha_method, "newton_tolerance ",
+          settings.newton_tolerance, " is not positive");
+  require(settings.max_iterations > 0, generalized_alpha_method, "max_iterations ", settings.max_iterations,
           " is not positive");
-  require(settings.max_iterations > 0, method, "max_iterations ", settings.max_iterations,
-          " is not positive");
-  require(settings.max_halvings >= 0, method, "max_halvings ", settings.max_halvings, " is negative");
-  require(settings.tolerance >= 0, method, "tolerance ", settings.tolerance, " is negative");
+  require(settings.max_halvings >= 0, generalized_alpha_method, "max_halvings ", settings.max_halvings,
+          " is negative");
+  require(settings.tolerance >= 0, generalized_alpha_method, "tolerance ", settings.tolerance,
+          " is negative");
 }
 
 bool all_finite(const State& state) {
@@ -52,7 +54,7 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   check(settings_);
   const int n = system.coordinate_count();
   const int m = system.constraint_count();
-  require_sizes(method, state_, system);
+  require_sizes(generalized_alpha_method, state_, system);
   parameters_ = parameters(settings_.rho_infinity);
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
@@ -69,11 +71,11 @@ IntegratorHistory GeneralizedAlphaIntegrator::history() const {
 }
 
 void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& history) {
-  require_sizes(method, state, *system_);
-  require(history.numbers.size() == 3 && history.vectors.size() == 2, method,
+  require_sizes(generalized_alpha_method, state, *system_);
+  require(history.numbers.size() == 3 && history.vectors.size() == 2, generalized_alpha_method,
           "the history is not one of this method");
   for (const Eigen::VectorXd& vector : history.vectors)
-    require_size(method, "the history", vector.size(), system_->coordinate_count());
+    require_size(generalized_alpha_method, "the history", vector.size(), system_->coordinate_count());
   state_ = std::move(state);
   algorithmic_acceleration_ = history.vectors[0];
   jerk_ = history.vectors[1];

@@ -20,12 +20,11 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double shortest_step = 16 * epsilon;  ///< over |t|
 /// Of the local error that Newton's iteration may leave; with IDA's 0.33 that rest passes for an error of the
 /// formula in the estimates, and twice the steps are taken.
 constexpr double newton_fraction = 0.01;
 
-constexpr const char* method = "IDA";
+constexpr const char* ida = "IDA";
 
 using Outcome = StabilisedEquations::Outcome;
 
@@ -227,13 +226,13 @@ struct IdaIntegrator::Implementation {
 };
 
 IdaIntegrator::IdaIntegrator(Ida settings, const SecondOrderSystem& system, State start) {
-  require(settings.tolerance > 0, method, "tolerance ", settings.tolerance, " is not positive");
-  require(settings.time_scale > 0 && std::isfinite(settings.time_scale), method, "time_scale ",
+  require(settings.tolerance > 0, ida, "tolerance ", settings.tolerance, " is not positive");
+  require(settings.time_scale > 0 && std::isfinite(settings.time_scale), ida, "time_scale ",
           settings.time_scale, " is not positive and finite");
-  require(settings.max_order >= 1 && settings.max_order <= 5, method, "max_order ", settings.max_order,
+  require(settings.max_order >= 1 && settings.max_order <= 5, ida, "max_order ", settings.max_order,
           " is not in [1, 5]");
-  require(settings.max_steps > 0, method, "max_steps ", settings.max_steps, " is not positive");
-  require_sizes(method, start, system);
+  require(settings.max_steps > 0, ida, "max_steps ", settings.max_steps, " is not positive");
+  require_sizes(ida, start, system);
   implementation_ = std::make_unique<Implementation>(settings, system, std::move(start));
 }
 

@@ -17,10 +17,11 @@ using Vector = Eigen::VectorXd;
 constexpr double zero_eigenvalue = 1e-13;
 /// Small beside K, so that directions that the constraints forbid count as stiff; not so small that they
 /// drown the soft ones in round-off.
-constexpr double epsilon = 1e-2;
+constexpr double regularisation = 1e-2;
 
-/// [[K + shift, G'], [G, -epsilon]], equilibrated and factorised. By Sylvester's law it has as many negative
-/// pivots as the augmented K + shift + G'G/epsilon has negative eigenvalues, and one for each constraint.
+/// [[K + shift, G'], [G, -regularisation]], equilibrated and factorised. By Sylvester's law it has as many
+/// negative pivots as the augmented K + shift + G'G/regularisation has negative eigenvalues, and one for each
+/// constraint.
 class ShiftedTangent {
  public:
   ShiftedTangent(const Matrix& kkt, int n)
@@ -31,7 +32,7 @@ class ShiftedTangent {
   /// The number of negative eigenvalues of K + shift on the null space of G.
   int factorise(double shift) {
     shifted_.coeffs() = kkt_.coeffs();
-    for (int i = 0; i < shifted_.cols(); ++i) shifted_.coeffRef(i, i) += i < n_ ? shift : -epsilon;
+    for (int i = 0; i < shifted_.cols(); ++i) shifted_.coeffRef(i, i) += i < n_ ? shift : -regularisation;
     solver_.factorize(shifted_);
     if (solver_.info() != Eigen::Success) return n_;
     const auto negative = (solver_.vectorD().array() < 0).count();
@@ -52,7 +53,8 @@ class ShiftedTangent {
 
   bool descends(const Vector& x) const {
     const double forbidden = (kkt_.bottomLeftCorner(kkt_.rows() - n_, n_) * x).squaredNorm();
-    return x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / epsilon < -zero_eigenvalue * x.squaredNorm();
+    return x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / regularisation <
+           -zero_eigenvalue * x.squaredNorm();
   }
   /// In the coordinates that were given, of unit length, the largest component positive.
   Vector direction(const Vector& x) const {

@@ -2,9 +2,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "fem/constraints/body_on_point.h"
+#include "fem/constraints/bind_joint.h"
 #include "fem/constraints/corner_angle.h"
-#include "fem/constraints/held_place.h"
 #include "fem/constraints/joined_points.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/constraints/support.h"
@@ -26,6 +25,9 @@ using ConstraintList = std::variant<HeldPosition<D>, HeldDirection<D>, HeldPlace
                                     JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>, Others...>;
 template <int D>
 using BoundConstraint =
-    std::conditional_t<D == 3, ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections>, ConstraintList<D>>;
+    std::conditional_t<D == 3,
+                       ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
+                                      BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>>,
+                       ConstraintList<D>>;
 
 }  // namespace nurbeam

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_axis.h"
 #include "fem/constraints/joined_sections.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/mesh/point_on_beam.h"
@@ -18,6 +20,9 @@ struct BeamJoint {
   bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle), or where both beams have
                        ///< torsion the orientation of their sections (JoinedSections); else a hinge
   std::string name = {};
+  /// Of a hinge of two beams with torsion: their sections turn against each other about this axis alone,
+  /// which is given as drawn.
+  std::optional<Eigen::Vector3d> axis = {};
 };
 
 /// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.
@@ -59,14 +64,15 @@ class JoinedPoints {
 template <int D, class Add>
 void bind(const BeamJoint& joint, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
   add(JoinedPoints<D>(at, drawn, joint));
-  if (!joint.rigid) return;
   const auto& beams = at.structure.beams;
   if constexpr (D == 3)
     if (beams[joint.beam_a].has_torsion() && beams[joint.beam_b].has_torsion()) {
-      add(JoinedSections(NodeSection::at(at, drawn, joint.beam_a, joint.s_a),
-                         NodeSection::at(at, drawn, joint.beam_b, joint.s_b)));
-      return;
+      const auto a = [&] { return NodeSection::at(at, drawn, joint.beam_a, joint.s_a); };
+      const auto b = [&] { return NodeSection::at(at, drawn, joint.beam_b, joint.s_b); };
+      if (joint.rigid) return add(JoinedSections(a(), b()));
+      if (joint.axis) return add(HeldAxis(b(), a(), *joint.axis));
     }
+  if (!joint.rigid) return;
   add(JoinedSlopes<D>(PointPair<D>(at, drawn, joint.beam_a, joint.s_a, joint.beam_b, joint.s_b),
                       HeldAngle<D>::drawn(beams[joint.beam_a].curve.tangent(joint.s_a),
                                           beams[joint.beam_b].curve.tangent(joint.s_b))));

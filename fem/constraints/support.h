@@ -4,6 +4,7 @@
 
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_axis.h"
 #include "fem/constraints/held_roll.h"
 #include "fem/mesh/point_on_beam.h"
 #include "fem/structure/displacement_table.h"
@@ -18,6 +19,8 @@ struct Support {
   bool fork = false;     ///< position and roll of the section, of a beam with torsion
   std::string name = {};
   std::optional<DisplacementTable> motion = {};  ///< from the drawn position, scaled as loads by State::load
+  /// Of a hinge: position, and the section of a beam with torsion, which turns about this axis alone.
+  std::optional<Eigen::Vector3d> axis = {};
 };
 
 /// r(s) = r_0(s) + d(t): D rows.
@@ -69,6 +72,7 @@ void bind(const Support& support, const MeshedBeams<D>& at, const Eigen::VectorX
     if (!at.structure.beams[support.beam].has_torsion()) return;
     if (support.clamped) add(ClampedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
     if (support.fork) add(ForkedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
+    if (support.axis) add(HeldAxis(NodeSection::at(at, drawn, support.beam, support.s), *support.axis));
   }
 }
 

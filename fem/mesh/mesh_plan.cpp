@@ -23,6 +23,17 @@ int node_to_replace(const Beam& beam, double s) {
   return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
+// A moving node changes the stored energy a little with its place, and that little is a force on the body:
+// one that is as light as this beside its element is dragged about by it. What kink its weight makes is as
+// small.
+bool too_light_for_node(const Structure& structure, const SlidingJoint& joint) {
+  constexpr double light = 0.01;
+  const Beam& beam = structure.beam_of(joint);
+  return joint.continuous_slope && !joint.motion &&
+         structure.body_of(joint).mass <=
+             light * beam.properties.mass_per_length * beam.home_spacing(joint.s);
+}
+
 }  // namespace
 
 Passing passing(const SlidingJoint& joint, const HomeNode& node) {
@@ -31,6 +42,7 @@ Passing passing(const SlidingJoint& joint, const HomeNode& node) {
 }
 
 bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach) {
+  if (too_light_for_node(structure, joint)) return true;
   const Beam& beam = structure.beam_of(joint);
   const int before = beam.home_interval(s);
   const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));

@@ -226,12 +226,6 @@ std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions&
 
 // ---- Shapes ----
 
-Eigen::Vector3d vector_at(const BeamSystem& system, const Vector& x, int first) {
-  Eigen::Vector3d y = Eigen::Vector3d::Zero();
-  y.head(system.dimension()) = x.segment(first, system.dimension());
-  return y;
-}
-
 double size_of(const MeshedState& at) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const auto& nodes : at.system->mesh().nodes)

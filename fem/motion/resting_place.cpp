@@ -60,6 +60,15 @@ double push_off(Descent& body) {
   return body.balanced == 1 ? body.most : body.balanced == 2 ? -body.moved : 0;
 }
 
+// What round-off makes of the force that holds a body where nothing pulls it [N]: strains are differences of
+// coordinates over the length of an element.
+double force_of_round_off(const MeshedState& at, int joint) {
+  const BeamModel& model = at.system->model();
+  const double elements = at.state.q.lpNorm<Eigen::Infinity>() / home_spacing(model, joint);
+  return 8 * std::numeric_limits<double>::epsilon() *
+         model.beam_of(model.joints[joint]).properties.axial_stiffness * (1 + elements);
+}
+
 // Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it
 // shows where it does not want to go.
 double step_down(const Descent& body, double s, double force) {
@@ -77,13 +86,15 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   const double spacing = home_spacing(at.system->model(), joint);
   if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) : 2 * body.most;
   body.most = std::min(body.most, 4 * spacing);
-  double ds = force == 0 ? push_off(body) : step_down(body, s, force);
-  if (force != 0) body.balanced = 0;
+  const bool begins = body.moved == 0 || body.balanced > 0;
+  const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, joint) : 0);
+  double ds = nothing_pulls ? push_off(body) : step_down(body, s, force);
+  if (!nothing_pulls) body.balanced = 0;
   const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
   const double room = 0.4 * distance_to_others(at, joint);
   ds = std::clamp(ds, -room, room);
   if (!curve.closed()) ds = std::clamp(ds, -s, curve.length() - s);
-  body.at_end = ds == 0 && force != 0;
+  body.at_end = ds == 0 && !nothing_pulls;
   body.arrived = std::abs(ds) < 1e-6 * spacing;
   if (body.arrived) return 0;
   body.s = s;

@@ -9,13 +9,6 @@ namespace nurbeam {
 
 namespace {
 
-// x(first), ... as a vector in space.
-Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& x, int first) {
-  Eigen::Vector3d y = Eigen::Vector3d::Zero();
-  y.head(system.dimension()) = x.segment(first, system.dimension());
-  return y;
-}
-
 // Takes over a value where it is larger by `size`, or the first.
 void keep(Extreme& extreme, double value, double s, double (*size)(double)) {
   if (std::isnan(value)) return;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
@@ -68,6 +69,8 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
   record.torque = couple.dot(triad.t);
   record.moment_1 = couple.dot(triad.d1);
   record.moment_2 = couple.dot(triad.d2);
+  // Two axes have no common sign: one that said whether it bends more would jump where they change roles.
+  record.bending_moment = std::hypot(record.moment_1, record.moment_2);
   const double s_a = e.start(state.q);
   // The strain of twist is linear in an element.
   record.twist = at.s == s_a ? 0 : (at.s - s_a) * section_of(e, state, (s_a + at.s) / 2).strain.twist;
@@ -177,6 +180,19 @@ void add_momentum(const MeshElement<D>& e, const State& state,
     }
 }
 
+// Calls visit(roll, at) for the inertia of each body that rolls with a section.
+template <class Visit>
+void for_each_roll(const BeamSystem& system, Visit&& visit) {
+  const Assembly<3>* assembly = system.assembly<3>();
+  if (!assembly) return;
+  for (const BoundForce<3>& force : assembly->forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.joint(); }) visit(f, assembly->beams());
+        },
+        force);
+}
+
 }  // namespace
 
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s) {
@@ -274,10 +290,23 @@ Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, in
       });
 }
 
+BodyMotions body_motions(const BeamSystem& system, const State& state) {
+  BodyMotions motions;
+  for (const int r : system.mesh().bodies) {
+    motions.velocities.emplace_back(Eigen::Vector3d::Zero());
+    motions.velocities.back().head(system.dimension()) = state.v.segment(r, system.dimension());
+  }
+  motions.spins.assign(system.model().joints.size(), 0);
+  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
+    motions.spins[roll.joint()] = roll.spin(at, state);
+  });
+  return motions;
+}
+
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
                                      const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
-                                     const std::vector<Eigen::Vector3d>& body_velocities) {
+                                     const BodyMotions& bodies) {
   const int D = system.dimension();
   Eigen::VectorXd p = Eigen::VectorXd::Zero(system.coordinate_count());
   std::vector<std::vector<double>> places;
@@ -285,9 +314,12 @@ Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& stat
   with_assembly(system, [&](const auto& assembly) {
     for (const auto& e : assembly.elements()) add_momentum(e, state, field, places[e.beam], p);
   });
-  for (std::size_t body = 0; body < body_velocities.size(); ++body)
+  for (std::size_t body = 0; body < bodies.velocities.size(); ++body)
     p.segment(system.mesh().bodies[body], D) +=
-        system.model().bodies[body].mass * body_velocities[body].head(D);
+        system.model().bodies[body].mass * bodies.velocities[body].head(D);
+  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
+    roll.add_momentum(at, state, bodies.spins[roll.joint()], p);
+  });
   return p;
 }
 

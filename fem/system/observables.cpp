@@ -132,6 +132,12 @@ Eigen::Vector3d momentum(const BeamSystem& system, const State& state) {
       system, [&](const auto& a) { return momentum_of(a, state); });
 }
 
+Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, int first) {
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  vector.head(system.dimension()) = y.segment(first, system.dimension());
+  return vector;
+}
+
 double beam_length(const BeamSystem& system, const State& state, int beam) {
   return with_assembly(
       system,

@@ -12,6 +12,8 @@ SystemEnergy energy(const BeamSystem& system, const State& state);
 double input_work(const BeamSystem& system, const State& from, const State& to);
 /// Linear momentum [N s] of beams and bodies.
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state);
+/// y(first), ... as a vector in space, z = 0 in the plane.
+Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, int first);
 /// Deformed length of a beam [m].
 double beam_length(const BeamSystem& system, const State& state, int beam);
 

@@ -8,13 +8,10 @@ namespace nurbeam::smooth {
 
 namespace {
 
-double alpha(const Piece& piece) { return piece.weight(1) / piece.weight(0); }
-double beta(const Piece& piece) { return piece.weight(piece.degree() - 1) / piece.weight(piece.degree()); }
-
 /// Both changes c that, with a linear factor, level the weights at both ends.
 std::optional<std::array<double, 2>> levelling(const Piece& piece) {
   constexpr double round_off = 1e-12;
-  const double d = double(piece.degree()), a = alpha(piece), product = a * beta(piece);
+  const double d = double(piece.degree()), a = start_ratio(piece), product = a * end_ratio(piece);
   if (product > 1 + round_off) return std::nullopt;
   const double half = 0.5 * (d * (d + 2) + d * d * product);
   const double root = std::sqrt(std::max(half * half - d * d * (d + 1) * (d + 1) * product, 0.0));
@@ -23,7 +20,7 @@ std::optional<std::array<double, 2>> levelling(const Piece& piece) {
 
 /// The piece with w_i -> c^i w_i, times the linear factor that levels the weight at its start.
 Piece levelled(Piece piece, double c) {
-  const double d = double(piece.degree()), factor = d + 1 - d * c * alpha(piece);
+  const double d = double(piece.degree()), factor = d + 1 - d * c * start_ratio(piece);
   double power = 1 / piece.weight(0);
   for (Eigen::Index i = 0; i <= piece.degree(); ++i, power *= c) piece.points.col(i) *= power;
   return times_linear(piece, factor);

@@ -9,9 +9,6 @@ namespace nurbeam::smooth {
 
 namespace {
 
-double alpha(const Piece& piece) { return piece.weight(1) / piece.weight(0); }
-double beta(const Piece& piece) { return piece.weight(piece.degree() - 1) / piece.weight(piece.degree()); }
-
 /// The pieces, each with the same weight at both ends, on intervals that make the speed continuous, that at
 /// the start 1.
 Pieces balanced_of_even_speed(Pieces pieces) {
@@ -19,8 +16,8 @@ Pieces balanced_of_even_speed(Pieces pieces) {
   for (Piece& piece : pieces) {
     piece.points = balanced(piece.points);
     const Eigen::Index p = piece.degree();
-    piece.length = double(p) * alpha(piece) * leg(piece, 0).norm() / speed;
-    speed = double(p) * beta(piece) * leg(piece, p - 1).norm() / piece.length;
+    piece.length = double(p) * start_ratio(piece) * leg(piece, 0).norm() / speed;
+    speed = double(p) * end_ratio(piece) * leg(piece, p - 1).norm() / piece.length;
   }
   return pieces;
 }
@@ -33,8 +30,8 @@ std::optional<Pieces> multiplied(const Pieces& pieces, double factor) {
   for (std::size_t j = 1; j < pieces.size(); ++j) {
     const Piece &before = pieces[j - 1], &piece = pieces[j];
     const double slope =
-        (d + 1 - d * beta(before) - 1 / factor) / before.length;  // of the weight, at the joint
-    factor = d + 1 - d * alpha(piece) + slope * piece.length;
+        (d + 1 - d * end_ratio(before) - 1 / factor) / before.length;  // of the weight, at the joint
+    factor = d + 1 - d * start_ratio(piece) + slope * piece.length;
     if (!(factor > 0)) return std::nullopt;
     const double scale = result.back().weight(result.back().degree()) / piece.weight(0);
     result.push_back(times_linear(piece, factor));

@@ -15,7 +15,7 @@ struct Joint {
 
   Joint(const Piece& left, const Piece& right) {
     const Eigen::Index p = left.degree();
-    const double alpha = right.weight(1) / right.weight(0), beta = left.weight(p - 1) / left.weight(p);
+    const double alpha = start_ratio(right), beta = end_ratio(left);
     mu = beta * leg(left, p - 1).norm() / (alpha * leg(right, 0).norm());
     gamma = beta + mu * alpha;
   }

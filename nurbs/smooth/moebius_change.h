@@ -29,6 +29,12 @@ struct Piece {
 };
 using Pieces = std::vector<Piece>;
 
+/// w_1 / w_0 and w_{p-1} / w_p.
+inline double start_ratio(const Piece& piece) { return piece.weight(1) / piece.weight(0); }
+inline double end_ratio(const Piece& piece) {
+  return piece.weight(piece.degree() - 1) / piece.weight(piece.degree());
+}
+
 /// How a piece is run through: w_i -> c^i w_i on an interval of this length (theory.md, back to CAD: c_j and
 /// Delta_j).
 struct MoebiusChange {

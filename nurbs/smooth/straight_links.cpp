@@ -7,7 +7,7 @@ namespace nurbeam::smooth {
 namespace {
 
 /// What a line has to join at one of its ends.
-struct Joint {
+struct LineEnd {
   double weight = 1;
   double slope = 0;  // of the weight, towards the line, per unit of the parameter
   double speed = 1;
@@ -15,7 +15,7 @@ struct Joint {
 };
 
 /// The joint at the last point of the piece.
-Joint end_of(const Piece& piece) {
+LineEnd end_of(const Piece& piece) {
   const Eigen::Index p = piece.degree();
   const double rate = double(p) / piece.length;
   return {piece.weight(p), rate * (piece.weight(p) - piece.weight(p - 1)),
@@ -35,7 +35,7 @@ struct Ramp {
   double reach[2];  // distances of these from the joint [m]
 };
 
-Ramp ramp(const Joint& joint, double length) {
+Ramp ramp(const LineEnd& joint, double length) {
   const double weight = joint.weight + 0.5 * length * joint.slope;
   const double second = 0.5 * length * joint.speed * joint.weight / weight;
   return {length, weight, {second, second + 0.5 * length}};
@@ -43,9 +43,9 @@ Ramp ramp(const Joint& joint, double length) {
 
 /// The ramps at both ends of a line of this length: as long as there is room for, up to a few natural
 /// intervals and mild weights. They meet where they can.
-std::pair<Ramp, Ramp> ramps(const Joint& from, const Joint& to, double length) {
+std::pair<Ramp, Ramp> ramps(const LineEnd& from, const LineEnd& to, double length) {
   static constexpr double longest = 4;  // natural intervals
-  const auto at = [](const Joint& joint, double share) {
+  const auto at = [](const LineEnd& joint, double share) {
     const double gain = 0.5 * joint.unit * joint.slope / joint.weight;  // of the weight in a natural interval
     const double most = gain > 0 ? 2 : 0.5;                             // shares of it
     return ramp(joint, share * joint.unit * std::min(longest, most / std::max(std::abs(gain), 1e-9)));
@@ -61,7 +61,7 @@ std::pair<Ramp, Ramp> ramps(const Joint& from, const Joint& to, double length) {
 }
 
 /// The line from a to b, which joins what is before and after it.
-Pieces linked(const Piece& line, const Joint& from, const Joint& to) {
+Pieces linked(const Piece& line, const LineEnd& from, const LineEnd& to) {
   const Eigen::Index p = line.degree();
   const Eigen::Vector3d a = line.points.col(0).hnormalized(), b = line.points.col(p).hnormalized();
   const double length = (b - a).norm();
@@ -129,7 +129,7 @@ std::vector<Group> groups_of(const Pieces& pieces, double tolerance) {
 /// The line of group i between what stands before and after it.
 Pieces linked(const std::vector<Group>& groups, std::size_t i, double tolerance) {
   const Piece& line = groups[i].pieces[0];
-  Joint from, to;
+  LineEnd from, to;
   if (i > 0 && !groups[i - 1].straight && share_tangent(groups[i - 1].pieces.back(), line, tolerance))
     from = end_of(groups[i - 1].pieces.back());
   if (i + 1 < groups.size() && !groups[i + 1].straight &&

@@ -13,13 +13,6 @@ namespace nurbeam {
 namespace {
 
 template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
-template <class Item>
 const Item& find_by_name(const std::vector<Item>& items, const std::string& name, const char* what) {
   const auto found =
       std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });

@@ -131,13 +131,6 @@ int schema_command(const Arguments& arguments, Streams streams) {
   return exit_done;
 }
 
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
 int verify_command(const Arguments& arguments, Streams streams) {
   const std::string part = arguments.positional.empty() ? "" : arguments.positional[0];
   if (part == "papers") {

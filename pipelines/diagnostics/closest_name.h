@@ -12,6 +12,14 @@ int edit_distance(std::string_view a, std::string_view b);
 /// out when no known name is near (at most a third of the text's characters, at least 2, differ).
 std::string known_names(std::string_view unknown, const std::vector<std::string>& known);
 
+/// The names of items that have one.
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
 /// `"a"`.
 std::string in_quotes(std::string_view text);
 

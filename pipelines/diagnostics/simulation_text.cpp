@@ -78,7 +78,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
              text_of(failure.energy, 3) + " J, more than a thousandth of what moves" + places +
              "; take more elements" +
              (model.joints[failure.joint].continuous_slope
-                  ? ""
+                  ? ", or, for a cable that hardly resists bending, \"slope\": \"discontinuous\""
                   : ", or \"slope\": \"continuous\": a beam that resists bending cannot give up a kink");
     case Failure::Kind::bodies_meet:
       return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;

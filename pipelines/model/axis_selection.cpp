@@ -19,7 +19,7 @@ namespace {
 using Indices = std::vector<int>;
 
 // Gaps below this part of the curves' size are round-off.
-constexpr double round_off = 1e-12;
+constexpr double negligible = 1e-12;
 
 AxisSelection failure(std::string key, std::string error) {
   return {{}, {}, std::move(key), std::move(error)};
@@ -128,7 +128,7 @@ Chain smooth_chain_around(const ImportReport& report, const Indices& candidates,
 
 // The gaps between consecutive curves of the chains.
 std::vector<Gap> gaps_in(const std::vector<Chain>& chains, const ImportReport& report) {
-  const double least = round_off * size_of(report);
+  const double least = negligible * size_of(report);
   std::vector<Gap> gaps;
   for (const Chain& chain : chains) {
     const std::size_t count = chain.curves.size();

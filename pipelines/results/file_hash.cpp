@@ -10,13 +10,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipelines/results/file_error.h"
+
 namespace nurbeam {
 
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
-  throw std::runtime_error(file.string() + ": " + reason);
-}
 
 std::string hexadecimal(const unsigned char* bytes, unsigned count) {
   constexpr char digits[] = "0123456789abcdef";

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cad_import/files/atomic_file.h"
+#include "pipelines/results/file_error.h"
 #include "pipelines/results/frame_reader.h"
 #include "pipelines/results/frame_store.h"
 #include "pipelines/results/history_table.h"
@@ -20,10 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t batch = 64;  ///< frames that are copied at once
 /// A chunk is closed with this many elements: it bounds the memory.
 constexpr std::size_t most_open_elements = 50'000;
-
-[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
-  throw std::runtime_error(file.string() + ": " + reason);
-}
 
 void check_count(const char* what, std::size_t found, std::size_t expected) {
   if (found != expected) {

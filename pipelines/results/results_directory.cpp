@@ -11,15 +11,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pipelines/results/file_error.h"
+
 namespace nurbeam {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw std::runtime_error(path.string() + ": " + reason);
-}
 
 /// The names that a run gives to its files.
 bool is_of_a_run(const std::string& name) {

@@ -9,8 +9,6 @@
 namespace nurbeam {
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// The largest angle between the chord of a cubic and a leg of its control polygon.
 double largest_turn(const RationalCubic& cubic) {
   const Eigen::Vector2d chord = (cubic.control_point(3) - cubic.control_point(0)).head<2>();

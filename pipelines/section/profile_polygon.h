@@ -18,6 +18,11 @@ struct BoundaryPiece {
   double u0, u1;
 };
 
+/// a_x b_y - a_y b_x.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// A closed polygon with its corners on a loop; piece i runs from corner i to the next.
 struct ProfilePolygon {
   std::vector<Eigen::Vector2d> corners;  ///< [m]

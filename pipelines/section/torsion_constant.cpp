@@ -47,8 +47,6 @@ void integrate(const BentTriangle& nodes, const Use& use) {
   }
 }
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Unknowns of the two problems at the nodes of a mesh: corners first, then the edges in their order.
 class Problem {
  public:

@@ -1,9 +1,11 @@
 // Random models, run and held to the laws of mechanics.
 //
-//   random_campaign [--seed N] [--count N] [--hours H] [--keep DIRECTORY]   N, N + 1, ... until count or time
-//   is up random_campaign --case FILE...                                         these cases alone
+//   random_campaign [--seed N] [--count N] [--hours H] [--steps N] [--keep DIRECTORY]
+//     seeds N, N + 1, ... until count or time is up; each case for so many steps (1000)
+//   random_campaign [--steps N] --case FILE...   these cases alone
 //
-// Exits with 1 where a law is broken; the case is kept as seed_N.json, cut down to what still breaks it.
+// Exits with 1 where a law is broken; the case is kept as seed_N.json, cut down to what still breaks it (but
+// one that hangs is kept as it is: each cut would take a minute).
 
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -34,6 +36,7 @@ struct Options {
   long count = 100;
   std::optional<double> hours;
   std::filesystem::path keep;
+  long steps = 1000;
   std::vector<std::string> cases;
   std::optional<unsigned long> show;
 };
@@ -52,6 +55,8 @@ Options read_options(int argc, char** argv) {
       options.count = std::stol(value());
     else if (word == "--hours")
       options.hours = std::stod(value());
+    else if (word == "--steps")
+      options.steps = std::stol(value());
     else if (word == "--keep")
       options.keep = value();
     else if (word == "--show")
@@ -59,9 +64,10 @@ Options read_options(int argc, char** argv) {
     else if (word == "--case")
       while (i + 1 < argc) options.cases.emplace_back(argv[++i]);
     else
-      throw std::invalid_argument(word +
-                                  " is not known; known are --seed, --count, --hours, --keep, --case, "
-                                  "--show");
+      throw std::invalid_argument(
+          word +
+          " is not known; known are --seed, --count, --hours, --steps, --keep, --case, "
+          "--show");
   }
   return options;
 }
@@ -70,12 +76,13 @@ Options read_options(int argc, char** argv) {
 /// seconds of the processor's time.
 constexpr long longest_seconds = 60;
 
-void try_in_child(const Json& c, int out) {
+template <class Case>
+void try_in_child(const Case& c, long steps, int out) {
   const itimerval time{{0, 0}, {longest_seconds, 0}};
   setitimer(ITIMER_PROF, &time, nullptr);
   Verdict verdict;
   try {
-    verdict = try_case(c);
+    verdict = try_case(c, steps);
   } catch (const std::exception& error) {
     verdict = {.outcome = "thrown", .complaint = std::string("throws: ") + error.what()};
   }
@@ -90,7 +97,8 @@ void try_in_child(const Json& c, int out) {
   _exit(0);
 }
 
-Verdict watched(const Json& c) {
+template <class Case>  // a file or what stands in it
+Verdict watched(const Case& c, long steps) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   std::cout.flush();
@@ -98,7 +106,7 @@ Verdict watched(const Json& c) {
   if (child < 0) throw std::runtime_error("no process");
   if (child == 0) {
     close(ends[0]);
-    try_in_child(c, ends[1]);
+    try_in_child(c, steps, ends[1]);
   }
   close(ends[1]);
   std::string text(1 << 16, '\0');
@@ -123,9 +131,9 @@ std::string kind_of(const std::string& complaint) {
 }
 
 // Without what can go while the complaint stays.
-Json cut_down(Json c, const std::string& complaint) {
+Json cut_down(Json c, const std::string& complaint, long steps) {
   const auto still = [&](const Json& smaller) {
-    return kind_of(watched(smaller).complaint) == kind_of(complaint);
+    return kind_of(watched(smaller, steps).complaint) == kind_of(complaint);
   };
   const auto try_change = [&](const Json& smaller) {
     const bool holds = still(smaller);
@@ -179,6 +187,7 @@ struct Tally {
     std::cout << runs << " cases, " << complaints << " break a law; largest imbalance of forces " << imbalance
               << ", longest case " << seconds << " s\n";
     for (const auto& [outcome, count] : outcomes) std::cout << "  " << count << "  " << outcome << '\n';
+    std::cout.flush();
   }
 };
 
@@ -194,8 +203,7 @@ int run(const Options& options) {
   }
   Tally tally;
   for (const std::string& file : options.cases) {
-    std::ifstream stream(file);
-    const Verdict verdict = watched(Json::parse(stream, nullptr, true, true));
+    const Verdict verdict = watched(std::filesystem::path(file), options.steps);
     std::cout << file << ": " << verdict.outcome << ", drift " << verdict.drift << ", imbalance "
               << verdict.imbalance << ", " << verdict.seconds << " s\n";
     report(file, verdict);
@@ -211,13 +219,14 @@ int run(const Options& options) {
     const unsigned long seed = options.seed + static_cast<unsigned long>(i);
     const std::string name = "seed " + std::to_string(seed);
     const Json c = random_case(seed);
-    const Verdict verdict = watched(c);
+    const Verdict verdict = watched(c, options.steps);
     tally.add(verdict);
     report(name, verdict);
+    if (tally.runs % 100 == 0) tally.print();
     if (verdict.complaint.empty() || options.keep.empty()) continue;
     std::filesystem::create_directories(options.keep);
     std::ofstream(options.keep / ("seed_" + std::to_string(seed) + ".json"))
-        << cut_down(c, verdict.complaint).dump(1) << '\n';
+        << (verdict.outcome == "hung" ? c : cut_down(c, verdict.complaint, options.steps)).dump(1) << '\n';
   }
   tally.print();
   return tally.complaints > 0 ? 1 : 0;

@@ -1,5 +1,5 @@
 #pragma once
-#include <map>
+#include <filesystem>
 #include <string>
 
 #include "tests/campaign/random_case.h"
@@ -17,7 +17,9 @@ struct Verdict {
 
 /// Reads, builds and runs a case, and holds it to the laws: the total energy with inputs and losses is
 /// constant to the order of the integrator, or a warning or a message says that it is not; reactions balance
-/// loads and inertia to 1e-8 of the largest force; no number is NaN; what is wrong is said.
-Verdict try_case(const Json& c);
+/// loads and inertia to 1e-8 of the largest force; no number is NaN; what is wrong is said. It is left after
+/// so many steps.
+Verdict try_case(const std::filesystem::path& file, long most_steps);
+Verdict try_case(const Json& c, long most_steps);
 
 }  // namespace nurbeam::campaign

@@ -498,6 +498,10 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "about",
                                                "along",
                                                "release",
+                                               "roll_inertia",
+                                               "follows_section",
+                                               "offset",
+                                               "torque_per_length",
                                                "load_steps",
                                                "columns",
                                                "modes"};
