@@ -10,14 +10,12 @@
 
 /// The lists of constraints: all that has to be said of a new one outside its own file.
 ///
-/// A description (Support, ...) offers bind<D>(description, at, drawn, add), which adds the constraints that
-/// it means in a mesh. Such a constraint offers `rows` (at most D), dofs() (global coordinates, -1 for none,
-/// at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the Hessian contracted with y
-/// where that is not null, and, if it has them, rate(t) and acceleration(t) (dg/dt, d2g/dt2 at fixed q) and
-/// `linear` (no Hessian).
+/// A description (Constraint: Support, ...) offers bind<D>(description, at, drawn, add), which adds the
+/// constraints that it means in a mesh. Such a constraint offers `rows` (at most D), dofs() (global
+/// coordinates, -1 for none, at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the
+/// Hessian contracted with y where that is not null, and, if it has them, rate(t) and acceleration(t) (dg/dt,
+/// d2g/dt2 at fixed q) and `linear` (no Hessian).
 namespace nurbeam {
-
-using Constraint = std::variant<Support, BeamJoint>;
 
 /// In either dimension, and `Others` besides.
 template <int D, class... Others>

@@ -1,29 +1,12 @@
 #pragma once
-#include <optional>
-#include <string>
-
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_axis.h"
 #include "fem/constraints/joined_sections.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/mesh/point_on_beam.h"
+#include "fem/structure/beam_joint.h"
 
 namespace nurbeam {
-
-/// Joins two beams at a place of each, which no body slides over: their material points there stay together
-/// (at the distance they have in the drawing).
-struct BeamJoint {
-  int beam_a;
-  double s_a;  ///< [m]
-  int beam_b;
-  double s_b;          ///< [m]
-  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle), or where both beams have
-                       ///< torsion the orientation of their sections (JoinedSections); else a hinge
-  std::string name = {};
-  /// Of a hinge of two beams with torsion: their sections turn against each other about this axis alone,
-  /// which is given as drawn.
-  std::optional<Eigen::Vector3d> axis = {};
-};
 
 /// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.
 template <int D>

@@ -1,27 +1,12 @@
 #pragma once
-#include <optional>
-#include <string>
-
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_axis.h"
 #include "fem/constraints/held_roll.h"
 #include "fem/mesh/point_on_beam.h"
-#include "fem/structure/displacement_table.h"
+#include "fem/structure/support.h"
 
 namespace nurbeam {
-
-/// Holds a place of a beam where it is drawn, or moves it from there.
-struct Support {
-  int beam;
-  double s;              ///< [m]
-  bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
-  bool fork = false;     ///< position and roll of the section, of a beam with torsion
-  std::string name = {};
-  std::optional<DisplacementTable> motion = {};  ///< from the drawn position, scaled as loads by State::load
-  /// Of a hinge: position, and the section of a beam with torsion, which turns about this axis alone.
-  std::optional<Eigen::Vector3d> axis = {};
-};
 
 /// r(s) = r_0(s) + d(t): D rows.
 template <int D>

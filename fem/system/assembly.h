@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/constraints/constraint.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
 
