@@ -243,7 +243,9 @@ TEST(MovingTwist, LetsAMomentWorkOnTheSpinOfItsSection) {
       EXPECT_NEAR(coarse / fine, 4, 0.25);
       for (const bool follower : {false, true})
         expect_derivative(
-            [&](double h) { return d.element.moment_force(d.x.q + h * d.x.v, s, {moment, follower, {}}); },
+            [&](double h) {
+              return d.element.moment_force(d.x.q + h * d.x.v, s, {moment, follower, {}});
+            },
             Coordinates(d.element.moment_gradient(d.x.q, s, {moment, follower, {}}) * d.x.v), 5e-4);
       expect_derivative([&](double h) { return d.element.turned(d.x.q + h * d.x.v, s, moment).value; },
                         Vector3d(d.element.turned(d.x.q, s, moment).gradient * d.x.v), 5e-4);

@@ -256,7 +256,9 @@ TEST(TwistElement, KnowsTheDerivativesOfMomentsAndTurnedVectors) {
   for (const double s : {d.s_a, 0.77, d.s_b}) {
     for (const bool follower : {false, true})
       expect_derivative(
-          [&](double h) { return d.element.moment_force(d.x.q + h * direction, s, {moment, follower, {}}); },
+          [&](double h) {
+            return d.element.moment_force(d.x.q + h * direction, s, {moment, follower, {}});
+          },
           Coordinates(d.element.moment_gradient(d.x.q, s, {moment, follower, {}}) * direction), 1e-3);
     expect_derivative([&](double h) { return d.element.turned(d.x.q + h * direction, s, moment).value; },
                       Vector3d(d.element.turned(d.x.q, s, moment).gradient * direction), 1e-3);

@@ -165,7 +165,7 @@ TEST(Trolley, KeepsTheMomentumOfAFreeRail) {
     const Vector3d start = momentum(BeamSystem(model, first.plan), first.state),
                    end = momentum(BeamSystem(model, last.plan), last.state);
     EXPECT_GT(start.norm(), 0.1);
-    EXPECT_LT((end - start).norm(), 5e-5 * start.norm());
+    EXPECT_LT((end - start).norm(), (kinked ? 5e-4 : 5e-5) * start.norm());
   }
 }
 
