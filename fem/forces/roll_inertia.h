@@ -1,6 +1,9 @@
 #pragma once
+#include <vector>
+
 #include "fem/constraints/followed_section.h"
 #include "fem/forces/energy.h"
+#include "fem/mesh/point_action.h"
 
 namespace nurbeam {
 
