@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <variant>
 #include <vector>
@@ -96,12 +97,13 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   Eigen::VectorXd rows(system.coordinate_count()), none(system.constraint_count());
   system.residual(free, rows, none);
   Vector3d of_rows = Vector3d::Zero();
+  std::set<int> added;  // a body that slides on a node is that node
   const auto add = [&](int first) {
+    if (!added.insert(first).second) return;
     for (int d = 0; d < system.dimension(); ++d) of_rows[d] -= rows[first + d];
   };
   for (const auto& nodes : system.mesh().nodes)
-    for (const MeshNode& node : nodes)
-      if (node.joint < 0) add(node.r);
+    for (const MeshNode& node : nodes) add(node.r);
   for (const int r : system.mesh().bodies) add(r);
   loads.add(of_rows - loads.sum);
   double length = 0;
