@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "cad_import/files/cad_format.h"
+#include "cad_import/files/simple_spline.h"
 
 namespace nurbeam {
 namespace {
@@ -72,6 +73,18 @@ void append_without_trailing_commas(std::string_view statement, std::string& out
   }
 }
 
+void append_instance(std::string_view statement, std::string& out) {
+  const std::size_t value = statement.find('=') + 1;
+  const std::optional<std::string> simple =
+      value > 0 && statement.ends_with(';')
+          ? simple_spline(statement.substr(value, statement.size() - value - 1))
+          : std::nullopt;
+  if (!simple) return append_without_trailing_commas(statement, out);
+  out += statement.substr(0, value);
+  append_without_trailing_commas(*simple, out);
+  out += ';';
+}
+
 std::string tolerant_step(std::string_view text) {
   std::string out;
   out.reserve(text.size());
@@ -95,7 +108,7 @@ std::string tolerant_step(std::string_view text) {
     if (is_data)
       (out += statement.substr(0, keyword.data() + keyword.size() - statement.data())) += ';';
     else
-      append_without_trailing_commas(statement, out);
+      append_instance(statement, out);
   }
   return out += end_of_section;
 }

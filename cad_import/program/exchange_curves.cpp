@@ -31,6 +31,7 @@
 #include "cad_import/step/representations.h"
 #include "cad_import/step/step_instances.h"
 #include "cad_import/step/step_units.h"
+#include "cad_import/step/supplemental_geometry.h"
 
 namespace nurbeam {
 namespace {
@@ -246,6 +247,7 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     STEPControl_Reader reader;
     if (reader.ReadFile(MemoryFile(content).path().c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");
+    join_supplemental_geometry(reader);
     reader.TransferRoots();
     StepInstances step(content);
     Exchanged result;

@@ -11,9 +11,12 @@
 #include <Interface_InterfaceModel.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_ProductDefinition.hxx>
 #include <StepData_UndefinedEntity.hxx>
+#include <StepGeom_Circle.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepGeom_Pcurve.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepShape_EdgeCurve.hxx>
@@ -34,8 +37,10 @@
 #include "cad_import/iges/hyperbola.h"
 #include "cad_import/occt/spline_defect.h"
 #include "cad_import/program/array_curves.h"
+#include "cad_import/program/part_names.h"
 #include "cad_import/program/step_curve.h"
 #include "cad_import/step/step_units.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -176,6 +181,17 @@ std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph&
   return std::nullopt;
 }
 
+// Why OpenCASCADE makes no curve of a circle, or of a piece of one.
+std::string refusal_of(const Entity& entity, const Standard_Failure& failure) {
+  const auto piece = Handle(StepGeom_TrimmedCurve)::DownCast(entity);
+  const auto circle =
+      Handle(StepGeom_Circle)::DownCast(piece.IsNull() ? entity : Entity(piece->BasisCurve()));
+  if (!circle.IsNull() && !(circle->Radius() > 0))
+    return "its radius is " + text_of(circle->Radius()) + "; it must be positive";
+  const std::string why = failure.GetMessageString();
+  return "OpenCASCADE makes no curve of its numbers" + (why.empty() ? "" : ": " + why);
+}
+
 std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reader& reader, double unit,
                                      double tolerance) {
   if (is_array(entity))
@@ -198,8 +214,7 @@ std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_R
       report.curves.push_back(std::move(curve));
     return std::nullopt;
   } catch (const Standard_Failure& e) {
-    return std::string("OpenCASCADE makes no curve of it: ") + e.DynamicType()->Name() + " " +
-           e.GetMessageString();
+    return refusal_of(entity, e);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
@@ -207,17 +222,31 @@ std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_R
   }
 }
 
+// The part of a file that has one only; "" of others.
+std::string only_part(const Interface_InterfaceModel& model) {
+  std::string part;
+  for (int i = 1, count = 0; i <= model.NbEntities(); ++i)
+    if (const auto definition = Handle(StepBasic_ProductDefinition)::DownCast(model.Value(i)))
+      part = ++count == 1 ? product_name(definition) : "";
+  return part;
+}
+
 }  // namespace
 
 LostCurves add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
   const bool placed = is_one_part(model);
+  const std::string part = only_part(model);
   int unnamed = 0, named = 0;
   LostCurves found;
   for (const Entity& entity : lost_curves(reader)) {
     const std::size_t first = report.curves.size();
     const std::optional<std::string> why = placed ? add_curves_of(entity, reader, tolerance, report)
                                                   : "its place or its unit in the assembly is not known";
+    for (std::size_t i = first; i < report.curves.size(); ++i) {
+      report.curves[i].part = part;
+      if (report.curves[i].name.empty()) report.curves[i].name = part;
+    }
     if (!why) {
       found.recovered.emplace(entity.get(), first);
       continue;

@@ -62,6 +62,7 @@
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/brep_text.h"
+#include "cad_import/program/damaged_entities.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/external_parts.h"
 #include "cad_import/program/lost_curves.h"
@@ -69,6 +70,7 @@
 #include "cad_import/program/part_names.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
+#include "cad_import/step/supplemental_geometry.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
@@ -218,31 +220,6 @@ void check_syntax(const Interface_InterfaceModel& model) {
   }
 }
 
-// Whether numbers of a curve may be lost with what OpenCASCADE could not read in the entity: not with a name.
-bool matters(const Standard_Transient& entity, std::string_view failure) {
-  const bool step = !entity.IsKind(STANDARD_TYPE(IGESData_IGESEntity));
-  const std::string_view type = entity.DynamicType()->Name();
-  const bool lost = type == "StepShape_GeometricSet" || type == "StepShape_GeometricCurveSet";
-  const bool geometry = lost || type.starts_with("StepGeom_");
-  return !step || (geometry && failure.find("(name)") == std::string_view::npos);
-}
-
-// Entities that are there in part only: OpenCASCADE goes on with zeros.
-void add_damaged_entities(const Interface_InterfaceModel& model, ImportReport& report) {
-  int count = 0;
-  for (int i = 1; i <= model.NbEntities(); ++i) {
-    const Handle(Interface_Check) check = model.Check(i, /*syntactic=*/Standard_True);
-    if (!check->HasFailed() || !matters(*model.Value(i), check->CFail(1))) continue;
-    if (++count > most_reported_failures) continue;
-    add_diagnostic(report, Severity::warning, entity_label(model, model.Value(i)),
-                   std::string("damaged, and curves made of it may be wrong: ") + check->CFail(1));
-  }
-  if (count > most_reported_failures) {
-    add_diagnostic(report, Severity::warning, "",
-                   std::to_string(count - most_reported_failures) + " more damaged entities");
-  }
-}
-
 // OpenCASCADE computes for minutes with numbers that no drawing holds.
 void check_coordinates(const Interface_InterfaceModel& model) {
   constexpr double largest = 1e15;  // in units of the file
@@ -262,7 +239,7 @@ void read(XSControl_Reader& reader, const std::string& content, ImportReport& re
     throw std::runtime_error("OpenCASCADE cannot read it: the syntax is damaged; export or copy it again");
   check_syntax(*reader.Model());
   check_coordinates(*reader.Model());
-  add_damaged_entities(*reader.Model(), report);
+  add_damaged_entities(*reader.Model(), content, report);
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -330,6 +307,7 @@ void read_step(const std::string& content, double tolerance, const ReadFile& rea
   STEPControl_Reader reader;
   read(reader, content, report);
   report_step_unit(*reader.Model(), report);
+  join_supplemental_geometry(reader);
   transfer(reader, tolerance, report);
   add_external_parts(reader, read_other, report);
   note_hidden(report);

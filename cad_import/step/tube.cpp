@@ -25,7 +25,6 @@
 #include <gp_Ax22d.hxx>
 #include <gp_Circ.hxx>
 #include <gp_Circ2d.hxx>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -33,100 +32,15 @@
 
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/millimetres.h"
+#include "cad_import/step/tube_panels.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
 
-/// The curve at one node of the surface, and the section there, whose axes turn about the tangent at the rate
-/// of `twist`.
-struct Node {
-  double parameter;
-  Eigen::Vector3d centre, rate, acceleration;  // derivatives in the parameter
-  Eigen::Vector3d across = Eigen::Vector3d::Zero(), along = across, forward = across;  // of the section
-  double twist = 0;
-  // How far forward a point of the section is, per its distance across and along, and the rate of that.
-  Eigen::Vector2d lean = Eigen::Vector2d::Zero(), lean_rate = Eigen::Vector2d::Zero();
-
-  Eigen::Vector3d tangent() const { return rate.normalized(); }
-  Eigen::Vector3d tangent_rate() const {
-    const Eigen::Vector3d t = tangent();
-    return (acceleration - t * t.dot(acceleration)) / rate.norm();
-  }
-  void set_section(const Eigen::Vector3d& direction) {
-    across = (direction - tangent() * tangent().dot(direction)).normalized();
-    along = tangent().cross(across);
-    forward = tangent();
-  }
-};
-
-/// A piece of the surface, between two nodes of one span.
-struct Panel {
-  Node from, to;
-};
-
-/// The panels of all spans, and the numbers of those that begin a face: each is of one span. Those that begin
-/// a run, and the end of all.
-struct Panels {
-  std::vector<Panel> all;
-  std::vector<std::size_t> faces, runs;
-
-  std::span<const Panel> of_face(std::size_t f) const {
-    const std::size_t end = f + 1 < faces.size() ? faces[f + 1] : all.size();
-    return {all.data() + faces[f], end - faces[f]};
-  }
-};
-
-Node node_at(const NurbsCurve& span, double u) {
-  const Eigen::Matrix3Xd d = span.derivatives(u, 2);
-  return {.parameter = u, .centre = d.col(0), .rate = d.col(1), .acceleration = d.col(2)};
-}
-
-/// How far the cubic of a panel is from the curve, midway.
-double deviation(const NurbsCurve& span, const Panel& panel) {
-  const double h = panel.to.parameter - panel.from.parameter;
-  const Eigen::Vector3d middle =
-      0.5 * (panel.from.centre + panel.to.centre) + h / 8 * (panel.from.rate - panel.to.rate);
-  return (middle - span.point(panel.from.parameter + 0.5 * h)).norm();
-}
-
-/// So many panels that each turns little and is near to the curve.
-std::vector<Panel> panels_of(const NurbsCurve& span, double radius, double longest) {
-  constexpr double most_turn = 0.03;  // [rad]
-  constexpr int most = 1024;
-  const double a = span.knots().start(), length = span.knots().end() - a;
-  for (int count = 1;; count *= 2) {
-    std::vector<Panel> panels;
-    bool fine = true;
-    for (int i = 0; i < count; ++i) {
-      panels.push_back({node_at(span, a + length * i / count), node_at(span, a + length * (i + 1) / count)});
-      const Node &from = panels.back().from, &to = panels.back().to;
-      const double turn = std::max(from.tangent_rate().norm(), to.tangent_rate().norm()) * length / count;
-      fine = fine && turn <= most_turn && deviation(span, panels.back()) <= 1e-8 * radius &&
-             (to.centre - from.centre).norm() <= longest;
-    }
-    if (fine || count >= most) return panels;
-  }
-}
-
-Panels panels_of(const Spine& spine, double radius) {
-  constexpr std::size_t most_in_face = 16;
-  constexpr double anything = std::numeric_limits<double>::infinity();
-  Panels panels;
-  for (const Run& run : spine.runs) {
-    panels.runs.push_back(panels.all.size());
-    for (const NurbsCurve& span : run.spans) {
-      const std::vector<Panel> own =
-          panels_of(span, radius, run.before || run.after ? 0.5 * radius : anything);
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        if (i % most_in_face == 0) panels.faces.push_back(panels.all.size());
-        panels.all.push_back(own[i]);
-      }
-    }
-  }
-  panels.runs.push_back(panels.all.size());
-  return panels;
-}
+using tubes::Node;
+using tubes::Panel;
+using tubes::Panels;
 
 /// A direction carried from one place to the next with the least turn about the tangent (double reflection:
 /// Wang and others, 2008).
@@ -207,7 +121,7 @@ void lean_into_mitres(std::span<Panel> panels, const Run& run, double radius) {
     const Eigen::Vector3d normal = corner.tangent() + *other;
     const Eigen::Vector2d lean =
         -Eigen::Vector2d(normal.dot(corner.across), normal.dot(corner.along)) / normal.dot(corner.tangent());
-    const double reach = std::min(length, 6 * radius * lean.norm());
+    const double reach = std::min(length, tubes::reach_of_lean(lean.norm(), radius));
     if (!(1.875 * radius * lean.norm() < 0.9 * reach))  // its steepest slope
       throw std::runtime_error("there is no room for a section of this radius to turn into its corner at " +
                                text_of(corner.centre));
@@ -304,7 +218,7 @@ TopoDS_Shell sewn(BRepBuilderAPI_Sewing& sewing) {
 }  // namespace
 
 TopoDS_Shape tube(const Spine& spine, double radius, double bore) {
-  Panels panels = panels_of(spine, radius);
+  Panels panels = tubes::panels_of(spine, radius);
   add_sections(panels, spine);
   for (std::size_t r = 0; r < spine.runs.size(); ++r)
     lean_into_mitres({panels.all.data() + panels.runs[r], panels.runs[r + 1] - panels.runs[r]}, spine.runs[r],

@@ -57,19 +57,4 @@ class BodyOnPoint {
   std::vector<int> dofs_;
 };
 
-/// What a sliding joint asks for as it is carried in this mesh. `held`: its place is held where the plan has
-/// it.
-template <int D, class Add>
-void bind_joint(int j, bool held, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
-  const JointMode mode = at.mesh.plan.modes[j];
-  if (mode == JointMode::free) return;
-  if (mode != JointMode::node) add(BodyOnPoint<D>(at, drawn, j));
-  const SlidingJoint& joint = at.structure.joints[j];
-  const int place = at.mesh.joints[j].place;
-  if (mode == JointMode::stopped || held || at.mesh.plan.holds(j))
-    add(HeldPlace<D>(place, at.mesh.plan.places[j]));
-  else if (joint.motion)
-    add(HeldPlace<D>(place, *joint.motion));
-}
-
 }  // namespace nurbeam

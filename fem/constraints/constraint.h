@@ -2,23 +2,20 @@
 #include <type_traits>
 #include <variant>
 
-#include "fem/constraints/body_on_point.h"
+#include "fem/constraints/bind_joint.h"
 #include "fem/constraints/corner_angle.h"
-#include "fem/constraints/held_place.h"
 #include "fem/constraints/joined_points.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/constraints/support.h"
 
 /// The lists of constraints: all that has to be said of a new one outside its own file.
 ///
-/// A description (Support, ...) offers bind<D>(description, at, drawn, add), which adds the constraints that
-/// it means in a mesh. Such a constraint offers `rows` (at most D), dofs() (global coordinates, -1 for none,
-/// at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the Hessian contracted with y
-/// where that is not null, and, if it has them, rate(t) and acceleration(t) (dg/dt, d2g/dt2 at fixed q) and
-/// `linear` (no Hessian).
+/// A description (Constraint: Support, ...) offers bind<D>(description, at, drawn, add), which adds the
+/// constraints that it means in a mesh. Such a constraint offers `rows` (at most D), dofs() (global
+/// coordinates, -1 for none, at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the
+/// Hessian contracted with y where that is not null, and, if it has them, rate(t) and acceleration(t) (dg/dt,
+/// d2g/dt2 at fixed q) and `linear` (no Hessian).
 namespace nurbeam {
-
-using Constraint = std::variant<Support, BeamJoint>;
 
 /// In either dimension, and `Others` besides.
 template <int D, class... Others>
@@ -26,6 +23,9 @@ using ConstraintList = std::variant<HeldPosition<D>, HeldDirection<D>, HeldPlace
                                     JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>, Others...>;
 template <int D>
 using BoundConstraint =
-    std::conditional_t<D == 3, ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections>, ConstraintList<D>>;
+    std::conditional_t<D == 3,
+                       ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
+                                      BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>>,
+                       ConstraintList<D>>;
 
 }  // namespace nurbeam

@@ -1,24 +1,12 @@
 #pragma once
-#include <string>
-
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_axis.h"
 #include "fem/constraints/joined_sections.h"
 #include "fem/constraints/joined_slopes.h"
 #include "fem/mesh/point_on_beam.h"
+#include "fem/structure/beam_joint.h"
 
 namespace nurbeam {
-
-/// Joins two beams at a place of each, which no body slides over: their material points there stay together
-/// (at the distance they have in the drawing).
-struct BeamJoint {
-  int beam_a;
-  double s_a;  ///< [m]
-  int beam_b;
-  double s_b;          ///< [m]
-  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle), or where both beams have
-                       ///< torsion the orientation of their sections (JoinedSections); else a hinge
-  std::string name = {};
-};
 
 /// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.
 template <int D>
@@ -59,14 +47,15 @@ class JoinedPoints {
 template <int D, class Add>
 void bind(const BeamJoint& joint, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
   add(JoinedPoints<D>(at, drawn, joint));
-  if (!joint.rigid) return;
   const auto& beams = at.structure.beams;
   if constexpr (D == 3)
     if (beams[joint.beam_a].has_torsion() && beams[joint.beam_b].has_torsion()) {
-      add(JoinedSections(NodeSection::at(at, drawn, joint.beam_a, joint.s_a),
-                         NodeSection::at(at, drawn, joint.beam_b, joint.s_b)));
-      return;
+      const auto a = [&] { return NodeSection::at(at, drawn, joint.beam_a, joint.s_a); };
+      const auto b = [&] { return NodeSection::at(at, drawn, joint.beam_b, joint.s_b); };
+      if (joint.rigid) return add(JoinedSections(a(), b()));
+      if (joint.axis) return add(HeldAxis(b(), a(), *joint.axis));
     }
+  if (!joint.rigid) return;
   add(JoinedSlopes<D>(PointPair<D>(at, drawn, joint.beam_a, joint.s_a, joint.beam_b, joint.s_b),
                       HeldAngle<D>::drawn(beams[joint.beam_a].curve.tangent(joint.s_a),
                                           beams[joint.beam_b].curve.tangent(joint.s_b))));

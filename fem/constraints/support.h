@@ -1,24 +1,12 @@
 #pragma once
-#include <optional>
-#include <string>
-
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_axis.h"
 #include "fem/constraints/held_roll.h"
 #include "fem/mesh/point_on_beam.h"
-#include "fem/structure/displacement_table.h"
+#include "fem/structure/support.h"
 
 namespace nurbeam {
-
-/// Holds a place of a beam where it is drawn, or moves it from there.
-struct Support {
-  int beam;
-  double s;              ///< [m]
-  bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
-  bool fork = false;     ///< position and roll of the section, of a beam with torsion
-  std::string name = {};
-  std::optional<DisplacementTable> motion = {};  ///< from the drawn position, scaled as loads by State::load
-};
 
 /// r(s) = r_0(s) + d(t): D rows.
 template <int D>
@@ -69,6 +57,7 @@ void bind(const Support& support, const MeshedBeams<D>& at, const Eigen::VectorX
     if (!at.structure.beams[support.beam].has_torsion()) return;
     if (support.clamped) add(ClampedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
     if (support.fork) add(ForkedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
+    if (support.axis) add(HeldAxis(NodeSection::at(at, drawn, support.beam, support.s), *support.axis));
   }
 }
 

@@ -11,36 +11,51 @@ auto TwistElement::fields(const Reduced<T>& x) const -> twist::Fields<T, points>
   return twist::fields_of<T>(drawing_, charts_, turn_, x);
 }
 
-template <class T>
-auto TwistElement::strain_rates(const Reduced<T>& q, const Reduced<T>& v) const
-    -> std::array<SectionStrain<T>, points> {
-  const auto moving = fields<Dual<1, T>>(twist::moving<T>(q, v));
-  std::array<SectionStrain<T>, points> rates;
-  for (int g = 0; g < points; ++g) {
-    const twist::PointField<Dual<1, T>>& p = moving.at[g];
-    rates[g] = {p.k1.d[0], p.k2.d[0], p.gamma.d[0]};
-  }
+namespace {
+
+std::array<SectionStrain<double>, GaussRule::size> rates_of(
+    const twist::Fields<Dual<1>, GaussRule::size>& moving) {
+  std::array<SectionStrain<double>, GaussRule::size> rates;
+  for (int g = 0; g < GaussRule::size; ++g)
+    rates[g] = {moving.at[g].k1.d[0], moving.at[g].k2.d[0], moving.at[g].gamma.d[0]};
   return rates;
 }
 
-template <class T>
-TwistElement::Reduced<T> TwistElement::section_force(const Reduced<T>& q, const Reduced<T>& v) const {
-  const twist::Fields<T, points> at = fields<T>(q);
-  const double damping = properties_->damping;
-  std::array<SectionStrain<T>, points> rates{};
-  if (damping > 0) rates = strain_rates<T>(q, v);
-  std::array<SectionMoments<T>, points> moments;
+}  // namespace
+
+// Elastic, and viscous ones where the element moves.
+twist::Moments TwistElement::section_moments_at(const FixedFields& at,
+                                                const twist::Viscosity* viscous) const {
+  std::array<SectionStrain<double>, points> rates{};
+  const double damping = viscous ? viscous->damping : 0;
+  if (viscous) rates = rates_of(viscous->moving);
+  twist::Moments moments;
   for (int g = 0; g < points; ++g) {
-    SectionStrain<T> strain{at.at[g].k1 - drawing_.points[g].k1, at.at[g].k2 - drawing_.points[g].k2,
-                            at.at[g].gamma};
-    if (damping > 0) {
+    SectionStrain<double> strain{at.at[g].k1 - drawing_.points[g].k1, at.at[g].k2 - drawing_.points[g].k2,
+                                 at.at[g].gamma};
+    if (viscous) {
       strain.bend_1 += damping * rates[g].bend_1;
       strain.bend_2 += damping * rates[g].bend_2;
       strain.twist += damping * rates[g].twist;
     }
-    moments[g] = section_moments<T>(*properties_->sections, strain);
+    moments[g] = section_moments<double>(*properties_->sections, strain);
   }
-  return twist::gradient_of<T>(drawing_, charts_, at, moments, T(0.0));
+  return moments;
+}
+
+// What damps, where something does.
+std::optional<twist::Viscosity> TwistElement::viscosity(const Reduced<double>& q,
+                                                        const Reduced<double>& v) const {
+  if (!(properties_->damping > 0)) return {};
+  return twist::Viscosity{fields<Dual<1>>(twist::moving<double>(q, v)), properties_->damping};
+}
+
+TwistElement::Reduced<double> TwistElement::section_force(const Reduced<double>& q,
+                                                          const Reduced<double>& v) const {
+  const FixedFields at = fields<double>(q);
+  const std::optional<twist::Viscosity> viscous = viscosity(q, v);
+  return twist::gradient_of<double>(drawing_, charts_, at,
+                                    section_moments_at(at, viscous ? &*viscous : nullptr), 0.0);
 }
 
 // With the spins of both ends and the bubble's rate w, p = M w.
@@ -59,20 +74,21 @@ TwistElement::Reduced<double> TwistElement::spin_force(const Reduced<double>& q,
 TwistElement::Coordinates TwistElement::fixed_force(const TwistState& x) const {
   const auto q = twist::reduced_of<fixed_rows>(x.q), v = twist::reduced_of<fixed_rows>(x.v),
              a = twist::reduced_of<fixed_rows>(x.a);
-  const Reduced<double> force = section_force<double>(q, v) + spin_force(q, v, a);
+  const Reduced<double> force = section_force(q, v) + spin_force(q, v, a);
   return twist::spread_out<fixed_rows>(force);
 }
 
 TwistElement::Matrix TwistElement::fixed_tangent(const TwistState& x, const TangentWeights& w) const {
-  using D = Dual<fixed_rows>;
   const auto q = twist::reduced_of<fixed_rows>(x.q), v = twist::reduced_of<fixed_rows>(x.v),
              a = twist::reduced_of<fixed_rows>(x.a);
   Eigen::Matrix<double, fixed_rows, fixed_rows> K = twist::spin_tangent(charts_, spin_mass_, q, v, a, w);
-  if (properties_->damping > 0 && (w.stiffness != 0 || w.damping != 0))
-    K += twist::derivatives<fixed_rows>(section_force<D>(twist::variables<fixed_rows, double>(q, w.stiffness),
-                                                         twist::variables<fixed_rows, double>(v, w.damping)));
-  else if (w.stiffness != 0)
-    K += w.stiffness * twist::stiffness_of(drawing_, charts_, *properties_->sections, fields<double>(q));
+  const std::optional<twist::Viscosity> viscous = viscosity(q, v);
+  if (w.stiffness != 0 || (viscous && w.damping != 0)) {
+    const FixedFields at = fields<double>(q);
+    const twist::Viscosity* const damps = viscous ? &*viscous : nullptr;
+    K += twist::section_tangent(drawing_, charts_, *properties_->sections, at, section_moments_at(at, damps),
+                                w, damps);
+  }
   return twist::spread_out<fixed_rows>(K);
 }
 
@@ -81,7 +97,7 @@ TwistEnergy TwistElement::fixed_energy(const TwistState& x) const {
   const FixedFields at = fields<double>(q);
   TwistEnergy sum;
   std::array<SectionStrain<double>, points> rates{};
-  if (properties_->damping > 0) rates = strain_rates<double>(q, v);
+  if (const auto viscous = viscosity(q, v)) rates = rates_of(viscous->moving);
   for (int g = 0; g < points; ++g)
     sum.add({at.at[g].k1 - drawing_.points[g].k1, at.at[g].k2 - drawing_.points[g].k2, at.at[g].gamma},
             rates[g], drawing_.weights[g], *properties_);

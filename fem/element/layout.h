@@ -20,6 +20,18 @@ struct ElementLayout {
   static Nodes nodes(const Coordinates& q) { return Eigen::Map<const Nodes>(q.data()); }
 };
 
+/// Where the coordinates of an element with torsion stand: those of ElementLayout<3>, then the angles of the
+/// sections at both ends in their charts, then the bubble of twist.
+struct TwistLayout : ElementLayout<3> {
+  static constexpr int first = ElementLayout<3>::size;
+  static constexpr int angle(int end) { return first + end; }
+  static constexpr int bubble = first + 2;
+  static constexpr int size = first + 3;
+
+  using Coordinates = Eigen::Matrix<double, size, 1>;
+  using Matrix = Eigen::Matrix<double, size, size>;
+};
+
 template <int D>
 inline constexpr int element_size = ElementLayout<D>::size;
 template <int D>

@@ -1,5 +1,7 @@
 #include "fem/element/twist_drawing.h"
 
+#include <type_traits>
+
 namespace nurbeam::twist {
 
 namespace {
@@ -19,17 +21,53 @@ PlaceSeries variable(double value, int index) {
 }
 
 // A function of s, by its derivatives where s is.
-PlaceSeries along(const std::array<double, 3>& f, const PlaceSeries& s) {
-  const PlaceSeries step = s - plain(s);
-  return PlaceSeries(f[0]) + f[1] * step + (f[2] / 2) * (step * step);
+template <class P>
+P along(const std::array<double, 3>& f, const P& s) {
+  const P step = s - plain(s);
+  return P(f[0]) + f[1] * step + (f[2] / 2) * (step * step);
 }
-Vector3<PlaceSeries> along(const std::array<Eigen::Vector3d, 3>& f, const PlaceSeries& s) {
-  Vector3<PlaceSeries> y;
-  for (int d = 0; d < 3; ++d) y[d] = along({f[0][d], f[1][d], f[2][d]}, s);
+template <class P>
+Vector3<P> along(const std::array<Eigen::Vector3d, 3>& f, const P& s) {
+  Vector3<P> y;
+  for (int d = 0; d < 3; ++d) y[d] = along<P>({f[0][d], f[1][d], f[2][d]}, s);
   return y;
 }
-SectionTriad<PlaceSeries> triad_along(const DrawnSectionSeries& section, const PlaceSeries& s) {
+template <class P>
+SectionTriad<P> triad_along(const DrawnSectionSeries& section, const P& s) {
   return {along(section.d1, s), along(section.d2, s), along(section.t, s)};
+}
+
+// A series in both places as one in these and a third, which it does not vary with, and by its derivatives by
+// that, series too, where it does.
+SlidingSeries by_third(const Jet& f, const Jet& slope, double second) {
+  SlidingSeries y;
+  y.value.value = f.value();
+  for (int i = 0; i < 2; ++i) {
+    y.value.d[i] = y.d[i].value = f.d(i);
+    for (int j = 0; j < 2; ++j) y.d[i].d[j] = f.d(i, j);
+    y.d[i].d[2] = y.d[2].d[i] = slope.d(i);
+  }
+  y.value.d[2] = y.d[2].value = slope.value();
+  y.d[2].d[2] = second;
+  return y;
+}
+template <class P>
+P widened(const PlaceSeries& f) {
+  if constexpr (std::is_same_v<P, PlaceSeries>) return f;
+  P y;
+  y.value.value = f.value.value;
+  for (int i = 0; i < 2; ++i) {
+    y.value.d[i] = y.d[i].value = f.value.d[i];
+    for (int j = 0; j < 2; ++j) y.d[i].d[j] = f.d[i].d[j];
+  }
+  return y;
+}
+template <class P>
+SectionTriad<P> widened(const SectionTriad<PlaceSeries>& a) {
+  const auto each = [](const Vector3<PlaceSeries>& x) {
+    return Vector3<P>(widened<P>(x[0]), widened<P>(x[1]), widened<P>(x[2]));
+  };
+  return {each(a.d1), each(a.d2), each(a.t)};
 }
 
 Vector3<PlaceSeries> on_reduced(const std::array<Jet, 4>& row) {
@@ -111,23 +149,46 @@ void DrawnElement::set_axis(const Jet& s, AnyPoint<PlaceSeries>& p) const {
   p.S2 = on_reduced(shape.d2);
 }
 
-Eigen::Matrix<PlaceSeries, Eigen::Dynamic, 1> DrawnElement::transport(const PlaceSeries& s) const {
+template <class P>
+Eigen::Matrix<P, Eigen::Dynamic, 1> DrawnElement::transport(const P& s) const {
   constexpr int n = GaussRule::size;
-  Eigen::Matrix<PlaceSeries, Eigen::Dynamic, 1> row(static_cast<Eigen::Index>(places_.size()));
+  Eigen::Matrix<P, Eigen::Dynamic, 1> row(static_cast<Eigen::Index>(places_.size()));
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const auto& [lo, hi] = parts_[i];
+    const P lo = widened<P>(parts_[i].lo), hi = widened<P>(parts_[i].hi);
     const bool behind = i + 1 < parts_.size() && plain(s) >= plain(hi), ahead = i > 0 && plain(s) < plain(lo);
     for (int j = 0; j < n; ++j) {
-      PlaceSeries& at = row[static_cast<Eigen::Index>(i * n + j)];
+      P& at = row[static_cast<Eigen::Index>(i * n + j)];
       if (ahead)
         at = 0.0;
       else if (behind)
         at = (hi - lo) * GaussRule::weights[j];
       else
-        at = (hi - lo) * integrated_lagrange(j, PlaceSeries((s - lo) / (hi - lo)));
+        at = (hi - lo) * integrated_lagrange(j, P((s - lo) / (hi - lo)));
     }
   }
   return row;
+}
+
+// Of the drawn section at s against A, less transport.
+template <class P>
+P DrawnElement::angle(const DrawnSectionSeries& here, const P& s,
+                      const Eigen::Matrix<P, Eigen::Dynamic, 1>& transport) const {
+  P transported = 0.0;
+  for (Eigen::Index j = 0; j < rates_.size(); ++j) transported += transport[j] * widened<P>(rates_[j]);
+  const double near = curve_->section_turn(s_a_, plain(s)) + plain(transported);
+  return SectionTurn<P>(widened<P>(a_), triad_along<P>(here, s), near).angle - transported;
+}
+
+SlidingPoint DrawnElement::sliding_point(double place) const {
+  const SlidingSeries s = SlidingSeries::variable(Dual<3>::variable(place, 2), 2);
+  const ShapeFunctions<Jet> shape = basis_.at(Jet(place));
+  const auto S1 = [&](int k) { return by_third(shape.d1[k], shape.d2[k], shape.d3[k].value()); };
+  SlidingPoint p;
+  p.S1 = {S1(2), S1(1), S1(3)};
+  p.xi = (s - widened<SlidingSeries>(variable(s_a_, 0))) / widened<SlidingSeries>(drawing_.h);
+  p.transport = transport<SlidingSeries>(s);
+  p.angle = angle<SlidingSeries>(section(place, place > (s_a_ + s_b_) / 2), s, p.transport);
+  return p;
 }
 
 AnyPoint<PlaceSeries> DrawnElement::point(const Jet& at) const {
@@ -136,11 +197,8 @@ AnyPoint<PlaceSeries> DrawnElement::point(const Jet& at) const {
   AnyPoint<PlaceSeries> p;
   set_axis(at, p);
   p.xi = (s - variable(s_a_, 0)) / drawing_.h;
-  p.transport = transport(s);
-  PlaceSeries transported = 0.0;
-  for (Eigen::Index j = 0; j < rates_.size(); ++j) transported += p.transport[j] * rates_[j];
-  const double near = curve_->section_turn(s_a_, plain(s)) + plain(transported);
-  p.angle = SectionTurn<PlaceSeries>(a_, triad_along(here, s), near).angle - transported;
+  p.transport = transport<PlaceSeries>(s);
+  p.angle = angle<PlaceSeries>(here, s, p.transport);
   if (curve_->straight()) here.k1 = here.k2 = {};
   p.k1 = along(here.k1, s);
   p.k2 = along(here.k2, s);

@@ -16,6 +16,10 @@ Dual<N> at_places(const Dual<2>& f, const Dual<N>& a, const Dual<N>& b) {
   for (int k = 0; k < N; ++k) y.d[k] = f.d[0] * a.d[k] + f.d[1] * b.d[k];
   return y;
 }
+template <int N, class T>
+Dual<N, T> at_places(const Dual<2>& f, const Dual<N, T>& a, const Dual<N, T>& b) {
+  return f.value + f.d[0] * (a - plain(a)) + f.d[1] * (b - plain(b));
+}
 inline double at_places(const PlaceSeries& f, double, double) { return f.value.value; }
 template <int N, class T>
 Dual<N, T> at_places(const PlaceSeries& f, const Dual<N, T>& a, const Dual<N, T>& b) {
@@ -25,6 +29,17 @@ Dual<N, T> at_places(const PlaceSeries& f, const Dual<N, T>& a, const Dual<N, T>
   for (int k = 0; k < N; ++k) y.d[k] = by_a * a.d[k] + by_b * b.d[k];
   return y;
 }
+
+/// What varies with these places and that of a point in between: value, gradient and Hessian.
+using SlidingSeries = Dual<3, Dual<3>>;
+
+/// A point that moves over the material: what its section needs of Point.
+struct SlidingPoint {
+  SlidingSeries xi;
+  Vector3<SlidingSeries> S1;
+  Eigen::Matrix<SlidingSeries, Eigen::Dynamic, 1> transport;
+  SlidingSeries angle;
+};
 
 template <class P>
 using AnyPoint = Point<P, Eigen::Dynamic>;
@@ -59,13 +74,19 @@ class DrawnElement {
   double rate(int j) const { return plain(rates_[j]); }
   /// At the material point s, in between.
   AnyPoint<PlaceSeries> point(double s) const { return point(Jet(s)); }
+  /// At a place s in between that may move.
+  SlidingPoint sliding_point(double s) const;
 
  private:
   struct Part {
     PlaceSeries lo, hi;
   };
   DrawnSectionSeries section(double s, bool from_left) const;
-  Eigen::Matrix<PlaceSeries, Eigen::Dynamic, 1> transport(const PlaceSeries& s) const;
+  template <class P>
+  Eigen::Matrix<P, Eigen::Dynamic, 1> transport(const P& s) const;
+  template <class P>
+  P angle(const DrawnSectionSeries& here, const P& s,
+          const Eigen::Matrix<P, Eigen::Dynamic, 1>& transport) const;
   AnyPoint<PlaceSeries> point(const Jet& s) const;
   void set_axis(const Jet& s, AnyPoint<PlaceSeries>& p) const;
   void add_parts();

@@ -5,25 +5,15 @@
 
 #include "fem/element/beam_element.h"
 #include "fem/element/layout.h"
+#include "fem/element/placed_section.h"
 #include "fem/element/quadrature.h"
 #include "fem/element/section_frame.h"
 #include "fem/element/twist_drawing.h"
+#include "fem/element/twist_stiffness.h"
 #include "fem/material/section_moments.h"
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
-
-/// Where the coordinates of an element with torsion stand: those of ElementLayout<3>, then the angles of the
-/// sections at both ends in their charts, then the bubble of twist.
-struct TwistLayout : ElementLayout<3> {
-  static constexpr int first = ElementLayout<3>::size;
-  static constexpr int angle(int end) { return first + end; }
-  static constexpr int bubble = first + 2;
-  static constexpr int size = first + 3;
-
-  using Coordinates = Eigen::Matrix<double, size, 1>;
-  using Matrix = Eigen::Matrix<double, size, size>;
-};
 
 /// Coordinates and their rates.
 struct TwistState {
@@ -37,6 +27,15 @@ struct TwistEnergy {
   /// The strain energy and dissipation of a point of this weight [m].
   void add(const SectionStrain<double>& strain, const SectionStrain<double>& rate, double weight,
            const BeamProperties& properties);
+};
+
+/// A moment on a section [N m]: fixed in space, or with `follower` of fixed components along the section's
+/// axes, which are its own where it is drawn. With an arm y1 d1 + y2 d2 [m] it is that of a force `value`
+/// [N], fixed in space, at its end.
+struct SectionMoment {
+  Eigen::Vector3d value;
+  bool follower = false;
+  std::optional<Eigen::Vector2d> arm = {};
 };
 
 /// A section in motion, and what it carries.
@@ -110,12 +109,17 @@ class TwistElement {
     Eigen::Matrix<double, 3, TwistLayout::size> gradient;
   };
   TurnedWithSection turned(const Coordinates& q, double s, const Eigen::Vector3d& drawn) const;
-  /// Generalised force of a moment [N m] on the section at s, and its derivative in q. The moment is fixed in
-  /// space, or with `follower` has fixed components along the section's axes, which are its own where it is
-  /// drawn.
-  Coordinates moment_force(const Coordinates& q, double s, const Eigen::Vector3d& moment,
-                           bool follower) const;
-  Matrix moment_gradient(const Coordinates& q, double s, const Eigen::Vector3d& moment, bool follower) const;
+  /// The section at the place x.tail(1), for the coordinates before that.
+  PlacedSection placed(const PlacedSection::Coordinates<double>& x) const {
+    return {*curve_, chart_, charts_, turn_, x};
+  }
+  /// Generalised force of a moment on the section at s, and its derivative in q.
+  Coordinates moment_force(const Coordinates& q, double s, const SectionMoment& moment) const;
+  Matrix moment_gradient(const Coordinates& q, double s, const SectionMoment& moment) const;
+  /// Generalised force of a unit torque about the present tangent along the element [N m/m], and its
+  /// derivative in q.
+  Coordinates torque_force(const Coordinates& q) const;
+  Matrix torque_gradient(const Coordinates& q) const;
 
  private:
   static constexpr int points = GaussRule::size;
@@ -138,7 +142,10 @@ class TwistElement {
   At<double> at_place(const Coordinates& q, double s) const;
   template <class T, int n>
   Eigen::Matrix<T, n, 1> moment_on(const Eigen::Matrix<T, n, 1>& q, double s,
-                                   const Eigen::Vector3d& components, bool follower) const;
+                                   const SectionMoment& moment) const;
+  SectionMoment along_axes(double s, const SectionMoment& moment) const;
+  template <class T>
+  Reduced<T> fixed_torque(const Reduced<T>& q) const;
   template <int n>
   TurnedWithSection turned_on(const Coordinates& q, double s, const Eigen::Vector3d& components) const;
   Eigen::Vector3d drawn_components(double s, const Eigen::Vector3d& vector) const;
@@ -151,12 +158,11 @@ class TwistElement {
   template <class T>
   twist::Fields<T, points> fields(const Reduced<T>& x) const;
 
-  template <class T>
-  Reduced<T> section_force(const Reduced<T>& q, const Reduced<T>& v) const;
+  Reduced<double> section_force(const Reduced<double>& q, const Reduced<double>& v) const;
+  twist::Moments section_moments_at(const FixedFields& at, const twist::Viscosity* viscous) const;
+  std::optional<twist::Viscosity> viscosity(const Reduced<double>& q, const Reduced<double>& v) const;
   Reduced<double> spin_force(const Reduced<double>& q, const Reduced<double>& v,
                              const Reduced<double>& a) const;
-  template <class T>
-  std::array<SectionStrain<T>, points> strain_rates(const Reduced<T>& q, const Reduced<T>& v) const;
   Coordinates fixed_force(const TwistState& x) const;
   Matrix fixed_tangent(const TwistState& x, const TangentWeights& w) const;
   TwistEnergy fixed_energy(const TwistState& x) const;

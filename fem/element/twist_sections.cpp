@@ -63,7 +63,7 @@ double TwistElement::material_spin(const TwistState& x, double s) const {
 // - t_A . (t x dt)]/(1 + t . t_A): its rows are taken by dual numbers.
 template <class T, int n>
 Eigen::Matrix<T, n, 1> TwistElement::moment_on(const Eigen::Matrix<T, n, 1>& q, double s,
-                                               const Eigen::Vector3d& components, bool follower) const {
+                                               const SectionMoment& of) const {
   using D = Dual<n, T>;
   const At<D> at = at_place<D, n>(twist::variables<n, T>(q), s);
   const auto values = [](const Vector3<D>& y) { return Vector3<T>(y[0].value, y[1].value, y[2].value); };
@@ -71,10 +71,13 @@ Eigen::Matrix<T, n, 1> TwistElement::moment_on(const Eigen::Matrix<T, n, 1>& q, 
     return Vector3<T>(y[0].d[i], y[1].d[i], y[2].d[i]);
   };
   const Vector3<T> t = values(at.point.t), t_a = values(at.a.t), rs = values(at.point.rs);
-  Vector3<T> moment = components.cast<T>();
-  if (follower) {
+  Vector3<T> moment = of.value.cast<T>();
+  if (of.follower || of.arm) {
     const SectionTriad<T> a{values(at.a.d1), values(at.a.d2), t_a};
-    moment = carried_section<T>(a, t, at.point.alpha.value).matrix() * components.cast<T>();
+    const SectionTriad<T> section = carried_section<T>(a, t, at.point.alpha.value);
+    const Vector3<T> turned = of.arm ? Vector3<T>((*of.arm)[0] * section.d1 + (*of.arm)[1] * section.d2)
+                                     : Vector3<T>(section.matrix() * moment);
+    moment = of.arm ? Vector3<T>(turned.cross(moment)) : turned;
   }
   const Vector3<T> c_a = spin_row<T>(charts_[0], q.template segment<3>(twist::slope_a));
   const T along = moment.dot(t), opening = 1.0 + t.dot(t_a);
@@ -118,25 +121,28 @@ TwistElement::TurnedWithSection TwistElement::turned(const Coordinates& q, doubl
   return fixed() ? turned_on<fixed_rows>(q, s, components) : turned_on<moving_rows>(q, s, components);
 }
 
+SectionMoment TwistElement::along_axes(double s, const SectionMoment& moment) const {
+  return moment.follower ? SectionMoment{drawn_components(s, moment.value), true, {}} : moment;
+}
+
 TwistElement::Coordinates TwistElement::moment_force(const Coordinates& q, double s,
-                                                     const Eigen::Vector3d& moment, bool follower) const {
-  const Eigen::Vector3d components = follower ? drawn_components(s, moment) : moment;
+                                                     const SectionMoment& moment) const {
+  const SectionMoment along = along_axes(s, moment);
   const auto force = [&]<int n>(const Eigen::Matrix<double, n, 1>& x) {
-    return twist::spread_out<n>(moment_on<double, n>(x, s, components, follower));
+    return twist::spread_out<n>(moment_on<double, n>(x, s, along));
   };
   return fixed() ? force(twist::reduced_of<fixed_rows>(q)) : force(twist::reduced_of<moving_rows>(q));
 }
 
 TwistElement::Matrix TwistElement::moment_gradient(const Coordinates& q, double s,
-                                                   const Eigen::Vector3d& moment, bool follower) const {
-  const Eigen::Vector3d components = follower ? drawn_components(s, moment) : moment;
+                                                   const SectionMoment& moment) const {
+  const SectionMoment along = along_axes(s, moment);
   // Column by column: duals of many variables of many variables take long.
   const auto gradient = [&]<int n>(const Eigen::Matrix<double, n, 1>& x) {
     Eigen::Matrix<double, n, n> K;
     for (int j = 0; j < n; ++j) {
       const Eigen::Matrix<double, n, 1> direction = Eigen::Matrix<double, n, 1>::Unit(j);
-      const auto force =
-          moment_on<Dual<1>, n>(twist::moving<double, n>(x, direction), s, components, follower);
+      const auto force = moment_on<Dual<1>, n>(twist::moving<double, n>(x, direction), s, along);
       for (int i = 0; i < n; ++i) K(i, j) = force[i].d[0];
     }
     return twist::spread_out<n>(K);

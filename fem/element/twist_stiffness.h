@@ -1,14 +1,25 @@
 #pragma once
-#include "fem/element/quadrature.h"
 #include "fem/element/twist_kinematics.h"
 #include "fem/material/section.h"
+#include "solver/second_order_system.h"
 
 namespace nurbeam::twist {
 
-/// The second derivative of the strain energy of an element whose ends are fixed by its reduced coordinates.
-Eigen::Matrix<double, reduced, reduced> stiffness_of(const Drawing<double, GaussRule::size>& drawing,
-                                                     const std::array<Eigen::Matrix3d, 2>& charts,
-                                                     const SectionStiffness& section,
-                                                     const Fields<double, GaussRule::size>& fields);
+using Moments = std::array<SectionMoments<double>, GaussRule::size>;
+
+/// What damps: the fields along the motion, and the time c of the moments c C de/dt.
+struct Viscosity {
+  Fields<Dual<1>, GaussRule::size> moving;
+  double damping;
+};
+
+/// The tangent of gradient_of the elastic and viscous moments C (e + c de/dt) of fixed ends, in closed form;
+/// `viscous`: none where nothing damps.
+Eigen::Matrix<double, reduced, reduced> section_tangent(const Drawing<double, GaussRule::size>& drawing,
+                                                        const std::array<Eigen::Matrix3d, 2>& charts,
+                                                        const SectionStiffness& section,
+                                                        const Fields<double, GaussRule::size>& fields,
+                                                        const Moments& moments, const TangentWeights& w,
+                                                        const Viscosity* viscous);
 
 }  // namespace nurbeam::twist

@@ -13,6 +13,8 @@ struct LoadAtPlace {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N] or [N m]
   bool follower = false;  ///< turns with the tangent, of a beam with torsion with the section
   TimeTable time = {};    ///< factor
+  /// Of a force on a beam with torsion: of where it acts from the axis, along d1 and d2 [m].
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
 }  // namespace nurbeam

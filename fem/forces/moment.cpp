@@ -32,12 +32,18 @@ double Moment::work(const MeshedBeams<D>& at, const State& from, const State& to
   if constexpr (D == 3)
     if (works_on_section(*this, on_section, at.structure))
       return section_load_work(*this, on_section, at, from, to);
+  std::optional<int> element;  // of the first state
+  bool handed_over = false;
   const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
     const auto p = LoadedPoint<D>::of(*this, at, state);
     if (!p) return std::nullopt;
+    handed_over = p->element != element.value_or(p->element);
+    element = p->element;
     return LoadedField<D>(*p, p->rs, moment_on_slope(p->vector, widened<D>(p->rs.value)), at, state);
   };
-  return load_work<D>(loaded(from), loaded(to), speed != 0, to.t - from.t);
+  const auto before = loaded(from), after = loaded(to);
+  // A body that passes with a kink hands the moment over to another slope, which is no motion.
+  return load_work<D>(before, after, speed != 0 || handed_over, to.t - from.t);
 }
 
 template <int D>

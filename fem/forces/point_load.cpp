@@ -21,6 +21,16 @@ std::optional<LoadedPoint<D>> LoadedPoint<D>::of(const LoadAtPlace& load, const 
   return LoadedPoint{index, local, shape, rs, vector, state.load * value_and_slope(load.time, state.t).first};
 }
 
+namespace {
+
+Eigen::Vector3d section_arm(const MeshElement<3>& e, const State& state, double s,
+                            const Eigen::Vector2d& offset) {
+  const SectionTriad<double> triad = e.twist->element.section(gather_twist(e, state.q), s).triad;
+  return offset[0] * triad.d1 + offset[1] * triad.d2;
+}
+
+}  // namespace
+
 template <int D>
 void LoadedPoint<D>::add_force(const MeshedBeams<D>& at, const PointField<D>& loaded, const TurnedVector& f,
                                Eigen::Ref<Eigen::VectorXd> dynamics) const {
@@ -94,8 +104,13 @@ std::optional<LoadTangent<D>> PointLoad::tangent(const MeshedBeams<D>& at, const
 template <int D>
 void PointLoad::add_actions(const MeshedBeams<D>& at, const State& state,
                             std::vector<PointAction>& actions) const {
-  if (const auto p = LoadedPoint<D>::of(*this, at, state))
-    actions.push_back({.element = p->element, .s = p->s, .force = p->factor * p->vector.value});
+  const auto p = LoadedPoint<D>::of(*this, at, state);
+  if (!p) return;
+  actions.push_back({.element = p->element, .s = p->s, .force = p->factor * p->vector.value});
+  if constexpr (D == 3)
+    if (offset != Eigen::Vector2d::Zero() && at.elements[p->element].twist)
+      actions.back().couple =
+          section_arm(at.elements[p->element], state, p->s, offset).cross(actions.back().force);
 }
 
 template struct LoadedPoint<2>;

@@ -1,6 +1,18 @@
 #include "fem/forces/section_load.h"
 
+#include "fem/mesh/point_on_beam.h"
+
 namespace nurbeam {
+
+namespace {
+
+// Of a force beside the axis; one that follows the section has a moment that follows it, given as drawn.
+SectionMoment moment_of(const LoadAtPlace& load, const DrawnSection& drawn, const Eigen::Vector3d& force) {
+  if (!load.follower) return {force, false, load.offset};
+  return {(load.offset[0] * drawn.d1 + load.offset[1] * drawn.d2).cross(force), true, {}};
+}
+
+}  // namespace
 
 std::optional<SectionLoad> SectionLoad::of(const LoadAtPlace& load, OnSection kind, const MeshedBeams<3>& at,
                                            const State& state, bool with_gradient) {
@@ -13,19 +25,26 @@ std::optional<SectionLoad> SectionLoad::of(const LoadAtPlace& load, OnSection ki
   const TwistLayout::Coordinates q = gather_twist(e, state.q);
   const double place = beam.curve.unrolled(s, (e.s_a + e.s_b) / 2);
   const Eigen::Vector3d value = state.load * value_and_slope(load.time, state.t).first * load.value;
-  if (kind == OnSection::moment) {
-    on.force = twist.moment_force(q, place, value, load.follower);
-    if (with_gradient) on.gradient = twist.moment_gradient(q, place, value, load.follower);
-    return on;
-  }
-  const TwistElement::TurnedWithSection f = twist.turned(q, place, value);
-  const ShapeFunctions<double> shape = e.element.shape(q.head<TwistLayout::first>(), place);
   on.force.setZero();
   on.gradient.setZero();
-  for (int k = 0; k < 4; ++k) {
-    on.force.segment<3>(3 * k) = shape.value[k] * f.value;
-    on.gradient.middleRows<3>(3 * k) = shape.value[k] * f.gradient;
+  const auto add_moment = [&](const SectionMoment& moment) {
+    on.force += twist.moment_force(q, place, moment);
+    if (with_gradient) on.gradient += twist.moment_gradient(q, place, moment);
+  };
+  if (kind == OnSection::moment) {
+    add_moment({value, load.follower, {}});
+    return on;
   }
+  if (load.offset != Eigen::Vector2d::Zero()) add_moment(moment_of(load, beam.curve.section(place), value));
+  TwistElement::TurnedWithSection f{value, Eigen::Matrix<double, 3, TwistLayout::size>::Zero()};
+  if (load.follower) f = twist.turned(q, place, value);
+  const PointShape<3> shape = point_shape<3>(e, state.q, s);
+  const PointField<3> r = shape.position();
+  on.force.head<TwistLayout::first>() += r.gradient.transpose() * f.value;
+  if (!with_gradient) return on;
+  auto axis = on.gradient.topLeftCorner<TwistLayout::first, TwistLayout::first>();
+  r.add_hessian(f.value, 1, shape.nodes, axis);
+  on.gradient.topRows<TwistLayout::first>() += r.gradient.transpose() * f.gradient;
   return on;
 }
 

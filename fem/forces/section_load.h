@@ -7,10 +7,11 @@
 namespace nurbeam {
 
 /// What of a load at a place of a beam with torsion works on the section there: a moment, dead or following
-/// it, or a force that follows it.
-enum class OnSection { moment, follower_force };
+/// it, or a force that follows it or acts beside the axis.
+enum class OnSection { moment, force };
 inline bool works_on_section(const LoadAtPlace& load, OnSection kind, const Structure& structure) {
-  return structure.beams[load.beam].has_torsion() && (kind == OnSection::moment || load.follower);
+  return structure.beams[load.beam].has_torsion() &&
+         (kind == OnSection::moment || load.follower || load.offset != Eigen::Vector2d::Zero());
 }
 
 /// Such a load at a moment.

@@ -19,7 +19,12 @@ Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) 
     if (mesh.plan.modes[j] == JointMode::free) continue;
     const SlidingJoint& joint = structure.joints[j];
     const double s = mesh.plan.places[j];
-    q.segment(mesh.bodies[joint.body], D) = structure.beam_of(joint).curve.position(s).head(D);
+    const ReferenceCurve& curve = structure.beam_of(joint).curve;
+    q.segment(mesh.bodies[joint.body], D) = curve.position(s).head(D);
+    if (joint.is_offset()) {
+      const DrawnSection section = curve.section(s);
+      q.segment(mesh.bodies[joint.body], 3) += joint.offset[0] * section.d1 + joint.offset[1] * section.d2;
+    }
     q[mesh.joints[j].place] = s;
   }
   return q;

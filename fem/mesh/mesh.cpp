@@ -57,7 +57,8 @@ class Numbering {
 
   void number(MeshNode& node, int b, int i) {
     const int D = structure_.dimension;
-    node.r = node.joint >= 0 ? body_position(structure_.joints[node.joint].body) : take(D);
+    const bool is_body = node.joint >= 0 && !structure_.joints[node.joint].is_offset();
+    node.r = is_body ? body_position(structure_.joints[node.joint].body) : take(D);
     node.slope_left = node.slope_right = take(D);
     const bool two_slopes = node.joint < 0 ? structure_.beams[b].home[node.home].kind != NodeKind::smooth
                                            : !structure_.joints[node.joint].continuous_slope;

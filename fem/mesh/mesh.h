@@ -11,7 +11,8 @@ struct MeshNode {
                     ///< made [m]
   int home;         ///< index of the home node, -1 for a moving node
   int joint;        ///< index of the sliding joint, -1 for a home node
-  int r;            ///< first of D position coordinates; of a moving node those of the joint's body
+  int r;            ///< first of D position coordinates; of a moving node those of the joint's body, where
+                    ///< that has no offset
   int slope_left;   ///< first of D gradient coordinates r_s, towards the beam's start
   int slope_right;  ///< the same as slope_left unless the node is a hinge or a corner
   int place;        ///< coordinate s of a moving node, else -1

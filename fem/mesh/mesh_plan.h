@@ -42,8 +42,11 @@ struct MeshPlan {
     double turn;
   };
   std::vector<SectionCharts> section_charts;
+  /// Per sliding joint: with which a body that followed a section has left it [rad/s]; empty: none.
+  std::vector<double> spins = {};
 
   bool holds(int joint) const { return joint < static_cast<int>(held.size()) && held[joint]; }
+  double spin(int joint) const { return joint < static_cast<int>(spins.size()) ? spins[joint] : 0; }
 };
 
 /// What becomes of a home node when a joint comes to it.
@@ -64,8 +67,8 @@ inline constexpr double meeting_distance = 0.05;
 /// again, in home element lengths.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
-/// Whether a joint at s is carried as a point: its body is too light for a node, or a node that it passes as a
-/// point is within `reach` home element lengths.
+/// Whether a joint at s is carried as a point: its body is too light for a node, or a node that it passes as
+/// a point is within `reach` home element lengths.
 bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach);
 
 /// The drawn mesh with every sliding joint at its start: the home node nearest to it gives way to the moving

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "fem/constraints/constraint.h"
 #include "fem/forces/force.h"
+#include "fem/structure/constraint.h"
 #include "fem/structure/structure.h"
 
 namespace nurbeam {

@@ -169,8 +169,10 @@ ModelBuilder& ModelBuilder::add(Constraint constraint) {
 BeamModel ModelBuilder::build() const {
   BeamModel model = model_;
   for (const SlidingJoint& joint : model.joints)
-    if (const Beam& beam = model.beam_of(joint); beam.has_torsion() && !joint.continuous_slope)
-      refuse("beam \"" + beam.name + "\" has torsion: its slope is continuous where a body slides");
+    if (const Beam& beam = model.beam_of(joint);
+        joint.follows_section && !(beam.has_torsion() && joint.continuous_slope))
+      refuse("a body follows the section of a beam with torsion, where its slope is continuous: \"" +
+             beam.name + "\" has not both");
   for (int b = 0; b < static_cast<int>(model.beams.size()); ++b)
     if (!parts_[b].divided) model.beams[b].home = divided(model, b, parts_[b].division);
   mark_held_nodes(model);

@@ -13,6 +13,7 @@
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
 
@@ -402,7 +403,19 @@ class Simulation {
     const double beyond = landing_tolerance(*model_, crossing.joint);
     at_.state.q[at_.system->mesh().joints[crossing.joint].place] =
         crossing.s + (crossing.forward ? beyond : -beyond);
-    at_.system = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
+    auto next = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
+    if (!model_->joints[crossing.joint].follows_section) {
+      at_.system = std::move(next);
+      return restart();
+    }
+    // Curvature and twist jump from element to element, and with them the motion of a body that follows the
+    // section: an impact.
+    std::optional<Transferred> moved = projected(*at_.system, at_.state, *next);
+    if (!moved)
+      return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = crossing.joint});
+    const double before = energy(*at_.system, at_.state).mechanical();
+    at_ = {std::move(next), std::move(moved->state)};
+    dissipated_ += before - energy(*at_.system, at_.state).mechanical();
     return restart();
   }
 
@@ -413,6 +426,10 @@ class Simulation {
     MeshPlan plan = present_plan(*at_.system, at_.state);
     plan.places[joint] = ending.s;
     plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
+    if (leaves) {
+      plan.spins.resize(model_->joints.size());
+      plan.spins[joint] = body_motions(*at_.system, at_.state).spins[joint];
+    }
     auto next = std::make_unique<BeamSystem>(model_, std::move(plan));
     State moved = interpolated(*at_.system, at_.state, *next);
     if (!leaves) {

@@ -33,6 +33,7 @@ class Remap {
       next.q.segment(mesh.bodies[model.joints[j].body], mesh.dimension) =
           material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
     }
+    carry_bodies(to_, next);
     const Projection projection = velocities_from_momentum(to_, momentum_on(next), next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
@@ -63,7 +64,6 @@ class Remap {
   // The momentum of the old motion over the new elements, plus the bodies' momenta.
   Eigen::VectorXd momentum_on(const State& next) const {
     const Mesh& old = from_.mesh();
-    const int D = old.dimension;
     const auto motion = [&](int beam, double s) {
       return MaterialMotion{material_point(from_, state_, beam, s).velocity,
                             material_spin(from_, state_, beam, s)};
@@ -75,12 +75,7 @@ class Remap {
       for (double s : to_.model().beams[beam].curve.breaks()) places.push_back(s);
       return places;
     };
-    std::vector<Eigen::Vector3d> bodies;
-    for (const int r : old.bodies) {
-      bodies.emplace_back(Eigen::Vector3d::Zero());
-      bodies.back().head(D) = state_.v.segment(r, D);
-    }
-    return generalised_momentum(to_, next, motion, breaks, bodies);
+    return generalised_momentum(to_, next, motion, breaks, body_motions(from_, state_));
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
@@ -112,6 +107,7 @@ class Remap {
     still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
     Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
     to_.residual(still, force, constraints);
+    add_carried_forces(still, force);
     const auto part = [&](const TangentWeights& weights) {
       Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
       to_.tangent(still, weights, kkt);
@@ -142,6 +138,26 @@ class Remap {
       (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
     }
     return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
+  }
+
+  // Adds to forces on the mesh those on bodies with an offset, which it carries: by the rows of the
+  // constraints that have the bodies' coordinates.
+  void add_carried_forces(const State& state, Eigen::VectorXd& force) const {
+    const auto& joints = to_.model().joints;
+    if (std::none_of(joints.begin(), joints.end(), [](const SlidingJoint& j) { return j.is_offset(); }))
+      return;
+    Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
+    to_.tangent(state, {}, kkt);
+    const int n = to_.coordinate_count();
+    const Eigen::SparseMatrix<double> G = kkt.block(n, 0, to_.constraint_count(), n);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (!joints[j].is_offset() || to_.mesh().plan.modes[j] == JointMode::free) continue;
+      for (int d = 0; d < 3; ++d) {
+        const int body = to_.mesh().bodies[joints[j].body] + d;
+        const Eigen::VectorXd row = G.transpose() * G.col(body);  // of that constraint, times -1
+        force -= row * force[body];
+      }
+    }
   }
 
   // Positions, slopes and sections of the nodes of new elements, and of the given rings of neighbours, and
@@ -273,6 +289,7 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   }
   set_bubbles(from, state, to, next);
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
+  carry_bodies(to, next);
   return next;
 }
 

@@ -15,6 +15,7 @@ struct Body {
   double mass;  ///< [kg]
   /// Where it starts and how fast, when no sliding joint says so [m], [m/s].
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
+  double roll_inertia = 0;  ///< about the tangent of a section that it follows [kg m^2]
 };
 
 /// Ties a body to a moving place on a beam.
@@ -27,6 +28,12 @@ struct SlidingJoint {
   std::optional<double> release = {};  ///< held at s until then [s]
   bool continuous_slope = true;
   bool leave_at_end = true;  ///< else it stops there
+  /// Of a beam with torsion: the body rolls with the section where it is, at the offset (along d1 and d2)
+  /// from the axis [m].
+  bool follows_section = false;
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+
+  bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }
 };
 
 /// All that has coordinates: beams, bodies, and the joints that make nodes of the beams move.

@@ -110,10 +110,27 @@ void Assembly<D>::bind_forces() {
   const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
   for (int body = 0; body < static_cast<int>(model_->bodies.size()); ++body)
     forces_.emplace_back(PointMass<D>(at, body));
+  for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) bind_roll(j, drawn);
   for (const Force& force : model_->forces)
     forces_.push_back(std::visit(
         [&](const auto& description) -> BoundForce<D> { return bind_force<D>(description, at, drawn); },
         force));
+}
+
+// The inertia of the roll of a joint's body with its section.
+template <int D>
+void Assembly<D>::bind_roll(int j, const Eigen::VectorXd& drawn) {
+  if constexpr (D == 3) {
+    const SlidingJoint& joint = model_->joints[j];
+    const double inertia = model_->body_of(joint).roll_inertia;
+    if (!joint.follows_section || inertia == 0) return;
+    if (mesh_.plan.modes[j] == JointMode::free)
+      forces_.emplace_back(FreeRoll(inertia, mesh_.plan.spin(j)));
+    else if (mesh_.plan.modes[j] == JointMode::node)
+      forces_.emplace_back(RollInertia<FollowedNode>(beams(), drawn, j));
+    else
+      forces_.emplace_back(RollInertia<FollowedPoint>(beams(), drawn, j));
+  }
 }
 
 template <int D>
@@ -219,8 +236,12 @@ std::vector<PointAction> Assembly<D>::actions(const State& state) const {
         },
         force);
   for (std::size_t i = 0; i < constraints_.size(); ++i)
-    if (const auto* body = std::get_if<BodyOnPoint<D>>(&constraints_[i]))
-      actions.push_back(body->action(at, state, state.lambda.segment<D>(constraint_blocks_[i].row)));
+    std::visit(
+        [&](const auto& c) {
+          const auto y = [&] { return state.lambda.segment<D>(constraint_blocks_[i].row); };
+          if constexpr (requires { c.action(at, state, y()); }) actions.push_back(c.action(at, state, y()));
+        },
+        constraints_[i]);
   return actions;
 }
 
@@ -244,6 +265,24 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const S
         constraints_[c]);
   }
   return {force, couple};
+}
+
+template <int D>
+void Assembly<D>::carry_bodies(State& state) const {
+  const MeshedBeams<D> at = beams();
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { c.body(); }) {
+            const ConstraintTerms<D> terms = c.terms(at, state, nullptr);
+            Vector rate = Vector::Zero();
+            for (std::size_t k = 0; k < c.dofs().size(); ++k)
+              if (c.dofs()[k] >= 0) rate += terms.gradient.col(static_cast<long>(k)) * state.v[c.dofs()[k]];
+            state.q.segment<D>(c.body()) += terms.value;
+            state.v.segment<D>(c.body()) += rate;
+          }
+        },
+        constraints_[i]);
 }
 
 template <int D>

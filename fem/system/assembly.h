@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/constraints/constraint.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
 
@@ -46,6 +47,9 @@ class Assembly final : public SecondOrderSystem {
   std::vector<ElementVector<D>> element_forces(const State& state) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
+  /// Puts bodies with an offset where the sections that they follow carry them, and gives them the velocity
+  /// of these.
+  void carry_bodies(State& state) const;
   /// Whether the forces of an element are those of form P, for comparison.
   bool is_form_p(const MeshElement<D>& e) const {
     return !e.element.fixed() && model_->beams[e.beam].form == Form::virtual_work;
@@ -78,6 +82,7 @@ class Assembly final : public SecondOrderSystem {
 
   void bind_constraints(const std::vector<bool>& held);
   void bind_forces();
+  void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
   Vector line_load(int beam, const State& state) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;

@@ -143,6 +143,7 @@ void start_moving(const BeamSystem& system, State& state) {
     // The material is at rest, so the slopes at the moving node change by what the node meets.
     const MaterialPoint<3> left = material_point_in(system, state, (index > first ? index : end) - 1, s);
     const MeshNode& node = mesh.nodes[joint.beam][at.node];
+    state.v.segment(node.r, D) = speed * right.rs.head(D);
     const bool shared = node.slope_left == node.slope_right;
     state.v.segment(node.slope_left, D) =
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);
@@ -154,6 +155,11 @@ void start_moving(const BeamSystem& system, State& state) {
   given.v = given_velocities(system, state);
   state.v += given.v;
   add_given_spins(system, given, state.v);
+  carry_bodies(system, state);
+}
+
+void carry_bodies(const BeamSystem& system, State& state) {
+  if (const Assembly<3>* assembly = system.assembly<3>()) assembly->carry_bodies(state);
 }
 
 }  // namespace nurbeam

@@ -9,4 +9,7 @@ State drawn_state(const BeamSystem& system);
 /// with its initial speed, bodies without a joint with theirs.
 void start_moving(const BeamSystem& system, State& state);
 
+/// Puts bodies with an offset where the sections that they follow carry them, and gives them their velocity.
+void carry_bodies(const BeamSystem& system, State& state);
+
 }  // namespace nurbeam

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
@@ -47,16 +48,32 @@ SectionPoint section_of(const MeshElement<3>& e, const State& state, double s) {
   return e.twist->element.section(gather_twist(e, state.q), s);
 }
 
+/// What is known of a place of an element before its forces are.
+template <int D>
+struct PlaceInElement {
+  double s;
+  MaterialPoint<D> point;
+  std::optional<SectionPoint> section;  ///< of a beam with torsion
+
+  PlaceInElement(const MeshElement<D>& e, const State& state, double place)
+      : s(place), point(material_point<D>(e, state.q, state.v, place)) {
+    if constexpr (D == 3)
+      if (e.twist) section = section_of(e, state, place);
+  }
+};
+
 // What a beam with torsion knows of its section besides.
 void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
-                  const Eigen::Vector3d& couple, double s, SectionRecord& record) {
-  const SectionTriad<double> triad = section_of(e, state, s).triad;
+                  const Eigen::Vector3d& couple, const PlaceInElement<3>& at, SectionRecord& record) {
+  const SectionTriad<double>& triad = at.section->triad;
   record.torque = couple.dot(triad.t);
   record.moment_1 = couple.dot(triad.d1);
   record.moment_2 = couple.dot(triad.d2);
+  // Two axes have no common sign: one that said whether it bends more would jump where they change roles.
+  record.bending_moment = std::hypot(record.moment_1, record.moment_2);
   const double s_a = e.start(state.q);
   // The strain of twist is linear in an element.
-  record.twist = (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
+  record.twist = at.s == s_a ? 0 : (at.s - s_a) * section_of(e, state, (s_a + at.s) / 2).strain.twist;
   record.stress = record.von_mises = SectionRecord::no_number;
   if (!beam.stresses) return;
   const auto [normal, von_mises] =
@@ -67,11 +84,11 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
 
 template <int D>
 SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
-                         const SpanResultants& carried, double s) {
+                         const SpanResultants& carried, const PlaceInElement<D>& at) {
   using Layout = ElementLayout<D>;
   const ElementVector<D> q = gather<D>(e, state.q);
-  const double s_a = q[Layout::place(0)], s_b = q[Layout::place(1)];
-  const MaterialPoint<D> p = material_point<D>(e, state.q, state.v, s);
+  const double s = at.s, s_a = q[Layout::place(0)], s_b = q[Layout::place(1)];
+  const MaterialPoint<D>& p = at.point;
   const MaterialPoint<3> point = widened_point<D>(p);
   const double drawn = e.element.curve().strain(s);
   const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
@@ -90,7 +107,7 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.stress =
       beam.section.fibre_stress(record.axial_force, record.bending_moment).value_or(SectionRecord::no_number);
   if constexpr (D == 3)
-    if (e.twist) add_own_axes(beam, e, state, resultants.couple, s, record);
+    if (e.twist) add_own_axes(beam, e, state, resultants.couple, at, record);
   return record;
 }
 
@@ -105,8 +122,8 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.s_end = q[Layout::place(1)];
   record.axial_mismatch = e.element.axial_mismatch(q);
   for (int i = 0; i < 4; ++i) {
-    const double s = e.element.place(q, i / 3.0);
-    const SectionRecord section = section_of<D>(a, e, state, carried, s);
+    const PlaceInElement<D> at(e, state, e.element.place(q, i / 3.0));
+    const SectionRecord section = section_of<D>(a, e, state, carried, at);
     record.strain[i] = section.strain;
     record.curvature[i] = section.curvature;
     record.axial_force[i] = section.axial_force;
@@ -114,17 +131,15 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
     record.torque[i] = section.torque;
     record.shear_force[i] = section.shear_force;
     record.stress[i] = section.stress;
-    record.velocity.col(i) = widened<D>(material_point<D>(e, state.q, state.v, s).velocity);
+    record.velocity.col(i) = widened<D>(at.point.velocity);
     record.moment_1[i] = section.moment_1;
     record.moment_2[i] = section.moment_2;
     record.twist[i] = section.twist;
     record.von_mises[i] = section.von_mises;
-    if constexpr (D == 3)
-      if (e.twist) {
-        const SectionTriad<double> triad = section_of(e, state, s).triad;
-        record.d1.col(i) = triad.d1;
-        record.d2.col(i) = triad.d2;
-      }
+    if (at.section) {
+      record.d1.col(i) = at.section->triad.d1;
+      record.d2.col(i) = at.section->triad.d2;
+    }
   }
   return record;
 }
@@ -163,6 +178,19 @@ void add_momentum(const MeshElement<D>& e, const State& state,
       if constexpr (D == 3)
         if (e.twist) add_spin(e, state, s, length * GaussRule::weights[g] * motion.spin, p);
     }
+}
+
+// Calls visit(roll, at) for the inertia of each body that rolls with a section.
+template <class Visit>
+void for_each_roll(const BeamSystem& system, Visit&& visit) {
+  const Assembly<3>* assembly = system.assembly<3>();
+  if (!assembly) return;
+  for (const BoundForce<3>& force : assembly->forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.joint(); }) visit(f, assembly->beams());
+        },
+        force);
 }
 
 }  // namespace
@@ -206,7 +234,8 @@ SectionRecord section_at(const BeamSystem& system, const State& state, int span,
       system,
       [&]<int D>(const Assembly<D>& a) {
         const MeshElement<D>& e = a.elements()[span];
-        return section_of<D>(a, e, state, carried, e.local(gather<D>(e, state.q), s));
+        return section_of<D>(a, e, state, carried,
+                             PlaceInElement<D>(e, state, e.local(gather<D>(e, state.q), s)));
       });
 }
 
@@ -261,10 +290,23 @@ Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, in
       });
 }
 
+BodyMotions body_motions(const BeamSystem& system, const State& state) {
+  BodyMotions motions;
+  for (const int r : system.mesh().bodies) {
+    motions.velocities.emplace_back(Eigen::Vector3d::Zero());
+    motions.velocities.back().head(system.dimension()) = state.v.segment(r, system.dimension());
+  }
+  motions.spins.assign(system.model().joints.size(), 0);
+  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
+    motions.spins[roll.joint()] = roll.spin(at, state);
+  });
+  return motions;
+}
+
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
                                      const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
-                                     const std::vector<Eigen::Vector3d>& body_velocities) {
+                                     const BodyMotions& bodies) {
   const int D = system.dimension();
   Eigen::VectorXd p = Eigen::VectorXd::Zero(system.coordinate_count());
   std::vector<std::vector<double>> places;
@@ -272,9 +314,12 @@ Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& stat
   with_assembly(system, [&](const auto& assembly) {
     for (const auto& e : assembly.elements()) add_momentum(e, state, field, places[e.beam], p);
   });
-  for (std::size_t body = 0; body < body_velocities.size(); ++body)
+  for (std::size_t body = 0; body < bodies.velocities.size(); ++body)
     p.segment(system.mesh().bodies[body], D) +=
-        system.model().bodies[body].mass * body_velocities[body].head(D);
+        system.model().bodies[body].mass * bodies.velocities[body].head(D);
+  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
+    roll.add_momentum(at, state, bodies.spins[roll.joint()], p);
+  });
   return p;
 }
 

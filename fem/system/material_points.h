@@ -93,13 +93,20 @@ struct MaterialMotion {
   Eigen::Vector3d velocity;
   double spin = 0;
 };
+/// Velocities of all bodies (3 each) [m/s], and per joint the spin of a body that rolls with a section
+/// [rad/s].
+struct BodyMotions {
+  std::vector<Eigen::Vector3d> velocities;
+  std::vector<double> spins;
+};
+BodyMotions body_motions(const BeamSystem& system, const State& state);
 /// int (rho A N' v + rho I_p W' w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
-/// material, plus the bodies' momenta m v: what the motion `field`(beam, s), of velocity v and spin w, and
-/// the bodies' velocities (3 each) mean for the coordinates of `state`. Elements are integrated in parts
+/// material, plus the bodies' momenta: what the motion `field`(beam, s), of velocity v and spin w, and that
+/// of the bodies mean for the coordinates of `state`. Elements are integrated in parts
 /// between the places that `breaks`(beam) lists [m].
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
                                      const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
-                                     const std::vector<Eigen::Vector3d>& body_velocities);
+                                     const BodyMotions& bodies);
 
 }  // namespace nurbeam

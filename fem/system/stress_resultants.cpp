@@ -55,7 +55,7 @@ void add_action(const MeshElement<D>& e, const Eigen::VectorXd& q, const PointAc
     if (e.twist) {
       const PointAction force{.element = action.element, .s = action.s, .force = action.force};
       on.axis += on_element<D>(e, q, force);
-      on.add(-e.twist->element.moment_force(gather_twist(e, q), action.s, action.couple, false));
+      on.add(-e.twist->element.moment_force(gather_twist(e, q), action.s, {action.couple}));
       return;
     }
   on.axis += on_element<D>(e, q, action);
@@ -77,8 +77,16 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
   using Layout = ElementLayout<D>;
   const ElementState<D> x = gather<D>(e, state);
   OnElement<D> on{axis_force};
+  double torque = 0;  // per length
   if constexpr (D == 3)
-    if (e.twist) on.add(e.twist->element.force(gather_twist(e, state)));
+    if (e.twist) {
+      on.add(e.twist->element.force(gather_twist(e, state)));
+      for (const BoundForce<3>& force : a.forces())
+        if (const auto* load = std::get_if<LineTorque>(&force); load && load->beam == e.beam) {
+          on.add(-load->on_element(e, state));
+          torque += load->per_length(state);
+        }
+    }
   std::vector<SpanResultants::Inside> placed;
   for (const PointAction& action : inside) {
     add_action<D>(e, state.q, action, on);
@@ -93,6 +101,7 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
     const double sign = i == 0 ? -1 : 1;
     ends[i].s = x.q[Layout::place(i)];
     ends[i].slope = widened<D>(slope);
+    ends[i].torque_per_length = torque * ends[i].slope.normalized();
     ends[i].carried.force = sign * widened<D>(on_end);
     ends[i].carried.couple = sign * end_couple<D>(e, state.q, on, i, ends[i].slope);
     places[i] = widened<D>(Eigen::Matrix<double, D, 1>(x.q.template segment<D>(Layout::r(i))));
@@ -132,7 +141,7 @@ SpanResultants::SpanResultants(const std::array<End, 2>& ends,
         force -= x.action.force;
         couple_[i] -= (x.place - end_places[i]).cross(x.action.force) + x.action.couple;
       }
-    couple_s_[i] = -ends[i].slope.cross(force);
+    couple_s_[i] = -ends[i].slope.cross(force) - ends[i].torque_per_length;
   }
 }
 

@@ -24,7 +24,8 @@ class SpanResultants {
   struct End {
     double s;  ///< [m]
     StressResultants carried;
-    Eigen::Vector3d slope;  ///< r_s [-]
+    Eigen::Vector3d slope;                                        ///< r_s [-]
+    Eigen::Vector3d torque_per_length = Eigen::Vector3d::Zero();  ///< of loads, about the tangent [N m/m]
   };
   /// A point action and the place that it has.
   struct Inside {

@@ -15,6 +15,24 @@ namespace nurbeam {
 
 namespace {
 
+std::optional<Eigen::Vector2d> read_offset(const Json& json) {
+  if (!has(json, "offset")) return {};
+  const std::vector<double> offset = numbers(json, "offset");
+  if (offset.size() != 2) return {};  // said where the shape was checked
+  return Eigen::Vector2d(offset[0], offset[1]);
+}
+
+// The direction of a hinge's axis.
+std::optional<Eigen::Vector3d> read_axis(const Json& json, const std::string& path, const char* with,
+                                         Findings& findings) {
+  if (!has(json, "axis")) return {};
+  if (text(json, "type") != with)
+    findings.error(child(path, "axis"), "is that of a hinge, for the type " + in_quotes(with) + " only");
+  const Eigen::Vector3d axis = vector(json, "axis");
+  if (axis.norm() == 0) findings.error(child(path, "axis"), "is [0, 0, 0]; give the direction of the hinge");
+  return axis;
+}
+
 CaseLoad read_load(const Json& json, const std::string& path) {
   CaseLoad load;
   load.path = path;
@@ -31,10 +49,15 @@ CaseLoad read_load(const Json& json, const std::string& path) {
       load.value = vector(json, key);
     }
   }
+  load.offset = read_offset(json);
+  if (has(json, "torque_per_length")) {
+    load.kind = CaseLoad::Kind::torque_per_length;
+    load.torque = number(json, "torque_per_length", 0);
+  }
   return load;
 }
 
-CaseSupport read_support(const Json& json, const std::string& path) {
+CaseSupport read_support(const Json& json, const std::string& path, Findings& findings) {
   return {.type = chosen<CaseSupport::Type>(json, "type",
                                             {{"clamped", CaseSupport::Type::clamped},
                                              {"pinned", CaseSupport::Type::pinned},
@@ -43,7 +66,8 @@ CaseSupport read_support(const Json& json, const std::string& path) {
           .path = path,
           .beam = text(json, "beam"),
           .at = read_place(json),
-          .motion = vector_table(json, "motion")};
+          .motion = vector_table(json, "motion"),
+          .axis = read_axis(json, path, "pinned", findings)};
 }
 
 CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
@@ -57,15 +81,18 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
           .motion_table = time_table(motion, "table"),
           .release = optional_number(json, "release"),
           .continuous_slope = text(json, "slope") != "discontinuous",
-          .leave_at_end = text(json, "at_beam_end") != "stop"};
+          .leave_at_end = text(json, "at_beam_end") != "stop",
+          .follows_section = flag(json, "follows_section"),
+          .offset = read_offset(json)};
 }
 
-CaseBeamJoint read_beam_joint(const Json& json, const std::string& path) {
+CaseBeamJoint read_beam_joint(const Json& json, const std::string& path, Findings& findings) {
   CaseBeamJoint joint{.name = text(json, "name"),
                       .path = path,
                       .beams = {},
                       .rigid = text(json, "type") == "rigid",
-                      .near = {}};
+                      .near = {},
+                      .axis = read_axis(json, path, "hinged", findings)};
   for (const Json& name : part(json, "beams"))
     if (!name.is_null()) joint.beams.push_back(name.get<std::string>());
   if (has(part(json, "at"), "near")) joint.near = vector(json["at"], "near");
@@ -159,7 +186,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   output.every = optional_number(json, "every");
   constexpr int default_frames = 100;
   if (!output.every && analysis.type == CaseAnalysis::Type::dynamic)
-    output.every = analysis.end_time / default_frames;
+    output.every = std::max(analysis.end_time / default_frames, analysis.step.value_or(0));
   if (has(json, "cad")) {
     const Json& cad = json["cad"];
     output.cad_formats = {"step"};
@@ -205,7 +232,9 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   for_each_item(
       json, "bodies", "",
       [&](const Json& body, const std::string&) {
-        result.bodies.push_back({.name = text(body, "name"), .mass = number(body, "mass")});
+        result.bodies.push_back({.name = text(body, "name"),
+                                 .mass = number(body, "mass"),
+                                 .roll_inertia = number(body, "roll_inertia", 0)});
       });
   for_each_item(
       json, "loads", "",
@@ -213,7 +242,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   for_each_item(
       json, "supports", "",
       [&](const Json& support, const std::string& path) {
-        result.supports.push_back(read_support(support, path));
+        result.supports.push_back(read_support(support, path, findings));
       });
   for_each_item(
       json, "sliding_joints", "",
@@ -221,7 +250,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
         result.sliding_joints.push_back(read_sliding_joint(joint, path));
       });
   for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
-    result.joints.push_back(read_beam_joint(joint, path));
+    result.joints.push_back(read_beam_joint(joint, path, findings));
   });
   result.analysis = read_analysis(part(json, "analysis"), findings);
   result.output = read_output(part(json, "output"), result.analysis);

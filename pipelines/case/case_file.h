@@ -131,15 +131,18 @@ struct CaseBeam {
 
 struct CaseBody {
   std::string name;
-  double mass = 0;  ///< [kg]
+  double mass = 0;          ///< [kg]
+  double roll_inertia = 0;  ///< of one that follows a section [kg m^2]
 };
 
 struct CaseLoad {
-  enum class Kind { force, moment, force_per_length } kind = Kind::force;
+  enum class Kind { force, moment, force_per_length, torque_per_length } kind = Kind::force;
   std::string path;
   std::string beam;
   Place at;                                         ///< for force and moment
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N], [N m] or [N/m]
+  double torque = 0;                                ///< per length [N m/m]
+  std::optional<Eigen::Vector2d> offset;            ///< of a force from the axis [m]
   bool follower = false;
   std::optional<double> moving_speed;  ///< along the beam from `at` [m/s]
   TimeTable time;                      ///< factor; empty: 1
@@ -152,6 +155,7 @@ struct CaseSupport {
   std::string beam;
   Place at;
   std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
+  std::optional<Eigen::Vector3d> axis = {};         ///< of a hinge
 };
 
 struct CaseSlidingJoint {
@@ -164,15 +168,18 @@ struct CaseSlidingJoint {
   std::optional<double> release;       ///< held until then [s]
   bool continuous_slope = true;
   bool leave_at_end = true;  ///< false: stop
+  bool follows_section = false;
+  std::optional<Eigen::Vector2d> offset = {};  ///< in the section that it follows [m]
 };
 
 /// Beams that meet at one place.
 struct CaseBeamJoint {
   std::string name;  ///< heads the columns of its forces; may be empty
   std::string path;
-  std::vector<std::string> beams;       ///< two or more; each is joined to the first
-  bool rigid = false;                   ///< else hinged
-  std::optional<Eigen::Vector3d> near;  ///< where [m]; else where an end of one meets the other
+  std::vector<std::string> beams;            ///< two or more; each is joined to the first
+  bool rigid = false;                        ///< else hinged
+  std::optional<Eigen::Vector3d> near;       ///< where [m]; else where an end of one meets the other
+  std::optional<Eigen::Vector3d> axis = {};  ///< of a hinge
 };
 
 /// Of modes and buckling.

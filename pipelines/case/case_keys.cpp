@@ -36,6 +36,12 @@ Shape short_array(Shape item) {
   shape.most_items = 10'000;
   return shape;
 }
+/// Of a point of a section.
+Shape offset() {
+  Shape shape = array(Shape{.kind = Kind::quantity, .dimension = Dimension::length}, 2);
+  shape.most_items = 2;
+  return shape;
+}
 Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::move(a), std::move(b)}}; }
 Shape choice(std::vector<std::string> choices) {
   return {.kind = Kind::choice, .choices = std::move(choices)};
@@ -209,9 +215,9 @@ Shape beam() {
         "spatial "
         "curvature and no sliding bodies; reference when omitted"},
        {"torsion", boolean(),
-        "the beam bends about its section's own axes and twists, in space and where no slope is discontinuous; when "
-        "omitted true with `orientation` or `second_moments`, and where the axis is curved in space and `stress_free` "
-        "does not say \"straight\""},
+        "the beam bends about its section's own axes and twists, in space; when omitted true with `orientation` or "
+        "`second_moments`, and, where `stress_free` does not say \"straight\", where the axis is curved in space and "
+        "where a support, joint, load or body needs its sections"},
        {"orientation", orientation(), "how the sections of a beam with torsion are drawn"},
        {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
         "the unstressed shape; when omitted as-drawn in planar models and with torsion, else straight"},
@@ -253,10 +259,16 @@ Shape load() {
        {"force", vector(Dimension::force), "point force, fixed in space", false, "at"},
        {"moment", vector(Dimension::moment), "point moment", false, "at"},
        {"force_per_length", vector(Dimension::force_per_length), "per metre of reference arc length"},
+       {"torque_per_length", quantity(Dimension::torque_per_length),
+        "about the tangent of a beam with torsion, per metre of reference arc length"},
+       {"offset", offset(),
+        "[x, y] of where the force acts, from the axis along the axes of the section of a beam with torsion",
+        false, "force"},
        {"follower", boolean(), "force or moment turns with the section; false when omitted", false, "at"},
        {"moves", moves, "a force that moves along the beam", false, "force"},
        {"time", table(Dimension::number), "factor over time, linear between rows, constant outside"}},
-      {{{"force", "moment", "force_per_length"}, required}, {{"at", "force_per_length"}, false}});
+      {{{"force", "moment", "force_per_length", "torque_per_length"}, required},
+       {{"at", "force_per_length", "torque_per_length"}, false}});
 }
 
 Shape support() {
@@ -267,6 +279,8 @@ Shape support() {
         "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
         "position and roll of a beam with torsion",
         required},
+       {"axis", vector(Dimension::number),
+        "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"},
        {"name", name(), "heads the columns of its reaction"},
        {"motion", vector_table(Dimension::length),
         "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the first "
@@ -287,6 +301,10 @@ Shape sliding_joint() {
         "time until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
         "whether the beam may have a kink at the body; continuous when omitted"},
+       {"follows_section", boolean(),
+        "the body rolls with the section of a beam with torsion where it is; false when omitted"},
+       {"offset", offset(), "[x, y] of the body from the axis, along the axes of the section that it follows",
+        false, "follows_section"},
        {"at_beam_end", choice({"leave", "stop"}),
         "what happens at the beam's end; leave when omitted; at a supported end a body stops"}},
       {{{"speed", "motion", "release"}, false}});
@@ -297,6 +315,8 @@ Shape beam_joint() {
                  {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
                  {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
                   "where, if not at an end of one of them"},
+                 {"axis", vector(Dimension::number),
+                  "as drawn, of a hinge between beams with torsion, which turn about it alone"},
                  {"name", name(), "heads the columns of its forces"}});
 }
 
@@ -361,12 +381,13 @@ Shape output() {
   const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
                               {"beam", name(), "the probed beam", required},
                               {"at", place(), "where", required}});
-  return object({{"every", quantity(Dimension::time, time_step()),
-                  "time between stored frames; a hundredth of `end_time` when omitted"},
-                 {"cad", cad, "deformed axes as CAD files"},
-                 {"probes", short_array(probe), "points whose motion is stored"},
-                 {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
-                 {"report", boolean(), "report.html; true when omitted"}});
+  return object(
+      {{"every", quantity(Dimension::time, time_step()),
+        "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
+       {"cad", cad, "deformed axes as CAD files"},
+       {"probes", short_array(probe), "points whose motion is stored"},
+       {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
+       {"report", boolean(), "report.html; true when omitted"}});
 }
 
 Shape body() {
@@ -378,7 +399,9 @@ Shape body() {
                   .upper = 1e12,
                   .reason = "a body without mass has no inertia; what lies outside is most likely in another "
                             "unit"}),
-        "mass", required}});
+        "mass", required},
+       {"roll_inertia", quantity(Dimension::inertia, plausible(0, 1e16)),
+        "about the beam, of a body that follows its section; 0 when omitted"}});
 }
 
 }  // namespace

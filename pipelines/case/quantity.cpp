@@ -105,6 +105,10 @@ DimensionInfo info(Dimension dimension) {
       return {"coefficient of thermal expansion", "1/K", {0, 0, 0, -1}, "m/m/K, mm/m/K, um/m/K"};
     case Dimension::angular_speed:
       return {"angular velocity", "rad/s", {0, 0, -1}, "rad/s"};
+    case Dimension::inertia:
+      return {"moment of inertia", "kg m^2", {2, 1, 0}, "kg m^2, kg mm^2, g cm^2"};
+    case Dimension::torque_per_length:
+      return {"torque per length", "N m/m", {1, 1, -2}, "N m/m, N mm/mm, kN m/m"};
   }
   return {};
 }

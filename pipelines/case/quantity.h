@@ -22,7 +22,9 @@ enum class Dimension {
   pressure,
   temperature,
   thermal_expansion,
-  angular_speed
+  angular_speed,
+  inertia,
+  torque_per_length
 };
 
 /// "length", "force per length", ...

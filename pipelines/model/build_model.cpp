@@ -9,6 +9,7 @@
 #include "fem/model/build.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/findings.h"
+#include "pipelines/model/asked_torsion.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
@@ -115,20 +116,6 @@ ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, Findings& fi
   }
 }
 
-// Whether a body bends the beam by an angle where it is: a beam with torsion cannot have that.
-bool kinks(const CaseSlidingJoint& joint, const CaseBeam& beam) {
-  return joint.beam == beam.name && !joint.continuous_slope;
-}
-
-void check_no_kink(const CaseBeam& beam, const std::vector<CaseSlidingJoint>& joints, Findings& findings) {
-  for (const CaseSlidingJoint& joint : joints)
-    if (kinks(joint, beam))
-      findings.error(beam.path + ".torsion",
-                     "body \"" + joint.body +
-                         "\" slides on this beam with a \"discontinuous\" slope, which only a beam without "
-                         "torsion can have; use \"continuous\"");
-}
-
 // The unstressed over the drawn length.
 double free_stretch(const CaseBeam& from, const ReferenceCurve& drawn, Findings& findings) {
   constexpr double least = 0.5, most = 2;
@@ -174,7 +161,6 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   properties.axial_strain = from.axial_strain;
   std::optional<SectionStresses> stresses;
   if (from.torsion) {
-    check_no_kink(from, resolved.sliding_joints, findings);
     if (const auto section_of_beam = torsion_section(from, curve.length(), drawn, findings)) {
       properties.sections = section_of_beam->stiffness;
       stresses = section_of_beam->stresses;
@@ -233,13 +219,15 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
     places.push_back(s);
     paths.push_back(support.path);
     const bool fork = support.type == CaseSupport::Type::fork;
-    if (fork && !resolved.beams[b].torsion)
-      findings.error(support.path + ".type",
-                     "\"fork\" holds the roll of a section; beam \"" + support.beam +
-                         "\" has no torsion: give it \"torsion\": true, or use \"pinned\"");
-    model.constraints.push_back(Support{b, beam.material_coordinate(s),
-                                        support.type == CaseSupport::Type::clamped, fork, support.name,
-                                        motion_of(resolved, support, frame, findings)});
+    model.constraints.push_back(Support{b,
+                                        beam.material_coordinate(s),
+                                        support.type == CaseSupport::Type::clamped,
+                                        fork,
+                                        support.name,
+                                        motion_of(resolved, support, frame, findings),
+                                        {}});
+    if (support.axis)
+      std::get<Support>(model.constraints.back()).axis = frame.direction_to_local(*support.axis);
   }
   return places;
 }
@@ -263,7 +251,13 @@ LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, co
                                                   "nothing; it moves from the " +
                                                   (at_start ? "start" : "end") + " into the beam with a " +
                                                   (at_start ? "positive" : "negative") + " speed");
-  return {b, s, speed, value, load.follower, time_of(load, analysis)};
+  return {b,
+          s,
+          speed,
+          value,
+          load.follower,
+          time_of(load, analysis),
+          load.offset.value_or(Eigen::Vector2d::Zero())};
 }
 
 // A beam without torsion takes no moment along itself.
@@ -297,6 +291,9 @@ void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
         model.forces.push_back(
             LineLoad{b, frame.direction_to_local(load.value), time_of(load, resolved.analysis)});
         break;
+      case CaseLoad::Kind::torque_per_length:
+        model.forces.push_back(LineTorque{b, load.torque, time_of(load, resolved.analysis)});
+        break;
     }
   }
 }
@@ -309,12 +306,9 @@ double mass_of(const BeamModel& model) {
 }
 
 // Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
-// another one than drawn. As yet none that a body bends by an angle where it slides.
-bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve,
-                      const std::vector<CaseSlidingJoint>& joints) {
-  const bool kinked = std::any_of(joints.begin(), joints.end(),
-                                  [&](const CaseSlidingJoint& joint) { return kinks(joint, beam); });
-  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve) && !kinked;
+// another one than drawn.
+bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve) {
+  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve);
 }
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
@@ -326,14 +320,12 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
     if (!drawn) break;
     const bool asked = from.torsion;
-    from.torsion = from.torsion || is_given_torsion(from, drawn->curve, resolved.sliding_joints);
+    from.torsion = from.torsion || is_given_torsion(from, drawn->curve);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!section) break;
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
-    if (built.frame.dimension == 3)
-      built.sources.back().torsion =
-          why_torsion(from, asked, is_curved(drawn->curve), resolved.sliding_joints);
+    if (built.frame.dimension == 3) built.sources.back().torsion = why_torsion(from, asked);
     built.sources.back().outline = section_outline(*section);
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);
@@ -383,6 +375,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
   CadFiles files;
   ResolvedCase resolved = resolve_case(case_file, files, findings);
   const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
+  give_asked_torsion(resolved, findings);
   if (findings.has_errors()) return {};
 
   BuiltModel built;

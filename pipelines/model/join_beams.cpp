@@ -80,11 +80,12 @@ std::string both(const std::vector<DrawnBeam>& beams, int a, int b) {
   return in_quotes(beams[a].name) + " and " + in_quotes(beams[b].name);
 }
 
-// In space the angle of beams in one line has no derivative.
-void check_angle(const CaseBeamJoint& joint, const std::vector<DrawnBeam>& beams, const Meeting& places,
-                 Findings& findings) {
+// In space, without torsion, the angle of beams in one line has no derivative.
+void check_angle(const ResolvedCase& resolved, const CaseBeamJoint& joint,
+                 const std::vector<DrawnBeam>& beams, const Meeting& places, Findings& findings) {
   const auto& [a, b] = places;
   if (beams[a.beam].measured.dimension() == 2) return;
+  if (resolved.beams[a.beam].torsion && resolved.beams[b.beam].torsion) return;
   const Eigen::Vector3d along_a = beams[a.beam].measured.tangent(a.s),
                         along_b = beams[b.beam].measured.tangent(b.s);
   if (along_a.cross(along_b).norm() < least_sine)
@@ -122,7 +123,7 @@ void join_two(const ResolvedCase& resolved, const CaseBeamJoint& joint, int a, i
                                           text_of(allowed) + " m");
   for (const BeamPlace& place : {at_a, at_b})
     check_sliders(resolved, joint, beams[place.beam], place.s, findings);
-  if (joint.rigid) check_angle(joint, beams, places, findings);
+  if (joint.rigid) check_angle(resolved, joint, beams, places, findings);
   if (!unite(places, joined.groups))
     return findings.error(joint.path, names + " are joined at " +
                                           text_of(world_position(beams, frame, at_a)) +
@@ -131,8 +132,14 @@ void join_two(const ResolvedCase& resolved, const CaseBeamJoint& joint, int a, i
     std::vector<double>& own = joined.places[place.beam];
     if (std::find(own.begin(), own.end(), place.s) == own.end()) own.push_back(place.s);
   }
-  joined.joints.push_back({a, beams[a].material_coordinate(at_a.s), b, beams[b].material_coordinate(at_b.s),
-                           joint.rigid, joint.name});
+  joined.joints.push_back({a,
+                           beams[a].material_coordinate(at_a.s),
+                           b,
+                           beams[b].material_coordinate(at_b.s),
+                           joint.rigid,
+                           joint.name,
+                           {}});
+  if (joint.axis) joined.joints.back().axis = frame.direction_to_local(*joint.axis);
 }
 
 }  // namespace

@@ -107,6 +107,8 @@ Json to_json(const SlidingJoint& joint, const BeamModel& model) {
           {"speed at start [m/s]", joint.speed},
           {"motion", joint.motion ? "prescribed" : "free"},
           {"slope", joint.continuous_slope ? "continuous" : "discontinuous"},
+          {"follows section", joint.follows_section},
+          {"offset [m]", {joint.offset[0], joint.offset[1]}},
           {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};
 }
 
@@ -141,6 +143,16 @@ Json to_json(const LineLoad& load, const BuiltModel& built) {
   return json;
 }
 
+Json to_json(const LineTorque& load, const BuiltModel& built) {
+  return {{"beam", built.model.beams[load.beam].name},
+          {"kind", "torque per length [N m/m]"},
+          {"value", load.value},
+          {"in time", load.time.empty() ? "constant" : "table"},
+          {"factor", to_json(load.time)},
+          {"direction", "turns with the beam"},
+          {"place speed [m/s]", 0}};
+}
+
 }  // namespace
 
 std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
@@ -159,7 +171,8 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     json["beams"].push_back(to_json(model.beams[b], built.sources[b]));
   for (const Body& body : model.bodies)
-    json["bodies"].push_back({{"name", body.name}, {"mass [kg]", body.mass}});
+    json["bodies"].push_back(
+        {{"name", body.name}, {"mass [kg]", body.mass}, {"roll inertia [kg m^2]", body.roll_inertia}});
   for (const Constraint& constraint : model.constraints)
     if (const auto* support = std::get_if<Support>(&constraint))
       json["supports"].push_back(to_json(*support, built));

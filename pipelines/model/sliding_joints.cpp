@@ -75,6 +75,16 @@ void warn_of_stiff_hinge(const CaseSlidingJoint& from, const SlidingJoint& joint
           text_of(weight * l * l, 3) + " N m^2; use \"continuous\"");
 }
 
+// A kink has two sections.
+void check_following(const CaseSlidingJoint& joint, Findings& findings) {
+  if (joint.follows_section && !joint.continuous_slope)
+    findings.error(joint.path + ".follows_section",
+                   "is true, but the slope is \"discontinuous\" where body \"" + joint.body +
+                       "\" is, and a kink has a section on either side; use \"continuous\"");
+  if (joint.offset && !joint.follows_section)
+    findings.error(joint.path + ".offset", "needs \"follows_section\": true, which turns it with the beam");
+}
+
 // Nothing on a beam runs faster than the waves along it.
 void warn_of_speed(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
                    Findings& findings) {
@@ -119,9 +129,17 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
   for (const CaseBody& body : resolved.bodies) {
-    model.bodies.push_back({.name = body.name, .mass = body.mass});
+    model.bodies.push_back({.name = body.name, .mass = body.mass, .roll_inertia = body.roll_inertia});
     const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };
     const auto count = std::count_if(resolved.sliding_joints.begin(), resolved.sliding_joints.end(), carries);
+    const bool follows =
+        std::any_of(resolved.sliding_joints.begin(), resolved.sliding_joints.end(),
+                    [&](const CaseSlidingJoint& j) { return j.body == body.name && j.follows_section; });
+    if (body.roll_inertia > 0 && !follows)
+      findings.error("bodies",
+                     "body \"" + body.name +
+                         "\" has a \"roll_inertia\", but follows no section: give its sliding joint "
+                         "\"follows_section\": true");
     if (count != 1)
       findings.error("bodies", "body \"" + body.name + "\" is in " + std::to_string(count) +
                                    " sliding joints; a body needs exactly one");
@@ -136,7 +154,10 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                        std::nullopt,
                        joint.release,
                        joint.continuous_slope,
-                       joint.leave_at_end};
+                       joint.leave_at_end,
+                       joint.follows_section,
+                       joint.offset.value_or(Eigen::Vector2d::Zero())};
+    check_following(joint, findings);
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
       if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
     if (!joint.motion_table.empty()) {

@@ -1,14 +1,12 @@
 #pragma once
 #include <string>
-#include <vector>
 
 #include "pipelines/case/case_file.h"
 
 namespace nurbeam {
 
 /// Whether a beam in space has torsion, which its `torsion` says by now, and why: for those who check a case.
-/// `asked`: the case file itself asks for it; `curved`: as drawn.
-std::string why_torsion(const CaseBeam& beam, bool asked, bool curved,
-                        const std::vector<CaseSlidingJoint>& joints);
+/// `asked`: the case file itself asks for it.
+std::string why_torsion(const CaseBeam& beam, bool asked);
 
 }  // namespace nurbeam

@@ -241,6 +241,8 @@ void exchange(Archive& archive, Checkpoint& p) {
   exchange_rows(archive, "held_joints", "whether a body waits for its release", held,
                 [](int& each, auto& slot) { slot(each); });
   p.plan.held.assign(held.begin(), held.end());
+  exchange_rows(archive, "spins", "with which bodies that followed a section have left their beams",
+                p.plan.spins, [](double& spin, auto& slot) { slot(spin); });
   exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", p.plan.weights,
                 [](MeshPlan::Weights& weights, auto& slot) {
                   slot(weights.beam);

@@ -133,6 +133,8 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, dynamics_problems());
   append(all, invariance_problems());
   append(all, torsion_problems());
+  append(all, torsion_stability_problems());
+  append(all, torsion_flight_problems());
   append(all, modes_problems());
   append(all, torsion_sliding_problems());
   append(all, sliding_problems());

@@ -57,6 +57,8 @@ std::vector<VerifyProblem> dynamics_problems();
 std::vector<VerifyProblem> sliding_problems();
 std::vector<VerifyProblem> invariance_problems();
 std::vector<VerifyProblem> torsion_problems();
+std::vector<VerifyProblem> torsion_stability_problems();
+std::vector<VerifyProblem> torsion_flight_problems();
 std::vector<VerifyProblem> modes_problems();
 std::vector<VerifyProblem> torsion_sliding_problems();
 

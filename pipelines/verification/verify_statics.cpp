@@ -21,15 +21,15 @@ using namespace verification;
 using std::numbers::pi;
 
 /// A planar model without sliding joints in equilibrium, found from its drawn shape.
-class Rest {
+class PlanarRest {
  public:
-  explicit Rest(const BeamModel& model) : system_(model) {
+  explicit PlanarRest(const BeamModel& model) : system_(model) {
     state_ = drawn_state(system_);
     const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system_, state_);
     if (found.status != StaticStatus::converged) throw std::runtime_error("no static equilibrium was found");
   }
-  Rest(const Rest&) = delete;
-  Rest& operator=(const Rest&) = delete;
+  PlanarRest(const PlanarRest&) = delete;
+  PlanarRest& operator=(const PlanarRest&) = delete;
 
   Eigen::Vector2d position(double s) const { return material_point(system_, state_, 0, s).r.head<2>(); }
   double length() const { return beam_length(system_, state_, 0); }
@@ -59,7 +59,7 @@ VerifyResult roll_up() {
   VerifyResult result;
   const std::string source = "(EI/M) (sin, 1 - cos)(M L/EI)";
   for (const auto& [name, moment] : {std::pair{"M = pi EI/L", pi}, {"M = 2 pi EI/L", 2 * pi}}) {
-    const Rest rest(rolled_up(moment, 200));
+    const PlanarRest rest(rolled_up(moment, 200));
     const Tip exact = roll_up_tip(moment);
     const std::string load = std::string(" [m], ") + name + ", 200 elements";
     result.add("tip x" + load, exact.x, source, rest.position(1).x(), 1e-8);
@@ -68,7 +68,7 @@ VerifyResult roll_up() {
   }
   ConvergenceTable table{"the tip [m] where M = 2 pi EI/L", "elements", {}};
   for (const int elements : {16, 32, 64})
-    table.rows.emplace_back(elements, Rest(rolled_up(2 * pi, elements)).position(1).norm());
+    table.rows.emplace_back(elements, PlanarRest(rolled_up(2 * pi, elements)).position(1).norm());
   result.add(std::move(table), 4, 0.1, "cubic elements");
   return result;
 }
@@ -78,7 +78,7 @@ VerifyResult elastica() {
   for (const int q : {1, 2, 5, 10}) {
     BeamModel model = cantilever(1e7, 64);
     add_force(model, {0, -double(q), 0}, 1);
-    const Rest rest(std::move(model));
+    const PlanarRest rest(std::move(model));
     const Tip exact = elastica_tip(q);
     const std::string load = ", q = " + std::to_string(q) + ", EA = 1e7 EI/L^2";
     result.add("u/L" + load, 1 - exact.x, "Mattiasson 1981, elliptic integrals", 1 - rest.position(1).x(),
@@ -94,7 +94,7 @@ VerifyResult small_deflection() {
   for (const double P : {0.004, 0.002, 0.001}) {
     BeamModel model = cantilever(1e3, 1);
     add_force(model, {0, -P, 0}, 1);
-    const double ratio = -Rest(std::move(model)).position(1).y() / (P / 3);
+    const double ratio = -PlanarRest(std::move(model)).position(1).y() / (P / 3);
     loads.rows.emplace_back(P, std::abs(ratio - 1));
     if (P == 0.001)
       result.add("tip over PL^3/3EI, P = 0.001 EI/L^2, 1 element", 1, "linear theory", ratio, 1e-6);
@@ -107,7 +107,7 @@ VerifyResult small_deflection() {
   for (const int elements : {1, 2, 4}) {
     BeamModel model = cantilever(1e3, elements);
     add_line_load(model, {0, -w, 0});
-    const Rest rest(std::move(model));
+    const PlanarRest rest(std::move(model));
     const double x = 0.5 / elements, exact = -w * x * x * (6 - 4 * x + x * x) / 24;
     inside.rows.emplace_back(elements, std::abs(rest.position(x).y() - exact));
     result.add("tip y [m] under w = 1e-4 N/m, " + std::to_string(elements) + " elements", -w / 8, "wL^4/8EI",
@@ -141,7 +141,7 @@ BeamModel cable(double EA, double length, double rise) {
 }
 
 VerifyResult catenary(double length, double H, double sag) {
-  const Rest rest(cable(1e6, length, 0));
+  const PlanarRest rest(cable(1e6, length, 0));
   const std::string source = "Irvine's integrals with the Green law";
   VerifyResult result;
   result.add("H [N], EA = 1e6 N", H, source, rest.pull(), 1e-6 * H);
@@ -155,14 +155,14 @@ VerifyResult uneven_supports() {
   const StringLaw law{.EA = 1e6, .w = weight};
   const Hanging exact = hang(law, S, 100, -drop);
   const StringShape half = law.shape(exact.H, exact.V, S / 2);
-  const Rest rest(cable(law.EA, S, -drop));
+  const PlanarRest rest(cable(law.EA, S, -drop));
   const std::string source = "the string's integrals with the Green law";
   result.add("H [N], EA = 1e6 N", exact.H, source, rest.pull(), 1e-6 * exact.H);
   result.add("middle x [m], EA = 1e6 N", half.x, source, rest.position(S / 2).x(), 1e-6 * half.x);
   result.add("middle y [m], EA = 1e6 N", half.y, source, rest.position(S / 2).y(), 1e-6 * std::abs(half.y));
   const double H = inextensible_pull(S, 100, drop, weight);
-  result.add("H [N], EA = 1e11 N", H, "S^2 - d^2 = (2a sinh(X/2a))^2", Rest(cable(1e11, S, -drop)).pull(),
-             1e-6 * H);
+  result.add("H [N], EA = 1e11 N", H, "S^2 - d^2 = (2a sinh(X/2a))^2",
+             PlanarRest(cable(1e11, S, -drop)).pull(), 1e-6 * H);
   return result;
 }
 

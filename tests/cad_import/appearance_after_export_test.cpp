@@ -36,6 +36,7 @@
 #include "cad_import/export_into_step.h"
 #include "cad_import/import_curves.h"
 #include "cad_import/step/step_instances.h"
+#include "tests/cad_import/arch.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_parameter.h"
 #include "tests/cad_import/step_text_of.h"
@@ -146,15 +147,6 @@ class Document {
 
 // --------------------------------------------------------------------------------- an assembly in colours
 
-TopoDS_Edge arch(double height) {
-  TColgp_Array1OfPnt poles(1, 4);
-  poles(1) = gp_Pnt(0, 0, 0);
-  poles(2) = gp_Pnt(100, 0, height);
-  poles(3) = gp_Pnt(200, 50, height);
-  poles(4) = gp_Pnt(300, 0, 0);
-  return BRepBuilderAPI_MakeEdge(Handle(Geom_Curve)(new Geom_BezierCurve(poles))).Edge();
-}
-
 gp_Trsf placed(double angle) {
   gp_Trsf turn, shift;
   turn.SetRotation(gp_Ax1(gp_Pnt(10, 20, 30), gp_Dir(1, 2, 3)), angle);
@@ -214,12 +206,6 @@ void write_rig(const fs::path& file) {
   const StepParameter unit("write.step.unit", "INCH"), names("write.stepcaf.subshapes.name", "1");
   ASSERT_TRUE(writer.Transfer(document, STEPControl_AsIs));
   ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
-}
-
-NurbsCurve stretched(const NurbsCurve& curve) {
-  Eigen::Matrix4Xd points = curve.control_points();
-  points.row(2) *= 1.5;
-  return {curve.knots(), points};
 }
 
 TEST(AppearanceAfterExport, OfAnAssemblyInColoursIsWhatItWasAndOnlyTheCurveHasMoved) {
@@ -308,7 +294,7 @@ bool is_made_of(const StepInstances& step, int start, int wanted) {
   return std::any_of(parts.begin(), parts.end(), [&](int part) { return is_made_of(step, part, wanted); });
 }
 
-const std::string arc =
+const std::string trimmed_arc =
     "#100 = TRIMMED_CURVE('arc',#101,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(1.5)),.T.,.PARAMETER.);\n"
     "#101 = CIRCLE('',#11,2.);";
 const std::string brace = R"(#100 = EDGE_CURVE('brace',#102,#103,#101,.T.);
@@ -364,9 +350,9 @@ TEST_P(StyleAfterExport, IsStillThatOfTheCurve) {
 
 INSTANTIATE_TEST_SUITE_P(AttachedTo, StyleAfterExport,
                          testing::Values(Styled{"Curve", "#100 = CIRCLE('hoop',#11,2.);", 100},
-                                         Styled{"TrimmedCurve", arc, 100},
-                                         Styled{"BasisOfTrimmedCurve", arc, 101}, Styled{"Edge", brace, 100},
-                                         Styled{"GeometryOfEdge", brace, 101}),
+                                         Styled{"TrimmedCurve", trimmed_arc, 100},
+                                         Styled{"BasisOfTrimmedCurve", trimmed_arc, 101},
+                                         Styled{"Edge", brace, 100}, Styled{"GeometryOfEdge", brace, 101}),
                          [](const auto& test) { return std::string(test.param.what); });
 
 TEST(AppearanceAfterExport, GeometryThatTwoCurvesAreMadeOfStaysThatOfTheOther) {
@@ -376,7 +362,7 @@ TEST(AppearanceAfterExport, GeometryThatTwoCurvesAreMadeOfStaysThatOfTheOther) {
   // Two arcs of one circle; an arc and the whole circle.
   for (const bool arcs : {true, false}) {
     const std::string set = arcs ? "#100,#102" : "#101,#102";
-    const fs::path source = scratch.file("source.step", step_text_of(set, arc + second));
+    const fs::path source = scratch.file("source.step", step_text_of(set, trimmed_arc + second));
     const fs::path target = scratch.path() / "target.step";
     const ImportReport before = import_curves(source);
     ASSERT_EQ(before.curves.size(), 2u);

@@ -27,6 +27,7 @@
 #include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
 #include "cad_import/step/step_instances.h"
+#include "tests/cad_import/arch.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_parameter.h"
 #include "tests/cad_import/step_text_of.h"
@@ -82,15 +83,6 @@ TEST(ExportIntoStep, ExchangesOneCurveAndLeavesTheRestOfTheTextAlone) {
     }
 }
 
-Handle(Geom_BezierCurve) arch(double height) {
-  TColgp_Array1OfPnt poles(1, 4);
-  poles(1) = gp_Pnt(0, 0, 0);
-  poles(2) = gp_Pnt(100, 0, height);
-  poles(3) = gp_Pnt(200, 50, height);
-  poles(4) = gp_Pnt(300, 0, 0);
-  return new Geom_BezierCurve(poles);
-}
-
 /// An assembly of two copies of a part at different places, and of one part of its own; the part is `shape`.
 TopoDS_Compound assembly(const TopoDS_Shape& shape, int copies) {
   const BRep_Builder builder;
@@ -113,20 +105,14 @@ void write_assembly(const fs::path& file, const TopoDS_Shape& shape) {
   ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
 }
 
-NurbsCurve stretched(const NurbsCurve& curve) {
-  Eigen::Matrix4Xd points = curve.control_points();
-  points.row(2) *= 1.5;
-  return {curve.knots(), points};
-}
-
 TEST(ExportIntoStep, APlacedPartGetsTheCurveInItsOwnFrame) {
   const ScratchDirectory scratch;
   const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
   const BRep_Builder builder;
   TopoDS_Compound part;
   builder.MakeCompound(part);
-  builder.Add(part, BRepBuilderAPI_MakeEdge(arch(50)).Edge());
-  builder.Add(part, BRepBuilderAPI_MakeEdge(arch(80)).Edge());
+  builder.Add(part, arch(50));
+  builder.Add(part, arch(80));
   write_assembly(source, assembly(part, 1));
   const ImportReport before = import_curves(source);
   ASSERT_EQ(before.curves.size(), 2u);
@@ -145,7 +131,7 @@ TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
   const BRep_Builder builder;
   TopoDS_Compound part;
   builder.MakeCompound(part);
-  builder.Add(part, BRepBuilderAPI_MakeEdge(arch(50)).Edge());
+  builder.Add(part, arch(50));
   write_assembly(source, assembly(part, 2));
   const ImportReport before = import_curves(source);
   ASSERT_EQ(before.curves.size(), 2u);

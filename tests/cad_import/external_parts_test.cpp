@@ -8,6 +8,7 @@
 #include "cad_import/export_into_step.h"
 #include "cad_import/import_curves.h"
 #include "nurbs/primitives.h"
+#include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/iges_text_of.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
@@ -53,8 +54,6 @@ std::string bridge(const std::string& file) {
   return with(text, "PRODUCT('curves','curves'", "PRODUCT('bridge','bridge'");
 }
 
-Eigen::Vector3d end_of(const NurbsCurve& curve) { return curve.point(curve.knots().end()); }
-
 const NurbsCurve rope = line({0.01, 0, 0}, {0.02, 0, 0.5});
 
 void write_rope(const fs::path& file) {
@@ -86,7 +85,7 @@ TEST(ExternalParts, AreReadFromBesideAndStandWhereTheAssemblyPutsThem) {
 }
 
 /// The one warning; the hoop is read all the same.
-std::string only_warning(const ImportReport& report) {
+std::string warning_of_bridge(const ImportReport& report) {
   EXPECT_EQ(report.curves.size(), 1U);
   EXPECT_EQ(report.diagnostics.size(), 1U);
   if (report.diagnostics.empty()) return "";
@@ -96,11 +95,12 @@ std::string only_warning(const ImportReport& report) {
 
 TEST(ExternalParts, AreNamedWhereTheFileIsNotThereOrThePartIsHereToo) {
   const ScratchDirectory scratch;
-  const std::string missing = only_warning(import_curves(scratch.file("bridge.step", bridge("rope.stp"))));
+  const std::string missing =
+      warning_of_bridge(import_curves(scratch.file("bridge.step", bridge("rope.stp"))));
   for (const char* part : {"'rope'", "'rope.stp'", "not read", "no such file"})
     EXPECT_NE(missing.find(part), std::string::npos) << missing;
   write_rope(scratch.path() / "rope.stp");
-  const std::string here = only_warning(import_curves(scratch.file(
+  const std::string here = warning_of_bridge(import_curves(scratch.file(
       "part.step", step_text_of("#100", "#100 = CIRCLE('good',#11,1.);\n" + lies_in("rope.stp", "#5")))));
   EXPECT_NE(here.find("has shapes here"), std::string::npos) << here;
 }

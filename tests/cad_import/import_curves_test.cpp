@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cad_import/files/child_process.h"
+#include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
@@ -35,9 +36,6 @@ std::string trimmed(const std::string& conic, double first, double last, const s
          ")),(PARAMETER_VALUE(" + std::to_string(last) + "))," + sense + ",.PARAMETER.);\n#101 = " + conic +
          ";";
 }
-
-Eigen::Vector3d start_of(const NurbsCurve& curve) { return curve.point(curve.knots().start()); }
-Eigen::Vector3d end_of(const NurbsCurve& curve) { return curve.point(curve.knots().end()); }
 
 template <class Function>
 void at_many_points(const NurbsCurve& curve, const Function& check) {

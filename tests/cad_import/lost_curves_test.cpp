@@ -3,21 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
+#include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
 namespace nurbeam {
 namespace {
-
-ImportReport import_text(const std::string& text) {
-  const ScratchDirectory scratch;
-  return import_curves(scratch.file("drawing.cad", text));
-}
 
 /// The file with a circle that is read anyhow, and these entities, which are in no set of curves.
 ImportReport import_beside_a_circle(const std::string& entities, const std::string& in_set = "",
@@ -89,6 +87,7 @@ TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {
       "#150 = CONSTRUCTIVE_GEOMETRY_REPRESENTATION('supplemental geometry',(#110),#26);\n"
       "#151 = CONSTRUCTIVE_GEOMETRY_REPRESENTATION_RELATIONSHIP('supplemental geometry','',#10,#150);\n");
   ASSERT_NE(named(supplemental, "rim"), nullptr);
+  EXPECT_EQ(named(supplemental, "rim")->part, "curves");
   EXPECT_NEAR(length(named(supplemental, "rim")->curve), 13.364893220555258e-3, 1e-12);
   const ImportReport wireframe = import_beside_a_circle(
       line +
@@ -104,7 +103,24 @@ TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {
   const ImportReport loop =
       import_beside_a_circle(line + "#110 = POLY_LOOP('triangle',(#200,#201,#202));\n", ",#110");
   ASSERT_NE(named(loop, "triangle"), nullptr);
+  EXPECT_EQ(named(loop, "triangle")->part, "curves");
+  EXPECT_TRUE(loop.diagnostics.empty());
   EXPECT_NEAR(length(named(loop, "triangle")->curve), 12e-3, 1e-15);
+}
+
+TEST(LostCurves, SupplementalGeometryInAnAssemblyLiesInItsPartInItsOwnUnit) {
+  // A part that is placed at 100 and 300 mm and turned by 90 degrees, with a line of 2 cm besides.
+  const ImportReport report =
+      import_curves(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/fuzz/seeds/supplemental.step");
+  std::map<std::string, NurbsCurve> helps;
+  for (const ImportedCurve& curve : report.curves)
+    if (curve.name == "help") helps.emplace(curve.part, curve.curve);
+  ASSERT_EQ(helps.size(), 2U);
+  for (const auto& [part, x] : {std::pair{"curves/left", 0.1}, {"curves/right", 0.3}}) {
+    ASSERT_TRUE(helps.contains(part)) << part;
+    EXPECT_LE((start_of(helps.at(part)) - Eigen::Vector3d(x, 0, 0)).norm(), 1e-15);
+    EXPECT_LE((end_of(helps.at(part)) - Eigen::Vector3d(x, 0.02, 0)).norm(), 1e-15);
+  }
 }
 
 /// The one warning, and that the circle was read all the same.
@@ -121,7 +137,9 @@ TEST(LostCurves, WhatCannotBeReadIsNamed) {
     const std::string warning = only_warning(report);
     EXPECT_NE(warning.find(what), std::string::npos) << warning;
   };
-  told(import_beside_a_circle("#110 = CIRCLE('inside out',#11,-2.);\n", ",#110"), "#110 Circle 'inside out'");
+  told(import_beside_a_circle("#110 = CIRCLE('inside out',#11,-2.);\n", ",#110"),
+       "#110 Circle 'inside out': not read: its radius is -2; it must be positive");
+  told(import_beside_a_circle("", ",#777"), "it refers to #777, which the file does not have");
   told(import_beside_a_circle("#160 = COORDINATES_LIST('',2,((0.,0.,0.),(3.,4.,0.)));\n"
                               "#161 = TESSELLATED_CURVE_SET('mesh',#160,((1,2)));\n"
                               "#162 = TESSELLATED_GEOMETRIC_SET('',(#161));\n"

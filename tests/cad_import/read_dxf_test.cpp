@@ -8,6 +8,7 @@
 
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
+#include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/scratch_directory.h"
 
 namespace nurbeam {
@@ -28,15 +29,13 @@ ImportReport import_dxf(const std::string& text) {
   return import_curves(scratch.file("drawing.dxf", text));
 }
 
-NurbsCurve only_curve(const std::string& entities, int insunits = 4) {
+NurbsCurve only_dxf_curve(const std::string& entities, int insunits = 4) {
   const ImportReport report = import_dxf(dxf_of(entities, insunits));
   EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
   EXPECT_EQ(report.curves.size(), 1U);
   return report.curves.at(0).curve;
 }
 
-Eigen::Vector3d start_of(const NurbsCurve& curve) { return curve.point(curve.knots().start()); }
-Eigen::Vector3d end_of(const NurbsCurve& curve) { return curve.point(curve.knots().end()); }
 Eigen::Vector3d middle_of(const NurbsCurve& curve) {
   return curve.point(0.5 * (curve.knots().start() + curve.knots().end()));
 }
@@ -46,7 +45,7 @@ void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { EXPECT_LE
 TEST(ReadDxf, LinesHaveTheUnitOfTheDrawing) {
   const std::string line = "0 LINE 8 0 10 1 20 2 30 3 11 4 21 6 31 3";
   for (const auto& [insunits, metres] : {std::pair{1, 0.0254}, {4, 1e-3}, {5, 1e-2}, {6, 1.0}}) {
-    const NurbsCurve curve = only_curve(line, insunits);
+    const NurbsCurve curve = only_dxf_curve(line, insunits);
     expect_near(start_of(curve), metres * Eigen::Vector3d(1, 2, 3));
     expect_near(end_of(curve), metres * Eigen::Vector3d(4, 6, 3));
   }
@@ -57,17 +56,17 @@ TEST(ReadDxf, LinesHaveTheUnitOfTheDrawing) {
 }
 
 TEST(ReadDxf, ArcsRunCounterclockwiseAboutTheirNormal) {
-  const NurbsCurve arc = only_curve("0 ARC 10 5 20 0 30 1 40 2 50 300 51 60", 6);
+  const NurbsCurve arc = only_dxf_curve("0 ARC 10 5 20 0 30 1 40 2 50 300 51 60", 6);
   const double root = std::sqrt(3.0);
   expect_near(start_of(arc), {6, -root, 1});
   expect_near(middle_of(arc), {7, 0, 1});
   expect_near(end_of(arc), {6, root, 1});
   EXPECT_NEAR(length(arc), 2 * 2 * pi / 3, 1e-14);
   // Seen from behind its x axis points the other way (the arbitrary axis algorithm).
-  const NurbsCurve behind = only_curve("0 ARC 10 5 20 0 30 1 40 2 50 0 51 90 210 0 220 0 230 -1", 6);
+  const NurbsCurve behind = only_dxf_curve("0 ARC 10 5 20 0 30 1 40 2 50 0 51 90 210 0 220 0 230 -1", 6);
   expect_near(start_of(behind), {-7, 0, -1});
   expect_near(end_of(behind), {-5, 2, -1});
-  const NurbsCurve circle = only_curve("0 CIRCLE 10 1 20 1 30 0 40 0.5", 6);
+  const NurbsCurve circle = only_dxf_curve("0 CIRCLE 10 1 20 1 30 0 40 0.5", 6);
   EXPECT_NEAR(length(circle), pi, 1e-14);
   for (double u = 0; u <= 4; u += 0.25)
     EXPECT_NEAR((circle.point(u) - Eigen::Vector3d(1, 1, 0)).norm(), 0.5, 1e-15);
@@ -75,16 +74,17 @@ TEST(ReadDxf, ArcsRunCounterclockwiseAboutTheirNormal) {
 
 TEST(ReadDxf, EllipsesRunFromTheirMajorAxis) {
   const NurbsCurve quarter =
-      only_curve("0 ELLIPSE 10 1 20 0 30 0 11 0 21 3 31 0 40 0.5 41 0 42 1.5707963267948966", 6);
+      only_dxf_curve("0 ELLIPSE 10 1 20 0 30 0 11 0 21 3 31 0 40 0.5 41 0 42 1.5707963267948966", 6);
   expect_near(start_of(quarter), {1, 3, 0});
   EXPECT_LE((end_of(quarter) - Eigen::Vector3d(-0.5, 0, 0)).norm(), 1e-15);
-  const NurbsCurve whole = only_curve("0 ELLIPSE 10 0 20 0 30 0 11 3 21 0 31 0 40 0.33333333333333333", 6);
+  const NurbsCurve whole =
+      only_dxf_curve("0 ELLIPSE 10 0 20 0 30 0 11 3 21 0 31 0 40 0.33333333333333333", 6);
   EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12);
 }
 
 TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
   // A quarter of the unit circle.
-  const NurbsCurve arc = only_curve(
+  const NurbsCurve arc = only_dxf_curve(
       "0 SPLINE 70 4 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.70710678118654752 41 1 "
       "10 1 20 0 30 0 10 1 20 1 30 0 10 0 20 1 30 0",
       6);
@@ -93,7 +93,7 @@ TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
 
 TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
   const NurbsCurve square =
-      only_curve("0 LWPOLYLINE 90 4 70 1 38 2 10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1", 6);
+      only_dxf_curve("0 LWPOLYLINE 90 4 70 1 38 2 10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1", 6);
   EXPECT_EQ(square.degree(), 1);
   EXPECT_EQ(square.control_points().cols(), 5);
   EXPECT_NEAR(length(square), 4, 1e-15);
@@ -113,7 +113,7 @@ TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
     for (int i = 0; i < 4; ++i)
       expect_near(end_of(slot.curves[i].curve), start_of(slot.curves[(i + 1) % 4].curve));
   }
-  const NurbsCurve in_space = only_curve(
+  const NurbsCurve in_space = only_dxf_curve(
       "0 POLYLINE 66 1 70 8 0 VERTEX 70 32 10 0 20 0 30 0 0 VERTEX 70 32 10 1 20 2 30 2 0 VERTEX 70 32 10 1 20 2 30 3 "
       "0 SEQEND",
       6);

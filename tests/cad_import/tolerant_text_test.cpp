@@ -7,6 +7,7 @@
 
 #include "cad_import/import_curves.h"
 #include "tests/cad_import/iges_text_of.h"
+#include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
@@ -15,11 +16,6 @@ namespace {
 
 const std::string circle =
     step_text_of("#100", "#100 = CIRCLE('rim, (1,) /* no comment */ ; DATA;',#11,1.);");
-
-ImportReport import_text(const std::string& text) {
-  const ScratchDirectory scratch;
-  return import_curves(scratch.file("drawing.cad", text));
-}
 
 void expect_the_circle(const std::string& text) {
   const ImportReport report = import_text(text);
@@ -47,6 +43,28 @@ TEST(TolerantText, TheSectionsOfEditionThreeAreRead) {
                          "DATA('one',('AUTOMOTIVE_DESIGN'));"));
   expect_the_circle(with(circle, "#100 = CIRCLE", "ENDSEC;\n/* more */\nDATA ;\n#100 = CIRCLE"));
   expect_the_circle(circle + "SIGNATURE;\nTUlJ\nENDSEC;\n");
+}
+
+TEST(TolerantText, ComplexInstancesOfSplinesWithoutWeightsAreRead) {
+  const std::string points =
+      "#200 = CARTESIAN_POINT('',(0.,0.,0.));\n#201 = CARTESIAN_POINT('',(1.,2.,0.));\n"
+      "#202 = CARTESIAN_POINT('',(3.,2.,0.));\n#203 = CARTESIAN_POINT('',(4.,0.,0.));\n";
+  const auto spline = [](const std::string& leaf) {
+    return "( " + leaf +
+           " BOUNDED_CURVE() B_SPLINE_CURVE(3,(#200,#201,#202,#203),.UNSPECIFIED.,.F.,.F.) CURVE() "
+           "GEOMETRIC_REPRESENTATION_ITEM() REPRESENTATION_ITEM('it''s (odd)') )";
+  };
+  for (const char* leaf : {"BEZIER_CURVE()", "QUASI_UNIFORM_CURVE()",
+                           "B_SPLINE_CURVE_WITH_KNOTS((4,4),(0.,1.),.UNSPECIFIED.)"}) {
+    const ImportReport report = import_text(step_text_of("#100", "#100 = " + spline(leaf) + ";\n" + points));
+    ASSERT_EQ(report.curves.size(), 1U) << leaf;
+    EXPECT_TRUE(report.diagnostics.empty());
+    EXPECT_EQ(report.curves[0].name, "it's (odd)");
+    EXPECT_LE((report.curves[0].curve.point(0.5) - Eigen::Vector3d(2e-3, 1.5e-3, 0)).norm(), 1e-18) << leaf;
+  }
+  const std::string unknown = spline("POLYLINE(())");
+  EXPECT_NE(tolerant_text(step_text_of("#100", "#100 = " + unknown + ";\n" + points)).find(unknown),
+            std::string::npos);
 }
 
 TEST(TolerantText, BytesThatAreNoUtf8AreLatin1) {

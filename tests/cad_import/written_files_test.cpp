@@ -169,13 +169,13 @@ void expect_sound_edges(const TopoDS_Shape& shape) {
   }
 }
 
-struct Target {
+struct WrittenTarget {
   const char* file;
   LengthUnit unit;
   double in_millimetres;
 };
 
-class WrittenFile : public testing::TestWithParam<Target> {};
+class WrittenFile : public testing::TestWithParam<WrittenTarget> {};
 
 TEST_P(WrittenFile, OfASmoothCableIsOneSoundEdgeToASecondReader) {
   const ScratchDirectory scratch;
@@ -245,7 +245,7 @@ TEST_P(WrittenFile, HasItsPlaceInMillimetresToASecondReader) {
   }
 }
 
-std::string content_of_file(const fs::path& file) {
+std::string written_text(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -254,7 +254,7 @@ TEST_P(WrittenFile, DeclaresItsUnit) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / GetParam().file;
   ASSERT_TRUE(export_curves(file, {{"cable", cable(2)}}, GetParam().unit).empty());
-  const std::string text = content_of_file(file);
+  const std::string text = written_text(file);
   if (file.extension() == ".igs") {
     const IgesGlobal global = parse_iges_global(text);
     EXPECT_DOUBLE_EQ(global.unit_in_metres, 1e-3 * GetParam().in_millimetres);
@@ -267,14 +267,17 @@ TEST_P(WrittenFile, DeclaresItsUnit) {
   EXPECT_NE(text.find(declared), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, WrittenFile,
-    testing::Values(Target{"a.step", LengthUnit::metre, 1000}, Target{"a.step", LengthUnit::millimetre, 1},
-                    Target{"a.step", LengthUnit::inch, 25.4}, Target{"a.igs", LengthUnit::metre, 1000},
-                    Target{"a.igs", LengthUnit::millimetre, 1}, Target{"a.igs", LengthUnit::inch, 25.4}),
-    [](const auto& test) {
-      return std::string(test.param.file + 2) + "_" + std::to_string(int(test.param.in_millimetres));
-    });
+INSTANTIATE_TEST_SUITE_P(All, WrittenFile,
+                         testing::Values(WrittenTarget{"a.step", LengthUnit::metre, 1000},
+                                         WrittenTarget{"a.step", LengthUnit::millimetre, 1},
+                                         WrittenTarget{"a.step", LengthUnit::inch, 25.4},
+                                         WrittenTarget{"a.igs", LengthUnit::metre, 1000},
+                                         WrittenTarget{"a.igs", LengthUnit::millimetre, 1},
+                                         WrittenTarget{"a.igs", LengthUnit::inch, 25.4}),
+                         [](const auto& test) {
+                           return std::string(test.param.file + 2) + "_" +
+                                  std::to_string(int(test.param.in_millimetres));
+                         });
 
 /// A closed cable in space, else as wavy_cable.
 BezierPath wavy_ring(int count, double weight_spread) {
@@ -501,7 +504,7 @@ TEST(ExportSolids, KeepsEveryNameAndEveryCable) {
   ASSERT_TRUE(export_solids(file, {{{"left", cable(3)}, 0.01}, {{"right", straight_line(1)}, 0.02}},
                             LengthUnit::millimetre)
                   .empty());
-  const std::string text = content_of_file(file);
+  const std::string text = written_text(file);
   EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('left'"), std::string::npos);
   EXPECT_NE(text.find("MANIFOLD_SOLID_BREP('right'"), std::string::npos);
   EXPECT_TRUE(BRepCheck_Analyzer(second_reading(file)).IsValid());

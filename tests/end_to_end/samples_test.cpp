@@ -32,6 +32,7 @@ const std::map<std::string, std::vector<std::string>> shortened = {
     {"papers/pendulum.json", {"analysis.end_time=0.2"}},
     {"papers/pendulum_own.json", {"analysis.end_time=0.2"}},
     {"papers/pendulum_extreme.json", {"analysis.end_time=0.2"}},
+    {"roller_coaster/roller_coaster.json", {"analysis.end_time=0.2"}},
     {"rail/rail.json", {"analysis.end_time=0.05", "output.cad=null"}},
 };
 
@@ -67,6 +68,21 @@ TEST(Samples, TheSpringHasTheStiffnessOfItsClosedForm) {
   const double energy = run.last("energy.axial [J]") + run.last("energy.bending [J]");
   EXPECT_NEAR(2 * energy / (F * F), compliance, 1e-3 * compliance);
   EXPECT_NEAR(std::abs(run.last("end.torque [N m]")), F * R * cosine, 1e-3 * F * R);
+}
+
+// v^2 = v_0^2 + 2 g (z_0 - z), with the roll and a rail that gives, down the first slope.
+TEST(Samples, TheRollerCoasterRunsDownAsItsHeightSays) {
+  const test::CaseRun run = test::run_file(test::sample("roller_coaster/roller_coaster.json"),
+                                           {"analysis.end_time=2.4", "output.report=false"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const auto square_of_speed = [&](std::size_t row) {
+    return std::pow(run.value(row, "car.vx [m/s]"), 2) + std::pow(run.value(row, "car.vy [m/s]"), 2) +
+           std::pow(run.value(row, "car.vz [m/s]"), 2);
+  };
+  const double fallen = run.value(0, "car.z [m]") - run.last("car.z [m]");
+  const double expected = square_of_speed(0) + 2 * 9.81 * fallen;
+  EXPECT_GT(fallen, 1);
+  EXPECT_NEAR(square_of_speed(run.rows.size() - 1), expected, 0.02 * expected);
 }
 
 // The Kirchhoff rod of docs/verification.md (`nurbeam verify torsion`), by an initial value problem.

@@ -42,4 +42,46 @@ inline BeamModel torsion_model(std::mt19937& random, int dimension) {
   return model;
 }
 
+/// Bodies that slide on a curved and twisted beam and follow its section beside the axis, as a node and,
+/// where the element beside it has a moving end, as a point; that bend it by an angle; and that do neither.
+/// It is joined to a second one by a hinge with an axis, and that one held by another. Torques along both,
+/// forces beside the axis. `point_roll`: the inertia of the one on a point [kg m^2].
+inline BeamModel torsion_sliding_model(std::mt19937& random, double point_roll) {
+  ModelBuilder builder(3, {0.3, -9.81, 1});
+  builder.add_beam(ReferenceCurve(uneven_axis(random, 3), 3)
+                       .oriented({Orientation::Rule::start, {0.3, 0.2, 1}, {{0, 0}, {1, 0.7}, {4, 2}}}),
+                   with_sections(), {6});
+  std::vector<RationalCubic> other;
+  for (const RationalCubic& cubic : uneven_axis(random, 3)) {
+    Eigen::Matrix4d points = cubic.points();
+    points.row(0).swap(points.row(2));
+    other.push_back(RationalCubic(points));
+  }
+  builder.add_beam(ReferenceCurve(other, 3), with_sections(), {4});
+  const double L = builder.beam(0).curve.length(), M = builder.beam(1).curve.length();
+  const auto slide = [&](double part) -> SlidingJoint& {
+    return builder.slide(builder.add_body("body at " + std::to_string(part), 0.4), 0, part * L);
+  };
+  SlidingJoint& on_node = slide(0.3);
+  on_node.follows_section = true;
+  on_node.offset = {0.1, -0.2};
+  slide(0.55).continuous_slope = false;
+  slide(0.8);
+  SlidingJoint& on_point = slide(0.99);
+  on_point.follows_section = true;
+  on_point.offset = {-0.15, 0.1};
+  builder.clamp(0, 0);
+  builder.add(BeamJoint{0, L, 1, 0, false, {}, Eigen::Vector3d(1, 0.4, -0.3)});
+  builder.add(Support{1, M, false, false, {}, {}, Eigen::Vector3d(0.2, 1, 0.5)});
+  const Eigen::Vector3d force(1, -2, 3);
+  for (const bool follower : {false, true})
+    for (const double s : {0.1 * L, 0.65 * L})
+      builder.add(PointLoad{{0, s, 0.3, force, follower, {{0, 0.5}, {1, 1}}, {0.1, 0.2}}});
+  for (const int beam : {0, 1}) builder.add(LineTorque{beam, 0.7, {{0, 1}, {1, 2}}});
+  BeamModel model = builder.build();
+  model.bodies[0].roll_inertia = 0.3;
+  model.bodies[3].roll_inertia = point_roll;
+  return model;
+}
+
 }  // namespace nurbeam::testing

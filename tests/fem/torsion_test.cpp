@@ -175,8 +175,12 @@ TEST(Torsion, OfAModelIsRefusedWhereItMeansNothing) {
   EXPECT_THROW(space.fork(1, 0), std::invalid_argument);
   SlidingJoint& joint = space.slide(space.add_body("bead", 1), 0, 1);
   EXPECT_NO_THROW(space.build());
+  joint.follows_section = true;
+  EXPECT_NO_THROW(space.build());
   joint.continuous_slope = false;
   EXPECT_THROW(space.build(), std::invalid_argument);
+  joint.follows_section = false;
+  EXPECT_NO_THROW(space.build());
 }
 
 }  // namespace

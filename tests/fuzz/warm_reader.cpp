@@ -18,25 +18,42 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void read_in_child(const std::string& file, int answer, std::chrono::seconds time,
-                                std::size_t memory_bytes) {
-  const auto seconds = static_cast<rlim_t>(time.count());
-  const rlimit cpu{seconds, seconds + 1}, memory{memory_bytes, memory_bytes}, none{0, 0};
+bool send(int descriptor, const std::string& bytes) {
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t count = write(descriptor, bytes.data() + sent, bytes.size() - sent);
+    if (count <= 0) return false;
+    sent += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+// From now on.
+void limit_processor_time(std::chrono::seconds time) {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const rlim_t until = used.ru_utime.tv_sec + used.ru_stime.tv_sec + time.count() + 1;
+  const rlimit cpu{until, RLIM_INFINITY};
   setrlimit(RLIMIT_CPU, &cpu);
+}
+
+// Each report goes after the number of its bytes.
+[[noreturn]] void read_in_child(const std::vector<std::string>& files, int answer, std::chrono::seconds time,
+                                std::size_t memory_bytes) {
+  const rlimit memory{memory_bytes, memory_bytes}, none{0, 0};
   setrlimit(RLIMIT_AS, &memory);
   setrlimit(RLIMIT_CORE, &none);
   const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
-  std::string bytes;
-  try {
-    bytes = to_bytes(read_file(file, 1e-7));
-  } catch (const std::bad_alloc&) {
-    bytes = "memory";
-  }
-  for (std::size_t sent = 0; sent < bytes.size();) {
-    const ssize_t count = write(answer, bytes.data() + sent, bytes.size() - sent);
-    if (count <= 0) break;
-    sent += static_cast<std::size_t>(count);
+  for (const std::string& file : files) {
+    limit_processor_time(time);
+    std::string bytes;
+    try {
+      bytes = to_bytes(read_file(file, 1e-7));
+    } catch (const std::bad_alloc&) {
+      bytes = "memory";
+    }
+    const std::size_t size = bytes.size();
+    if (!send(answer, std::string(reinterpret_cast<const char*>(&size), sizeof size) + bytes)) break;
   }
   _exit(0);
 }
@@ -48,26 +65,35 @@ ImportReport refusal(const std::string& file, const std::string& message) {
   return report;
 }
 
-// Everything up to the end of the stream; false when the deadline passes first.
-bool receive_until(Clock::time_point deadline, int descriptor, std::string& bytes) {
-  char buffer[1 << 16];
-  while (true) {
+enum class Received { all, ended, too_late };
+
+// That many bytes.
+Received receive(Clock::time_point deadline, int descriptor, char* bytes, std::size_t size) {
+  while (size > 0) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
+    if (left <= 0) return Received::too_late;
     pollfd ready{descriptor, POLLIN, 0};
     if (poll(&ready, 1, static_cast<int>(left)) <= 0) continue;
-    const ssize_t count = read(descriptor, buffer, sizeof buffer);
-    if (count <= 0) return true;
-    bytes.append(buffer, static_cast<std::size_t>(count));
+    const ssize_t count = read(descriptor, bytes, size);
+    if (count <= 0) return Received::ended;
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
   }
+  return Received::all;
 }
 
-ImportReport report_of(const std::string& bytes, int status, const std::string& file) {
+Received receive_report(Clock::time_point deadline, int descriptor, std::string& bytes) {
+  constexpr std::size_t longest = std::size_t{1} << 30;
+  std::size_t size = 0;
+  const Received received = receive(deadline, descriptor, reinterpret_cast<char*>(&size), sizeof size);
+  if (received != Received::all) return received;
+  if (size > longest) return Received::ended;
+  bytes.resize(size);
+  return receive(deadline, descriptor, bytes.data(), size);
+}
+
+ImportReport report_of(const std::string& bytes, const std::string& file) {
   if (bytes == "memory") return refusal(file, "more than the memory limit of the test");
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    return refusal(file, "longer than the time limit of the test");
-  if (WIFSIGNALED(status))
-    return refusal(file, std::string("the reader crashed on it: ") + strsignal(WTERMSIG(status)));
   try {
     return report_from_bytes(bytes);
   } catch (const std::exception&) {
@@ -75,23 +101,38 @@ ImportReport report_of(const std::string& bytes, int status, const std::string& 
   }
 }
 
+ImportReport report_of_end(Received received, int status, const std::string& file) {
+  const bool out_of_time =
+      received == Received::too_late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
+  if (out_of_time) return refusal(file, "longer than the time limit of the test");
+  const std::string how = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "it left";
+  return refusal(file, "the reader crashed on it: " + how);
+}
+
 }  // namespace
 
-ImportReport warm_report(const std::string& file, std::chrono::seconds time, std::size_t memory_bytes) {
+std::vector<ImportReport> warm_reports(const std::vector<std::string>& files, std::chrono::seconds time,
+                                       std::size_t memory_bytes) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(std::strerror(errno));
-  if (child == 0) read_in_child(file, ends[1], time, memory_bytes);
+  if (child == 0) read_in_child(files, ends[1], time, memory_bytes);
   close(ends[1]);
-  std::string bytes;
-  const bool in_time = receive_until(Clock::now() + time, ends[0], bytes);
+  std::vector<ImportReport> reports;
+  Received received = Received::all;
+  while (received == Received::all && reports.size() < files.size()) {
+    std::string bytes;
+    received = receive_report(Clock::now() + time, ends[0], bytes);
+    if (received == Received::all) reports.push_back(report_of(bytes, files[reports.size()]));
+  }
   close(ends[0]);
-  if (!in_time) kill(child, SIGKILL);
+  if (received == Received::too_late) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return in_time ? report_of(bytes, status, file) : refusal(file, "longer than the time limit of the test");
+  if (reports.empty()) reports.push_back(report_of_end(received, status, files[0]));
+  return reports;
 }
 
 }  // namespace nurbeam

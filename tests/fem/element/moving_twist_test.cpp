@@ -237,14 +237,16 @@ TEST(MovingTwist, LetsAMomentWorkOnTheSpinOfItsSection) {
         const Vector3d spin = Vector3d(W(2, 1) - W(1, 2), W(0, 2) - W(2, 0), W(1, 0) - W(0, 1)) / 2;
         return Scalar(spin.dot(moment));
       };
-      const Scalar exact(d.element.moment_force(d.x.q, s, moment, false).dot(d.x.v));
+      const Scalar exact(d.element.moment_force(d.x.q, s, {moment, false, {}}).dot(d.x.v));
       const double coarse = std::abs(power(1e-3)[0] - exact[0]), fine = std::abs(power(5e-4)[0] - exact[0]);
       EXPECT_LT(coarse, 1e-2);
       EXPECT_NEAR(coarse / fine, 4, 0.25);
       for (const bool follower : {false, true})
         expect_derivative(
-            [&](double h) { return d.element.moment_force(d.x.q + h * d.x.v, s, moment, follower); },
-            Coordinates(d.element.moment_gradient(d.x.q, s, moment, follower) * d.x.v), 5e-4);
+            [&](double h) {
+              return d.element.moment_force(d.x.q + h * d.x.v, s, {moment, follower, {}});
+            },
+            Coordinates(d.element.moment_gradient(d.x.q, s, {moment, follower, {}}) * d.x.v), 5e-4);
       expect_derivative([&](double h) { return d.element.turned(d.x.q + h * d.x.v, s, moment).value; },
                         Vector3d(d.element.turned(d.x.q, s, moment).gradient * d.x.v), 5e-4);
     }

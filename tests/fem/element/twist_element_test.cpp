@@ -232,7 +232,7 @@ TEST(TwistElement, LetsAMomentWorkOnTheSpinOfItsSection) {
   const Deformed d(18);
   const Vector3d moment(0.3, -0.5, 0.8);
   for (const double s : {d.s_a, 0.77, d.s_b}) {
-    const double power = d.element.moment_force(d.x.q, s, moment, false).dot(d.x.v);
+    const double power = d.element.moment_force(d.x.q, s, {moment, false, {}}).dot(d.x.v);
     const auto error = [&](double h) { return std::abs(spin_of(d, s, h).dot(moment) - power); };
     EXPECT_LT(error(1e-3), 1e-3);
     EXPECT_NEAR(error(1e-3) / error(5e-4), 4, 0.2);
@@ -241,8 +241,8 @@ TEST(TwistElement, LetsAMomentWorkOnTheSpinOfItsSection) {
     const DrawnSection drawn = d.curve.section(s, s == d.s_b);
     const Vector3d turned_moment =
         now.d1 * drawn.d1.dot(moment) + now.d2 * drawn.d2.dot(moment) + now.t * drawn.t.dot(moment);
-    EXPECT_LT((d.element.moment_force(d.x.q, s, moment, true) -
-               d.element.moment_force(d.x.q, s, turned_moment, false))
+    EXPECT_LT((d.element.moment_force(d.x.q, s, {moment, true, {}}) -
+               d.element.moment_force(d.x.q, s, {turned_moment, false, {}}))
                   .norm(),
               1e-14);
     EXPECT_LT((d.element.turned(d.x.q, s, moment).value - turned_moment).norm(), 1e-14);
@@ -256,8 +256,10 @@ TEST(TwistElement, KnowsTheDerivativesOfMomentsAndTurnedVectors) {
   for (const double s : {d.s_a, 0.77, d.s_b}) {
     for (const bool follower : {false, true})
       expect_derivative(
-          [&](double h) { return d.element.moment_force(d.x.q + h * direction, s, moment, follower); },
-          Coordinates(d.element.moment_gradient(d.x.q, s, moment, follower) * direction), 1e-3);
+          [&](double h) {
+            return d.element.moment_force(d.x.q + h * direction, s, {moment, follower, {}});
+          },
+          Coordinates(d.element.moment_gradient(d.x.q, s, {moment, follower, {}}) * direction), 1e-3);
     expect_derivative([&](double h) { return d.element.turned(d.x.q + h * direction, s, moment).value; },
                       Vector3d(d.element.turned(d.x.q, s, moment).gradient * direction), 1e-3);
   }

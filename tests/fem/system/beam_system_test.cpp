@@ -19,6 +19,7 @@ using testing::line_cubic;
 using testing::model_with_everything;
 using testing::one_beam;
 using testing::torsion_model;
+using testing::torsion_sliding_model;
 using testing::uneven_axis;
 
 Eigen::VectorXd random_vector(Eigen::Index size, std::mt19937& random) {
@@ -59,6 +60,27 @@ void expect_second_order(const F& f, const Eigen::VectorXd& derivative, double h
   EXPECT_NEAR(coarse / fine, 4, 0.25) << coarse << " " << fine;
 }
 
+void expect_tangent(const BeamSystem& system, const State& state, std::mt19937& random) {
+  const int n = system.coordinate_count(), m = system.constraint_count();
+  State direction = state;
+  direction.q = random_vector(n, random);
+  direction.v = random_vector(n, random);
+  direction.a = random_vector(n, random);
+  direction.lambda = random_vector(m, random);
+  Eigen::VectorXd by_q(n + m), by_v(n + m), by_a(n + m);
+  by_q << direction.q, direction.lambda;
+  by_v << direction.v, Eigen::VectorXd::Zero(m);
+  by_a << direction.a, Eigen::VectorXd::Zero(m);
+  const auto constraint_rows = [&](const Eigen::VectorXd& x) {  // G and G' stand in every tangent
+    return Eigen::VectorXd(tangent(system, state, {}) * x);
+  };
+  const Eigen::VectorXd derivative = tangent(system, state, {.stiffness = 1}) * by_q +
+                                     tangent(system, state, {.damping = 1}) * by_v - constraint_rows(by_v) +
+                                     tangent(system, state, {.mass = 1}) * by_a - constraint_rows(by_a);
+  expect_second_order([&](double h) { return residual(system, moved(state, direction, h)); }, derivative,
+                      5e-4);
+}
+
 template <int D>
 void check_tangent(int seed, const auto& make_model) {
   std::mt19937 random(seed);
@@ -69,24 +91,7 @@ void check_tangent(int seed, const auto& make_model) {
     const BeamSystem system(model, initial_plan(model), all_held);
     State state = disturbed_state(system, random);
     state.t = 0.3;
-    const int n = system.coordinate_count(), m = system.constraint_count();
-    State direction = state;
-    direction.q = random_vector(n, random);
-    direction.v = random_vector(n, random);
-    direction.a = random_vector(n, random);
-    direction.lambda = random_vector(m, random);
-    Eigen::VectorXd by_q(n + m), by_v(n + m), by_a(n + m);
-    by_q << direction.q, direction.lambda;
-    by_v << direction.v, Eigen::VectorXd::Zero(m);
-    by_a << direction.a, Eigen::VectorXd::Zero(m);
-    const auto constraint_rows = [&](const Eigen::VectorXd& x) {  // G and G' stand in every tangent
-      return Eigen::VectorXd(tangent(system, state, {}) * x);
-    };
-    const Eigen::VectorXd derivative = tangent(system, state, {.stiffness = 1}) * by_q +
-                                       tangent(system, state, {.damping = 1}) * by_v - constraint_rows(by_v) +
-                                       tangent(system, state, {.mass = 1}) * by_a - constraint_rows(by_a);
-    expect_second_order([&](double h) { return residual(system, moved(state, direction, h)); }, derivative,
-                        5e-4);
+    expect_tangent(system, state, random);
   }
 }
 
@@ -103,6 +108,18 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentInSpace) {
 
 TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithTorsion) {
   for (const int seed : {14, 15}) check_tangent<3>(seed, torsion_model);
+  for (const int seed : {18, 19})
+    check_tangent<3>(seed, [](std::mt19937& random, int) { return torsion_sliding_model(random, 0); });
+}
+
+// The roll of a body on a point: where nothing moves over the material its tangent is exact.
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithABodyThatRollsOnAPoint) {
+  std::mt19937 random(22);
+  const BeamModel model = torsion_sliding_model(random, 0.3);
+  const BeamSystem system(model);
+  State state = disturbed_state(system, random);
+  for (const MeshJoint& joint : system.mesh().joints) state.v[joint.place] = 0;
+  expect_tangent(system, state, random);
 }
 
 template <int D>
@@ -141,6 +158,8 @@ TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInSpace) {
 
 TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsWithTorsion) {
   for (const int seed : {16, 17}) check_constraints<3>(seed, torsion_model);
+  for (const int seed : {20, 21})
+    check_constraints<3>(seed, [](std::mt19937& random, int) { return torsion_sliding_model(random, 0); });
 }
 
 // The coordinates after r -> A r + b of the whole model.

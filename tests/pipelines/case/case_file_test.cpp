@@ -76,6 +76,7 @@ TEST_F(CaseFileTest, TheSmallestCaseHasSensibleDefaults) {
   EXPECT_FALSE(c.analysis.step);
   EXPECT_EQ(std::get<GeneralizedAlpha>(c.analysis.integrator).tolerance, 1e-4);
   EXPECT_DOUBLE_EQ(c.output.every.value(), 0.005);
+  EXPECT_EQ(read_valid(smallest_case, {"analysis.step=0.1"}).output.every, 0.1);  // no frames between steps
   EXPECT_TRUE(c.output.cad_formats.empty());
 }
 
@@ -498,6 +499,10 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "about",
                                                "along",
                                                "release",
+                                               "roll_inertia",
+                                               "follows_section",
+                                               "offset",
+                                               "torque_per_length",
                                                "load_steps",
                                                "columns",
                                                "modes"};

@@ -98,7 +98,7 @@ TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhenNothingIsSaid) {
   EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
 }
 
-TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhereABodySlidesOnItButNotWhereThatBendsItByAnAngle) {
+TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhereABodySlidesOnItToo) {
   for (const bool continuous : {true, false}) {
     const std::string slope = continuous ? "continuous" : "discontinuous";
     const BuildReport report = build_in_space(
@@ -106,8 +106,8 @@ TEST(BuildModel, ABentDrawingInSpaceHasTorsionWhereABodySlidesOnItButNotWhereTha
          R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5}, "slope": ")" + slope +
              "\"}]"});
     ASSERT_TRUE(report.value);
-    EXPECT_EQ(report.value->model.beams[0].has_torsion(), continuous);
-    EXPECT_EQ(report.value->model.beams[0].curve.straight(), !continuous);
+    EXPECT_TRUE(report.value->model.beams[0].has_torsion());
+    EXPECT_FALSE(report.value->model.beams[0].curve.straight());
   }
 }
 
@@ -180,6 +180,26 @@ TEST(BuildModel, DrawsSectionsOfAnyKindAlongTheAxis) {
   EXPECT_TRUE(std::get<Support>(report.value->model.constraints[0]).fork);
 }
 
+TEST(BuildModel, GivesTorsionWhereAKeyNeedsSections) {
+  for (const char* key :
+       {R"(supports[0].type="fork")", R"(loads=[{"beam": "cable", "torque_per_length": "2 N m/m"}])",
+        R"(loads=[{"beam": "cable", "at": "end", "force": [0, 0, 1], "offset": [0, "5 mm"]}])",
+        R"(supports[0]={"beam": "cable", "at": "start", "type": "pinned", "axis": [0, 1, 0]})"}) {
+    const BuildReport report = built({key});
+    ASSERT_TRUE(report.value) << key << report.diagnostics[0].message;
+    EXPECT_TRUE(report.value->model.beams[0].has_torsion()) << key;
+    EXPECT_EQ(report.value->model.dimension, 3) << key;
+  }
+  const BuildReport trolley = built(
+      {R"(bodies=[{"name": "car", "mass": 1, "roll_inertia": "2 kg m^2"}])",
+       R"(sliding_joints=[{"body": "car", "beam": "cable", "at": {"fraction": 0.5}, "follows_section": true,
+           "offset": ["1 cm", -0.02]}])"});
+  ASSERT_TRUE(trolley.value) << trolley.diagnostics[0].message;
+  EXPECT_TRUE(trolley.value->model.beams[0].has_torsion());
+  EXPECT_EQ(trolley.value->model.bodies[0].roll_inertia, 2);
+  EXPECT_EQ(trolley.value->model.joints[0].offset, Eigen::Vector2d(0.01, -0.02));
+}
+
 TEST(BuildModel, NotesWhatIsTakenForTorsionWhenNothingIsSaid) {
   const BuildReport report =
       built({"beams[0].torsion=true", R"(beams[0].section={"area": 1e-4, "second_moment": 1e-9})"});
@@ -199,15 +219,28 @@ TEST(BuildModel, RefusesWhatABeamWithTorsionCannotBe) {
                       "beams[0].stress_free", {"torsion"}));
   EXPECT_TRUE(
       refuses(built({R"(beams[0].orientation={"up": [1, 0, 0]})"}), "beams[0].orientation", {"s = 0 m"}));
-  EXPECT_TRUE(refuses(built({R"(supports[0].type="fork")"}), "supports[0].type", {"no torsion"}));
+  const std::string off = "beams[0].torsion=false";
+  EXPECT_TRUE(refuses(built({off, R"(supports[0].type="fork")"}), "supports[0].type", {"no torsion"}));
+  EXPECT_TRUE(refuses(built({off, R"(loads=[{"beam": "cable", "torque_per_length": 2}])"}),
+                      "loads[0].torque_per_length", {"no torsion"}));
+  EXPECT_TRUE(refuses(
+      built({R"(supports[0]={"beam": "cable", "at": "start", "type": "clamped", "axis": [0, 1, 0]})"}),
+      "supports[0].axis", {"hinge", "pinned"}));
   EXPECT_TRUE(refuses(built({R"(beams[0].section={"area": 1e-4, "second_moments": [1e-9, 1e-9]})"}),
                       "beams[0].section", {"torsion_constant"}));
   EXPECT_TRUE(refuses(built({R"(beams[0].section={"area": 1e-4, "second_moments": [1e-9]})"}),
                       "beams[0].section.second_moments", {"expected"}));
-  EXPECT_TRUE(refuses(built({on, R"(bodies=[{"name": "bead", "mass": 1}])",
-                             R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5},
-                                         "slope": "discontinuous"}])"}),
-                      "beams[0].torsion", {"bead", "slides", "continuous"}));
+  const auto with_bead = [](const std::string& more, const std::string& roll) {
+    return std::vector<std::string>{
+        R"(bodies=[{"name": "bead", "mass": 1)" + roll + "}]",
+        R"(sliding_joints=[{"body": "bead", "beam": "cable", "at": {"fraction": 0.5})" + more + "}]"};
+  };
+  EXPECT_TRUE(refuses(built(with_bead(R"(, "follows_section": true, "slope": "discontinuous")", "")),
+                      "sliding_joints[0].follows_section", {"bead", "kink", "continuous"}));
+  EXPECT_TRUE(
+      refuses(built(with_bead("", R"(, "roll_inertia": 0.1)")), "bodies", {"bead", "follows_section"}));
+  EXPECT_TRUE(refuses(built(with_bead(R"(, "follows_section": false, "offset": [0, 1])", "")),
+                      "sliding_joints[0].offset", {"follows_section"}));
   EXPECT_TRUE(refuses(built({on, R"(beams[0].orientation={"twist": [[1, 0], [0, 9]]})"}),
                       "beams[0].orientation.twist", {"places must increase"}));
 }

@@ -1,0 +1,99 @@
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+
+#include "fem/constraints/body_on_point.h"
+#include "fem/constraints/followed_section.h"
+
+namespace nurbeam {
+
+/// A body at an offset from the axis, in the section that it follows (FollowedNode, FollowedPoint): r + y1 d1
+/// + y2 d2 - r_body = 0, 3 rows. Their multipliers are the force on the axis, with the couple e x lambda on
+/// the section, e = y1 d1 + y2 d2.
+template <class Section>
+class BodyOnSection {
+ public:
+  BodyOnSection(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int joint)
+      : section_(at, drawn, joint) {
+    const SlidingJoint& of = at.structure.joints[joint];
+    arm_ << of.offset, 0;
+    body_ = at.mesh.bodies[of.body];
+    if constexpr (on_point) {
+      point_.emplace(at, drawn, joint);
+      dofs_ = point_->dofs();
+    } else {
+      const int r = at.mesh.nodes[of.beam][at.mesh.joints[joint].node].r;
+      dofs_ = {r, r + 1, r + 2, body_, body_ + 1, body_ + 2};
+    }
+    for (int i = 0; i < Section::size; ++i) {
+      const auto found = std::find(dofs_.begin(), dofs_.end(), section_.dofs()[i]);
+      column_[i] = static_cast<int>(found - dofs_.begin());
+      if (found == dofs_.end()) dofs_.push_back(section_.dofs()[i]);
+    }
+  }
+
+  static constexpr int rows = 3;
+  const std::vector<int>& dofs() const { return dofs_; }
+  /// First coordinate of the body.
+  int body() const { return body_; }
+
+  /// What it does to the beam, where the body is on a point.
+  PointAction action(const MeshedBeams<3>& at, const State& state, const Eigen::Vector3d& y) const
+      requires(std::is_same_v<Section, FollowedPoint>) {
+    PointAction action = point_->action(at, state, y);
+    const auto x = section_.coordinates(at, state.q);
+    action.couple = arm(section_.here(at, x).template triad<double>(x)).cross(action.force);
+    return action;
+  }
+
+  ConstraintTerms<3> terms(const MeshedBeams<3>& at, const State& state,
+                           const ConstraintTerms<3>::Multipliers* y) const {
+    ConstraintTerms<3> terms = without_offset(at, state, y);
+    const auto x = section_.coordinates(at, state.q);
+    const auto& here = section_.here(at, x);
+    const Eigen::Vector3d e = arm(here.template triad<double>(x));
+    terms.value += e;
+    for (int k = 0; k < 3; ++k) {
+      const auto on = here.template force<double>(x, Vector3<double>(e.cross(Eigen::Vector3d::Unit(k))));
+      for (int i = 0; i < Section::size; ++i) terms.gradient(k, column_[i]) += on[i];
+    }
+    if (!y) return terms;
+    // y . e changes by (e x y) . dphi.
+    using T = Dual<1>;
+    for (int j = 0; j < Section::size; ++j) {
+      const auto moved = twist::moving<double, Section::size>(
+          x, Eigen::Matrix<double, Section::size, 1>(Eigen::Matrix<double, Section::size, 1>::Unit(j)));
+      const Vector3<T> now = arm(here.template triad<T>(moved)), along = y->template cast<T>();
+      const auto on = here.template force<T>(moved, Vector3<T>(now.cross(along)));
+      for (int i = 0; i < Section::size; ++i) terms.hessian(column_[i], column_[j]) += on[i].d[0];
+    }
+    return terms;
+  }
+
+ private:
+  static constexpr bool on_point = std::is_same_v<Section, FollowedPoint>;
+
+  template <class T>
+  Vector3<T> arm(const SectionTriad<T>& section) const {
+    return arm_[0] * section.d1 + arm_[1] * section.d2;
+  }
+  ConstraintTerms<3> without_offset(const MeshedBeams<3>& at, const State& state,
+                                    const ConstraintTerms<3>::Multipliers* y) const {
+    if constexpr (on_point) return point_->terms(at, state, y);
+    ConstraintTerms<3> terms(rows, y != nullptr);
+    terms.value = state.q.segment<3>(dofs_[0]) - state.q.segment<3>(body_);
+    terms.gradient.leftCols<3>().setIdentity();
+    terms.gradient.middleCols<3>(3) = -Eigen::Matrix3d::Identity();
+    return terms;
+  }
+
+  Section section_;
+  Eigen::Vector3d arm_;
+  int body_;
+  std::optional<BodyOnPoint<3>> point_;  // where the section is that of a point
+  std::vector<int> dofs_;
+  std::array<int, Section::size> column_{};  // of the section's coordinates among dofs_
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,95 @@
+#pragma once
+#include <optional>
+
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/held_angle.h"
+#include "fem/constraints/node_section.h"
+
+namespace nurbeam {
+
+/// A hinge with an axis: a section turns about it alone, against space or against another section. With the
+/// axis u fixed there and v, w across it fixed in the section, u . v = u . w = 0: 2 rows, regular at any
+/// angle but where the axis is reversed; coordinates (r_s, angle) of the section, then of the other.
+class HeldAxis {
+ public:
+  /// `axis`: as drawn, of any length but zero; with the `other` section it goes with that.
+  HeldAxis(const NodeSection& section, const Eigen::Vector3d& axis) : section_(section) { set(axis); }
+  HeldAxis(const NodeSection& section, const NodeSection& other, const Eigen::Vector3d& axis)
+      : section_(section), other_(other) {
+    set(axis);
+  }
+
+  static constexpr int rows = 2;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
+                           const ConstraintTerms<3>::Multipliers* y) const {
+    ConstraintTerms<3> terms(rows, y != nullptr);
+    const Vector8<double> x = coordinates(state.q);
+    const int n = static_cast<int>(dofs_.size());
+    for (int k = 0; k < rows; ++k) {
+      terms.value[k] = axis<double>(x).dot(across<double>(x, Eigen::Vector2d::Unit(k)));
+      terms.gradient.row(k).head(n) = gradient<double>(x, Eigen::Vector2d::Unit(k)).head(n).transpose();
+    }
+    if (!y) return terms;
+    const Vector8<Dual<8>> g = gradient<Dual<8>>(twist::variables<8, double>(x), y->head<2>());
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) terms.hessian(i, j) = g[i].d[j];
+    return terms;
+  }
+  /// On the section of a support, on the other one of a joint [N m], for its multipliers.
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    const Vector8<double> x = coordinates(state.q);
+    const Eigen::Vector3d on_section = axis<double>(x).cross(across<double>(x, y));
+    return other_ ? Eigen::Vector3d(-on_section) : on_section;
+  }
+
+ private:
+  template <class T>
+  using Vector8 = Eigen::Matrix<T, 8, 1>;
+
+  void set(const Eigen::Vector3d& axis) {
+    const Eigen::Vector3d u = axis.normalized(), v = u.unitOrthogonal(), w = u.cross(v);
+    axis_ = other_ ? Eigen::Vector3d(other_->drawn.transpose() * u) : u;
+    across_ << section_.drawn.transpose() * v, section_.drawn.transpose() * w;
+    dofs_.assign(section_.dofs.begin(), section_.dofs.end());
+    if (other_) dofs_.insert(dofs_.end(), other_->dofs.begin(), other_->dofs.end());
+  }
+  Vector8<double> coordinates(const Eigen::VectorXd& q) const {
+    Vector8<double> x = Vector8<double>::Zero();
+    x.head<4>() = section_.coordinates(q);
+    if (other_) x.tail<4>() = other_->coordinates(q);
+    return x;
+  }
+  // u.
+  template <class T>
+  Vector3<T> axis(const Vector8<T>& x) const {
+    const Vector3<T> own = axis_.cast<T>();
+    return other_ ? Vector3<T>(other_->triad<T>(x.template tail<4>()).matrix() * own) : own;
+  }
+  // y1 v + y2 w.
+  template <class T>
+  Vector3<T> across(const Vector8<T>& x, const Eigen::Vector2d& y) const {
+    const Eigen::Vector3d own = across_ * y;
+    return section_.triad<T>(x.template head<4>()).matrix() * own.cast<T>();
+  }
+  // Of y . g.
+  template <class T>
+  Vector8<T> gradient(const Vector8<T>& x, const Eigen::Vector2d& y) const {
+    const Vector3<T> u = axis<T>(x), v = across<T>(x, y);
+    const Vector3<T> on_section = v.cross(u), on_other = u.cross(v);
+    Vector8<T> g = Vector8<T>::Zero();
+    g.template head<4>() = section_.force<T>(x.template head<4>(), on_section);
+    if (other_) g.template tail<4>() = other_->force<T>(x.template tail<4>(), on_other);
+    return g;
+  }
+
+  NodeSection section_;
+  std::optional<NodeSection> other_;
+  Eigen::Vector3d axis_;                // in the other's drawn axes, or in space
+  Eigen::Matrix<double, 3, 2> across_;  // v and w in the section's
+  std::vector<int> dofs_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,62 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/node_section.h"
+
+namespace nurbeam {
+
+/// Where a slope is discontinuous at a sliding body, the section goes over the kink as parallel transport has
+/// it: the one behind is not turned about the tangent against the one before, d2_a . d1_b - d1_a . d2_b = 0
+/// (SectionTurn::S). 1 row; coordinates (r_s, angle) of both sides. So torsion passes the body, and bending
+/// does not.
+class PassedRoll {
+ public:
+  PassedRoll(const MeshedBeams<3>& at, int joint)
+      : PassedRoll(sides(at, at.structure.joints[joint].beam, at.mesh.joints[joint].node)) {}
+
+  static constexpr int rows = 1;
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
+                           const ConstraintTerms<3>::Multipliers* y) const {
+    ConstraintTerms<3> terms(rows, y != nullptr);
+    Vector8<double> x;
+    x << a_.coordinates(state.q), b_.coordinates(state.q);
+    terms.value[0] = SectionTurn<double>(a_.triad<double>(x.head<4>()), b_.triad<double>(x.tail<4>()), 0).S;
+    terms.gradient.leftCols<8>() = gradient<double>(x).transpose();
+    if (!y) return terms;
+    using T = Dual<8>;
+    const Vector8<T> g = gradient<T>(twist::variables<8, double>(x));
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j) terms.hessian(i, j) = (*y)[0] * g[i].d[j];
+    return terms;
+  }
+
+ private:
+  template <class T>
+  using Vector8 = Eigen::Matrix<T, 8, 1>;
+  using Sides = std::pair<NodeSection, NodeSection>;
+
+  explicit PassedRoll(const Sides& sides) : a_(sides.first), b_(sides.second) {
+    for (const NodeSection* node : {&a_, &b_})
+      dofs_.insert(dofs_.end(), node->dofs.begin(), node->dofs.end());
+  }
+  static Sides sides(const MeshedBeams<3>& at, int beam, int node) {
+    const int first = at.mesh.first_span[beam], spans = at.mesh.first_span[beam + 1] - first;
+    return {NodeSection(at.elements[first + (node + spans - 1) % spans], 1),
+            NodeSection(at.elements[first + node], 0)};
+  }
+  // The spins of both change S by m . (dphi_a - dphi_b), m = d2_a x d1_b - d1_a x d2_b.
+  template <class T>
+  Vector8<T> gradient(const Vector8<T>& x) const {
+    const SectionTriad<T> a = a_.triad<T>(x.template head<4>()), b = b_.triad<T>(x.template tail<4>());
+    const Vector3<T> m = a.d2.cross(b.d1) - a.d1.cross(b.d2), less = -m;
+    Vector8<T> g;
+    g << a_.force<T>(x.template head<4>(), m), b_.force<T>(x.template tail<4>(), less);
+    return g;
+  }
+
+  NodeSection a_, b_;
+  std::vector<int> dofs_;
+};
+
+}  // namespace nurbeam

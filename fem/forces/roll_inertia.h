@@ -1,0 +1,125 @@
+#pragma once
+#include <vector>
+
+#include "fem/constraints/followed_section.h"
+#include "fem/forces/energy.h"
+#include "fem/mesh/point_action.h"
+
+namespace nurbeam {
+
+/// The inertia J of the roll of a sliding body with the section that it follows (FollowedNode,
+/// FollowedPoint): T = J w^2/2, w the spin of that section about its tangent t, which is the body's and not
+/// the material's. What keeps it in motion is the moment d(J w t)/dt on the section.
+///
+/// The tangent of a body on a point misses third derivatives of the section by the places (PlacedSection).
+template <class Section>
+class RollInertia {
+ public:
+  RollInertia(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int joint)
+      : joint_(joint),
+        inertia_(at.structure.body_of(at.structure.joints[joint]).roll_inertia),
+        section_(at, drawn, joint),
+        dofs_(section_.dofs().begin(), section_.dofs().end()) {}
+
+  int joint() const { return joint_; }
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  void add_force(const MeshedBeams<3>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
+    const Motion<double> x = motion(at, state);
+    const auto& here = section_.here(at, x.q);
+    add(here.template force<double>(x.q, moment<double>(here, x)), dynamics);
+  }
+  template <class Sink>
+  void add_tangent(const MeshedBeams<3>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    using T = Dual<1>;
+    const Motion<double> x = motion(at, state);
+    const auto& here = section_.here(at, x.q);
+    Eigen::Matrix<double, size, size> K;
+    for (int j = 0; j < size; ++j) {
+      const Vector<double> along = Vector<double>::Unit(j);
+      const Motion<T> moved{twist::moving<double, size>(x.q, w.stiffness * along),
+                            twist::moving<double, size>(x.v, w.damping * along),
+                            twist::moving<double, size>(x.a, w.mass * along)};
+      const Vector<T> f = here.template force<T>(moved.q, moment<T>(here, moved));
+      for (int i = 0; i < size; ++i) K(i, j) = f[i].d[0];
+    }
+    sink.own(K);
+  }
+  void add_energy(const MeshedBeams<3>& at, const State& state, SystemEnergy& sum) const {
+    const double w = spin(at, state);
+    sum.kinetic += inertia_ * w * w / 2;
+  }
+  /// w [rad/s].
+  double spin(const MeshedBeams<3>& at, const State& state) const {
+    const Motion<double> x = motion(at, state);
+    const auto now = section_.here(at, x.q).template triad<Dual<1>>(twist::moving<double, size>(x.q, x.v));
+    double w = 0;
+    for (int d = 0; d < 3; ++d) w += now.d1[d].d[0] * now.d2[d].value;
+    return w;
+  }
+  /// Adds the generalised momentum of a roll with that spin.
+  void add_momentum(const MeshedBeams<3>& at, const State& state, double spin,
+                    Eigen::Ref<Eigen::VectorXd> p) const {
+    const Vector<double> x = section_.coordinates(at, state.q);
+    const auto& here = section_.here(at, x);
+    const Eigen::Vector3d t = here.template triad<double>(x).t;
+    add(here.template force<double>(x, Vector3<double>(inertia_ * spin * t)), p);
+  }
+  /// Where the body is on a point.
+  void add_actions(const MeshedBeams<3>& at, const State& state, std::vector<PointAction>& actions) const
+      requires(std::is_same_v<Section, FollowedPoint>) {
+    const Motion<double> x = motion(at, state);
+    actions.push_back({.element = section_.element(),
+                       .s = x.q[size - 1],
+                       .couple = -moment<double>(section_.here(at, x.q), x)});
+  }
+
+ private:
+  static constexpr int size = Section::size;
+  template <class T>
+  using Vector = Eigen::Matrix<T, size, 1>;
+  template <class T>
+  struct Motion {
+    Vector<T> q, v, a;
+  };
+  Motion<double> motion(const MeshedBeams<3>& at, const State& state) const {
+    return {section_.coordinates(at, state.q), gathered(section_.dofs(), state.v),
+            gathered(section_.dofs(), state.a)};
+  }
+  // d(J w t)/dt, w = d1' . d2.
+  template <class T, class Here>
+  Vector3<T> moment(const Here& here, const Motion<T>& x) const {
+    using Rate = Dual<1, T>;
+    using Second = Dual<1, Rate>;
+    Vector<Second> moving;
+    for (int i = 0; i < size; ++i)
+      moving[i] = Second::variable(Rate::variable(x.q[i], 0, x.v[i]), 0, Rate::variable(x.v[i], 0, x.a[i]));
+    const SectionTriad<Second> now = here.template triad<Second>(moving);
+    Rate w = 0.0;
+    for (int d = 0; d < 3; ++d) w += now.d1[d].d[0] * now.d2[d].value;
+    Vector3<T> rate;
+    for (int d = 0; d < 3; ++d) rate[d] = (inertia_ * (w * now.t[d].value)).d[0];
+    return rate;
+  }
+  void add(const Vector<double>& f, Eigen::Ref<Eigen::VectorXd> to) const {
+    for (int i = 0; i < size; ++i)
+      if (dofs_[i] >= 0) to[dofs_[i]] += f[i];
+  }
+
+  int joint_;
+  double inertia_;
+  Section section_;
+  std::vector<int> dofs_;
+};
+
+/// That of a body that has left its beam: it rolls on as it did.
+class FreeRoll {
+ public:
+  FreeRoll(double inertia, double spin) : energy_(inertia * spin * spin / 2) {}
+  void add_energy(const MeshedBeams<3>&, const State&, SystemEnergy& sum) const { sum.kinetic += energy_; }
+
+ private:
+  double energy_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,22 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "fem/structure/displacement_table.h"
+
+namespace nurbeam {
+
+/// Holds a place of a beam where it is drawn, or moves it from there.
+struct Support {
+  int beam;
+  double s;              ///< [m]
+  bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
+  bool fork = false;     ///< position and roll of the section, of a beam with torsion
+  std::string name = {};
+  std::optional<DisplacementTable> motion = {};  ///< from the drawn position, scaled as loads by State::load
+  /// Of a hinge: position, and the section of a beam with torsion, which turns about this axis alone.
+  std::optional<Eigen::Vector3d> axis = {};
+};
+
+}  // namespace nurbeam
