@@ -11,8 +11,11 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;     ///< of the step under error control
-constexpr double good_contraction = 0.1;  ///< of the corrections, for which a factorisation is kept
+constexpr double largest_growth = 2;      ///< of the step under error control
+constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
+constexpr double safety_of_contraction = 10;
+constexpr double longest_use = 50;       ///< of a matrix, in steps
+constexpr double same_step = 1e-6;       ///< relative difference that a matrix does not feel
 constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
@@ -62,13 +65,12 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   kkt_ = system.tangent_pattern();
   mass_scale_ = mass_scale(system, state_, kkt_);
   trial_ = state_;
-  force_.resize(n);
   residual_.resize(n + m);
   reference_.resize(n + m);
 }
 
 IntegratorHistory GeneralizedAlphaIntegrator::history() const {
-  return {{last_step_, last_error_, mass_scale_}, {algorithmic_acceleration_, jerk_}};
+  return {{last_step_, last_error_, mass_scale_}, {algorithmic_acceleration_, jerk_}, linearisation_};
 }
 
 void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& history) {
@@ -77,6 +79,8 @@ void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& h
           "the history is not one of this method");
   for (const Eigen::VectorXd& vector : history.vectors)
     require_size(generalized_alpha_method, "the history", vector.size(), system_->coordinate_count());
+  if (history.linearisation) require_sizes(generalized_alpha_method, history.linearisation->state, *system_);
+  linearisation_ = history.linearisation;
   state_ = std::move(state);
   algorithmic_acceleration_ = history.vectors[0];
   jerk_ = history.vectors[1];
@@ -89,6 +93,7 @@ StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const Integra
                                               double step) {
   restore(before, history);
   last_step_ = last_error_ = 0;
+  linearisation_ = nullptr;
   jerk_.setZero();
   mass_scale_ = mass_scale(*system_, state_, kkt_);
   return advance_within(step, 0, 0);
@@ -129,38 +134,62 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
   predict(step);
   if (!all_finite(trial_)) return StepStatus::not_converged;
   if (!system_->admissible(trial_)) return StepStatus::inadmissible;
-  evaluate_force_level();
   evaluate_residual(step);
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const double scaling = beta * step * step / mass_scale_;
-  const TangentWeights weights{.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
-                               .damping = gamma * step / mass_scale_,
-                               .stiffness = scaling};
+  if (!has_matrix_for(step)) linearisation_ = nullptr;
   double last_correction = std::numeric_limits<double>::infinity();
-  bool contracts = false;  // with the matrix of an iteration before
   for (int i = 0; i < settings_.max_iterations; ++i) {
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
-    if (!contracts) {
-      system_->tangent(trial_, weights, kkt_);
-      if (!solver_.factorise(kkt_)) return StepStatus::singular_matrix;
-    }
+    if (!linearise(linearisation_ ? linearisation_ : std::make_shared<Linearisation>(trial_, step)))
+      return StepStatus::singular_matrix;
     correct(step);
     if (!all_finite(trial_)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
-    evaluate_residual(step);
-    measure_reference(step);
-    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
     const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+    const double contraction = correction / last_correction;
     const double tolerance = settings_.newton_tolerance;
+    // What another correction would leave, where the last two foretell it.
+    if (i > 0 && contraction <= good_contraction &&
+        safety_of_contraction * contraction * correction <= tolerance &&
+        safety_of_contraction * contraction * report.residual_norm <= tolerance) {
+      report.residual_norm *= contraction;
+      return StepStatus::converged;
+    }
+    evaluate_residual(step);
+    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
     // Two small corrections running are convergence too: the residual then sits on its own round-off.
     if (residual_.allFinite() && correction <= tolerance &&
         (report.residual_norm <= tolerance || last_correction <= tolerance))
       return StepStatus::converged;
-    contracts = correction <= good_contraction * last_correction;
+    if (contraction > good_contraction) linearisation_ = nullptr;
     last_correction = correction;
   }
   return StepStatus::not_converged;
+}
+
+bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
+  return linearisation_ && std::abs(linearisation_->step / step - 1) <= same_step &&
+         std::abs(trial_.t - linearisation_->state.t) <= longest_use * step;
+}
+
+/// Makes the matrix of that place the one that corrects, if it is not. False where it is singular.
+bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> at) {
+  linearisation_ = std::move(at);
+  if (factorised_ == linearisation_) return true;
+  factorised_ = nullptr;
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double h = linearisation_->step;
+  const TangentWeights weights{.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
+                               .damping = gamma * h / mass_scale_,
+                               .stiffness = beta * h * h / mass_scale_};
+  system_->tangent(linearisation_->state, weights, kkt_);
+  if (!solver_.factorise(kkt_)) {
+    linearisation_ = nullptr;
+    return false;
+  }
+  measure_reference();
+  factorised_ = linearisation_;
+  return true;
 }
 
 /// The trial state whose true acceleration and multipliers are those of the last state.
@@ -181,14 +210,6 @@ void GeneralizedAlphaIntegrator::predict(double step) {
   trial_.lambda = state_.lambda;
 }
 
-void GeneralizedAlphaIntegrator::evaluate_force_level() {
-  State unaccelerated = trial_;
-  unaccelerated.a.setZero();
-  unaccelerated.lambda.setZero();
-  Eigen::VectorXd constraints(trial_.lambda.size());
-  system_->residual(unaccelerated, force_, constraints);
-}
-
 void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
   const Eigen::Index n = trial_.q.size();
   const Eigen::Index m = trial_.lambda.size();
@@ -198,29 +219,35 @@ void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
 
 /// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
 /// rows: what the accelerations move the constraint in the step. Both: the round-off of the matrix times the
-/// unknowns, weighted so that it passes the tolerance.
-void GeneralizedAlphaIntegrator::measure_reference(double step) {
-  const Eigen::Index n = trial_.q.size();
-  const Eigen::Index m = trial_.lambda.size();
-  const double scaling = parameters_.beta * step * step;
+/// unknowns, weighted so that it passes the tolerance. All where the matrix was taken.
+void GeneralizedAlphaIntegrator::measure_reference() {
+  const State& at = linearisation_->state;
+  const Eigen::Index n = at.q.size();
+  const Eigen::Index m = at.lambda.size();
+  const double scaling = parameters_.beta * linearisation_->step * linearisation_->step;
   const double floor = round_off / settings_.newton_tolerance;
+  State unaccelerated = at;
+  unaccelerated.a.setZero();
+  unaccelerated.lambda.setZero();
+  Eigen::VectorXd force(n), constraints(m);
+  system_->residual(unaccelerated, force, constraints);
   Eigen::VectorXd constraint_force = Eigen::VectorXd::Zero(n);
   reference_.setConstant(std::numeric_limits<double>::min());
   for (Eigen::Index column = 0; column < n + m; ++column) {
     const bool is_multiplier = column >= n;
-    const double size = is_multiplier ? std::abs(trial_.lambda[column - n]) * scaling / mass_scale_
-                                      : std::abs(trial_.q[column]) + scale_[column];
+    const double size = is_multiplier ? std::abs(at.lambda[column - n]) * scaling / mass_scale_
+                                      : std::abs(at.q[column]) + scale_[column];
     for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt_, column); entry; ++entry) {
       const Eigen::Index row = entry.row();
       reference_[row] += floor * std::abs(entry.value()) * size;
       if (row >= n && !is_multiplier)
-        reference_[row] += scaling * std::abs(entry.value() * trial_.a[column]);
+        reference_[row] += scaling * std::abs(entry.value() * at.a[column]);
       else if (row < n && is_multiplier)
-        constraint_force[row] += entry.value() * trial_.lambda[column - n];
+        constraint_force[row] += entry.value() * at.lambda[column - n];
     }
   }
   const double work =
-      scale_.cwiseProduct(force_.cwiseAbs().cwiseMax(constraint_force.cwiseAbs())).lpNorm<Eigen::Infinity>();
+      scale_.cwiseProduct(force.cwiseAbs().cwiseMax(constraint_force.cwiseAbs())).lpNorm<Eigen::Infinity>();
   reference_.head(n) += scaling / mass_scale_ * work * scale_.cwiseInverse();
 }
 

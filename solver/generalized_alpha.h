@@ -15,7 +15,8 @@ struct GeneralizedAlpha {
 };
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
-/// and the symbolic factorisation between steps.
+/// and the factorised matrix between steps: it is taken anew where a correction is not at least ten times
+/// smaller than the one before, where the step's length changes, and after fifty steps.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
@@ -42,12 +43,13 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
 
   const State& state() const override { return state_; }
-  /// Its own acceleration variable and jerk (n each), last step, last error and mass scale.
+  /// Its own acceleration variable and jerk (n each), last step, last error and mass scale, and where its
+  /// matrix was taken.
   IntegratorHistory history() const override;
   void restore(State state, const IntegratorHistory& history) override;
   [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
                                   double step) override;
-  /// (n+m) x (n+m) the scaled matrix of the last Newton iteration.
+  /// (n+m) x (n+m) the scaled matrix of the last Newton iteration, whichever step it was taken in.
   const Eigen::SparseMatrix<double>& iteration_matrix() const { return kkt_; }
 
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
@@ -66,9 +68,10 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   StepReport advance_within(double step, int max_halvings, double tolerance);
   StepStatus attempt(double step, StepReport& report);
   void predict(double step);
-  void evaluate_force_level();
+  bool has_matrix_for(double step) const;
+  bool linearise(std::shared_ptr<const Linearisation> at);
   void evaluate_residual(double step);
-  void measure_reference(double step);
+  void measure_reference();
   void correct(double step);
   double local_error(double step) const;
   double next_step(double step, double tolerance, const StepReport& report) const;
@@ -83,6 +86,8 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double last_step_ = 0;
   double last_error_ = 0;
   double mass_scale_ = 1;
+  std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
+  std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   KktSolver solver_;
   Eigen::SparseMatrix<double> kkt_;
 
@@ -90,10 +95,9 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   State trial_;
   Eigen::VectorXd start_algorithmic_;  ///< algorithmic_acceleration_ moved to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
-  Eigen::VectorXd force_;       ///< (n) f at the predictor
   Eigen::VectorXd residual_;    ///< (n+m) scaled
   Eigen::VectorXd correction_;  ///< (n+m) scaled
-  Eigen::VectorXd reference_;   ///< (n+m) what the scaled residual is compared with
+  Eigen::VectorXd reference_;   ///< (n+m) what the scaled residual is compared with, where factorised_ is
   Eigen::VectorXd scale_;       ///< (n) coordinate scale
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "solver/state.h"
@@ -17,10 +18,17 @@ struct StepReport {
   double local_error = 0;     ///< estimated, relative; 0 where the method makes no estimate
 };
 
+/// Where and for which step an implicit method has taken its matrix.
+struct Linearisation {
+  State state;
+  double step = 0;  ///< [s]
+};
+
 /// What a method keeps between steps besides the state; only the same method can read it.
 struct IntegratorHistory {
   std::vector<double> numbers;
   std::vector<Eigen::VectorXd> vectors;
+  std::shared_ptr<const Linearisation> linearisation;  ///< of the matrix that the next step begins with, if any
 };
 
 /// Advances one state of one SecondOrderSystem. What is kept between steps belongs to that system as it was:

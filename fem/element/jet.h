@@ -46,6 +46,10 @@ class Jet {
   }
   friend Jet operator+(Jet x, const Jet& y) { return x += y; }
   friend Jet operator-(Jet x, const Jet& y) { return x -= y; }
+  friend Jet operator*(double f, Jet x) {
+    for (double& c : x.c_) c *= f;
+    return x;
+  }
   friend Jet operator*(const Jet& x, const Jet& y) {
     const auto& p = x.c_;
     const auto& q = y.c_;

@@ -1,5 +1,7 @@
 #include "fem/element/moving_basis.h"
 
+#include <cmath>
+
 namespace nurbeam {
 
 namespace {
@@ -79,6 +81,19 @@ std::array<double, 4> product(const std::array<double, 4>& f, const std::array<d
           f[3] * g[0] + 3 * f[2] * g[1] + 3 * f[1] * g[2] + f[0] * g[3]};
 }
 
+// kappa_0 as series at s, from it and its first two derivatives along s.
+Jet curvature_at(const std::array<double, 3>& kappa0, const Jet& s) {
+  const auto& [k0, k1, k2] = kappa0;
+  const double a = s.d(0), b = s.d(1);
+  return Jet(Jet::Coefficients{k0, a * k1, b * k1, a * a * k2 / 2, a * b * k2, b * b * k2 / 2});
+}
+
+// l^m, l = b - a.
+Jet power_of_length(double l, int m) {
+  const double f = std::pow(l, m), d1 = m * f / l, d2 = (m - 1) * d1 / l / 2, d3 = (m - 2) * d2 / l / 3;
+  return Jet(Jet::Coefficients{f, -d1, d1, d2, -2 * d2, d2, -d3, 3 * d3, -3 * d3, d3});
+}
+
 // The drawn curve at one place, by the parameter u of the chart and along s.
 struct ChartPlace {
   std::array<double, 4> u;       // and its s-derivatives
@@ -137,6 +152,12 @@ MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const 
     : curve_(&curve), segment_(chart.segment) {
   if (chart.constant_weights) {
     series_.emplace(curve, chart, s_a, s_b);
+    return;
+  }
+  if (segment_ < 0 || curve.is_uniform_line(segment_)) {
+    const double l = s_b.value() - s_a.value();
+    uniform_ = {s_a, power_of_length(l, 1), power_of_length(l, -1), power_of_length(l, -2),
+                power_of_length(l, -3)};
     return;
   }
   const ChartPlace a = place_of(curve, segment_, s_a.value()), b = place_of(curve, segment_, s_b.value());
@@ -207,8 +228,44 @@ Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, doubl
 
 }  // namespace
 
+ShapeFunctions<Jet> MovingBasis::uniform_at(const Jet& s) const {
+  const auto& [s_a, l, l_1, l_2, l_3] = *uniform_;
+  const double x = (s.value() - s_a.value()) * l_1.value();
+  constexpr double round_off = 1e-12;
+  const bool moves_with_ends = std::abs(s.d(0) - (1 - x)) < round_off && std::abs(s.d(1) - x) < round_off;
+  const Jet xi = moves_with_ends ? Jet(x) : (s - s_a) * l_1;
+  // A Hermite function of xi from its value and derivatives; its last one is constant.
+  const auto at = [&](double f, double f1, double f2, double f3, const Jet& factor) {
+    return moves_with_ends ? f * factor : compose({f, f1, f2, f3}, xi) * factor;
+  };
+  ShapeFunctions<Jet> shape;
+  const double x2 = x * x, x3 = x2 * x;
+  const auto place = [&](int k, double sign) {
+    const double g = sign * (3 * x2 - 2 * x3) + (sign < 0 ? 1 : 0), g1 = sign * 6 * (x - x2),
+                 g2 = sign * (6 - 12 * x), g3 = -12 * sign;
+    shape.value[k] = at(g, g1, g2, g3, Jet(1));
+    shape.d1[k] = at(g1, g2, g3, 0, l_1);
+    shape.d2[k] = at(g2, g3, 0, 0, l_2);
+    shape.d3[k] = g3 * l_3;
+  };
+  const auto slope = [&](int k, double g, double g1, double g2) {
+    shape.value[k] = at(g, g1, g2, 6, l);
+    shape.d1[k] = at(g1, g2, 6, 0, Jet(1));
+    shape.d2[k] = at(g2, 6, 0, 0, l_1);
+    shape.d3[k] = 6 * l_2;
+  };
+  place(0, -1);
+  slope(1, x - 2 * x2 + x3, 1 - 4 * x + 3 * x2, 6 * x - 4);
+  place(2, 1);
+  slope(3, x3 - x2, 3 * x2 - 2 * x, 6 * x - 2);
+  const bool straight = curve_->straight() || segment_ >= 0;
+  if (!straight) shape.kappa0 = curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s);
+  return shape;
+}
+
 ShapeFunctions<Jet> MovingBasis::at(const Jet& s) const {
   if (series_) return series_->at(s);
+  if (uniform_) return uniform_at(s);
   const ChartPlace p = place_of(*curve_, segment_, s.value());
   const Eigen::Matrix<double, 5, 4> f = hermite_along(p, u_a_, length_);
   // rows[m](r, k): derivative m in the ends at fixed s of derivative r along s of shape function k.
@@ -248,8 +305,7 @@ ShapeFunctions<Jet> MovingBasis::at(const Jet& s) const {
     shape.d2[k] = moving(2, k, true, false);
     shape.d3[k] = moving(3, k, false, false);
   }
-  const auto& [k0, k1, k2] = p.kappa0;
-  shape.kappa0 = Jet(Jet::Coefficients{k0, a * k1, b * k1, a * a * k2 / 2, a * b * k2, b * b * k2 / 2});
+  shape.kappa0 = curvature_at(p.kappa0, s);
   return shape;
 }
 

@@ -16,7 +16,10 @@ namespace nurbeam {
 /// the element. At a point they are evaluated together, H / W and its derivatives in s; what a point that
 /// moves with the ends adds is the chain rule (docs/theory.md, moving elements).
 ///
-/// Charts with constant weights, whose W moves with the ends, are left to the series of ElementBasis.
+/// Where u is s but for a factor and W is constant (arc length as chart, straight lines) the shape functions
+/// are the Hermite ones of xi = (s - s_A) / l times powers of l: at a fixed fraction xi of the element only
+/// these powers have derivatives. Charts with constant weights, whose W moves with the ends, are left to the
+/// series of ElementBasis.
 class MovingBasis {
  public:
   MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b);
@@ -28,8 +31,15 @@ class MovingBasis {
  private:
   static constexpr int derivatives = 10;  // 1, a, b, aa, ab, bb, aaa, aab, abb, bbb
 
+  // l^1, l^-1, l^-2, l^-3 as series, of an element with u = s but for a factor.
+  struct Uniform {
+    Jet s_a, l, l_1, l_2, l_3;
+  };
+  ShapeFunctions<Jet> uniform_at(const Jet& s) const;
+
   const ReferenceCurve* curve_;
   int segment_;
+  std::optional<Uniform> uniform_;
   double u_a_ = 0, length_ = 0;
   /// (P, Q, R, T) of the four shape functions (columns), by derivative.
   std::array<Eigen::Matrix4d, derivatives> data_;

@@ -25,6 +25,18 @@ std::array<double, 3> cross_product_derivatives(const Eigen::Matrix<double, 3, 6
   return {norm, norm1, (c1.squaredNorm() + c.dot(c2) - norm1 * norm1) / norm};
 }
 
+// Equal weights, and control points in a line at equal distances.
+bool uniform_line(const RationalCubic& cubic) {
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+  const Eigen::Matrix4d& p = cubic.points();
+  const auto vanishes = [&](const Eigen::Vector4d& x) {
+    return (x.cwiseAbs().array() <= round_off * p.cwiseAbs().rowwise().maxCoeff().array()).all();
+  };
+  return std::abs(cubic.weight(3) - cubic.weight(0)) <= round_off * cubic.weight(0) &&
+         vanishes(p.col(1) - (2 * p.col(0) + p.col(3)) / 3) &&
+         vanishes(p.col(2) - (p.col(0) + 2 * p.col(3)) / 3);
+}
+
 }  // namespace
 
 ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric, bool closed)
@@ -36,6 +48,7 @@ ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimensio
   breaks_.push_back(0);
   for (const RationalCubic& segment : segments_) {
     maps_.emplace_back(segment);
+    uniform_line_.push_back(uniform_line(segment));
     breaks_.push_back(breaks_.back() + maps_.back().length());
   }
   if (!closed_) return;

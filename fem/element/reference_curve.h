@@ -71,6 +71,8 @@ class ReferenceCurve {
   int dimension() const { return dimension_; }
   int segment_count() const { return static_cast<int>(segments_.size()); }
   const RationalCubic& segment(int j) const { return segments_[j]; }
+  /// Whether segment j is a straight line at constant speed (to round-off): u is then s but for a factor.
+  bool is_uniform_line(int j) const { return uniform_line_[j]; }
   /// segment_count() + 1 reference arc lengths [m].
   const std::vector<double>& breaks() const { return breaks_; }
   double length() const { return breaks_.back(); }
@@ -113,6 +115,7 @@ class ReferenceCurve {
   std::vector<RationalCubic> segments_;
   std::vector<ArcLengthMap> maps_;
   std::vector<double> breaks_;
+  std::vector<bool> uniform_line_;
   int dimension_;
   Metric metric_;
   bool closed_;

@@ -60,6 +60,22 @@ TEST(MovingBasis, IsTheSeriesOfTheElement) {
     }
 }
 
+TEST(MovingBasis, IsTheSeriesOnAStraightLineAtConstantSpeed) {
+  Eigen::Matrix4d line, uneven;
+  for (int i = 0; i < 4; ++i) {
+    line.col(i) << 2 + 0.5 * i, -1 + 0.25 * i, 0, 1;
+    uneven.col(i) << 2 + 0.5 * i * i, -1 + 0.25 * i * i, 0, 1;
+  }
+  const ReferenceCurve curve({RationalCubic(line), RationalCubic(2 * line), RationalCubic(uneven)}, 2);
+  EXPECT_TRUE(curve.is_uniform_line(0));
+  EXPECT_TRUE(curve.is_uniform_line(1));
+  EXPECT_FALSE(curve.is_uniform_line(2));
+  for (int j = 0; j < 3; ++j) {
+    const double s = curve.breaks()[j], h = curve.breaks()[j + 1] - s;
+    compare(curve, {.segment = j}, s + 0.1 * h, s + 0.45 * h);
+  }
+}
+
 TEST(MovingBasis, LeavesConstantWeightsToTheSeries) {
   std::mt19937 random(6);
   const ReferenceCurve curve(testing::uneven_axis(random, 2), 2);
