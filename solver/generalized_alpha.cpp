@@ -14,6 +14,7 @@ namespace {
 constexpr double largest_growth = 2;      ///< of the step under error control
 constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
 constexpr double safety_of_contraction = 10;
+constexpr int many_corrections = 3;      ///< in one step, after which a matrix is taken anew
 constexpr double longest_use = 50;       ///< of a matrix, in steps
 constexpr double same_step = 1e-6;       ///< relative difference that a matrix does not feel
 constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
@@ -153,6 +154,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
         safety_of_contraction * contraction * correction <= tolerance &&
         safety_of_contraction * contraction * report.residual_norm <= tolerance) {
       report.residual_norm *= contraction;
+      if (i >= many_corrections) linearisation_ = nullptr;
       return StepStatus::converged;
     }
     evaluate_residual(step);

@@ -90,6 +90,9 @@ class BeamElement {
     Eigen::Vector4d S, S1, S2;
     double weight, kappa0, eps0;
   };
+  template <class T, class Visit>
+  void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
+  ElementVector<D> undamped_force(const ElementState<D>& x, const Vector& load) const;
   ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
   ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
   void add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w, ElementMatrix<D>& K) const;
@@ -115,11 +118,16 @@ template <class T, class Visit>
 void BeamElement<D>::for_each_point(const T& s_a, const T& s_b, Visit&& visit) const {
   const std::conditional_t<std::is_same_v<T, Jet>, MovingBasis, ElementBasis<T>> basis(*curve_, chart_, s_a,
                                                                                        s_b);
+  for_each_place(s_a, s_b, [&](const T& s, const T& weight) { visit(basis.at(s), s, weight); });
+}
+
+// Calls visit(s, weight) at the same places.
+template <int D>
+template <class T, class Visit>
+void BeamElement<D>::for_each_place(const T& s_a, const T& s_b, Visit&& visit) const {
   const auto visit_part = [&](const T& lo, const T& hi) {
-    for (int g = 0; g < GaussRule::size; ++g) {
-      const T s = lo + (hi - lo) * GaussRule::points[g];
-      visit(basis.at(s), s, (hi - lo) * GaussRule::weights[g]);
-    }
+    for (int g = 0; g < GaussRule::size; ++g)
+      visit(T(lo + GaussRule::points[g] * (hi - lo)), T(GaussRule::weights[g] * (hi - lo)));
   };
   T lo = s_a;
   if (chart_.segment < 0)

@@ -40,7 +40,7 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
     if (!strains_at_points(*properties_)) break;
     const Vector rs = e * p.S1, rss = e * p.S2;
     Eigen::Matrix<double, 2 * D, 1> stress =
-        elastic_response<D>(*properties_, rs, rss, p.kappa0, p.eps0).gradient;
+        elastic_response<D, Derivatives::one>(*properties_, rs, rss, p.kappa0, p.eps0).gradient;
     if (properties_->damping > 0) {
       Eigen::Matrix<double, 2 * D, 1> rate;
       rate << e_rate * p.S1, e_rate * p.S2;
@@ -52,7 +52,10 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
   if (!assumes_strain()) return f;
   AxialSums<D> axial = fixed_sums(x.q);
   axial.take_out(x.free_strain);
-  axial.add_force(properties_->axial_stiffness, f);
+  const Eigen::Vector4d stress = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).gradient;
+  const auto I_e = axial.y_q.template block<1, 4 * D>(0, 0);
+  f.template head<4 * D>() += stress[0] * I_e.transpose();
+  for (const int end : {0, 1}) force.col(2 * end + 1) += stress[1 + end] * e.col(2 * end + 1);
   if (properties_->damping > 0) {
     const auto x_q = axial.y_q.template topRows<3>();
     f += x_q.transpose() * AssumedAxialDamping(axial_viscosity(), length_, x_q * x.v).stress;

@@ -228,15 +228,19 @@ Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, doubl
 
 }  // namespace
 
+std::pair<double, bool> MovingBasis::fraction(const Jet& s) const {
+  constexpr double round_off = 1e-12;
+  const double x = (s.value() - uniform_->s_a.value()) * uniform_->l_1.value();
+  return {x, std::abs(s.d(0) - (1 - x)) < round_off && std::abs(s.d(1) - x) < round_off};
+}
+
 ShapeFunctions<Jet> MovingBasis::uniform_at(const Jet& s) const {
   const auto& [s_a, l, l_1, l_2, l_3] = *uniform_;
-  const double x = (s.value() - s_a.value()) * l_1.value();
-  constexpr double round_off = 1e-12;
-  const bool moves_with_ends = std::abs(s.d(0) - (1 - x)) < round_off && std::abs(s.d(1) - x) < round_off;
+  const auto [x, moves_with_ends] = fraction(s);
   const Jet xi = moves_with_ends ? Jet(x) : (s - s_a) * l_1;
   // A Hermite function of xi from its value and derivatives; its last one is constant.
-  const auto at = [&](double f, double f1, double f2, double f3, const Jet& factor) {
-    return moves_with_ends ? f * factor : compose({f, f1, f2, f3}, xi) * factor;
+  const auto at = [&, moves = moves_with_ends](double f, double f1, double f2, double f3, const Jet& factor) {
+    return moves ? f * factor : compose({f, f1, f2, f3}, xi) * factor;
   };
   ShapeFunctions<Jet> shape;
   const double x2 = x * x, x3 = x2 * x;
@@ -258,9 +262,52 @@ ShapeFunctions<Jet> MovingBasis::uniform_at(const Jet& s) const {
   slope(1, x - 2 * x2 + x3, 1 - 4 * x + 3 * x2, 6 * x - 4);
   place(2, 1);
   slope(3, x3 - x2, 3 * x2 - 2 * x, 6 * x - 2);
-  const bool straight = curve_->straight() || segment_ >= 0;
-  if (!straight) shape.kappa0 = curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s);
+  if (has_curvature()) shape.kappa0 = curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s);
   return shape;
+}
+
+MovingRows MovingBasis::uniform_rows(double x) const {
+  const double l = uniform_->l.value(), i = uniform_->l_1.value(), x2 = x * x, x3 = x2 * x;
+  const double H = 3 * x2 - 2 * x3, H1 = 6 * i * (x - x2), H2 = i * i * (6 - 12 * x);
+  const double a = x - 2 * x2 + x3, a2 = i * (6 * x - 4), b = x3 - x2, b2 = i * (6 * x - 2);
+  MovingRows rows;
+  rows.r.value << 1 - H, l * a, H, l * b;
+  rows.rs.value << -H1, 1 - 4 * x + 3 * x2, H1, 3 * x2 - 2 * x;
+  rows.rss.value << -H2, a2, H2, b2;
+  rows.r.first[1] << 0, a, 0, b;
+  rows.rs.first[1] << i * H1, 0, -i * H1, 0;
+  rows.rss.first[1] << 2 * i * H2, -i * a2, -2 * i * H2, -i * b2;
+  for (MovingRows::Series* series : {&rows.r, &rows.rs, &rows.rss}) series->first[0] = -series->first[1];
+  for (MovingRows::Row& row : rows.r_second) row.setZero();
+  return rows;
+}
+
+MovingRows MovingBasis::rows_at(const Jet& s) const {
+  if (uniform_)
+    if (const auto [xi, moves_with_ends] = fraction(s); moves_with_ends) {
+      MovingRows rows = uniform_rows(xi);
+      if (!has_curvature()) return rows;
+      const Jet kappa0 = curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s);
+      rows.kappa0 = kappa0.value();
+      rows.kappa0_first = {kappa0.d(0), kappa0.d(1)};
+      return rows;
+    }
+  const ShapeFunctions<Jet> shape = at(s);
+  MovingRows rows;
+  const auto copy = [](const std::array<Jet, 4>& jets, MovingRows::Series& series) {
+    for (int k = 0; k < 4; ++k) {
+      series.value[k] = jets[k].value();
+      for (const int end : {0, 1}) series.first[end][k] = jets[k].d(end);
+    }
+  };
+  copy(shape.value, rows.r);
+  copy(shape.d1, rows.rs);
+  copy(shape.d2, rows.rss);
+  for (int k = 0; k < 4; ++k)
+    for (int m = 0; m < 3; ++m) rows.r_second[m][k] = shape.value[k].d(m / 2, (m + 1) / 2);
+  rows.kappa0 = shape.kappa0.value();
+  rows.kappa0_first = {shape.kappa0.d(0), shape.kappa0.d(1)};
+  return rows;
 }
 
 ShapeFunctions<Jet> MovingBasis::at(const Jet& s) const {

@@ -6,6 +6,19 @@
 
 namespace nurbeam {
 
+/// Of the shape functions and their derivatives along s what forces need, one column a shape function.
+struct MovingRows {
+  using Row = Eigen::Vector4d;
+  struct Series {
+    Row value;
+    std::array<Row, 2> first;  ///< by the end positions
+  };
+  Series r, rs, rss;
+  std::array<Row, 3> r_second;  ///< of r, by aa, ab, bb
+  double kappa0 = 0;            ///< curvature of the drawing [1/m], and its derivatives by the end positions
+  std::array<double, 2> kappa0_first{};
+};
+
 /// The shape functions of ElementBasis and their derivatives in the end positions, without series at the
 /// points.
 ///
@@ -27,6 +40,8 @@ class MovingBasis {
   /// At a point whose place is linear in the end positions, `s` = value and derivatives. Of the third
   /// derivatives only those of the shape functions themselves are set; of d3 the first ones.
   ShapeFunctions<Jet> at(const Jet& s) const;
+  /// The part of it that forces need.
+  MovingRows rows_at(const Jet& s) const;
 
  private:
   static constexpr int derivatives = 10;  // 1, a, b, aa, ab, bb, aaa, aab, abb, bbb
@@ -35,7 +50,11 @@ class MovingBasis {
   struct Uniform {
     Jet s_a, l, l_1, l_2, l_3;
   };
+  /// xi at s, and whether the ends leave it as it is.
+  std::pair<double, bool> fraction(const Jet& s) const;
   ShapeFunctions<Jet> uniform_at(const Jet& s) const;
+  MovingRows uniform_rows(double xi) const;
+  bool has_curvature() const { return !curve_->straight() && segment_ < 0; }  // of a uniform chart
 
   const ReferenceCurve* curve_;
   int segment_;

@@ -17,18 +17,18 @@ template <int D>
 struct ElasticResponse {
   EnergyDensity energy;
   Eigen::Matrix<double, 2 * D, 1> gradient;         ///< d(psi)/dz
-  Eigen::Matrix<double, 2 * D, 2 * D> hessian;      ///< d2(psi)/dz2
+  Eigen::Matrix<double, 2 * D, 2 * D> hessian;      ///< d2(psi)/dz2; unset where one derivative is wanted
   double moment;                                    ///< EI (K - kappa_0) = -d(psi)/d(kappa_0) [N m]
   Eigen::Matrix<double, 2 * D, 1> moment_gradient;  ///< d(moment)/dz
   double bending_stiffness;                         ///< -d(moment)/d(kappa_0) [N m^2]
 };
 
 /// The constitutive law: with assumed_axial.h the only place that multiplies strain by stiffness.
-template <int D>
+template <int D, Derivatives wanted = Derivatives::two>
 ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Matrix<double, D, 1>& rs,
                                     const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0) {
-  const StrainMeasure<D> eps = axial_strain<D>(rs);
-  const StrainMeasure<D> K = curvature(rs, rss, beam.curvature);
+  const auto eps = axial_strain<D, wanted>(rs);
+  const auto K = curvature<D, wanted>(rs, rss, beam.curvature);
   const double EA = beam.pointwise_axial_stiffness(), EI = beam.axis_bending_stiffness();
   const double stretch = eps.value - eps0, bend = K.value - kappa0;
   ElasticResponse<D> e;
@@ -40,8 +40,9 @@ ElasticResponse<D> elastic_response(const BeamProperties& beam, const Eigen::Mat
   e.moment_gradient = EI * K.gradient;
   e.bending_stiffness = EI;
   e.gradient = EA * stretch * eps.gradient + e.moment * K.gradient;
-  e.hessian = EA * (eps.gradient * eps.gradient.transpose() + stretch * eps.hessian) +
-              e.moment_gradient * K.gradient.transpose() + e.moment * K.hessian;
+  if constexpr (wanted == Derivatives::two)
+    e.hessian = EA * (eps.gradient * eps.gradient.transpose() + stretch * eps.hessian) +
+                e.moment_gradient * K.gradient.transpose() + e.moment * K.hessian;
   return e;
 }
 
@@ -58,7 +59,7 @@ template <int D>
 SectionForces section_forces(const BeamProperties& beam, double eps, const Eigen::Matrix<double, D, 1>& rs,
                              const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0,
                              double free = 0) {
-  const double K = curvature(rs, rss, beam.curvature).value;
+  const double K = curvature<D, Derivatives::one>(rs, rss, beam.curvature).value;
   return {(eps - free) / (1 + 2 * beam.free_strain.constant), K,
           beam.axial_stiffness * (eps - eps0 - free) * std::sqrt(1 + 2 * eps),
           beam.axis_bending_stiffness() * (K - kappa0)};
