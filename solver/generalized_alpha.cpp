@@ -13,11 +13,10 @@ namespace {
 
 constexpr double largest_growth = 2;      ///< of the step under error control
 constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
-constexpr double safety_of_contraction = 10;
-constexpr int many_corrections = 3;      ///< in one step, after which a matrix is taken anew
-constexpr double longest_use = 50;       ///< of a matrix, in steps
-constexpr double same_step = 1e-6;       ///< relative difference that a matrix does not feel
-constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
+constexpr int many_corrections = 3;       ///< in one step, after which a matrix is taken anew
+constexpr double longest_use = 50;        ///< of a matrix, in steps
+constexpr double same_step = 1e-6;        ///< relative difference that a matrix does not feel
+constexpr double largest_rescaling = 4;   ///< of the step, beyond which the method starts afresh
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -138,6 +137,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
   evaluate_residual(step);
   if (!has_matrix_for(step)) linearisation_ = nullptr;
   double last_correction = std::numeric_limits<double>::infinity();
+  bool balanced = false;
   for (int i = 0; i < settings_.max_iterations; ++i) {
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
@@ -149,21 +149,19 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
     const double contraction = correction / last_correction;
     const double tolerance = settings_.newton_tolerance;
-    // What another correction would leave, where the last two foretell it.
-    if (i > 0 && contraction <= good_contraction &&
-        safety_of_contraction * contraction * correction <= tolerance &&
-        safety_of_contraction * contraction * report.residual_norm <= tolerance) {
-      report.residual_norm *= contraction;
-      if (i >= many_corrections) linearisation_ = nullptr;
+    // Where forces are in balance, one more correction takes what is left; what would be left of that is
+    // foretold by the last two. Two small ones running of which the second is no smaller are convergence too:
+    // the residual then sits on its own round-off.
+    const bool contracts = contraction <= good_contraction, small = correction <= tolerance;
+    if ((balanced && (small || (contracts && contraction * correction <= tolerance))) ||
+        (small && last_correction <= tolerance && !contracts)) {
+      if (i > many_corrections) linearisation_ = nullptr;
       return StepStatus::converged;
     }
     evaluate_residual(step);
     report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
-    // Two small corrections running are convergence too: the residual then sits on its own round-off.
-    if (residual_.allFinite() && correction <= tolerance &&
-        (report.residual_norm <= tolerance || last_correction <= tolerance))
-      return StepStatus::converged;
-    if (contraction > good_contraction) linearisation_ = nullptr;
+    balanced = report.residual_norm <= tolerance;
+    if (!contracts) linearisation_ = nullptr;
     last_correction = correction;
   }
   return StepStatus::not_converged;

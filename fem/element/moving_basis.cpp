@@ -148,7 +148,8 @@ Hermite<N - 1> by_end(const Hermite<N>& h, const Ends& ends) {
 
 }  // namespace
 
-MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b)
+MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b,
+                         Derivatives wanted)
     : curve_(&curve), segment_(chart.segment) {
   if (chart.constant_weights) {
     series_.emplace(curve, chart, s_a, s_b);
@@ -173,30 +174,38 @@ MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const 
   const auto shifted = [](const std::array<double, 4>& f) {
     return std::array<double, 4>{f[1], f[2], f[3], 0};
   };
-  const auto of_end = [&](int end, const ChartPlace& place, const std::array<double, 4>& f) {
-    return of_variable<3>(end, along(f, place.u));
-  };
-  const std::array<Hermite<3>, 4> shapes{Hermite<3>{of_end(0, a, a.W), of_end(0, a, shifted(a.W)), {}, {}},
-                                         Hermite<3>{{}, of_end(0, a, product(a.J, a.W)), {}, {}},
-                                         Hermite<3>{{}, {}, of_end(1, b, b.W), of_end(1, b, shifted(b.W))},
-                                         Hermite<3>{{}, {}, {}, of_end(1, b, product(b.J, b.W))}};
-  for (int k = 0; k < 4; ++k) {
-    const auto set = [&](int which, const auto& h) {
-      data_[which].col(k) << h.P.c[0], h.Q.c[0], h.R.c[0], h.T.c[0];
+  const auto set_all = [&]<int N>(std::integral_constant<int, N>) {
+    const auto at_end = [&](int end, const ChartPlace& place, const std::array<double, 4>& f) {
+      return of_variable<N>(end, along(f, place.u));
     };
-    const Hermite<2> by_a = by_start(shapes[k], ends), by_b = by_end(shapes[k], ends);
-    const Hermite<1> by_aa = by_start(by_a, ends), by_ab = by_end(by_a, ends), by_bb = by_end(by_b, ends);
-    set(0, shapes[k]);
-    set(1, by_a);
-    set(2, by_b);
-    set(3, by_aa);
-    set(4, by_ab);
-    set(5, by_bb);
-    set(6, by_start(by_aa, ends));
-    set(7, by_end(by_aa, ends));
-    set(8, by_end(by_ab, ends));
-    set(9, by_end(by_bb, ends));
-  }
+    const std::array<Hermite<N>, 4> shapes{Hermite<N>{at_end(0, a, a.W), at_end(0, a, shifted(a.W)), {}, {}},
+                                           Hermite<N>{{}, at_end(0, a, product(a.J, a.W)), {}, {}},
+                                           Hermite<N>{{}, {}, at_end(1, b, b.W), at_end(1, b, shifted(b.W))},
+                                           Hermite<N>{{}, {}, {}, at_end(1, b, product(b.J, b.W))}};
+    for (int k = 0; k < 4; ++k) {
+      const auto set = [&](int which, const auto& h) {
+        data_[which].col(k) << h.P.c[0], h.Q.c[0], h.R.c[0], h.T.c[0];
+      };
+      const auto by_a = by_start(shapes[k], ends), by_b = by_end(shapes[k], ends);
+      const auto by_aa = by_start(by_a, ends), by_ab = by_end(by_a, ends), by_bb = by_end(by_b, ends);
+      set(0, shapes[k]);
+      set(1, by_a);
+      set(2, by_b);
+      set(3, by_aa);
+      set(4, by_ab);
+      set(5, by_bb);
+      if constexpr (N == 3) {
+        set(6, by_start(by_aa, ends));
+        set(7, by_end(by_aa, ends));
+        set(8, by_end(by_ab, ends));
+        set(9, by_end(by_bb, ends));
+      }
+    }
+  };
+  if (wanted == Derivatives::one)
+    set_all(std::integral_constant<int, 2>());
+  else
+    set_all(std::integral_constant<int, 3>());
 }
 
 namespace {
@@ -292,6 +301,7 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
       rows.kappa0_first = {kappa0.d(0), kappa0.d(1)};
       return rows;
     }
+  if (!uniform_ && !series_) return rational_rows(s);
   const ShapeFunctions<Jet> shape = at(s);
   MovingRows rows;
   const auto copy = [](const std::array<Jet, 4>& jets, MovingRows::Series& series) {
@@ -307,6 +317,30 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
     for (int m = 0; m < 3; ++m) rows.r_second[m][k] = shape.value[k].d(m / 2, (m + 1) / 2);
   rows.kappa0 = shape.kappa0.value();
   rows.kappa0_first = {shape.kappa0.d(0), shape.kappa0.d(1)};
+  return rows;
+}
+
+MovingRows MovingBasis::rational_rows(const Jet& s) const {
+  const ChartPlace p = place_of(*curve_, segment_, s.value());
+  const Eigen::Matrix4d f = hermite_along(p, u_a_, length_).topRows<4>();
+  const Eigen::Matrix4d still = f * data_[0];  // rows: derivatives along s at fixed ends
+  const double a = s.d(0), b = s.d(1);
+  MovingRows rows;
+  const std::array<MovingRows::Series*, 3> series{&rows.r, &rows.rs, &rows.rss};
+  for (int m = 0; m < 3; ++m) series[m]->value = still.row(m);
+  std::array<Eigen::Matrix<double, 3, 4>, 2> moved;  // by the ends, at fixed s
+  for (const int end : {0, 1}) {
+    moved[end] = f.topRows<3>() * data_[1 + end];
+    for (int m = 0; m < 3; ++m)
+      series[m]->first[end] = (moved[end].row(m) + s.d(end) * still.row(m + 1)).transpose();
+  }
+  const auto second = [&](int which) -> MovingRows::Row { return (f.row(0) * data_[which]).transpose(); };
+  const auto& along = still.row(2);
+  rows.r_second[0] = second(3) + (2 * a * moved[0].row(1) + a * a * along).transpose();
+  rows.r_second[1] = second(4) + (b * moved[0].row(1) + a * moved[1].row(1) + a * b * along).transpose();
+  rows.r_second[2] = second(5) + (2 * b * moved[1].row(1) + b * b * along).transpose();
+  rows.kappa0 = p.kappa0[0];
+  rows.kappa0_first = {a * p.kappa0[1], b * p.kappa0[1]};
   return rows;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "fem/element/rancf_basis.h"
+#include "fem/material/strain.h"
 
 namespace nurbeam {
 
@@ -35,7 +36,9 @@ struct MovingRows {
 /// series of ElementBasis.
 class MovingBasis {
  public:
-  MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b);
+  /// `wanted`: one for rows_at() alone.
+  MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b,
+              Derivatives wanted = Derivatives::two);
 
   /// At a point whose place is linear in the end positions, `s` = value and derivatives. Of the third
   /// derivatives only those of the shape functions themselves are set; of d3 the first ones.
@@ -54,13 +57,15 @@ class MovingBasis {
   std::pair<double, bool> fraction(const Jet& s) const;
   ShapeFunctions<Jet> uniform_at(const Jet& s) const;
   MovingRows uniform_rows(double xi) const;
+  MovingRows rational_rows(const Jet& s) const;
   bool has_curvature() const { return !curve_->straight() && segment_ < 0; }  // of a uniform chart
 
   const ReferenceCurve* curve_;
   int segment_;
   std::optional<Uniform> uniform_;
   double u_a_ = 0, length_ = 0;
-  /// (P, Q, R, T) of the four shape functions (columns), by derivative.
+  /// (P, Q, R, T) of the four shape functions (columns), by derivative; the last four unset where one is
+  /// wanted.
   std::array<Eigen::Matrix4d, derivatives> data_;
   std::optional<ElementBasis<Jet>> series_;  // with constant weights
 };

@@ -169,7 +169,7 @@ template <int D>
 ElementVector<D> BeamElement<D>::undamped_force(const ElementState<D>& x, const Vector& load) const {
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
-  const MovingBasis basis(*curve_, chart_, s_a, s_b);
+  const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);
   ForceSum<D> sum(*properties_, x, load, assumes_strain());
   for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });
   return sum.total(x);

@@ -30,6 +30,23 @@ void expect_same(const std::array<Jet, 4>& row, const std::array<Jet, 4>& exact,
   }
 }
 
+void expect_rows(const MovingRows& rows, const ShapeFunctions<Jet>& y) {
+  const auto jets = [](const MovingRows::Series& series, const std::array<MovingRows::Row, 3>* second) {
+    std::array<Jet, 4> row;
+    for (int k = 0; k < 4; ++k) {
+      Jet::Coefficients c{series.value[k], series.first[0][k], series.first[1][k]};
+      if (second) c[3] = (*second)[0][k] / 2, c[4] = (*second)[1][k], c[5] = (*second)[2][k] / 2;
+      row[k] = Jet(c);
+    }
+    return row;
+  };
+  expect_same(jets(rows.r, &rows.r_second), y.value, 2, "row of r ");
+  expect_same(jets(rows.rs, nullptr), y.d1, 1, "row of r_s ");
+  expect_same(jets(rows.rss, nullptr), y.d2, 1, "row of r_ss ");
+  const Jet kappa0(Jet::Coefficients{rows.kappa0, rows.kappa0_first[0], rows.kappa0_first[1]});
+  expect_same({kappa0, {}, {}, {}}, {y.kappa0, {}, {}, {}}, 1, "row of kappa0 ");
+}
+
 void compare(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b) {
   const Jet a = Jet::variable(s_a, 0), b = Jet::variable(s_b, 1);
   const MovingBasis fast(curve, chart, a, b);
@@ -43,6 +60,7 @@ void compare(const ReferenceCurve& curve, const Chart& chart, double s_a, double
     expect_same(x.d3, y.d3, 1, "d3 ");
     const std::array<Jet, 4> drawn{x.kappa0, {}, {}, {}}, exact{y.kappa0, {}, {}, {}};
     expect_same(drawn, exact, 2, "kappa0 ");
+    expect_rows(MovingBasis(curve, chart, a, b, Derivatives::one).rows_at(s), y);
   }
 }
 
