@@ -206,6 +206,10 @@ class Simulation {
         break;
       }
       write_due();
+      if (!goes_on(energy_from_nowhere())) {
+        complete = false;
+        break;
+      }
       if (observer_.progress) observer_.progress(last_record_);
       if (observer_.checkpoint_due && observer_.checkpoint_due()) hand_over(next_output);
     }
@@ -510,6 +514,13 @@ class Simulation {
     return at_.state;
   }
 
+  // Where all that moves has come from nowhere, what would follow means nothing.
+  std::optional<Failure> energy_from_nowhere() const {
+    if (created_ <= report_.energy_scale() + report_.energy_round_off()) return {};
+    return Failure{
+        .kind = Failure::Kind::energy, .time = at_.state.t, .places = places_of(at_), .energy = created_};
+  }
+
   void take_snapshot() {
     Snapshot snapshot = record_snapshot(*at_.system, recorded_state(), probes_);
     snapshot.steps = std::exchange(steps_, {});
@@ -525,6 +536,7 @@ class Simulation {
       for (const RunEvent& event : report_.events)
         if (event.kind != EventKind::stopped_at_end) drift -= event.energy_after - event.energy_before;
       report_.integration_error = std::max(report_.integration_error, std::abs(drift));
+      created_ = drift;
       report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, snapshot.energy.kinetic);
       report_.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending);
       report_.gravity_energy.add(snapshot.energy.gravity);
@@ -549,6 +561,7 @@ class Simulation {
   StepRecord last_record_;
   std::vector<StepRecord> steps_;  // since the last frame
   double dissipated_ = 0, input_ = 0, start_energy_ = 0, last_step_ = 0, last_written_ = -1;
+  double created_ = 0;  // energy in the last frame, less what events gave [J]
   long iterations_written_ = 0;
 };
 

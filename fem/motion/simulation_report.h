@@ -30,6 +30,7 @@ struct Failure {
     projection,          ///< of velocities on a new mesh is singular
     mesh,                ///< length control finds none
     mesh_energy,         ///< a change of the mesh for the joint's body would change the energy by `energy`
+    energy,              ///< has come from nowhere, `energy`, more than all that moves
     bodies_meet,         ///< sliding bodies on one beam
     equilibrium,         ///< is not found: `equilibrium`
     resting_place,       ///< of a sliding body is not found

@@ -80,6 +80,10 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
              (model.joints[failure.joint].continuous_slope
                   ? ", or, for a cable that hardly resists bending, \"slope\": \"discontinuous\""
                   : ", or \"slope\": \"continuous\": a beam that resists bending cannot give up a kink");
+    case Failure::Kind::energy:
+      return "by t = " + time + " an energy of " + text_of(failure.energy, 3) +
+             " J has come from nowhere, more than all that moves" + places +
+             "; take a shorter \"step\" or a \"tolerance\"";
     case Failure::Kind::bodies_meet:
       return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;
     case Failure::Kind::equilibrium:
