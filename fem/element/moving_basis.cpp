@@ -2,73 +2,11 @@
 
 #include <cmath>
 
+#include "fem/element/hermite_series.h"
+
 namespace nurbeam {
 
 namespace {
-
-// Power series in two variables, truncated after total degree N; coefficients by degree: 1, a, b, aa, ab, bb,
-// ...
-template <int N>
-struct Series {
-  static constexpr int size = (N + 1) * (N + 2) / 2;
-  std::array<double, size> c{};
-
-  static constexpr int index(int i, int j) { return (i + j) * (i + j + 1) / 2 + j; }
-};
-
-template <int N>
-Series<N> operator+(Series<N> x, const Series<N>& y) {
-  for (int i = 0; i < Series<N>::size; ++i) x.c[i] += y.c[i];
-  return x;
-}
-template <int N>
-Series<N> operator*(double f, Series<N> x) {
-  for (double& c : x.c) c *= f;
-  return x;
-}
-template <int N>
-Series<N> operator-(const Series<N>& x, const Series<N>& y) {
-  return x + -1.0 * y;
-}
-template <int N>
-Series<N> operator*(const Series<N>& x, const Series<N>& y) {
-  Series<N> z;
-  for (int d = 0; d <= N; ++d)
-    for (int e = 0; d + e <= N; ++e)
-      for (int j = 0; j <= d; ++j)
-        for (int k = 0; k <= e; ++k)
-          z.c[Series<N>::index(d + e - j - k, j + k)] +=
-              x.c[Series<N>::index(d - j, j)] * y.c[Series<N>::index(e - k, k)];
-  return z;
-}
-
-template <int M, int N>
-Series<M> truncated(const Series<N>& x) {
-  Series<M> y;
-  for (int i = 0; i < Series<M>::size; ++i) y.c[i] = x.c[i];
-  return y;
-}
-
-// By variable 0 or 1.
-template <int N>
-Series<N - 1> derivative(const Series<N>& x, int variable) {
-  Series<N - 1> y;
-  for (int d = 0; d < N; ++d)
-    for (int j = 0; j <= d; ++j)
-      y.c[Series<N>::index(d - j, j)] = variable == 0 ? (d - j + 1) * x.c[Series<N>::index(d - j + 1, j)]
-                                                      : (j + 1) * x.c[Series<N>::index(d - j, j + 1)];
-  return y;
-}
-
-// Of one variable, from the value and derivatives there.
-template <int N>
-Series<N> of_variable(int variable, const std::array<double, 4>& f) {
-  Series<N> y;
-  constexpr std::array<double, 4> factorial{1, 1, 2, 6};
-  for (int d = 0; d <= N; ++d)
-    y.c[variable == 0 ? Series<N>::index(d, 0) : Series<N>::index(0, d)] = f[d] / factorial[d];
-  return y;
-}
 
 // f(u(s)) and its s-derivatives.
 std::array<double, 4> along(const std::array<double, 4>& f, const std::array<double, 4>& u) {
@@ -113,39 +51,6 @@ ChartPlace place_of(const ReferenceCurve& curve, int segment, double s) {
   return {u_along, g.stretch, g.weight, {k[0], k[1], k[2]}};
 }
 
-// A cubic of u by its values and slopes at both ends of the element, as functions of the end positions.
-template <int N>
-struct Hermite {
-  Series<N> P, Q, R, T;
-};
-
-// 1 / l, and du/ds at the ends.
-struct Ends {
-  Series<2> inverse_length, rate_a, rate_b;
-};
-
-template <int N>
-Hermite<N - 1> by_start(const Hermite<N>& h, const Ends& ends) {
-  constexpr int M = N - 1;
-  const Series<M> i = truncated<M>(ends.inverse_length), rate = truncated<M>(ends.rate_a),
-                  Q = truncated<M>(h.Q);
-  const Series<M> second = i * (6.0 * i * (truncated<M>(h.R) - truncated<M>(h.P)) - 4.0 * Q -
-                                2.0 * truncated<M>(h.T));  // H''(u_A)
-  return {derivative(h.P, 0) - Q * rate, derivative(h.Q, 0) - second * rate, derivative(h.R, 0),
-          derivative(h.T, 0)};
-}
-
-template <int N>
-Hermite<N - 1> by_end(const Hermite<N>& h, const Ends& ends) {
-  constexpr int M = N - 1;
-  const Series<M> i = truncated<M>(ends.inverse_length), rate = truncated<M>(ends.rate_b),
-                  T = truncated<M>(h.T);
-  const Series<M> second = i * (6.0 * i * (truncated<M>(h.P) - truncated<M>(h.R)) + 2.0 * truncated<M>(h.Q) +
-                                4.0 * T);  // H''(u_B)
-  return {derivative(h.P, 1), derivative(h.Q, 1), derivative(h.R, 1) - T * rate,
-          derivative(h.T, 1) - second * rate};
-}
-
 }  // namespace
 
 MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b,
@@ -164,13 +69,13 @@ MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const 
   const ChartPlace a = place_of(curve, segment_, s_a.value()), b = place_of(curve, segment_, s_b.value());
   u_a_ = a.u[0];
   length_ = b.u[0] - a.u[0];
-  const Series<2> l = of_variable<2>(1, b.u) - of_variable<2>(0, a.u);
-  Series<2> x = (1 / length_) * l;  // 1 + x
+  const EndSeries<2> l = of_variable<2>(1, b.u) - of_variable<2>(0, a.u);
+  EndSeries<2> x = (1 / length_) * l;  // 1 + x
   x.c[0] = 0;
-  Series<2> inverse = x * x - x;
+  EndSeries<2> inverse = x * x - x;
   inverse.c[0] += 1;
-  const Ends ends{(1 / length_) * inverse, of_variable<2>(0, {a.u[1], a.u[2], a.u[3], 0}),
-                  of_variable<2>(1, {b.u[1], b.u[2], b.u[3], 0})};
+  const MovingEnds ends{(1 / length_) * inverse, of_variable<2>(0, {a.u[1], a.u[2], a.u[3], 0}),
+                        of_variable<2>(1, {b.u[1], b.u[2], b.u[3], 0})};
   const auto shifted = [](const std::array<double, 4>& f) {
     return std::array<double, 4>{f[1], f[2], f[3], 0};
   };
