@@ -73,8 +73,8 @@ class DrawnSections {
   Orientation orientation_;
   std::vector<double> slopes_;              // of the twist, at its rows
   std::vector<std::vector<Piece>> pieces_;  // per segment, with Rule::start
-  std::vector<Panels> turns_;               // of the rule's twist, per segment, with other rules
   double length_, holonomy_ = 0;
+  std::vector<Panels> turns_;  // of the rule's twist, per segment, with other rules
 };
 
 }  // namespace nurbeam
