@@ -88,7 +88,7 @@ TEST(SweptSections, AreValidSolidsOfTheAreaTimesTheLength) {
     }
 }
 
-double volume_of(const std::filesystem::path& file) {
+double volume_read_back(const std::filesystem::path& file) {
   const TopoDS_Shape shape = read_back(file);
   EXPECT_FALSE(shape.IsNull());
   if (shape.IsNull()) return 0;
@@ -108,7 +108,7 @@ TEST(SweptSections, CloseAsRings) {
         swept({rectangle(0.06, 0.1), {ellipse(0.02, 0.02)[0].reversed()}}, area, 2 * pi, twist)};
     const std::vector<Diagnostic> problems = export_solids(file, solids, LengthUnit::millimetre);
     ASSERT_TRUE(problems.empty()) << problems.front().message;
-    EXPECT_NEAR(volume_of(file) / (area * 2 * pi), 1, 5e-4) << twist;
+    EXPECT_NEAR(volume_read_back(file) / (area * 2 * pi), 1, 5e-4) << twist;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(SweptSections, GoOnFromCornerToCorner) {
   const std::vector<Diagnostic> problems =
       export_solids(file, std::vector<NamedSolid>{profile}, LengthUnit::millimetre);
   ASSERT_TRUE(problems.empty()) << problems.front().message;
-  EXPECT_NEAR(volume_of(file), 2 * b * h, 1e-9);
+  EXPECT_NEAR(volume_read_back(file), 2 * b * h, 1e-9);
 }
 
 TEST(SweptSections, StandBesidePipes) {
