@@ -230,7 +230,7 @@ AnyPoint<P> DrawnElement<P>::point(double place) const {
 }
 
 template struct QuadraturePlaces<double>;
-template class DrawnElement<Dual<2>>;
+template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
 template class DrawnElement<PlaceSeries>;
 
 }  // namespace nurbeam::twist

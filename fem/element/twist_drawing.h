@@ -126,7 +126,7 @@ class DrawnElement {
 };
 
 extern template struct QuadraturePlaces<double>;
-extern template class DrawnElement<Dual<2>>;
+extern template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
 extern template class DrawnElement<PlaceSeries>;
 
 /// The point and the drawing at the places (a, b); with Dual<2> for scalars of first derivatives alone.
