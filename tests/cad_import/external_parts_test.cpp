@@ -130,5 +130,25 @@ TEST(ExternalParts, ADeformedCurveOfOneIsAddedToTheAssembly) {
   EXPECT_LE((end_of(added->curve) - Eigen::Vector3d(0.1, 0.05, 0.4)).norm(), 1e-15);
 }
 
+// Nor is the centre line of a solid in the file itself.
+TEST(ExternalParts, ADeformedCentreLineIsAddedBesideItsSolid) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "rod.step", target = scratch.path() / "target.step";
+  ASSERT_TRUE(export_solids(source, {{{"rod", line({0, 0, 0}, {1, 0, 0})}, 0.1}}, LengthUnit::inch).empty());
+  const ImportReport before = import_curves(source);
+  ASSERT_TRUE(!before.curves.empty() && before.curves.back().is_centre_line());
+  const auto warnings = export_into_step(
+      source, target, {{before.curves.back().curve, line({0, 0, 0}, {0.8, 0.6, 0}), "bent rod"}});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].message.find("centre line of a solid"), std::string::npos) << warnings[0].message;
+  const ImportReport after = import_curves(target);
+  EXPECT_EQ(after.curves.size(), before.curves.size() + 1);
+  const auto added = std::find_if(after.curves.begin(), after.curves.end(),
+                                  [](const ImportedCurve& curve) { return curve.name == "bent rod"; });
+  ASSERT_NE(added, after.curves.end());
+  EXPECT_TRUE(added->free);
+  EXPECT_LE((end_of(added->curve) - Eigen::Vector3d(0.8, 0.6, 0)).norm(), 1e-15);
+}
+
 }  // namespace
 }  // namespace nurbeam
