@@ -182,10 +182,10 @@ Handle(Geom_BSplineSurface) surface_of(std::span<const Panel> panels, double rad
   const Handle(Geom_BSplineSurface) surface =
       new Geom_BSplineSurface(poles, weights, angles, knots, full, multiplicities, circle.Degree(), 3);
   for (int i = 2; i <= count; ++i) surface->RemoveVKnot(i, 2, sewing_tolerance);
-  // OpenCASCADE integrates with as many points as a degree has poles: over a cubic that leans, of the volume
-  // degree 8 in the cubics, too few.
-  constexpr int enough = 6;
-  if (panels.front().leans) surface->IncreaseDegree(surface->UDegree(), enough);
+  // OpenCASCADE integrates along a face with as many points as its panels have poles: over few cubics too few
+  // for the volume, which is of degree 8 in them.
+  constexpr int few = 4, enough = 6;
+  if (count < few) surface->IncreaseDegree(surface->UDegree(), enough);
   return surface;
 }
 

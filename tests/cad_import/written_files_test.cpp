@@ -389,7 +389,7 @@ TEST(ExportSolids, ABentPipeRunHasItsVolume) {
     ASSERT_TRUE(export_solids(file, {{{"run", run}, 0.05, bore}}, LengthUnit::millimetre).empty());
     const TopoDS_Shape shape = second_reading(file);
     EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
-    EXPECT_NEAR(volume_of(shape) / (pi * (0.0025 - bore * bore) * length(run)), 1, 1e-6);
+    EXPECT_NEAR(volume_of(shape) / (pi * (0.0025 - bore * bore) * length(run)), 1, 1e-8);
   }
 }
 
