@@ -154,6 +154,11 @@ std::optional<TorsionSection> torsion_section(const CaseBeam& beam, double lengt
         Severity::note, beam.path + ".section",
         "is taken for a round one in torsion, with a torsion constant of twice \"second_moment\": give "
         "\"torsion_constant\" where it is not");
+  if (sizes.second_moments && sizes.extreme_fibre && !section.profile)
+    findings.warn(
+        beam.path + ".section.extreme_fibre",
+        "has no place on a section with \"second_moments\", of which it gives no stress: that needs a "
+        "\"profile\"");
   const double E = beam.material.youngs_modulus, G = shear_modulus(beam, findings);
   const auto [I_x, I_y] = sizes.second_moments.value_or(std::array{sizes.second_moment, sizes.second_moment});
   if (!(I_x * I_y > sizes.product * sizes.product)) {
