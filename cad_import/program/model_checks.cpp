@@ -69,8 +69,8 @@ class CurveCount {
 
   // One that is made of itself counts once there, one that is nested too deeply not further.
   double of(const Entity& curve, int depth) {
-    constexpr int deepest = 1000;
-    if (curve.IsNull() || depth > deepest) return 1;
+    constexpr int deepest_nest = 1000;
+    if (curve.IsNull() || depth > deepest_nest) return 1;
     const auto [known, is_new] = counts_.emplace(curve.get(), 1);
     if (!is_new) return known->second;
     double count = 0;
