@@ -184,7 +184,7 @@ TEST(BuildModel, DrawsSectionsOfAnyKindAlongTheAxis) {
 TEST(BuildModel, SaysThatAnExtremeFibreHasNoPlaceOnASectionThatBendsUnalike) {
   const BuildReport report = built(
       {R"(beams[0].section={"area": 1e-4, "second_moments": [2e-9, 1e-9], "torsion_constant": 1e-9, "extreme_fibre": 0.01})",
-       "beams[0].material.poissons_ratio=0.3"});
+       "beams[0].torsion=true", "beams[0].material.poissons_ratio=0.3"});
   ASSERT_TRUE(report.value);
   EXPECT_TRUE(std::ranges::any_of(report.diagnostics, [](const Diagnostic& d) {
     return d.severity == Severity::warning &&
