@@ -147,7 +147,7 @@ class Document {
 
 // --------------------------------------------------------------------------------- an assembly in colours
 
-gp_Trsf placed(double angle) {
+gp_Trsf placed_curve(double angle) {
   gp_Trsf turn, shift;
   turn.SetRotation(gp_Ax1(gp_Pnt(10, 20, 30), gp_Dir(1, 2, 3)), angle);
   shift.SetTranslation(gp_Vec(1000, -500, 250 * angle));
@@ -196,7 +196,7 @@ void write_rig(const fs::path& file) {
   const TDF_Label rig = shapes->NewShape();
   TDataStd_Name::Set(rig, "rig");
   const auto place = [&](const TDF_Label& part, const char* name, double angle) {
-    TDataStd_Name::Set(shapes->AddComponent(rig, part, TopLoc_Location(placed(angle))), name);
+    TDataStd_Name::Set(shapes->AddComponent(rig, part, TopLoc_Location(placed_curve(angle))), name);
   };
   place(harness, "harness 1", 0.7);
   place(bracket, "bracket left", 1.7);

@@ -33,7 +33,7 @@ std::string text_of_file(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void run_text(const std::string& text, Left& left) {
+void run_modes_text(const std::string& text, Left& left) {
   const auto results = left.directory.path() / "results";
   std::ostringstream out, err;
   const CapturedErrors errors;
@@ -47,7 +47,7 @@ void run_text(const std::string& text, Left& left) {
 
 TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
   Left left;
-  run_text(cantilever(R"({ "type": "modes", "modes": { "count": 5 } })"), left);
+  run_modes_text(cantilever(R"({ "type": "modes", "modes": { "count": 5 } })"), left);
   ASSERT_EQ(left.code, 0) << left.messages;
   ASSERT_EQ(left.run["modes"].size(), 5u);
   const double omega =
@@ -77,10 +77,11 @@ TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
 TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
   const double EI = 210e9 * pi * 1e-8 / 4, euler = pi * pi * EI / 16;
   Left left;
-  run_text(cantilever(
-               R"({ "type": "buckling", "modes": { "count": 2 } })",
-               R"("gravity": [0, 0, 0], "loads": [{ "beam": "bar", "at": "end", "force": [-100, 0, 0] }],)"),
-           left);
+  run_modes_text(
+      cantilever(
+          R"({ "type": "buckling", "modes": { "count": 2 } })",
+          R"("gravity": [0, 0, 0], "loads": [{ "beam": "bar", "at": "end", "force": [-100, 0, 0] }],)"),
+      left);
   ASSERT_EQ(left.code, 0) << left.messages;
   EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler / 100, 1e-4 * euler / 100);
   EXPECT_EQ(left.table.substr(0, 13), "number,factor");
@@ -89,7 +90,7 @@ TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
 TEST(Modes, ThatCannotBeAreRefusedInWords) {
   const auto expect = [](const std::string& text, int code, const std::string& words) {
     Left left;
-    run_text(text, left);
+    run_modes_text(text, left);
     EXPECT_EQ(left.code, code) << left.messages;
     EXPECT_NE(left.messages.find(words), std::string::npos) << left.messages;
   };
