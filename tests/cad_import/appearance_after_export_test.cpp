@@ -311,7 +311,7 @@ struct Styled {
   int item;
 };
 
-class StyleAfterExport : public testing::TestWithParam<Styled> {};
+class StyleAfterExport : public ::testing::TestWithParam<Styled> {};
 
 TEST_P(StyleAfterExport, IsStillThatOfTheCurve) {
   const ScratchDirectory scratch;
@@ -349,10 +349,10 @@ TEST_P(StyleAfterExport, IsStillThatOfTheCurve) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AttachedTo, StyleAfterExport,
-                         testing::Values(Styled{"Curve", "#100 = CIRCLE('hoop',#11,2.);", 100},
-                                         Styled{"TrimmedCurve", trimmed_arc, 100},
-                                         Styled{"BasisOfTrimmedCurve", trimmed_arc, 101},
-                                         Styled{"Edge", brace, 100}, Styled{"GeometryOfEdge", brace, 101}),
+                         ::testing::Values(Styled{"Curve", "#100 = CIRCLE('hoop',#11,2.);", 100},
+                                           Styled{"TrimmedCurve", trimmed_arc, 100},
+                                           Styled{"BasisOfTrimmedCurve", trimmed_arc, 101},
+                                           Styled{"Edge", brace, 100}, Styled{"GeometryOfEdge", brace, 101}),
                          [](const auto& test) { return std::string(test.param.what); });
 
 TEST(AppearanceAfterExport, GeometryThatTwoCurvesAreMadeOfStaysThatOfTheOther) {

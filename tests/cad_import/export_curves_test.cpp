@@ -59,7 +59,7 @@ int entries(const fs::path& directory) {
   return static_cast<int>(std::distance(fs::directory_iterator(directory), {}));
 }
 
-class RoundTrip : public testing::TestWithParam<Target> {};
+class RoundTrip : public ::testing::TestWithParam<Target> {};
 
 TEST_P(RoundTrip, GivesEveryCubicOfTheCorpusBackUnderItsName) {
   const ScratchDirectory scratch;
@@ -118,16 +118,16 @@ TEST_P(RoundTrip, KeepsTheShapeOfACurveWithUnclampedEnds) {
 
 TEST_P(RoundTrip, PrintsNothing) {
   const ScratchDirectory scratch;
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
   ASSERT_TRUE(export_curves(scratch.path() / ("a" + GetParam().extension), {{"a", quarter_circle(1)}},
                             GetParam().unit)
                   .empty());
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(targets), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(All, RoundTrip, ::testing::ValuesIn(targets), [](const auto& test) {
   return test.param.extension.substr(1) + "_" + test.param.unit_name;
 });
 

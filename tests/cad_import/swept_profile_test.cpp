@@ -72,7 +72,7 @@ TEST(SweptSections, AreValidSolidsOfTheAreaTimesTheLength) {
   const double hole = pi * 0.02 * 0.02;
   for (const double turn : {0.0, 1.3})
     for (const double twist : {0.0, 2.0}) {
-      SCOPED_TRACE(testing::Message() << turn << " " << twist);
+      SCOPED_TRACE(::testing::Message() << turn << " " << twist);
       const std::vector<NamedSolid> solids = {
           swept({rectangle(0.06, 0.1), {ellipse(0.02, 0.02)[0].reversed()}}, 0.06 * 0.1 - hole, turn, twist)};
       const std::vector<Diagnostic> problems = export_solids(file, solids, LengthUnit::millimetre);

@@ -175,14 +175,14 @@ struct WrittenTarget {
   double in_millimetres;
 };
 
-class WrittenFile : public testing::TestWithParam<WrittenTarget> {};
+class WrittenFile : public ::testing::TestWithParam<WrittenTarget> {};
 
 TEST_P(WrittenFile, OfASmoothCableIsOneSoundEdgeToASecondReader) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / GetParam().file;
   for (const int count : {1, 2, 10, 60})
     for (const double weight_spread : {0.0, 0.01}) {
-      SCOPED_TRACE(testing::Message() << count << " elements, weights " << weight_spread);
+      SCOPED_TRACE(::testing::Message() << count << " elements, weights " << weight_spread);
       ASSERT_TRUE(export_curves(file, {{"cable", cable(count, weight_spread)}}, GetParam().unit).empty());
       const TopoDS_Shape shape = second_reading(file);
       expect_sound_edges(shape);
@@ -268,12 +268,12 @@ TEST_P(WrittenFile, DeclaresItsUnit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WrittenFile,
-                         testing::Values(WrittenTarget{"a.step", LengthUnit::metre, 1000},
-                                         WrittenTarget{"a.step", LengthUnit::millimetre, 1},
-                                         WrittenTarget{"a.step", LengthUnit::inch, 25.4},
-                                         WrittenTarget{"a.igs", LengthUnit::metre, 1000},
-                                         WrittenTarget{"a.igs", LengthUnit::millimetre, 1},
-                                         WrittenTarget{"a.igs", LengthUnit::inch, 25.4}),
+                         ::testing::Values(WrittenTarget{"a.step", LengthUnit::metre, 1000},
+                                           WrittenTarget{"a.step", LengthUnit::millimetre, 1},
+                                           WrittenTarget{"a.step", LengthUnit::inch, 25.4},
+                                           WrittenTarget{"a.igs", LengthUnit::metre, 1000},
+                                           WrittenTarget{"a.igs", LengthUnit::millimetre, 1},
+                                           WrittenTarget{"a.igs", LengthUnit::inch, 25.4}),
                          [](const auto& test) {
                            return std::string(test.param.file + 2) + "_" +
                                   std::to_string(int(test.param.in_millimetres));

@@ -66,9 +66,9 @@ TEST(ChildProcess, MemoryBeyondTheLimitIsAResult) {
 }
 
 TEST(ChildProcess, WhatTheChildPrintsIsNotSeen) {
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStdout();
   EXPECT_EQ(run("print").status, Status::finished);
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
 TEST(ChildProcess, NoDescriptorAndNoZombieIsLeft) {
