@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A cantilever_case of 2 m along x, round, of steel; what comes behind its supports is `rest`.
+/// A cantilever of 2 m along x, round, of steel; what comes behind its supports is `rest`.
 std::string cantilever_case(const std::string& analysis, const std::string& rest = "") {
   return R"({ "nurbeam": 1,
   "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": "1 cm" },
