@@ -5,6 +5,9 @@
 # headers, which show a library that the room hides, are not installed.
 set(nurbeam_warnings -Wall -Wextra -Wno-maybe-uninitialized -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   -Wzero-as-null-pointer-constant -Wsuggest-override -Wlogical-op -Wduplicated-cond -Wcatch-value=3)
+if(CMAKE_UNITY_BUILD)  # where each source is included by another file
+  list(APPEND nurbeam_warnings -Wno-subobject-linkage)
+endif()
 
 # With CMAKE_UNITY_BUILD (preset release) the sources of a folder are compiled as one: the headers of the libraries,
 # which take most of the time, are read once for all.

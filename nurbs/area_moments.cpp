@@ -29,11 +29,11 @@ AreaMoments& AreaMoments::operator+=(const AreaMoments& other) {
 
 AreaMoments area_moments(std::span<const RationalCubic> loop) {
   const auto one = [](double, double) { return 1.0; };
-  const auto x = [](double x, double) { return x; };
-  const auto y = [](double, double y) { return y; };
-  const auto xx = [](double x, double) { return x * x; };
-  const auto xy = [](double x, double y) { return x * y; };
-  const auto yy = [](double, double y) { return y * y; };
+  const auto x = [](double a, double) { return a; };
+  const auto y = [](double, double b) { return b; };
+  const auto xx = [](double a, double) { return a * a; };
+  const auto xy = [](double a, double b) { return a * b; };
+  const auto yy = [](double, double b) { return b * b; };
   AreaMoments moments;
   for (const RationalCubic& cubic : loop) {
     moments.area += swept(cubic, one) / 2;

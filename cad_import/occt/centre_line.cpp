@@ -1,38 +1,12 @@
 #include "cad_import/occt/centre_line.h"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepTools.hxx>
-#include <BRep_Tool.hxx>
-#include <ElCLib.hxx>
-#include <Geom2d_Curve.hxx>
-#include <GeomAPI_PointsToBSpline.hxx>
-#include <GeomAPI_ProjectPointOnCurve.hxx>
-#include <GeomConvert.hxx>
-#include <Geom_BSplineCurve.hxx>
-#include <Geom_BSplineSurface.hxx>
-#include <Geom_BezierSurface.hxx>
-#include <Geom_Circle.hxx>
-#include <Geom_CylindricalSurface.hxx>
-#include <Geom_Line.hxx>
-#include <Geom_RectangularTrimmedSurface.hxx>
-#include <Geom_SurfaceOfLinearExtrusion.hxx>
-#include <Geom_SurfaceOfRevolution.hxx>
-#include <Geom_ToroidalSurface.hxx>
-#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
-#include <TColgp_Array1OfPnt.hxx>
 #include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Wire.hxx>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <new>
 #include <numbers>
@@ -89,6 +63,20 @@ std::vector<Wall> whole_walls(const std::vector<Wall>& walls) {
   return joined;
 }
 
+// Faces of no solid, as IGES has them, do not say on which side the material is: of those around one centre
+// line every second one, from the outside, is a bore.
+void find_bores_of_shells(std::vector<Wall>& walls) {
+  const auto encloses = [](const Wall& a, const Wall& b) {
+    return !a.in_solid && a.radius - b.radius > tolerance_of(a, b) && have_one_centre_line(a, b);
+  };
+  for (Wall& wall : walls)
+    if (!wall.in_solid)
+      wall.is_bore = std::count_if(walls.begin(), walls.end(),
+                                   [&](const Wall& other) { return encloses(other, wall); }) %
+                         2 ==
+                     1;
+}
+
 CentreLine centre_line(const Wall& wall, const std::vector<Wall>& walls, double tolerance) {
   BRepBuilderAPI_MakeEdge edge(wall.centre, wall.first, wall.last);
   if (!edge.IsDone()) throw std::runtime_error("its centre line is no valid curve");
@@ -101,7 +89,7 @@ CentreLine centre_line(const Wall& wall, const std::vector<Wall>& walls, double 
   curve.pipe_radius = wall.radius / millimetres_per_metre;
   for (const Wall& bore : walls)
     if (bore.is_bore && bore.radius < wall.radius && have_one_centre_line(wall, bore))
-      curve.bore_radius = bore.radius / millimetres_per_metre;
+      curve.bore_radius = std::max(curve.bore_radius, bore.radius / millimetres_per_metre);
   return {std::move(curve), wall.face};
 }
 
@@ -152,6 +140,7 @@ CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
     }
   }
   walls = whole_walls(walls);
+  find_bores_of_shells(walls);
   for (const Wall& wall : walls) {
     if (wall.is_bore) continue;
     try {

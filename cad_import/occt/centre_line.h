@@ -29,7 +29,8 @@ struct CentreLines {
 /// the centre of every section, exactly where the surface is a translated or turned circle with the same
 /// parameterisation all along; else a cubic through the centres of its sections within `tolerance` [m]. The
 /// deviation, of the sections' radii and centres, is measured in both cases. A face that is not cut at right
-/// angles to its axis gives none, nor does a hole; a pipe around a coaxial hole gives its bore's radius.
+/// angles to its axis gives none, nor does a hole; a pipe around a coaxial hole gives its bore's radius. Of
+/// faces of no solid around one centre line, the second from outside is the bore of the first, and so on.
 CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance);
 
 }  // namespace nurbeam

@@ -1,9 +1,7 @@
 #include "cad_import/occt/pipe_wall.h"
 
-#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
-#include <ElCLib.hxx>
 #include <Geom2d_Curve.hxx>
 #include <GeomAPI_PointsToBSpline.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
@@ -18,26 +16,15 @@
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
-#include <Standard_ErrorHandler.hxx>
-#include <Standard_Failure.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
-#include <numbers>
 #include <optional>
-#include <stdexcept>
 
 #include "cad_import/occt/edge_curve.h"
 #include "nurbs/bezier_path.h"
@@ -282,6 +269,7 @@ std::optional<Wall> wall_of(const TopoDS_Face& face, bool in_a_solid, double tol
   if (const auto torus = Handle(Geom_ToroidalSurface)::DownCast(surface)) wall = torus_wall(*torus, b);
   if (is_sweep(surface)) wall = sweep_wall(surface, b, tolerance);
   if (!wall || !(wall->last > wall->first)) return {};
+  wall->in_solid = in_a_solid;
   wall->is_bore = in_a_solid && looks_inwards(face, *surface, b, *wall);
   return wall;
 }

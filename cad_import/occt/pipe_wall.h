@@ -15,6 +15,7 @@ struct Wall {
   double turn = 0;       // angle about the centre line [rad]
   double deviation = 0;  // of the wall from the pipe of this centre line and radius
   bool is_bore = false;
+  bool in_solid = false;
   int face = 0;
 
   gp_Pnt start() const { return centre->Value(first); }

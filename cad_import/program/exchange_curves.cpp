@@ -21,6 +21,7 @@
 #include <stdexcept>
 
 #include "cad_import/files/cad_format.h"
+#include "cad_import/occt/centre_line.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/drawing_text.h"
@@ -92,8 +93,13 @@ std::optional<FoundCurve> find_lost(const NurbsCurve& drawn, const STEPControl_R
   const auto recovered = add_lost_curves(reader, import_tolerance, report).recovered;
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const auto known = recovered.find(model->Value(i).get());
-    if (known != recovered.end() && is_same(report.curves[known->second].curve, drawn))
-      return FoundCurve{model->IdentLabel(model->Value(i))};
+    if (known == recovered.end()) continue;
+    const auto& [first, places] = known->second;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (is_same(report.curves[first + k].curve, drawn))
+        return FoundCurve{.instance = model->IdentLabel(model->Value(i)),
+                          .to_world = places[k],
+                          .places = static_cast<int>(places.size())};
   }
   return std::nullopt;
 }
@@ -210,17 +216,27 @@ std::vector<std::string> place_found(const DeformedCurve& wanted, const FoundCur
   return warnings;
 }
 
-/// A curve of a part in another file, which stays as it is: the deformed one comes into the assembly.
-std::vector<std::string> place_in_assembly(const DeformedCurve& wanted, const StepData_StepModel& model,
-                                           StepInstances& step) {
+/// Why the file itself does not have the curve, although it was imported with it; nothing if it should.
+std::optional<std::string> absence(const NurbsCurve& drawn, const STEPControl_Reader& reader) {
+  const TopoDS_Shape shape = reader.OneShape();
+  if (!shape.IsNull())
+    for (const CentreLine& line : centre_lines(shape, import_tolerance).lines)
+      if (is_same(line.curve.curve, drawn))
+        return "it is the centre line of a solid, which does not move with it";
+  if (STEPConstruct_ExternRefs(reader.WS()).LoadExternRefs())
+    return "its part lies in another file, which stays as it is";
+  return std::nullopt;
+}
+
+/// Into the topmost part.
+std::vector<std::string> place_on_top(const DeformedCurve& wanted, const std::string& reason,
+                                      const StepData_StepModel& model, StepInstances& step) {
   const std::optional<int> representation = topmost_representation(step);
-  if (!representation) throw std::runtime_error("the assembly has no shape representation");
+  if (!representation) throw std::runtime_error("no part of the file has a shape representation");
   const double unit = unit_of(context_of(*representation, step), model);
   add_beside(*representation, curve_set_of(*representation, step), in_part(wanted.deformed, gp_Trsf(), unit),
              step_string(wanted.name), step);
-  return {"'" + wanted.name +
-          "': its part lies in another file, which stays as it is; the deformed curve was added to the "
-          "assembly"};
+  return {"'" + wanted.name + "': " + reason + "; the deformed curve was added to the topmost part"};
 }
 
 std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
@@ -229,7 +245,7 @@ std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Re
   std::optional<FoundCurve> found = find_edge(wanted.drawn, reader);
   if (!found) found = find_lost(wanted.drawn, reader);
   if (found) return place_found(wanted, *found, *model, step);
-  if (STEPConstruct_ExternRefs(reader.WS()).LoadExternRefs()) return place_in_assembly(wanted, *model, step);
+  if (const auto reason = absence(wanted.drawn, reader)) return place_on_top(wanted, *reason, *model, step);
   throw std::runtime_error("the curve '" + wanted.name +
                            "' is not in the file as it was when it was imported");
 }

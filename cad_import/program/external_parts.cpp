@@ -2,12 +2,7 @@
 
 #include <STEPConstruct_ExternRefs.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopLoc_Location.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shape.hxx>
-#include <TransferBRep.hxx>
-#include <Transfer_TransientProcess.hxx>
-#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <optional>
@@ -20,19 +15,13 @@
 #include "cad_import/occt/placed_curve.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/part_names.h"
+#include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
 
 namespace nurbeam {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Where `part` stands in `shape`, under all locations.
-void find_places(const TopoDS_Shape& part, const TopoDS_Shape& shape, std::vector<TopoDS_Shape>& places) {
-  if (shape.IsPartner(part)) return places.push_back(shape);
-  if (shape.ShapeType() != TopAbs_COMPOUND) return;
-  for (TopoDS_Iterator below(shape); below.More(); below.Next()) find_places(part, below.Value(), places);
-}
 
 // The file of that name beside `source`; nothing where there is none.
 std::optional<fs::path> beside(const fs::path& source, std::string name) {
@@ -51,64 +40,45 @@ std::string path_below(const std::string& place, const std::string& own) {
   return first == std::string::npos ? place : place + own.substr(first);
 }
 
-void add_placed(const ImportReport& part, const TopoDS_Shape& place, const PartName& name,
-                ImportReport& report) {
-  const Eigen::Affine3d to_world = in_metres(place.Location().Transformation(), metres_per_millimetre);
+void add_placed(const ImportReport& part, const PartPlace& place, ImportReport& report) {
+  const Eigen::Affine3d to_world = in_metres(place.to_world, metres_per_millimetre);
   for (ImportedCurve curve : part.curves) {
     curve.curve = placed(curve.curve, to_world);
-    if (curve.name.empty()) curve.name = name.own;
-    curve.part = path_below(name.path, curve.part);
+    if (curve.name.empty()) curve.name = place.name.own;
+    curve.part = path_below(place.name.path, curve.part);
     report.curves.push_back(std::move(curve));
   }
 }
 
-class Assembly {
- public:
-  Assembly(const XSControl_Reader& reader, ImportReport& report)
-      : process_(reader.WS()->TransferReader()->TransientProcess()),
-        root_(reader.OneShape()),
-        report_(report) {
-    if (!root_.IsNull()) names_ = part_names(reader, root_);
+// Why the part was not added; nothing if it was.
+std::optional<std::string> add_part(const Handle(StepBasic_ProductDefinition) & part, const std::string& file,
+                                    const PartPlaces& assembly, const ReadFile& read, ImportReport& report) {
+  if (!read) return "other files are not read";
+  const auto path = beside(report.file, file);
+  if (!path) return "there is no such file beside this one; put it there";
+  const std::vector<PartPlace> places = assembly.of(part);
+  if (places.empty()) return "the assembly has no place for it";
+  if (TopExp_Explorer(assembly.shape_of(part), TopAbs_EDGE).More())
+    return "the part has shapes here, too, which are taken";
+  const ImportReport found = read(*path);
+  for (Diagnostic diagnostic : found.diagnostics) {
+    diagnostic.severity = std::min(diagnostic.severity, Severity::warning);
+    report.diagnostics.push_back(std::move(diagnostic));
   }
-
-  // Why the part was not added; nothing if it was.
-  std::optional<std::string> add(const Handle(StepBasic_ProductDefinition) & part, const std::string& file,
-                                 const ReadFile& read) const {
-    if (!read) return "other files are not read";
-    const auto path = beside(report_.file, file);
-    if (!path) return "there is no such file beside this one; put it there";
-    const TopoDS_Shape shape = TransferBRep::ShapeResult(process_, part);
-    std::vector<TopoDS_Shape> places;
-    if (!root_.IsNull() && !shape.IsNull()) find_places(shape, root_, places);
-    if (places.empty()) return "the assembly has no place for it";
-    if (TopExp_Explorer(shape, TopAbs_EDGE).More()) return "the part has shapes here, too, which are taken";
-    const ImportReport found = read(*path);
-    for (Diagnostic diagnostic : found.diagnostics) {
-      diagnostic.severity = std::min(diagnostic.severity, Severity::warning);
-      report_.diagnostics.push_back(std::move(diagnostic));
-    }
-    if (!found.ok()) return "it cannot be read (see above)";
-    for (const TopoDS_Shape& place : places)
-      add_placed(found, place, names_.IsBound(place) ? names_.Find(place) : PartName{}, report_);
-    return std::nullopt;
-  }
-
- private:
-  Handle(Transfer_TransientProcess) process_;
-  TopoDS_Shape root_;
-  PartNames names_;
-  ImportReport& report_;
-};
+  if (!found.ok()) return "it cannot be read (see above)";
+  for (const PartPlace& place : places) add_placed(found, place, report);
+  return std::nullopt;
+}
 
 }  // namespace
 
 void add_external_parts(const XSControl_Reader& reader, const ReadFile& read, ImportReport& report) {
   STEPConstruct_ExternRefs files(reader.WS());
   if (!files.LoadExternRefs()) return;
-  const Assembly assembly(reader, report);
+  const PartPlaces assembly(reader);
   for (int i = 1; i <= files.NbExternRefs(); ++i) {
     const std::string file = as_utf8(files.FileName(i)), part = product_name(files.ProdDef(i));
-    if (const auto reason = assembly.add(files.ProdDef(i), file, read))
+    if (const auto reason = add_part(files.ProdDef(i), file, assembly, read, report))
       add_diagnostic(report, Severity::warning, "",
                      (part.empty() ? "a part" : "the part '" + part + "'") + " lies in the file '" + file +
                          "', which is not read: " + *reason +

@@ -35,10 +35,12 @@
 #include <vector>
 
 #include "cad_import/iges/hyperbola.h"
+#include "cad_import/occt/placed_curve.h"
 #include "cad_import/occt/spline_defect.h"
 #include "cad_import/program/array_curves.h"
-#include "cad_import/program/part_names.h"
+#include "cad_import/program/part_places.h"
 #include "cad_import/program/step_curve.h"
+#include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
 #include "nurbs/number_text.h"
 
@@ -142,7 +144,7 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader) {
 }
 
 // Whether the numbers of the file are places in it: no part is placed by another, and all have one unit.
-bool is_one_part(const Interface_InterfaceModel& model) {
+bool has_one_part(const Interface_InterfaceModel& model) {
   if (length_units_of(model).size() > 1) return false;
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_NextAssemblyUsageOccurrence)) ||
@@ -204,14 +206,23 @@ std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reade
   return {std::move(curve)};
 }
 
-// Why no curve was added; nothing if one was.
+// Why no curve was added; nothing if one was. `unit`: of the entity's coordinates [m].
 std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_Reader& reader,
-                                         double tolerance, ImportReport& report) {
+                                         const std::vector<PartPlace>& places, double unit, double tolerance,
+                                         ImportReport& report) {
   if (auto reason = obstacle(entity, reader.WS()->Graph())) return reason;
+  if (places.empty()) return "its place or its unit in the assembly is not known";
   try {
     OCC_CATCH_SIGNALS
-    for (ImportedCurve& curve : curves_of(entity, reader, report.unit_in_metres, tolerance))
-      report.curves.push_back(std::move(curve));
+    const std::vector<ImportedCurve> curves = curves_of(entity, reader, unit, tolerance);
+    for (const PartPlace& place : places)
+      for (ImportedCurve curve : curves) {
+        if (place.to_world.Form() != gp_Identity)
+          curve.curve = placed(curve.curve, in_metres(place.to_world, metres_per_millimetre));
+        curve.part = place.name.path;
+        if (curve.name.empty()) curve.name = place.name.own;
+        report.curves.push_back(std::move(curve));
+      }
     return std::nullopt;
   } catch (const Standard_Failure& e) {
     return refusal_of(entity, e);
@@ -231,38 +242,65 @@ std::string only_part(const Interface_InterfaceModel& model) {
   return part;
 }
 
+/// The coordinates that an entity is in.
+struct Coordinates {
+  std::vector<PartPlace> places;  // of its part
+  double unit;                    // [m]
+};
+
+class Whole {
+ public:
+  Whole(const XSControl_Reader& reader, double unit)
+      : reader_(reader), unit_(unit), is_one_part_(has_one_part(*reader.Model())) {
+    const std::string part = only_part(*reader.Model());
+    if (is_one_part_) own_ = {{gp_Trsf(), {part, part}}};
+  }
+
+  Coordinates of(const Entity& entity) {
+    if (is_one_part_) return {own_, unit_};
+    const std::optional<Holder> holder = holder_of(entity, reader_.WS()->Graph());
+    const std::optional<double> unit = holder ? length_unit_of(holder->context) : std::nullopt;
+    if (!unit) return {};
+    use_units_of(holder->context);
+    if (!parts_) parts_.emplace(reader_);
+    return {parts_->of(holder->part), *unit};
+  }
+
+ private:
+  const XSControl_Reader& reader_;
+  double unit_;
+  bool is_one_part_;
+  std::vector<PartPlace> own_;
+  std::optional<PartPlaces> parts_;
+};
+
 }  // namespace
 
 LostCurves add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
-  const bool placed = is_one_part(model);
-  const std::string part = only_part(model);
-  int unnamed = 0, named = 0;
+  Whole whole(reader, report.unit_in_metres);
+  int named = 0;
   LostCurves found;
   for (const Entity& entity : lost_curves(reader)) {
     const std::size_t first = report.curves.size();
-    const std::optional<std::string> why = placed ? add_curves_of(entity, reader, tolerance, report)
-                                                  : "its place or its unit in the assembly is not known";
-    for (std::size_t i = first; i < report.curves.size(); ++i) {
-      report.curves[i].part = part;
-      if (report.curves[i].name.empty()) report.curves[i].name = part;
-    }
+    const Coordinates in = whole.of(entity);
+    const auto why = add_curves_of(entity, reader, in.places, in.unit, tolerance, report);
     if (!why) {
-      found.recovered.emplace(entity.get(), first);
+      RecoveredCurve& recovered = found.recovered[entity.get()];
+      recovered.first = first;
+      for (const PartPlace& place : in.places) recovered.places.push_back(place.to_world);
       continue;
     }
     found.named.insert(entity.get());
-    if (++named > most_named) {
-      ++unnamed;
-      continue;
-    }
+    if (++named > most_named) continue;
     const std::string name = entity_name(entity);
     add_diagnostic(report, Severity::warning,
                    entity_label(model, entity) + (name.empty() ? "" : " '" + name + "'"),
                    "not read: " + *why);
   }
-  if (unnamed > 0)
-    add_diagnostic(report, Severity::warning, "", std::to_string(unnamed) + " more curves were not read");
+  if (named > most_named)
+    add_diagnostic(report, Severity::warning, "",
+                   std::to_string(named - most_named) + " more curves were not read");
   return found;
 }
 

@@ -1,19 +1,26 @@
 #pragma once
 #include <XSControl_Reader.hxx>
 #include <cstddef>
+#include <gp_Trsf.hxx>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/report/import_report.h"
 
 namespace nurbeam {
 
+/// One of them that a curve was added of, or several, which begin at this index in the report.
+struct RecoveredCurve {
+  std::size_t first;
+  std::vector<gp_Trsf> places;  ///< of its part: one for each curve; none of an IGES array's
+};
+
 /// Curve entities that OpenCASCADE made nothing of; only ever looked up, so that no order depends on
 /// addresses.
 struct LostCurves {
-  std::unordered_map<const Standard_Transient*, std::size_t>
-      recovered;                                        ///< index of the first curve in the report
+  std::unordered_map<const Standard_Transient*, RecoveredCurve> recovered;
   std::unordered_set<const Standard_Transient*> named;  ///< in a warning
 
   bool contain(const Standard_Transient* entity) const {
@@ -23,9 +30,9 @@ struct LostCurves {
 
 /// Looks for the curves of the file that are in no edge and no face that OpenCASCADE made: supplemental
 /// geometry, wireframes, rational Bezier curves, degrees above 25, negative radii, poly loops. In STEP those
-/// are added to the report that have a value of their own and a place, that is where the file has no assembly
-/// and one length unit, and in IGES hyperbolas (104) and the copies of arrays (412, 414); a warning names
-/// each of the others.
+/// are added to the report that have a value of their own, in an assembly at each place of the part whose
+/// shape they are in, in its unit, and in IGES hyperbolas (104) and the copies of arrays (412, 414); a
+/// warning names each of the others.
 LostCurves add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report);
 
 }  // namespace nurbeam

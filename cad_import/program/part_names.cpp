@@ -62,12 +62,12 @@ void bind_all(const TopoDS_Shape& shape, const PartName& name, PartNames& parts)
 void name_below(const TopoDS_Shape& own, const TopoDS_Shape& placed, PartName name, const ShapeNames& names,
                 PartNames& parts) {
   if (const auto known = names.of(own)) name = {*known, name.path + (name.path.empty() ? "" : "/") + *known};
+  parts.Bind(placed, name);
   if (placed.ShapeType() != TopAbs_COMPOUND) {
     if (!name.path.empty()) bind_all(placed, name, parts);
     return;
   }
   TopoDS_Iterator below(own, /*cumOri=*/Standard_False, /*cumLoc=*/Standard_False), there(placed);
-  if (!below.More()) parts.Bind(placed, name);
   for (; below.More() && there.More(); below.Next(), there.Next())
     name_below(below.Value(), there.Value(), name, names, parts);
 }

@@ -19,7 +19,7 @@ using PartNames = NCollection_DataMap<TopoDS_Shape, PartName, TopTools_ShapeMapH
 /// The product's name, else its id; "" without.
 std::string product_name(const opencascade::handle<StepBasic_ProductDefinition>& definition);
 
-/// Those of all edges, faces and empty compounds in `root`, the reader's shape. An occurrence goes by its own
+/// Those of all edges, faces and compounds in `root`, the reader's shape. An occurrence goes by its own
 /// name, without one by that of its product (PRODUCT's name, else its id); in IGES a group (402) by its name.
 PartNames part_names(const XSControl_Reader& reader, const TopoDS_Shape& root);
 

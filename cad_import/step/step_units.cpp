@@ -1,12 +1,26 @@
 #include "cad_import/step/step_units.h"
 
 #include <STEPConstruct_UnitContext.hxx>
+#include <StepData_GlobalFactors.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
+#include <algorithm>
+#include <cmath>
 
 #include "cad_import/report/length_unit.h"
 
 namespace nurbeam {
+namespace {
+
+Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty_of(const Handle(Standard_Transient) & entity) {
+  const auto context =
+      Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(entity);
+  return context.IsNull() ? Handle(StepRepr_GlobalUncertaintyAssignedContext)()
+                          : context->GlobalUncertaintyAssignedContext();
+}
+
+}  // namespace
 
 Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transient) & entity) {
   if (const auto context =
@@ -32,6 +46,30 @@ std::set<double> length_units_of(const Interface_InterfaceModel& model) {
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto unit = length_unit_of(model.Value(i))) units.insert(*unit);
   return units;
+}
+
+void use_units_of(const Handle(Standard_Transient) & context) {
+  STEPConstruct_UnitContext factors;
+  factors.ComputeFactors(units_of(context));
+  StepData_GlobalFactors::Intance().InitializeFactors(factors.LengthFactor(), factors.PlaneAngleFactor(),
+                                                      factors.SolidAngleFactor());
+}
+
+double resolution_of(const Interface_InterfaceModel& model) {
+  double coarsest = 0;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty = uncertainty_of(model.Value(i));
+    const std::optional<double> unit = length_unit_of(model.Value(i));
+    if (uncertainty.IsNull() || !unit) continue;
+    STEPConstruct_UnitContext factors;
+    factors.ComputeFactors(units_of(model.Value(i)));
+    factors.ComputeTolerance(uncertainty);
+    if (!factors.HasUncertainty()) continue;
+    // OpenCASCADE leaves the number in the context's own length unit.
+    const double resolution = factors.Uncertainty() * *unit;
+    if (std::isfinite(resolution)) coarsest = std::max(coarsest, resolution);
+  }
+  return coarsest;
 }
 
 }  // namespace nurbeam

@@ -17,4 +17,10 @@ std::optional<double> length_unit_of(const opencascade::handle<Standard_Transien
 /// The length units of all contexts of a file [m].
 std::set<double> length_units_of(const Interface_InterfaceModel& model);
 
+/// From now on OpenCASCADE takes the numbers of geometry for those of this context.
+void use_units_of(const opencascade::handle<Standard_Transient>& context);
+
+/// The coarsest of the accuracies that its contexts declare [m]; 0 where none does.
+double resolution_of(const Interface_InterfaceModel& model);
+
 }  // namespace nurbeam

@@ -21,7 +21,7 @@ namespace {
 
 // OpenCASCADE does not always say that a sweep went wrong.
 void check_pipe(const TopoDS_Shape& solid, const NamedPipe& pipe) {
-  constexpr double allowed = 1e-5;
+  constexpr double allowed = 1e-6;
   GProp_GProps properties;
   BRepGProp::VolumeProperties(solid, properties);
   const double area = std::numbers::pi * (pipe.radius * pipe.radius - pipe.bore * pipe.bore);

@@ -23,6 +23,7 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <TopoDS_Wire.hxx>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -57,6 +58,31 @@ Handle(Geom_BSplineSurface) surface_of(const SweptCubic& cubic) {
   return new Geom_BSplineSurface(poles, weights, ends, knots, full, multiplicities, 3, along.degree());
 }
 
+bool is_ring(const SweptProfile& profile) {
+  return std::ranges::all_of(
+      profile.loops,
+      [](const std::vector<SweptCubic>& loop) {
+        return std::ranges::all_of(
+            loop,
+            [](const SweptCubic& cubic) {
+              return std::ranges::all_of(
+                  cubic.rails,
+                  [](const NurbsCurve& rail) { return is_closed(rail, 1e-3 * sewing_tolerance); });
+            });
+      });
+}
+
+/// Where walls end: at the ends and corners of the rails; that of a ring is two at least.
+std::vector<double> wall_ends(const KnotVector& along, bool ring) {
+  const std::vector<double> breaks = along.breaks();
+  std::vector<double> ends{breaks.front()};
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i)
+    if (along.multiplicity(breaks[i]) >= along.degree()) ends.push_back(breaks[i]);
+  if (ring && ends.size() == 1) ends.push_back(breaks[breaks.size() / 2]);
+  ends.push_back(breaks.back());
+  return ends;
+}
+
 /// The outline, or a hole, at an end.
 TopoDS_Wire rim(const std::vector<SweptCubic>& loop, bool at_end) {
   BRepBuilderAPI_MakeWire wire;
@@ -85,21 +111,48 @@ TopoDS_Face end_face(const SweptProfile& profile, bool at_end) {
   return face.Face();
 }
 
-TopoDS_Solid solid_of(const SweptProfile& profile) {
-  BRepBuilderAPI_Sewing sewing(sewing_tolerance);
-  for (const std::vector<SweptCubic>& loop : profile.loops)
-    for (const SweptCubic& cubic : loop) {
-      const BRepBuilderAPI_MakeFace face(surface_of(cubic), sewing_tolerance);
+/// The walls that a loop sweeps.
+void add_walls(const std::vector<SweptCubic>& loop, bool ring, BRepBuilderAPI_Sewing& sewing) {
+  for (const SweptCubic& cubic : loop) {
+    const std::vector<double> ends = wall_ends(cubic.rails[0].knots(), ring);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const Handle(Geom_BSplineSurface) wall = surface_of(cubic);
+      if (ends.size() > 2) wall->Segment(0, 1, ends[i], ends[i + 1]);
+      const BRepBuilderAPI_MakeFace face(wall, sewing_tolerance);
       if (!face.IsDone()) throw std::runtime_error("OpenCASCADE makes no wall of a swept section");
       sewing.Add(face.Face());
     }
-  for (const bool at_end : {false, true}) sewing.Add(end_face(profile, at_end));
+  }
+}
+
+/// The closed shell of sewn faces, outside out.
+TopoDS_Shell shell_of(BRepBuilderAPI_Sewing& sewing) {
   sewing.Perform();
   const TopExp_Explorer shells(sewing.SewedShape(), TopAbs_SHELL);
   if (!shells.More()) throw std::runtime_error("OpenCASCADE makes no shell of the faces of a swept section");
   TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells.Current())).Solid();
   BRepLib::OrientClosedSolid(solid);
-  return solid;
+  return TopoDS::Shell(TopExp_Explorer(solid, TopAbs_SHELL).Current());
+}
+
+/// Each loop sweeps a shell of its own.
+TopoDS_Solid ring_of(const SweptProfile& profile) {
+  BRepBuilderAPI_MakeSolid solid;
+  for (const std::vector<SweptCubic>& loop : profile.loops) {
+    BRepBuilderAPI_Sewing sewing(sewing_tolerance);
+    add_walls(loop, true, sewing);
+    const TopoDS_Shell shell = shell_of(sewing);
+    solid.Add(&loop == profile.loops.data() ? shell : TopoDS::Shell(shell.Reversed()));
+  }
+  return solid.Solid();
+}
+
+TopoDS_Solid solid_of(const SweptProfile& profile) {
+  if (is_ring(profile)) return ring_of(profile);
+  BRepBuilderAPI_Sewing sewing(sewing_tolerance);
+  for (const std::vector<SweptCubic>& loop : profile.loops) add_walls(loop, false, sewing);
+  for (const bool at_end : {false, true}) sewing.Add(end_face(profile, at_end));
+  return BRepBuilderAPI_MakeSolid(shell_of(sewing)).Solid();
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ Eigen::Vector3d beyond_corner(const Eigen::Vector3d& across, const Node& before,
 /// The distances along the chords at the panels' starts, and at the end of all.
 std::vector<double> chords_of(const std::vector<Panel>& panels) {
   std::vector<double> chords{0};
-  for (const auto& [from, to] : panels) chords.push_back(chords.back() + (to.centre - from.centre).norm());
+  for (const Panel& panel : panels) chords.push_back(chords.back() + tubes::chord(panel));
   return chords;
 }
 
@@ -76,7 +76,7 @@ void add_sections(Panels& panels, const Spine& spine) {
   };
   all.front().from.set_section(all.front().from.tangent().unitOrthogonal());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    auto& [from, to] = all[i];
+    Node &from = all[i].from, &to = all[i].to;
     if (i > 0)
       from.set_section(is_corner(i) ? beyond_corner(all[i - 1].to.across, all[i - 1].to, from)
                                     : all[i - 1].to.across);
@@ -160,7 +160,7 @@ Handle(Geom_BSplineSurface) surface_of(std::span<const Panel> panels, double rad
     const gp_Pnt2d section = circle.Pole(k);
     const double x = section.X(), y = section.Y();
     for (int i = 0; i < count; ++i) {
-      const auto& [from, to] = panels[i];
+      const Node &from = panels[i].from, &to = panels[i].to;
       const double third = (to.parameter - from.parameter) / 3;
       poles(k, 3 * i + 1) = in_millimetres(pole(from, x, y));
       poles(k, 3 * i + 2) = in_millimetres(pole(from, x, y) + third * pole_rate(from, x, y));
@@ -182,6 +182,10 @@ Handle(Geom_BSplineSurface) surface_of(std::span<const Panel> panels, double rad
   const Handle(Geom_BSplineSurface) surface =
       new Geom_BSplineSurface(poles, weights, angles, knots, full, multiplicities, circle.Degree(), 3);
   for (int i = 2; i <= count; ++i) surface->RemoveVKnot(i, 2, sewing_tolerance);
+  // OpenCASCADE integrates along a face with as many points as its panels have poles: over few cubics too few
+  // for the volume, which is of degree 8 in them.
+  constexpr int few = 4, enough = 6;
+  if (count < few) surface->IncreaseDegree(surface->UDegree(), enough);
   return surface;
 }
 

@@ -44,13 +44,11 @@ double largest_lean(const Eigen::Vector3d& in, const Eigen::Vector3d& out) {
   return in.cross(out).norm() / (1 + in.dot(out));
 }
 
-/// How much of a run's start and end has short panels: more than its sections lean in, so that those that
-/// lean least are not next to long ones, over which OpenCASCADE integrates less well.
+/// How much of a run's start and end leans.
 std::pair<double, double> reaches(const Run& run, double radius) {
-  constexpr double more = 30;
   const double start = run.before ? largest_lean(*run.before, run.start_direction()) : 0;
   const double end = run.after ? largest_lean(run.end_direction(), *run.after) : 0;
-  return {more * reach_of_lean(start, radius), more * reach_of_lean(end, radius)};
+  return {reach_of_lean(start, radius), reach_of_lean(end, radius)};
 }
 
 /// The panel, or its halves, their halves ... that are `longest` where they begin less than `start` from the
@@ -58,14 +56,14 @@ std::pair<double, double> reaches(const Run& run, double radius) {
 void add_halved(const NurbsCurve& span, const Panel& panel, double longest, double start, double end,
                 double before, double behind, std::vector<Panel>& panels) {
   const bool leans = before < start || behind < end;
-  if (!leans || chord(panel) <= longest) return panels.push_back(panel);
+  if (!leans || chord(panel) <= longest) return panels.push_back({panel.from, panel.to, leans});
   const Node middle = node_at(span, 0.5 * (panel.from.parameter + panel.to.parameter));
   const Panel first{panel.from, middle}, second{middle, panel.to};
   add_halved(span, first, longest, start, end, before, behind + chord(second), panels);
   add_halved(span, second, longest, start, end, before + chord(first), behind, panels);
 }
 
-/// The panels of each span of the run, short near corners.
+/// The panels of each span of the run, short where they lean.
 std::vector<std::vector<Panel>> panels_of(const Run& run, double radius) {
   std::vector<std::vector<Panel>> spans;
   double behind = 0;
@@ -77,7 +75,7 @@ std::vector<std::vector<Panel>> panels_of(const Run& run, double radius) {
     std::vector<Panel> panels;
     for (const Panel& panel : spans[j]) {
       behind -= chord(panel);
-      add_halved(run.spans[j], panel, 0.5 * radius, start, end, before, behind, panels);
+      add_halved(run.spans[j], panel, radius, start, end, before, behind, panels);
       before += chord(panel);
     }
     spans[j] = std::move(panels);
@@ -94,7 +92,9 @@ Panels panels_of(const Spine& spine, double radius) {
     panels.runs.push_back(panels.all.size());
     for (const std::vector<Panel>& own : panels_of(run, radius))
       for (std::size_t i = 0; i < own.size(); ++i) {
-        if (i % most_in_face == 0) panels.faces.push_back(panels.all.size());
+        const bool begins = i == 0 || own[i].leans || own[i - 1].leans ||
+                            panels.all.size() - panels.faces.back() == most_in_face;
+        if (begins) panels.faces.push_back(panels.all.size());
         panels.all.push_back(own[i]);
       }
   }

@@ -31,13 +31,14 @@ struct Node {
   }
 };
 
-/// A piece of the surface, between two nodes of one span.
+/// A piece of the surface, between two nodes of one span; whether its sections lean over into a mitre.
 struct Panel {
   Node from, to;
+  bool leans = false;
 };
 
-/// The panels of all spans, and the numbers of those that begin a face: each is of one span. Those that begin
-/// a run, and the end of all.
+/// The panels of all spans, and the numbers of those that begin a face: each is of one span, and a panel that
+/// leans is one by itself. Those that begin a run, and the end of all.
 struct Panels {
   std::vector<Panel> all;
   std::vector<std::size_t> faces, runs;
@@ -54,7 +55,7 @@ inline double chord(const Panel& panel) { return (panel.to.centre - panel.from.c
 inline double reach_of_lean(double lean, double radius) { return 6 * radius * lean; }
 
 /// Panels along the spine, for a section of this radius: each turns little, is near to the curve, and is
-/// short near corners.
+/// short where it leans.
 Panels panels_of(const Spine& spine, double radius);
 
 }  // namespace nurbeam::tubes

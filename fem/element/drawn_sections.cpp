@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "fem/element/section_frame.h"
-#include "nurbs/gauss_panels.h"
 #include "nurbs/monotone_cubic.h"
 #include "nurbs/number_text.h"
 
@@ -106,7 +105,11 @@ DrawnSections::DrawnSections(const std::vector<RationalCubic>& segments, const s
   check_twist(closed);
   slopes_ = monotone_slopes(orientation_.twist);
   check(segments, breaks);
-  if (orientation_.rule != Orientation::Rule::start) return;
+  if (turns_by_rule()) {
+    for (const RationalCubic& segment : segments)
+      turns_.push_back(panels_of([&](double u) { return twist_by_parameter(segment, u); }, 0, 1, 1, 1e-12));
+    return;
+  }
   const Vector3d t = Bend<double>(segments.front(), 0).t;
   Vector3d& direction = orientation_.direction;
   if (direction.isZero(0)) direction = default_direction(t);
@@ -166,14 +169,19 @@ DrawnSection DrawnSections::at(const RationalCubic& segment, int j, double u, do
           rule_twist(segment, u) + added_turn(s).rate[0]};
 }
 
-double DrawnSections::turn(const RationalCubic& segment, double u_0, double u_1, double s_0,
-                           double s_1) const {
-  const double added = added_turn(s_1).angle - added_turn(s_0).angle;
-  if (orientation_.rule == Orientation::Rule::start) return added;
-  const auto by_parameter = [&](double u) {
-    return rule_twist(segment, u) * segment.derivatives(u).col(1).norm();
+double DrawnSections::twist_by_parameter(const RationalCubic& segment, double u) const {
+  return rule_twist(segment, u) * segment.derivatives(u).col(1).norm();
+}
+
+double DrawnSections::rule_turn(const RationalCubic& segment, int j, double u_0, double u_1) const {
+  const auto to = [&](double u) {
+    const Panels& panels = turns_[j];
+    const auto after = std::upper_bound(panels.breaks.begin() + 1, panels.breaks.end() - 1, u);
+    const auto k = after - panels.breaks.begin() - 1;
+    return panels.integrals[k] +
+           gauss([&](double x) { return twist_by_parameter(segment, x); }, panels.breaks[k], u);
   };
-  return added + panels_of(by_parameter, u_0, u_1, 1, 1e-12).integrals.back();
+  return to(u_1) - to(u_0);
 }
 
 // The twist of the rule, without what turns it besides.

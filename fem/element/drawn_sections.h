@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fem/element/orientation.h"
+#include "nurbs/gauss_panels.h"
 #include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
@@ -40,8 +41,12 @@ class DrawnSections {
   /// In segment j, given again with its number, at its parameter u, which is the arc length s.
   DrawnSection at(const RationalCubic& segment, int j, double u, double s) const;
   DrawnSectionSeries series(const RationalCubic& segment, int j, double u, double s) const;
-  /// The integral of the twist over the part [u_0, u_1] of a segment, between the arc lengths s_0 and s_1.
-  double turn(const RationalCubic& segment, double u_0, double u_1, double s_0, double s_1) const;
+  /// The integral of the twist between two arc lengths is that of the rule, over the part [u_0, u_1] of
+  /// segment j, and the added one.
+  double rule_turn(const RationalCubic& segment, int j, double u_0, double u_1) const;
+  double added_turn(double s_0, double s_1) const { return added_turn(s_1).angle - added_turn(s_0).angle; }
+  /// Whether the rule's is not 0.
+  bool turns_by_rule() const { return orientation_.rule != Orientation::Rule::start; }
   /// The angle by which parallel transport along a closed curve comes back turned [rad]; 0 on an open one.
   double holonomy() const { return holonomy_; }
 
@@ -62,12 +67,14 @@ class DrawnSections {
   Turn added_turn(double s) const;
   template <class T>
   T rule_twist(const RationalCubic& segment, const T& u) const;
+  double twist_by_parameter(const RationalCubic& segment, double u) const;
   void check_twist(bool closed) const;
 
   Orientation orientation_;
   std::vector<double> slopes_;              // of the twist, at its rows
   std::vector<std::vector<Piece>> pieces_;  // per segment, with Rule::start
   double length_, holonomy_ = 0;
+  std::vector<Panels> turns_;  // of the rule's twist, per segment, with other rules
 };
 
 }  // namespace nurbeam

@@ -96,6 +96,19 @@ double plain(const Dual<N, T>& x) {
   return plain(x.value);
 }
 
+/// The same under the name that series have.
+template <int N, class T>
+double value(const Dual<N, T>& x) {
+  return plain(x);
+}
+
+/// f(x) from f and its first three derivatives at plain(x).
+template <int N, class T>
+Dual<N, T> compose(const std::array<double, 4>& f, const Dual<N, T>& x) {
+  const Dual<N, T> step = x - plain(x);
+  return f[0] + step * (f[1] + step * (f[2] / 2 + step * (f[3] / 6)));
+}
+
 }  // namespace nurbeam
 
 namespace Eigen {

@@ -2,6 +2,8 @@
 //
 // Its drawing is a series in both places (DrawnElement), its strains by the places and by time are
 // derivatives that dual numbers carry.
+#include <type_traits>
+
 #include "fem/element/twist_element.h"
 #include "fem/element/twist_inertia.h"
 #include "fem/element/twist_rows.h"
@@ -22,9 +24,12 @@ template <class T>
 class Motion {
  public:
   using D = Dual<directions, T>;
+  // Forces take first derivatives of the drawing, their tangents second ones.
+  using Drawn =
+      twist::DrawnElement<std::conditional_t<std::is_same_v<T, double>, Dual<2>, twist::PlaceSeries>>;
   using Fields = twist::AnyFields<D>;
 
-  Motion(const twist::DrawnElement& element, const std::array<Eigen::Matrix3d, 2>& charts, double near,
+  Motion(const Drawn& element, const std::array<Eigen::Matrix3d, 2>& charts, double near,
          const BeamProperties& properties, const Vector<T>& q, const Vector<T>& v, const Vector<T>& a)
       : charts_(charts), near_(near), properties_(properties), q_(q), v_(v), a_(a) {
     Eigen::Matrix<D, rows, 1> x;
@@ -226,7 +231,7 @@ double Motion<T>::kinetic_energy() const {
 TwistElement::Coordinates TwistElement::moving_force(const TwistState& x) const {
   const Vector<double> q = twist::reduced_of<rows>(x.q), v = twist::reduced_of<rows>(x.v),
                        a = twist::reduced_of<rows>(x.a);
-  const Motion<double> motion(drawn_element(x.q), charts_, turn_, *properties_, q, v, a);
+  const Motion<double> motion(drawn_element<Dual<2>>(x.q), charts_, turn_, *properties_, q, v, a);
   return twist::spread_out<rows>(motion.force());
 }
 
@@ -235,14 +240,14 @@ TwistElement::Matrix TwistElement::moving_tangent(const TwistState& x, const Tan
   const Vector<T> q = twist::variables<rows, double>(twist::reduced_of<rows>(x.q), w.stiffness),
                   v = twist::variables<rows, double>(twist::reduced_of<rows>(x.v), w.damping),
                   a = twist::variables<rows, double>(twist::reduced_of<rows>(x.a), w.mass);
-  const Motion<T> motion(drawn_element(x.q), charts_, turn_, *properties_, q, v, a);
+  const Motion<T> motion(drawn_element<twist::PlaceSeries>(x.q), charts_, turn_, *properties_, q, v, a);
   return twist::spread_out<rows>(twist::derivatives<rows>(motion.force()));
 }
 
 TwistEnergy TwistElement::moving_energy(const TwistState& x) const {
   const Vector<double> q = twist::reduced_of<rows>(x.q), v = twist::reduced_of<rows>(x.v),
                        a = Vector<double>::Zero();
-  const Motion<double> motion(drawn_element(x.q), charts_, turn_, *properties_, q, v, a);
+  const Motion<double> motion(drawn_element<Dual<2>>(x.q), charts_, turn_, *properties_, q, v, a);
   TwistEnergy sum;
   for (std::size_t g = 0; g < motion.points(); ++g) {
     const auto e = motion.strain(g);

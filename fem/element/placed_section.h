@@ -19,7 +19,8 @@ class PlacedSection {
   /// `turn`: that of TwistElement; `x`: the coordinates for whose places it is made.
   PlacedSection(const ReferenceCurve& curve, const Chart& chart, const Charts& charts, double turn,
                 const Coordinates<double>& x)
-      : PlacedSection(twist::DrawnElement(curve, chart, x[TwistLayout::place(0)], x[TwistLayout::place(1)]),
+      : PlacedSection(twist::DrawnElement<twist::PlaceSeries>(curve, chart, x[TwistLayout::place(0)],
+                                                              x[TwistLayout::place(1)]),
                       charts, turn, x) {}
 
   template <class T>
@@ -29,7 +30,7 @@ class PlacedSection {
   Coordinates<T> force(const Coordinates<T>& x, const Vector3<T>& moment) const;
 
  private:
-  PlacedSection(const twist::DrawnElement& drawn, const Charts& charts, double turn,
+  PlacedSection(const twist::DrawnElement<twist::PlaceSeries>& drawn, const Charts& charts, double turn,
                 const Coordinates<double>& x)
       : drawing_(drawn.drawing()),
         point_(drawn.sliding_point(x[size - 1])),

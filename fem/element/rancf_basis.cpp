@@ -151,5 +151,7 @@ ShapeFunctions<T> ElementBasis<T>::at(const T& s) const {
 
 template class ElementBasis<double>;
 template class ElementBasis<Jet>;
+template class ElementBasis<Dual<2>>;
+template class ElementBasis<Dual<2, Dual<2>>>;
 
 }  // namespace nurbeam

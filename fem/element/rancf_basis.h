@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "fem/element/dual.h"
 #include "fem/element/jet.h"
 #include "fem/element/reference_curve.h"
 #include "nurbs/rational_cubic.h"
@@ -30,7 +31,8 @@ struct Chart {
 };
 
 /// The four shape functions and their derivatives with respect to reference arc length s at one material
-/// point: r(s) = sum value_k e_k, e = (r_A, r_sA, r_B, r_sB). T = double (fixed ends) or Jet (moving ends).
+/// point: r(s) = sum value_k e_k, e = (r_A, r_sA, r_B, r_sB). T = double (fixed ends), or Jet or Dual (moving
+/// ends).
 template <class T>
 struct ShapeFunctions {
   std::array<T, 4> value, d1, d2, d3;
@@ -63,5 +65,7 @@ class ElementBasis {
 
 extern template class ElementBasis<double>;
 extern template class ElementBasis<Jet>;
+extern template class ElementBasis<Dual<2>>;
+extern template class ElementBasis<Dual<2, Dual<2>>>;
 
 }  // namespace nurbeam

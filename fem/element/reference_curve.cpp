@@ -150,8 +150,10 @@ double ReferenceCurve::section_turn(double s_a, double s_b) const {
   for (double s = s_a; s < s_b;) {
     const double end = std::min(next_break(s), s_b);
     const int j = segment_at((s + end) / 2);
-    const double u_0 = parameter(j, s), u_1 = parameter(j, end);
-    sum += sections_->turn(segments_[j], u_0, u_1, arc_length(j, u_0), arc_length(j, u_1));
+    const double middle = (breaks_[j] + breaks_[j + 1]) / 2;
+    sum += sections_->added_turn(unrolled(s, middle), unrolled(end, middle));
+    if (sections_->turns_by_rule())
+      sum += sections_->rule_turn(segments_[j], j, parameter(j, s), parameter(j, end));
     s = end;
   }
   return sum;

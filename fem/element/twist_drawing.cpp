@@ -1,23 +1,20 @@
 #include "fem/element/twist_drawing.h"
 
-#include <type_traits>
+#include <utility>
 
 namespace nurbeam::twist {
 
 namespace {
 
-PlaceSeries series(const Jet& f) {
-  PlaceSeries y;
-  y.value.value = f.value();
-  for (int i = 0; i < 2; ++i) {
-    y.value.d[i] = y.d[i].value = f.d(i);
-    for (int j = 0; j < 2; ++j) y.d[i].d[j] = f.d(i, j);
-  }
-  return y;
-}
-
-PlaceSeries variable(double value, int index) {
-  return PlaceSeries::variable(Dual<2>::variable(value, index), index);
+// The place of an end.
+template <class P>
+P variable(double value, int index) {
+  if constexpr (std::is_same_v<P, PlaceSeries>)
+    return PlaceSeries::variable(Dual<2>::variable(value, index), index);
+  else if constexpr (std::is_same_v<P, double>)
+    return value;
+  else
+    return P::variable(value, index);
 }
 
 // A function of s, by its derivatives where s is.
@@ -39,170 +36,201 @@ SectionTriad<P> triad_along(const DrawnSectionSeries& section, const P& s) {
 
 // A series in both places as one in these and a third, which it does not vary with, and by its derivatives by
 // that, series too, where it does.
-SlidingSeries by_third(const Jet& f, const Jet& slope, double second) {
+SlidingSeries by_third(const PlaceSeries& f, const PlaceSeries& slope, double second) {
   SlidingSeries y;
-  y.value.value = f.value();
-  for (int i = 0; i < 2; ++i) {
-    y.value.d[i] = y.d[i].value = f.d(i);
-    for (int j = 0; j < 2; ++j) y.d[i].d[j] = f.d(i, j);
-    y.d[i].d[2] = y.d[2].d[i] = slope.d(i);
-  }
-  y.value.d[2] = y.d[2].value = slope.value();
-  y.d[2].d[2] = second;
-  return y;
-}
-template <class P>
-P widened(const PlaceSeries& f) {
-  if constexpr (std::is_same_v<P, PlaceSeries>) return f;
-  P y;
   y.value.value = f.value.value;
   for (int i = 0; i < 2; ++i) {
     y.value.d[i] = y.d[i].value = f.value.d[i];
     for (int j = 0; j < 2; ++j) y.d[i].d[j] = f.d[i].d[j];
+    y.d[i].d[2] = y.d[2].d[i] = slope.value.d[i];
   }
+  y.value.d[2] = y.d[2].value = plain(slope);
+  y.d[2].d[2] = second;
   return y;
 }
-template <class P>
-SectionTriad<P> widened(const SectionTriad<PlaceSeries>& a) {
-  const auto each = [](const Vector3<PlaceSeries>& x) {
-    return Vector3<P>(widened<P>(x[0]), widened<P>(x[1]), widened<P>(x[2]));
+template <class T, class P>
+T widened(const P& f) {
+  if constexpr (std::is_same_v<T, P>) {
+    return f;
+  } else {
+    T y;
+    y.value.value = f.value.value;
+    for (int i = 0; i < 2; ++i) {
+      y.value.d[i] = y.d[i].value = f.value.d[i];
+      for (int j = 0; j < 2; ++j) y.d[i].d[j] = f.d[i].d[j];
+    }
+    return y;
+  }
+}
+template <class T, class P>
+SectionTriad<T> widened(const SectionTriad<P>& a) {
+  const auto each = [](const Vector3<P>& x) {
+    return Vector3<T>(widened<T>(x[0]), widened<T>(x[1]), widened<T>(x[2]));
   };
   return {each(a.d1), each(a.d2), each(a.t)};
 }
 
-Vector3<PlaceSeries> on_reduced(const std::array<Jet, 4>& row) {
-  return {series(row[2]), series(row[1]), series(row[3])};
+template <class P>
+Vector3<P> on_reduced(const std::array<P, 4>& row) {
+  return {row[2], row[1], row[3]};
 }
+
+// integrated_lagrange at the Gauss points.
+const std::array<std::array<double, GaussRule::size>, GaussRule::size> integrals_to_points = [] {
+  std::array<std::array<double, GaussRule::size>, GaussRule::size> A{};
+  for (int g = 0; g < GaussRule::size; ++g)
+    for (int j = 0; j < GaussRule::size; ++j) A[g][j] = integrated_lagrange(j, GaussRule::points[g]);
+  return A;
+}();
 
 }  // namespace
 
-DrawnElement::DrawnElement(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b)
-    : curve_(&curve),
-      chart_(chart),
-      s_a_(s_a),
-      s_b_(s_b),
-      basis_(curve, chart, Jet::variable(s_a, 0), Jet::variable(s_b, 1)) {
-  const DrawnSectionSeries a = section(s_a, false), b = section(s_b, true);
-  a_ = triad_along(a, variable(s_a, 0));
-  drawing_.h = variable(s_b, 1) - variable(s_a, 0);
-  drawing_.end_twist = {along(a.twist, variable(s_a, 0)), along(b.twist, variable(s_b, 1))};
-  add_parts();
-  set_rates(a, b);
-  for (const Jet& s : places_) {
-    drawing_.points.push_back(point(s));
-    DrawnSectionSeries here = section(s.value(), s.value() > (s_a + s_b) / 2);
-    if (curve.straight()) here.k1 = here.k2 = {};
-    const PlaceSeries place = series(s);
-    drawing_.slides.push_back({place, on_reduced(basis_.at(s).d3), along(here.twist, place),
-                               along({here.k1[1], here.k1[2], 0}, place),
-                               along({here.k2[1], here.k2[2], 0}, place)});
-  }
-  const AnyPoint<PlaceSeries> end = point(Jet::variable(s_b, 1));
-  drawing_.end_angle = end.angle;
-  turn_ = plain(end.angle);
-  for (Eigen::Index j = 0; j < rates_.size(); ++j) turn_ += plain(end.transport[j]) * plain(rates_[j]);
-}
-
-void DrawnElement::add_parts() {
-  const auto add = [&](const Jet& lo, const Jet& hi) {
-    parts_.push_back({series(lo), series(hi)});
-    for (const double x : GaussRule::points) places_.push_back(lo + (hi - lo) * x);
-  };
-  Jet lo = Jet::variable(s_a_, 0);
-  if (chart_.segment < 0)
-    for (double s = curve_->next_break(s_a_); s < s_b_; s = curve_->next_break(s)) {
-      add(lo, Jet(s));
-      lo = Jet(s);
+template <class P>
+QuadraturePlaces<P>::QuadraturePlaces(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b)
+    : basis(curve, chart, variable<P>(s_a, 0), variable<P>(s_b, 1)) {
+  P start = variable<P>(s_a, 0);
+  if (chart.segment < 0)
+    for (double s = curve.next_break(s_a); s < s_b; s = curve.next_break(s)) {
+      parts.push_back({start, P(s) - start});
+      start = P(s);
     }
-  add(lo, Jet::variable(s_b_, 1));
-  drawing_.weights.resize(static_cast<Eigen::Index>(places_.size()));
-  for (std::size_t g = 0; g < places_.size(); ++g) {
-    const Part& part = parts_[g / GaussRule::size];
-    drawing_.weights[g] = (part.hi - part.lo) * GaussRule::weights[g % GaussRule::size];
-  }
-}
-
-// Of transport along the drawing, as the element's own nodal values have it.
-void DrawnElement::set_rates(const DrawnSectionSeries& a, const DrawnSectionSeries& b) {
-  const auto position = [&](double s, const DrawnSectionSeries& section, int end) {
-    return along({curve_->position(s), section.t[0], section.t[1]}, variable(s, end));
-  };
-  Reduced<PlaceSeries> drawn = Reduced<PlaceSeries>::Zero();
-  drawn.segment<3>(chord) = position(s_b_, b, 1) - position(s_a_, a, 0);
-  drawn.segment<3>(slope_a) = a_.t;
-  drawn.segment<3>(slope_b) = along(b.t, variable(s_b_, 1));
-  rates_.resize(static_cast<Eigen::Index>(places_.size()));
-  for (std::size_t g = 0; g < places_.size(); ++g) {
-    AnyPoint<PlaceSeries> p;
-    set_axis(places_[g], p);
-    rates_[g] = axis_at<PlaceSeries>(p, drawn, a_.t).f;
-  }
-}
-
-DrawnSectionSeries DrawnElement::section(double s, bool from_left) const {
-  return curve_->section_series(chart_.segment < 0 ? curve_->segment_at(s, from_left) : chart_.segment, s);
-}
-
-void DrawnElement::set_axis(const Jet& s, AnyPoint<PlaceSeries>& p) const {
-  const ShapeFunctions<Jet> shape = basis_.at(s);
-  p.S1 = on_reduced(shape.d1);
-  p.S2 = on_reduced(shape.d2);
+  parts.push_back({start, variable<P>(s_b, 1) - start});
 }
 
 template <class P>
-Eigen::Matrix<P, Eigen::Dynamic, 1> DrawnElement::transport(const P& s) const {
-  constexpr int n = GaussRule::size;
-  Eigen::Matrix<P, Eigen::Dynamic, 1> row(static_cast<Eigen::Index>(places_.size()));
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const P lo = widened<P>(parts_[i].lo), hi = widened<P>(parts_[i].hi);
-    const bool behind = i + 1 < parts_.size() && plain(s) >= plain(hi), ahead = i > 0 && plain(s) < plain(lo);
-    for (int j = 0; j < n; ++j) {
-      P& at = row[static_cast<Eigen::Index>(i * n + j)];
-      if (ahead)
-        at = 0.0;
-      else if (behind)
-        at = (hi - lo) * GaussRule::weights[j];
-      else
-        at = (hi - lo) * integrated_lagrange(j, P((s - lo) / (hi - lo)));
-    }
+DrawnElement<P>::DrawnElement(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b)
+    : curve_(&curve), chart_(chart), s_a_(s_a), s_b_(s_b), places_(curve, chart, s_a, s_b) {
+  const P start = variable<P>(s_a, 0), end = variable<P>(s_b, 1);
+  const DrawnSectionSeries a = section(s_a, false), b = section(s_b, true);
+  std::vector<DrawnSectionSeries> between;
+  a_ = triad_along(a, start);
+  drawing_.h = end - start;
+  drawing_.end_twist = {along(a.twist, start), along(b.twist, end)};
+  drawing_.weights.resize(static_cast<Eigen::Index>(places_.size()));
+  for (std::size_t g = 0; g < places_.size(); ++g) {
+    between.push_back(section_between(plain(places_.place(g))));
+    add_point(g, between.back());
+  }
+  set_rates(a, b);
+  for (std::size_t g = 0; g < places_.size(); ++g) {
+    AnyPoint<P>& p = drawing_.points[g];
+    p.angle = angle<P>(between[g], drawing_.slides[g].s, p.transport);
+  }
+  drawing_.end_angle = angle<P>(b, end, drawing_.weights);
+  turn_ = plain(drawing_.end_angle);
+  for (Eigen::Index j = 0; j < rates_.size(); ++j) turn_ += plain(drawing_.weights[j]) * plain(rates_[j]);
+}
+
+// But for its angle.
+template <class P>
+void DrawnElement<P>::add_point(std::size_t g, const DrawnSectionSeries& here) {
+  const P s = places_.place(g);
+  const ShapeFunctions<P> shape = places_.basis.at(s);
+  drawing_.weights[static_cast<Eigen::Index>(g)] = places_.weight(g);
+  drawing_.points.push_back(axis_point(s, shape, here, transport_to(g)));
+  const bool bent = !curve_->straight();
+  const auto slope = [&](const std::array<double, 3>& k) {
+    return bent ? along<P>({k[1], k[2], 0}, s) : P(0.0);
+  };
+  drawing_.slides.push_back({s, on_reduced(shape.d3), along(here.twist, s), slope(here.k1), slope(here.k2)});
+}
+
+template <class P>
+AnyPoint<P> DrawnElement<P>::axis_point(const P& s, const ShapeFunctions<P>& shape,
+                                        const DrawnSectionSeries& here, Row<P> transport) const {
+  AnyPoint<P> p;
+  p.S1 = on_reduced(shape.d1);
+  p.S2 = on_reduced(shape.d2);
+  p.xi = (s - variable<P>(s_a_, 0)) / drawing_.h;
+  p.transport = std::move(transport);
+  const bool bent = !curve_->straight();
+  p.k1 = bent ? along(here.k1, s) : P(0.0);
+  p.k2 = bent ? along(here.k2, s) : P(0.0);
+  return p;
+}
+
+// Of transport along the drawing, as the element's own nodal values have it.
+template <class P>
+void DrawnElement<P>::set_rates(const DrawnSectionSeries& a, const DrawnSectionSeries& b) {
+  const auto position = [&](double s, const DrawnSectionSeries& section, int end) {
+    return along({curve_->position(s), section.t[0], section.t[1]}, variable<P>(s, end));
+  };
+  Reduced<P> drawn = Reduced<P>::Zero();
+  drawn.template segment<3>(chord) = position(s_b_, b, 1) - position(s_a_, a, 0);
+  drawn.template segment<3>(slope_a) = a_.t;
+  drawn.template segment<3>(slope_b) = along(b.t, variable<P>(s_b_, 1));
+  rates_.resize(static_cast<Eigen::Index>(places_.size()));
+  for (Eigen::Index g = 0; g < rates_.size(); ++g)
+    rates_[g] = axis_at<P>(drawing_.points[static_cast<std::size_t>(g)], drawn, a_.t).f;
+}
+
+template <class P>
+DrawnSectionSeries DrawnElement<P>::section(double s, bool from_left) const {
+  return curve_->section_series(chart_.segment < 0 ? curve_->segment_at(s, from_left) : chart_.segment, s);
+}
+
+// At a quadrature point.
+template <class P>
+typename DrawnElement<P>::template Row<P> DrawnElement<P>::transport_to(std::size_t g) const {
+  constexpr std::size_t n = GaussRule::size;
+  Row<P> row = Row<P>::Zero(static_cast<Eigen::Index>(places_.size()));
+  for (std::size_t j = 0; j < places_.size() && j / n <= g / n; ++j)
+    row[static_cast<Eigen::Index>(j)] =
+        j / n < g / n ? places_.weight(j) : places_.parts[g / n].length * integrals_to_points[g % n][j % n];
+  return row;
+}
+
+template <class P>
+template <class T>
+typename DrawnElement<P>::template Row<T> DrawnElement<P>::transport(const T& s) const {
+  constexpr std::size_t n = GaussRule::size;
+  Row<T> row = Row<T>::Zero(static_cast<Eigen::Index>(places_.size()));
+  for (std::size_t i = 0; i < places_.parts.size(); ++i) {
+    const T start = widened<T>(places_.parts[i].start), length = widened<T>(places_.parts[i].length);
+    const bool behind = i + 1 < places_.parts.size() && plain(s) >= plain(start) + plain(length);
+    if (i > 0 && plain(s) < plain(start)) break;
+    for (std::size_t j = 0; j < n; ++j)
+      row[static_cast<Eigen::Index>(i * n + j)] =
+          behind ? T(length * GaussRule::weights[j])
+                 : T(length * integrated_lagrange(static_cast<int>(j), T((s - start) / length)));
   }
   return row;
 }
 
 // Of the drawn section at s against A, less transport.
 template <class P>
-P DrawnElement::angle(const DrawnSectionSeries& here, const P& s,
-                      const Eigen::Matrix<P, Eigen::Dynamic, 1>& transport) const {
-  P transported = 0.0;
-  for (Eigen::Index j = 0; j < rates_.size(); ++j) transported += transport[j] * widened<P>(rates_[j]);
+template <class T>
+T DrawnElement<P>::angle(const DrawnSectionSeries& here, const T& s, const Row<T>& transport) const {
+  T transported = 0.0;
+  for (Eigen::Index j = 0; j < rates_.size(); ++j) transported += transport[j] * widened<T>(rates_[j]);
   const double near = curve_->section_turn(s_a_, plain(s)) + plain(transported);
-  return SectionTurn<P>(widened<P>(a_), triad_along<P>(here, s), near).angle - transported;
+  return SectionTurn<T>(widened<T>(a_), triad_along<T>(here, s), near).angle - transported;
 }
 
-SlidingPoint DrawnElement::sliding_point(double place) const {
+template <class P>
+SlidingPoint DrawnElement<P>::sliding_point(double place) const requires std::is_same_v<P, PlaceSeries> {
   const SlidingSeries s = SlidingSeries::variable(Dual<3>::variable(place, 2), 2);
-  const ShapeFunctions<Jet> shape = basis_.at(Jet(place));
-  const auto S1 = [&](int k) { return by_third(shape.d1[k], shape.d2[k], shape.d3[k].value()); };
+  const ShapeFunctions<P> shape = places_.basis.at(P(place));
+  const auto S1 = [&](int k) { return by_third(shape.d1[k], shape.d2[k], plain(shape.d3[k])); };
   SlidingPoint p;
   p.S1 = {S1(2), S1(1), S1(3)};
-  p.xi = (s - widened<SlidingSeries>(variable(s_a_, 0))) / widened<SlidingSeries>(drawing_.h);
+  p.xi = (s - widened<SlidingSeries>(variable<P>(s_a_, 0))) / widened<SlidingSeries>(drawing_.h);
   p.transport = transport<SlidingSeries>(s);
-  p.angle = angle<SlidingSeries>(section(place, place > (s_a_ + s_b_) / 2), s, p.transport);
+  p.angle = angle<SlidingSeries>(section_between(place), s, p.transport);
   return p;
 }
 
-AnyPoint<PlaceSeries> DrawnElement::point(const Jet& at) const {
-  const PlaceSeries s = series(at);
-  DrawnSectionSeries here = section(plain(s), plain(s) > (s_a_ + s_b_) / 2);
-  AnyPoint<PlaceSeries> p;
-  set_axis(at, p);
-  p.xi = (s - variable(s_a_, 0)) / drawing_.h;
-  p.transport = transport<PlaceSeries>(s);
-  p.angle = angle<PlaceSeries>(here, s, p.transport);
-  if (curve_->straight()) here.k1 = here.k2 = {};
-  p.k1 = along(here.k1, s);
-  p.k2 = along(here.k2, s);
+template <class P>
+AnyPoint<P> DrawnElement<P>::point(double place) const {
+  const P s(place);
+  const DrawnSectionSeries here = section_between(place);
+  AnyPoint<P> p = axis_point(s, places_.basis.at(s), here, transport<P>(s));
+  p.angle = angle<P>(here, s, p.transport);
   return p;
 }
+
+template struct QuadraturePlaces<double>;
+template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
+template class DrawnElement<PlaceSeries>;
 
 }  // namespace nurbeam::twist

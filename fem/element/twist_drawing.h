@@ -1,4 +1,6 @@
 #pragma once
+#include <type_traits>
+
 #include "fem/element/rancf_basis.h"
 #include "fem/element/twist_kinematics.h"
 
@@ -60,55 +62,78 @@ struct AnyDrawing : Drawing<P, Eigen::Dynamic> {
   std::array<P, 2> end_twist;  ///< of the drawing, at both ends [rad/m]
 };
 
-/// What the drawing says of an element between two places, as series in both. Quadrature points are those of
-/// BeamElement::for_each_point: parts between breaks of the drawing have their own, and transport goes on
-/// from part to part.
+/// Where an element between two places, which may move, has its quadrature points: those of
+/// BeamElement::for_each_point, parts between breaks of the drawing having their own.
+template <class P>
+struct QuadraturePlaces {
+  struct Part {
+    P start, length;
+  };
+  std::vector<Part> parts;
+  ElementBasis<P> basis;
+
+  QuadraturePlaces(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b);
+  std::size_t size() const { return parts.size() * GaussRule::size; }
+  P place(std::size_t g) const {
+    return part(g).start + part(g).length * GaussRule::points[g % GaussRule::size];
+  }
+  P weight(std::size_t g) const { return part(g).length * GaussRule::weights[g % GaussRule::size]; }
+
+ private:
+  const Part& part(std::size_t g) const { return parts[g / GaussRule::size]; }
+};
+
+/// What the drawing says of an element between two places, as series P in both: Dual<2>, of values and
+/// gradients, or PlaceSeries. Transport goes on from part to part.
+template <class P>
 class DrawnElement {
  public:
   DrawnElement(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b);
 
-  const AnyDrawing<PlaceSeries>& drawing() const { return drawing_; }
+  const AnyDrawing<P>& drawing() const { return drawing_; }
   /// Theta_0 at B [rad].
   double turn() const { return turn_; }
   /// Of transport in the drawing, at quadrature point j [1/m].
   double rate(int j) const { return plain(rates_[j]); }
   /// At the material point s, in between.
-  AnyPoint<PlaceSeries> point(double s) const { return point(Jet(s)); }
+  AnyPoint<P> point(double s) const;
   /// At a place s in between that may move.
-  SlidingPoint sliding_point(double s) const;
+  SlidingPoint sliding_point(double s) const requires std::is_same_v<P, PlaceSeries>;
 
  private:
-  struct Part {
-    PlaceSeries lo, hi;
-  };
+  template <class T>
+  using Row = Eigen::Matrix<T, Eigen::Dynamic, 1>;
   DrawnSectionSeries section(double s, bool from_left) const;
-  template <class P>
-  Eigen::Matrix<P, Eigen::Dynamic, 1> transport(const P& s) const;
-  template <class P>
-  P angle(const DrawnSectionSeries& here, const P& s,
-          const Eigen::Matrix<P, Eigen::Dynamic, 1>& transport) const;
-  AnyPoint<PlaceSeries> point(const Jet& s) const;
-  void set_axis(const Jet& s, AnyPoint<PlaceSeries>& p) const;
-  void add_parts();
+  DrawnSectionSeries section_between(double s) const { return section(s, s > (s_a_ + s_b_) / 2); }
+  AnyPoint<P> axis_point(const P& s, const ShapeFunctions<P>& shape, const DrawnSectionSeries& here,
+                         Row<P> transport) const;
+  void add_point(std::size_t g, const DrawnSectionSeries& here);
   void set_rates(const DrawnSectionSeries& a, const DrawnSectionSeries& b);
+  Row<P> transport_to(std::size_t g) const;
+  template <class T>
+  Row<T> transport(const T& s) const;
+  template <class T>
+  T angle(const DrawnSectionSeries& here, const T& s, const Row<T>& transport) const;
 
   const ReferenceCurve* curve_;
   Chart chart_;
   double s_a_, s_b_;
-  ElementBasis<Jet> basis_;
-  std::vector<Part> parts_;
-  std::vector<Jet> places_;  // of the quadrature points
-  SectionTriad<PlaceSeries> a_;
-  Eigen::Matrix<PlaceSeries, Eigen::Dynamic, 1> rates_;  // of transport in the drawing, at the points
-  AnyDrawing<PlaceSeries> drawing_;
+  QuadraturePlaces<P> places_;
+  SectionTriad<P> a_;
+  Row<P> rates_;  // of transport in the drawing, at the points
+  AnyDrawing<P> drawing_;
   double turn_;
 };
 
-/// The point and the drawing at the places (a, b).
-template <class T>
-AnyPoint<T> at_places(const AnyPoint<PlaceSeries>& p, const T& a, const T& b) {
+extern template struct QuadraturePlaces<double>;
+extern template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
+extern template class DrawnElement<PlaceSeries>;
+
+/// The point and the drawing at the places (a, b); with Dual<2> for scalars of first derivatives alone.
+template <class P, class T>
+AnyPoint<T> at_places(const AnyPoint<P>& p, const T& a, const T& b) {
   AnyPoint<T> y;
-  const auto at = [&](const PlaceSeries& f) { return at_places(f, a, b); };
+  const auto at = [&](const P& f) { return at_places(f, a, b); };
   y.xi = at(p.xi);
   for (int k = 0; k < 3; ++k) {
     y.S1[k] = at(p.S1[k]);
@@ -121,15 +146,15 @@ AnyPoint<T> at_places(const AnyPoint<PlaceSeries>& p, const T& a, const T& b) {
   y.k2 = at(p.k2);
   return y;
 }
-template <class T>
-AnyDrawing<T> at_places(const AnyDrawing<PlaceSeries>& drawing, const T& a, const T& b) {
+template <class P, class T>
+AnyDrawing<T> at_places(const AnyDrawing<P>& drawing, const T& a, const T& b) {
   AnyDrawing<T> y;
-  const auto at = [&](const PlaceSeries& f) { return at_places(f, a, b); };
+  const auto at = [&](const P& f) { return at_places(f, a, b); };
   y.h = at(drawing.h);
   y.end_angle = at(drawing.end_angle);
   y.weights.resize(drawing.weights.size());
   for (Eigen::Index g = 0; g < drawing.weights.size(); ++g) y.weights[g] = at(drawing.weights[g]);
-  for (const AnyPoint<PlaceSeries>& p : drawing.points) y.points.push_back(at_places(p, a, b));
+  for (const AnyPoint<P>& p : drawing.points) y.points.push_back(at_places(p, a, b));
   for (const auto& slide : drawing.slides)
     y.slides.push_back({at(slide.s),
                         {at(slide.S3[0]), at(slide.S3[1]), at(slide.S3[2])},

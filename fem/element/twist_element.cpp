@@ -58,13 +58,13 @@ TwistElement::TwistElement(const ReferenceCurve& curve, const BeamProperties& pr
       charts_(charts),
       turn_(turn.value_or(0)) {
   if (turn && !fixed()) return;
-  const twist::DrawnElement drawn(curve, chart, s_a, s_b);
+  const twist::DrawnElement<Dual<2>> drawn(curve, chart, s_a, s_b);
   if (!turn) turn_ = drawn.turn();
   if (fixed()) set_fixed(drawn);
 }
 
 // An element whose ends are fixed is of one part.
-void TwistElement::set_fixed(const twist::DrawnElement& drawn) {
+void TwistElement::set_fixed(const twist::DrawnElement<Dual<2>>& drawn) {
   if (drawn.drawing().points.size() != points)
     throw std::invalid_argument("an element with torsion whose ends are fixed spans no break of the drawing");
   const twist::AnyDrawing<double> all = at_places(drawn.drawing(), s_a_, s_b_);
@@ -101,10 +101,6 @@ TwistElement::FixedPoint TwistElement::fixed_point(double s) const {
   p.k1 = K.dot(here.d1);
   p.k2 = K.dot(here.d2);
   return p;
-}
-
-twist::DrawnElement TwistElement::drawn_element(const Coordinates& q) const {
-  return {*curve_, chart_, q[TwistLayout::place(0)], q[TwistLayout::place(1)]};
 }
 
 TwistElement::Coordinates TwistElement::force(const TwistState& x) const {
@@ -155,14 +151,21 @@ bool TwistElement::admissible(const Coordinates& q) const {
   const Reduced<double> x = twist::reduced_of<fixed_rows>(q);
   const Eigen::Vector3d t_a = end_section(q, 0).t;
   if (!(t_a.dot(end_section(q, 1).t) > smallest_cosine)) return false;
-  const auto opens = [&](const auto& at) {
-    return std::all_of(at.begin(), at.end(), [&](const auto& p) {
-      return twist::axis_at<double>(p, x, t_a).t.dot(t_a) > smallest_cosine;
-    });
+  const auto opens = [&](const Eigen::Vector3d& S1) {
+    const Eigen::Vector3d rs = x.segment<3>(twist::chord) * S1[0] + x.segment<3>(twist::slope_a) * S1[1] +
+                               x.segment<3>(twist::slope_b) * S1[2];
+    return rs.dot(t_a) > smallest_cosine * rs.norm();
   };
-  if (fixed()) return opens(drawing_.points);
-  return opens(
-      at_places(drawn_element(q).drawing(), q[TwistLayout::place(0)], q[TwistLayout::place(1)]).points);
+  if (fixed())
+    return std::all_of(drawing_.points.begin(), drawing_.points.end(),
+                       [&](const FixedPoint& p) { return opens(p.S1); });
+  const twist::QuadraturePlaces<double> places(*curve_, chart_, q[TwistLayout::place(0)],
+                                               q[TwistLayout::place(1)]);
+  for (std::size_t g = 0; g < places.size(); ++g) {
+    const ShapeFunctions<double> shape = places.basis.at(places.place(g));
+    if (!opens({shape.d1[2], shape.d1[1], shape.d1[3]})) return false;
+  }
+  return true;
 }
 
 }  // namespace nurbeam

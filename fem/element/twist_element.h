@@ -151,8 +151,11 @@ class TwistElement {
   Eigen::Vector3d drawn_components(double s, const Eigen::Vector3d& vector) const;
 
   bool near_charts(const Coordinates& q, double cosine, double turn_reach) const;
-  twist::DrawnElement drawn_element(const Coordinates& q) const;
-  void set_fixed(const twist::DrawnElement& drawn);
+  template <class P>
+  twist::DrawnElement<P> drawn_element(const Coordinates& q) const {
+    return {*curve_, chart_, q[TwistLayout::place(0)], q[TwistLayout::place(1)]};
+  }
+  void set_fixed(const twist::DrawnElement<Dual<2>>& drawn);
   static FixedPoint fixed_point(const twist::AnyPoint<double>& p);
   FixedPoint fixed_point(double s) const;
   template <class T>

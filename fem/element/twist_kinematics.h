@@ -153,20 +153,11 @@ SectionTriad<T> section_at(const Fields<T, N>& fields, const PointField<T>& at) 
   return carried_section<T>(fields.a, at.t, at.alpha);
 }
 
-/// Of the turn of section b against a, by their spins.
+/// The turn of section b against a varies by this times the spin of b less that of a.
 template <class T>
-struct TurnGradient {
-  Vector3<T> on_a, on_b;
-
-  TurnGradient(const SectionTriad<T>& a, const SectionTriad<T>& b) {
-    const T S = a.d2.dot(b.d1) - a.d1.dot(b.d2), C = a.d1.dot(b.d1) + a.d2.dot(b.d2);
-    const T square = S * S + C * C, by_S = C / square, by_C = -S / square;
-    const Vector3<T> a1 = by_C * b.d1 - by_S * b.d2, a2 = by_S * b.d1 + by_C * b.d2;
-    const Vector3<T> b1 = by_S * a.d2 + by_C * a.d1, b2 = by_C * a.d2 - by_S * a.d1;
-    on_a = a.d1.cross(a1) + a.d2.cross(a2);
-    on_b = b.d1.cross(b1) + b.d2.cross(b2);
-  }
-};
+Vector3<T> turn_gradient(const Vector3<T>& t_a, const Vector3<T>& t_b) {
+  return (t_a + t_b) / (1.0 + t_a.dot(t_b));
+}
 
 template <class T>
 void add_node_force(const Eigen::Matrix3d& chart, int end, const Vector3<T>& mu, const Reduced<T>& x,
@@ -213,10 +204,10 @@ Reduced<T> gradient_of(const Drawing<P, N>& drawing, const std::array<Eigen::Mat
     on_d2 += F2[j] * u;
     on_t += y * u;
   }
-  const TurnGradient<T> turn(a, b);
-  const Vector3<T> on_a = a.d1.cross(on_d1) + a.d2.cross(on_d2) + a.t.cross(on_t) + twist_force * turn.on_a;
+  const Vector3<T> on_turn = twist_force * turn_gradient<T>(a.t, b.t);
+  const Vector3<T> on_a = a.d1.cross(on_d1) + a.d2.cross(on_d2) + a.t.cross(on_t) - on_turn;
   add_node_force<T>(charts[0], 0, on_a, fields.x, force);
-  add_node_force<T>(charts[1], 1, twist_force * turn.on_b, fields.x, force);
+  add_node_force<T>(charts[1], 1, on_turn, fields.x, force);
   return force;
 }
 

@@ -15,34 +15,38 @@ Eigen::Matrix<double, n, 1> reduced_of(const TwistLayout::Coordinates& q) {
   return x;
 }
 
-/// The rows of the element's coordinates that a reduced row becomes, and with which sign.
-struct Spread {
-  int row;
-  double sign;
-};
-inline std::array<Spread, 2> spread(int i) {
-  if (i < slope_a) return {{{TwistLayout::r(1) + i, 1}, {TwistLayout::r(0) + i, -1}}};
-  if (i < slope_b) return {{{TwistLayout::slope(0) + i - slope_a, 1}, {0, 0}}};
-  if (i < angle_a) return {{{TwistLayout::slope(1) + i - slope_b, 1}, {0, 0}}};
-  if (i < place_a) return {{{TwistLayout::angle(0) + i - angle_a, 1}, {0, 0}}};
-  return {{{TwistLayout::place(i - place_a), 1}, {0, 0}}};
-}
+/// The row of the element's coordinates that each reduced row is; that of the chord is less that of r_A, too.
+inline constexpr std::array<int, reduced + 2> element_row = [] {
+  using Layout = TwistLayout;
+  std::array<int, reduced + 2> rows{};
+  for (int d = 0; d < 3; ++d) {
+    rows[chord + d] = Layout::r(1) + d;
+    rows[slope_a + d] = Layout::slope(0) + d;
+    rows[slope_b + d] = Layout::slope(1) + d;
+  }
+  for (const int end : {0, 1}) {
+    rows[angle_of(end)] = Layout::angle(end);
+    rows[place_a + end] = Layout::place(end);
+  }
+  rows[bubble] = Layout::bubble;
+  return rows;
+}();
 
 template <int n>
 TwistLayout::Coordinates spread_out(const Eigen::Matrix<double, n, 1>& x) {
   TwistLayout::Coordinates q = TwistLayout::Coordinates::Zero();
-  for (int i = 0; i < n; ++i)
-    for (const auto& [row, sign] : spread(i)) q[row] += sign * x[i];
+  for (int i = 0; i < n; ++i) q[element_row[i]] = x[i];
+  q.segment<3>(TwistLayout::r(0)) = -x.template segment<3>(chord);
   return q;
 }
 
 template <int n>
 TwistLayout::Matrix spread_out(const Eigen::Matrix<double, n, n>& x) {
   TwistLayout::Matrix K = TwistLayout::Matrix::Zero();
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (const auto& [row, sign] : spread(i))
-        for (const auto& [column, other_sign] : spread(j)) K(row, column) += sign * other_sign * x(i, j);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) K(element_row[i], element_row[j]) = x(i, j);
+  K.middleRows<3>(TwistLayout::r(0)) = -K.middleRows<3>(TwistLayout::r(1));
+  K.middleCols<3>(TwistLayout::r(0)) = -K.middleCols<3>(TwistLayout::r(1));
   return K;
 }
 

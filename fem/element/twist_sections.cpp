@@ -18,7 +18,7 @@ TwistElement::At<T> TwistElement::at_place(const Eigen::Matrix<T, n, 1>& x, doub
     return at(drawing_, fixed_point(s));
   } else {
     const T &a = x[twist::place_a], &b = x[twist::place_a + 1];
-    const twist::DrawnElement drawn(*curve_, chart_, plain(a), plain(b));
+    const twist::DrawnElement<twist::PlaceSeries> drawn(*curve_, chart_, plain(a), plain(b));
     return at(at_places(drawn.drawing(), a, b), at_places(drawn.point(s), a, b));
   }
 }

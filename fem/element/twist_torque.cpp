@@ -38,11 +38,12 @@ TwistElement::Reduced<T> TwistElement::fixed_torque(const Reduced<T>& q) const {
 
 TwistElement::Coordinates TwistElement::torque_force(const Coordinates& q) const {
   if (fixed()) return twist::spread_out<fixed_rows>(fixed_torque<double>(twist::reduced_of<fixed_rows>(q)));
-  const twist::AnyDrawing<twist::PlaceSeries> drawing = drawn_element(q).drawing();
+  const twist::QuadraturePlaces<double> places(*curve_, chart_, q[TwistLayout::place(0)],
+                                               q[TwistLayout::place(1)]);
   Coordinates force = Coordinates::Zero();
-  for (std::size_t g = 0; g < drawing.slides.size(); ++g) {
-    const double s = plain(drawing.slides[g].s);
-    force += plain(drawing.weights[g]) * moment_force(q, s, unit_torque(*curve_, s));
+  for (std::size_t g = 0; g < places.size(); ++g) {
+    const double s = places.place(g);
+    force += places.weight(g) * moment_force(q, s, unit_torque(*curve_, s));
   }
   return force;
 }
@@ -52,7 +53,7 @@ TwistElement::Matrix TwistElement::torque_gradient(const Coordinates& q) const {
   if (fixed())
     return twist::spread_out<fixed_rows>(twist::derivatives<fixed_rows>(fixed_torque<Dual<fixed_rows>>(
         twist::variables<fixed_rows, double>(twist::reduced_of<fixed_rows>(q)))));
-  const twist::AnyDrawing<twist::PlaceSeries> drawing = drawn_element(q).drawing();
+  const twist::AnyDrawing<twist::PlaceSeries> drawing = drawn_element<twist::PlaceSeries>(q).drawing();
   Matrix K = Matrix::Zero();
   for (std::size_t g = 0; g < drawing.slides.size(); ++g) {
     const twist::PlaceSeries &s = drawing.slides[g].s, &w = drawing.weights[static_cast<Eigen::Index>(g)];

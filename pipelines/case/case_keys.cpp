@@ -216,8 +216,9 @@ Shape beam() {
         "curvature and no sliding bodies; reference when omitted"},
        {"torsion", boolean(),
         "the beam bends about its section's own axes and twists, in space; when omitted true with `orientation` or "
-        "`second_moments`, and, where `stress_free` does not say \"straight\", where the axis is curved in space and "
-        "where a support, joint, load or body needs its sections"},
+        "`second_moments`, and, where `stress_free` does not say \"straight\", where the axis is curved in space, "
+        "where a drawn profile in space does not bend alike in all directions and where a support, joint, load or body "
+        "needs its sections"},
        {"orientation", orientation(), "how the sections of a beam with torsion are drawn"},
        {"stress_free", choice({"as-drawn", "straight", "as-drawn-without-torsion"}),
         "the unstressed shape; when omitted as-drawn in planar models and with torsion, else straight"},

@@ -13,18 +13,23 @@ namespace nurbeam {
 
 namespace {
 
-// A spatial model has one bending stiffness for all directions.
+constexpr double alike = 1e-3;  ///< of the greater principal second moment
+
+bool bends_alike(const SectionProfile& profile) {
+  return profile.principal_1() - profile.principal_2() <= alike * profile.principal_1();
+}
+
+// In space a beam without torsion has one bending stiffness for all directions.
 void check_isotropy(const std::string& where, const SectionProfile& profile, Findings& findings) {
-  constexpr double alike = 1e-3;
   const double most = profile.principal_1(), least = profile.principal_2();
-  if (most - least > alike * most)
-    findings.error(where,
-                   "the profile's principal second moments are " + text_of(most) + " and " + text_of(least) +
-                       " m^4; in a spatial model, whose beams bend alike in all directions, they may differ "
-                       "by " +
-                       text_of(alike * most) +
-                       " m^4: draw a section that is alike in both, give \"area\" and \"second_moment\", or "
-                       "keep axes, loads and gravity in one plane");
+  if (!bends_alike(profile))
+    findings.error(
+        where,
+        "the profile's principal second moments are " + text_of(most) + " and " + text_of(least) +
+            " m^4; in space a beam without torsion bends alike in all directions, and they may differ by " +
+            text_of(alike * most) +
+            " m^4: give the beam \"torsion\": true, draw a section that is alike in both, or give "
+            "\"area\" and \"second_moment\"");
 }
 
 // The greatest value of `distance` over the outline.
@@ -53,7 +58,7 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
   if (!drawn.value) return {};
   const SectionProfile& profile = *drawn.value;
   CaseSection section{.area = profile.area, .second_moment = profile.second_x};
-  if (beam.torsion) {
+  if (beam.torsion || (dimension == 3 && beam.torsion_by_drawing && !bends_alike(profile))) {
     section.second_moments = {profile.second_x, profile.second_y};
     section.product = profile.product;
     section.torsion_constant = beam.section.torsion_constant;
@@ -149,6 +154,11 @@ std::optional<TorsionSection> torsion_section(const CaseBeam& beam, double lengt
         Severity::note, beam.path + ".section",
         "is taken for a round one in torsion, with a torsion constant of twice \"second_moment\": give "
         "\"torsion_constant\" where it is not");
+  if (sizes.second_moments && sizes.extreme_fibre && !section.profile)
+    findings.warn(
+        beam.path + ".section.extreme_fibre",
+        "has no place on a section with \"second_moments\", of which it gives no stress: that needs a "
+        "\"profile\"");
   const double E = beam.material.youngs_modulus, G = shear_modulus(beam, findings);
   const auto [I_x, I_y] = sizes.second_moments.value_or(std::array{sizes.second_moment, sizes.second_moment});
   if (!(I_x * I_y > sizes.product * sizes.product)) {

@@ -16,7 +16,8 @@ struct BeamSection {
 };
 
 /// The section of a beam in a model of so many dimensions; nothing, with an error among the findings, where
-/// the profile cannot be used.
+/// the profile cannot be used. A profile that does not bend alike in all directions has both its second
+/// moments in space, where the beam does not say that it has no torsion.
 std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
                                         Findings& findings);
 

@@ -323,9 +323,11 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     from.torsion = from.torsion || is_given_torsion(from, drawn->curve);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!section) break;
+    const bool uneven = !from.torsion && section->profile && section->section.second_moments;
+    from.torsion = from.torsion || uneven;
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
-    if (built.frame.dimension == 3) built.sources.back().torsion = why_torsion(from, asked);
+    if (built.frame.dimension == 3) built.sources.back().torsion = why_torsion(from, asked, uneven);
     built.sources.back().outline = section_outline(*section);
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);

@@ -47,9 +47,9 @@ std::vector<Chain> chosen_chains(const CaseBeam& beam, const AxisFile& axis, Cad
     findings.error(selection.key.empty() ? where : where + "." + selection.key, selection.error);
     return {{}};
   }
-  constexpr double round_off = 1e-10;  // of a length: the digits of a file
+  constexpr double digits_of_a_file = 1e-10;  // of a length
   for (const Gap& gap : selection.gaps) {
-    if (gap.width <= round_off * length(report.curves[gap.curve_a].curve)) continue;
+    if (gap.width <= digits_of_a_file * length(report.curves[gap.curve_a].curve)) continue;
     findings.warn(where, "the gap of " + text_of(gap.width) + " m between curves " +
                              std::to_string(gap.curve_a + 1) + " and " + std::to_string(gap.curve_b + 1) +
                              " of " + report.file + " at " + text_of(gap.point) + " was closed");

@@ -6,7 +6,7 @@
 namespace nurbeam {
 
 /// Whether a beam in space has torsion, which its `torsion` says by now, and why: for those who check a case.
-/// `asked`: the case file itself asks for it.
-std::string why_torsion(const CaseBeam& beam, bool asked);
+/// `asked`: the case file itself asks for it; `uneven`: its section bends about two axes of its own.
+std::string why_torsion(const CaseBeam& beam, bool asked, bool uneven);
 
 }  // namespace nurbeam

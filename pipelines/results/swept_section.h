@@ -10,12 +10,14 @@
 
 namespace nurbeam {
 
-/// Why the sections of a beam cannot be swept: it has no torsion, and so no orientation, or its axis or its
-/// sections turn at once at a corner, or it is a ring. Nothing where they can.
+/// Why the sections of a beam cannot be swept: it has no torsion, and so no orientation, or at a corner its
+/// sections do not meet in a mitre, as those do that are carried over it by the smallest rotation. Nothing
+/// where they can.
 std::optional<std::string> sweeping_obstacle(const BeamRecord& beam);
 
 /// The curve that the material point of the section at (x, y) [m] makes along a beam without an obstacle: a
-/// cubic spline through the elements' samples.
+/// cubic spline through the elements' samples, from corner to corner, where it goes on to the plane of the
+/// mitre.
 NurbsCurve section_line(const BeamRecord& beam, const Eigen::Vector2d& place);
 
 /// The profile, of this area [m^2], moved and turned as the sections of a beam without an obstacle are; its

@@ -147,7 +147,7 @@ class Document {
 
 // --------------------------------------------------------------------------------- an assembly in colours
 
-gp_Trsf placed(double angle) {
+gp_Trsf placed_curve(double angle) {
   gp_Trsf turn, shift;
   turn.SetRotation(gp_Ax1(gp_Pnt(10, 20, 30), gp_Dir(1, 2, 3)), angle);
   shift.SetTranslation(gp_Vec(1000, -500, 250 * angle));
@@ -196,7 +196,7 @@ void write_rig(const fs::path& file) {
   const TDF_Label rig = shapes->NewShape();
   TDataStd_Name::Set(rig, "rig");
   const auto place = [&](const TDF_Label& part, const char* name, double angle) {
-    TDataStd_Name::Set(shapes->AddComponent(rig, part, TopLoc_Location(placed(angle))), name);
+    TDataStd_Name::Set(shapes->AddComponent(rig, part, TopLoc_Location(placed_curve(angle))), name);
   };
   place(harness, "harness 1", 0.7);
   place(bracket, "bracket left", 1.7);
@@ -311,7 +311,7 @@ struct Styled {
   int item;
 };
 
-class StyleAfterExport : public testing::TestWithParam<Styled> {};
+class StyleAfterExport : public ::testing::TestWithParam<Styled> {};
 
 TEST_P(StyleAfterExport, IsStillThatOfTheCurve) {
   const ScratchDirectory scratch;
@@ -349,10 +349,10 @@ TEST_P(StyleAfterExport, IsStillThatOfTheCurve) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AttachedTo, StyleAfterExport,
-                         testing::Values(Styled{"Curve", "#100 = CIRCLE('hoop',#11,2.);", 100},
-                                         Styled{"TrimmedCurve", trimmed_arc, 100},
-                                         Styled{"BasisOfTrimmedCurve", trimmed_arc, 101},
-                                         Styled{"Edge", brace, 100}, Styled{"GeometryOfEdge", brace, 101}),
+                         ::testing::Values(Styled{"Curve", "#100 = CIRCLE('hoop',#11,2.);", 100},
+                                           Styled{"TrimmedCurve", trimmed_arc, 100},
+                                           Styled{"BasisOfTrimmedCurve", trimmed_arc, 101},
+                                           Styled{"Edge", brace, 100}, Styled{"GeometryOfEdge", brace, 101}),
                          [](const auto& test) { return std::string(test.param.what); });
 
 TEST(AppearanceAfterExport, GeometryThatTwoCurvesAreMadeOfStaysThatOfTheOther) {

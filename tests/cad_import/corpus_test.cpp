@@ -70,7 +70,7 @@ const std::vector<Expected> manifest{
     {"rhino-sliced-cylinder.step", "cm", 9, 0, {{"bspline", 7}, {"circle", 2}}, 3, 1376.947590},
     {"pygem-pipe.step", "mm", 18, 0, {{"bspline", 18}}, 2, 105132.741000, {}, {1000}}};
 
-class CorpusFile : public testing::TestWithParam<Expected> {};
+class CorpusFile : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(CorpusFile, GivesTheCurvesOfTheManifest) {
   const Expected& expected = GetParam();
@@ -129,7 +129,7 @@ TEST_P(CorpusFile, HasClampedCurvesOnly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CorpusFile, testing::ValuesIn(manifest), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(All, CorpusFile, ::testing::ValuesIn(manifest), [](const auto& test) {
   std::string name = test.param.file;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');

@@ -59,7 +59,7 @@ int entries(const fs::path& directory) {
   return static_cast<int>(std::distance(fs::directory_iterator(directory), {}));
 }
 
-class RoundTrip : public testing::TestWithParam<Target> {};
+class RoundTrip : public ::testing::TestWithParam<Target> {};
 
 TEST_P(RoundTrip, GivesEveryCubicOfTheCorpusBackUnderItsName) {
   const ScratchDirectory scratch;
@@ -118,16 +118,16 @@ TEST_P(RoundTrip, KeepsTheShapeOfACurveWithUnclampedEnds) {
 
 TEST_P(RoundTrip, PrintsNothing) {
   const ScratchDirectory scratch;
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
   ASSERT_TRUE(export_curves(scratch.path() / ("a" + GetParam().extension), {{"a", quarter_circle(1)}},
                             GetParam().unit)
                   .empty());
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(targets), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(All, RoundTrip, ::testing::ValuesIn(targets), [](const auto& test) {
   return test.param.extension.substr(1) + "_" + test.param.unit_name;
 });
 
@@ -170,7 +170,8 @@ std::string content_of_file(const fs::path& file) {
 }
 
 // A curve that comes back: the same knots, control points within `digits` of its size.
-void expect_same(const NurbsCurve& after, const NurbsCurve& before, double digits, const std::string& name) {
+void expect_same_curves(const NurbsCurve& after, const NurbsCurve& before, double digits,
+                        const std::string& name) {
   ASSERT_EQ(after.knots().knots().size(), before.knots().knots().size()) << name;
   const double size = before.control_points().cwiseAbs().maxCoeff();
   EXPECT_LE((after.control_points() - before.control_points()).cwiseAbs().maxCoeff(), digits * size) << name;
@@ -194,7 +195,7 @@ TEST(ExportCurves, DxfGivesEveryCubicOfTheCorpusBackOnALayerOfItsName) {
     for (std::size_t i = 0; i < written.size(); ++i) {
       EXPECT_EQ(report.curves[i].layer, written[i].name);
       if (written[i].curve.control_points().cols() > 2)  // a line has the parameter of a line
-        expect_same(report.curves[i].curve, written[i].curve, 1e-15, written[i].name);
+        expect_same_curves(report.curves[i].curve, written[i].curve, 1e-15, written[i].name);
       else
         EXPECT_LE((report.curves[i].curve.point(report.curves[i].curve.knots().end()) -
                    written[i].curve.point(written[i].curve.knots().end()))
@@ -230,7 +231,7 @@ TEST(ExportCurves, BrepGivesEveryCubicOfTheCorpusBackInMillimetresOnly) {
   EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
   ASSERT_EQ(report.curves.size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i)
-    expect_same(report.curves[i].curve, written[i].curve, 2e-15, written[i].name);
+    expect_same_curves(report.curves[i].curve, written[i].curve, 2e-15, written[i].name);
   EXPECT_THROW((void)export_curves(file, written, LengthUnit::metre), std::invalid_argument);
 }
 
@@ -249,7 +250,7 @@ TEST(ExportCurves, TheSchemaOfAStepFileIsTheOneAskedFor) {
     ASSERT_EQ(report.curves.size(), 2U);
     EXPECT_EQ(report.curves[1].name, "right");
     EXPECT_EQ(report.curves[1].part, "beams/right");
-    expect_same(report.curves[1].curve, quarter_circle(2), 1e-15, "right");
+    expect_same_curves(report.curves[1].curve, quarter_circle(2), 1e-15, "right");
   }
 }
 

@@ -26,22 +26,6 @@ std::string lies_in(const std::string& file, const std::string& product_definiti
          "));\n#203 = DOCUMENT_REPRESENTATION_TYPE('digital',#201);\n";
 }
 
-/// An occurrence of the part #51 in the assembly #5: its instances are numbered from `n`; its axes are moved
-/// to (x, 0, 0) and turned by 90 degrees about z.
-std::string occurrence(int n, const std::string& name, double x) {
-  const auto number = [&](int i) { return "#" + std::to_string(n + i); };
-  return number(0) + " = NEXT_ASSEMBLY_USAGE_OCCURRENCE('" + name + "','" + name + "','',#5,#51,$);\n" +
-         number(1) + " = PRODUCT_DEFINITION_SHAPE('',''," + number(0) + ");\n" + number(2) +
-         " = CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(" + number(3) + "," + number(1) + ");\n" + number(3) +
-         " = ( REPRESENTATION_RELATIONSHIP('','',#55,#10) "
-         "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(" +
-         number(4) + ") SHAPE_REPRESENTATION_RELATIONSHIP() );\n" + number(4) +
-         " = ITEM_DEFINED_TRANSFORMATION('','',#11," + number(5) + ");\n" + number(5) +
-         " = AXIS2_PLACEMENT_3D(''," + number(6) + ",#13," + number(7) + ");\n" + number(6) +
-         " = CARTESIAN_POINT('',(" + std::to_string(x) + ",0.,0.));\n" + number(7) +
-         " = DIRECTION('',(0.,1.,0.));\n";
-}
-
 /// An assembly, "bridge", with a hoop of its own and two ropes that lie in `file`.
 std::string bridge(const std::string& file) {
   const std::string rope =
@@ -144,6 +128,26 @@ TEST(ExternalParts, ADeformedCurveOfOneIsAddedToTheAssembly) {
                                   [](const ImportedCurve& curve) { return curve.name == "rope left"; });
   ASSERT_NE(added, after.curves.end());
   EXPECT_LE((end_of(added->curve) - Eigen::Vector3d(0.1, 0.05, 0.4)).norm(), 1e-15);
+}
+
+// Nor is the centre line of a solid in the file itself.
+TEST(ExternalParts, ADeformedCentreLineIsAddedBesideItsSolid) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "rod.step", target = scratch.path() / "target.step";
+  ASSERT_TRUE(export_solids(source, {{{"rod", line({0, 0, 0}, {1, 0, 0})}, 0.1}}, LengthUnit::inch).empty());
+  const ImportReport before = import_curves(source);
+  ASSERT_TRUE(!before.curves.empty() && before.curves.back().is_centre_line());
+  const auto warnings = export_into_step(
+      source, target, {{before.curves.back().curve, line({0, 0, 0}, {0.8, 0.6, 0}), "bent rod"}});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].message.find("centre line of a solid"), std::string::npos) << warnings[0].message;
+  const ImportReport after = import_curves(target);
+  EXPECT_EQ(after.curves.size(), before.curves.size() + 1);
+  const auto added = std::find_if(after.curves.begin(), after.curves.end(),
+                                  [](const ImportedCurve& curve) { return curve.name == "bent rod"; });
+  ASSERT_NE(added, after.curves.end());
+  EXPECT_TRUE(added->free);
+  EXPECT_LE((end_of(added->curve) - Eigen::Vector3d(0.8, 0.6, 0)).norm(), 1e-15);
 }
 
 }  // namespace

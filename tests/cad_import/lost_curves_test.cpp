@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "cad_import/export_into_step.h"
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
 #include "tests/cad_import/curve_ends.h"
@@ -13,6 +14,7 @@
 #include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
+#include "tests/support/curves.h"
 
 namespace nurbeam {
 namespace {
@@ -61,17 +63,20 @@ TEST(LostCurves, ARationalBezierCurveIsReadExactly) {
   }
 }
 
-TEST(LostCurves, ADegreeAboveTwentyFiveIsRead) {
+/// #110, of degree 30, whose control points have x from 0 to 30.
+std::string steep_curve() {
   std::vector<Eigen::Vector3d> places;
   std::string list;
   for (int i = 0; i <= 30; ++i) {
     places.emplace_back(i, i % 2, 0);
     list += (i > 0 ? ",#" : "#") + std::to_string(200 + i);
   }
-  const ImportReport report =
-      import_beside_a_circle(points("200", places) + "#110 = B_SPLINE_CURVE_WITH_KNOTS('steep',30,(" + list +
-                                 "),.UNSPECIFIED.,.F.,.F.,(31,31),(0.,1.),.UNSPECIFIED.);\n",
-                             ",#110");
+  return points("200", places) + "#110 = B_SPLINE_CURVE_WITH_KNOTS('steep',30,(" + list +
+         "),.UNSPECIFIED.,.F.,.F.,(31,31),(0.,1.),.UNSPECIFIED.);\n";
+}
+
+TEST(LostCurves, ADegreeAboveTwentyFiveIsRead) {
+  const ImportReport report = import_beside_a_circle(steep_curve(), ",#110");
   EXPECT_TRUE(report.diagnostics.empty());
   const ImportedCurve* curve = named(report, "steep");
   ASSERT_NE(curve, nullptr);
@@ -120,6 +125,77 @@ TEST(LostCurves, SupplementalGeometryInAnAssemblyLiesInItsPartInItsOwnUnit) {
     ASSERT_TRUE(helps.contains(part)) << part;
     EXPECT_LE((start_of(helps.at(part)) - Eigen::Vector3d(x, 0, 0)).norm(), 1e-15);
     EXPECT_LE((end_of(helps.at(part)) - Eigen::Vector3d(x, 0.02, 0)).norm(), 1e-15);
+  }
+}
+
+/// Assembly "curves" with a circle of its own and the part "rope" at 100 and at 300 mm, turned by 90 degrees:
+/// its set of curves, in inches, holds these.
+std::string assembly_with(const std::string& references, const std::string& entities) {
+  return step_text_of(
+      "#100",
+      "#100 = CIRCLE('good',#11,1.);\n"
+      "#51 = PRODUCT_DEFINITION('design','',#52,#9);\n#52 = PRODUCT_DEFINITION_FORMATION('','',#53);\n"
+      "#53 = PRODUCT('rope','rope','',(#8));\n#54 = SHAPE_DEFINITION_REPRESENTATION(#56,#55);\n"
+      "#55 = SHAPE_REPRESENTATION('rope',(#11),#140);\n#56 = PRODUCT_DEFINITION_SHAPE('','',#51);\n"
+      "#57 = GEOMETRIC_CURVE_SET('',(" +
+          references +
+          "));\n"
+          "#58 = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#57),#140);\n"
+          "#59 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#55,#58);\n"
+          "#140 = ( GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNIT_ASSIGNED_CONTEXT((#141,#28,#29)) "
+          "REPRESENTATION_CONTEXT('','3D') );\n#141 = " +
+          inch + ";\n" + occurrence(60, "left", 100) + occurrence(80, "right", 300) + entities);
+}
+
+TEST(LostCurves, OfPartsOfAnAssemblyStandAtTheirPlacesInTheirUnit) {
+  // A piece of an ellipse whose edge has ends of its own, so that OpenCASCADE reads it with its own factors.
+  const std::string edge =
+      points("300", {{3, 0, 0}, {0, 1, 0}}) +
+      "#320 = VERTEX_POINT('',#300);\n#321 = VERTEX_POINT('',#301);\n#322 = ELLIPSE('',#11,3.,1.);\n"
+      "#323 = EDGE_CURVE('rim',#320,#321,#322,.T.);\n";
+  const std::string strand =
+      points("400", {{0, 0, 0}, {2, 0, 0}}) + "#402 = POLYLINE('strand',(#400,#401));\n";
+  for (const bool beside_others : {true, false}) {
+    const std::string references = beside_others ? "#110,#323,#402" : "#110,#323";
+    const ImportReport report =
+        import_text(assembly_with(references, steep_curve() + edge + (beside_others ? strand : "")));
+    EXPECT_EQ(report.diagnostics.size(), 1U);  // the note that there are two units
+    std::map<std::string, NurbsCurve> found;
+    for (const ImportedCurve& curve : report.curves)
+      found.emplace(curve.part + ":" + curve.name, curve.curve);
+    for (const auto& [part, x] : {std::pair{"curves/left", 0.1}, {"curves/right", 0.3}}) {
+      SCOPED_TRACE(std::string(part) + " of " + references);
+      const auto end_is = [&](const std::string& name, double y) {
+        ASSERT_TRUE(found.contains(part + name));
+        EXPECT_LE((end_of(found.at(part + name)) - Eigen::Vector3d(x, y, 0)).norm(), 1e-14);
+      };
+      end_is(":steep", 30 * 0.0254);
+      ASSERT_TRUE(found.contains(std::string(part) + ":rim"));
+      EXPECT_LE((start_of(found.at(std::string(part) + ":rim")) - Eigen::Vector3d(x, 3 * 0.0254, 0)).norm(),
+                1e-14);
+      if (beside_others) end_is(":strand", 2 * 0.0254);
+    }
+  }
+}
+
+TEST(LostCurves, ThoseOfPartsAreExchangedAtTheirPlaces) {
+  const ScratchDirectory scratch;
+  const auto source = scratch.file("assembly.step", assembly_with("#110", steep_curve())),
+             target = scratch.path() / "moved.step";
+  const ImportReport before = import_curves(source);
+  const auto right = std::find_if(before.curves.begin(), before.curves.end(),
+                                  [](const ImportedCurve& curve) { return curve.part == "curves/right"; });
+  ASSERT_NE(right, before.curves.end());
+  const NurbsCurve moved = line({0.3, 0, 0}, {0.3, 0.1, 0.2});
+  const auto warnings = export_into_step(source, target, {{right->curve, moved, "steep"}});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].message.find("stands at 2 places"), std::string::npos) << warnings[0].message;
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 3U);
+  for (const ImportedCurve& curve : after.curves) {
+    if (curve.name != "steep") continue;
+    const double x = curve.part == "curves/right" ? 0.3 : 0.1;
+    EXPECT_LE((end_of(curve.curve) - Eigen::Vector3d(x, 0.1, 0.2)).norm(), 1e-14) << curve.part;
   }
 }
 

@@ -14,7 +14,7 @@ namespace nurbeam {
 class ScratchDirectory {
  public:
   ScratchDirectory() {
-    std::string name = testing::TempDir() + "nurbeam_cad_XXXXXX";
+    std::string name = ::testing::TempDir() + "nurbeam_cad_XXXXXX";
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
     path_ = name;
   }

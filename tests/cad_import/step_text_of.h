@@ -47,4 +47,20 @@ END-ISO-10303-21;
 )";
 }
 
+/// An occurrence of the part #51, whose representation is #55, in the assembly #5: its instances are numbered
+/// from `n`; its axes are moved to (x, 0, 0) and turned by 90 degrees about z.
+inline std::string occurrence(int n, const std::string& name, double x) {
+  const auto number = [&](int i) { return "#" + std::to_string(n + i); };
+  return number(0) + " = NEXT_ASSEMBLY_USAGE_OCCURRENCE('" + name + "','" + name + "','',#5,#51,$);\n" +
+         number(1) + " = PRODUCT_DEFINITION_SHAPE('',''," + number(0) + ");\n" + number(2) +
+         " = CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(" + number(3) + "," + number(1) + ");\n" + number(3) +
+         " = ( REPRESENTATION_RELATIONSHIP('','',#55,#10) "
+         "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(" +
+         number(4) + ") SHAPE_REPRESENTATION_RELATIONSHIP() );\n" + number(4) +
+         " = ITEM_DEFINED_TRANSFORMATION('','',#11," + number(5) + ");\n" + number(5) +
+         " = AXIS2_PLACEMENT_3D(''," + number(6) + ",#13," + number(7) + ");\n" + number(6) +
+         " = CARTESIAN_POINT('',(" + std::to_string(x) + ",0.,0.));\n" + number(7) +
+         " = DIRECTION('',(0.,1.,0.));\n";
+}
+
 }  // namespace nurbeam

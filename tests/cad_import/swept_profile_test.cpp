@@ -72,7 +72,7 @@ TEST(SweptSections, AreValidSolidsOfTheAreaTimesTheLength) {
   const double hole = pi * 0.02 * 0.02;
   for (const double turn : {0.0, 1.3})
     for (const double twist : {0.0, 2.0}) {
-      SCOPED_TRACE(testing::Message() << turn << " " << twist);
+      SCOPED_TRACE(::testing::Message() << turn << " " << twist);
       const std::vector<NamedSolid> solids = {
           swept({rectangle(0.06, 0.1), {ellipse(0.02, 0.02)[0].reversed()}}, 0.06 * 0.1 - hole, turn, twist)};
       const std::vector<Diagnostic> problems = export_solids(file, solids, LengthUnit::millimetre);
@@ -86,6 +86,56 @@ TEST(SweptSections, AreValidSolidsOfTheAreaTimesTheLength) {
       const double expected = (0.06 * 0.1 - hole) * (turn > 0 ? turn : 1);
       EXPECT_NEAR(1e-9 * properties.Mass() / expected, 1, 1e-4);
     }
+}
+
+double volume_read_back(const std::filesystem::path& file) {
+  const TopoDS_Shape shape = read_back(file);
+  EXPECT_FALSE(shape.IsNull());
+  if (shape.IsNull()) return 0;
+  EXPECT_EQ(shape.ShapeType(), TopAbs_SOLID);
+  EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return 1e-9 * properties.Mass();
+}
+
+TEST(SweptSections, CloseAsRings) {
+  const ScratchDirectory scratch;
+  const std::filesystem::path file = scratch.path() / "ring.step";
+  const double hole = pi * 0.02 * 0.02, area = 0.06 * 0.1 - hole;
+  for (const double twist : {0.0, 2 * pi}) {
+    const std::vector<NamedSolid> solids = {
+        swept({rectangle(0.06, 0.1), {ellipse(0.02, 0.02)[0].reversed()}}, area, 2 * pi, twist)};
+    const std::vector<Diagnostic> problems = export_solids(file, solids, LengthUnit::millimetre);
+    ASSERT_TRUE(problems.empty()) << problems.front().message;
+    EXPECT_NEAR(volume_read_back(file) / (area * 2 * pi), 1, 5e-4) << twist;
+  }
+}
+
+// Along x and then along y, from mitre to mitre.
+TEST(SweptSections, GoOnFromCornerToCorner) {
+  const double b = 0.06, h = 0.1;
+  SweptProfile profile{"frame", "", {{}}, 2 * b * h};
+  for (const NurbsCurve& side : rectangle(b, h)) {
+    const RationalCubic cubic = BezierPath::from_nurbs(side, 1e-9).segments.front();
+    const auto rail = [&](int k) {
+      const double x = cubic.control_point(k).x(), y = cubic.control_point(k).y();
+      Eigen::Matrix3Xd poles(3, 7);
+      for (int i = 0; i < 4; ++i) {
+        poles.col(i) << i / 3.0 * (1 - x), x, y;
+        poles.col(3 + i) << 1 - x, x + i / 3.0 * (1 - x), y;
+      }
+      return make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2}), poles,
+                              Eigen::VectorXd::Ones(7));
+    };
+    profile.loops[0].push_back({{rail(0), rail(1), rail(2), rail(3)}, Eigen::Vector4d::Ones()});
+  }
+  const ScratchDirectory scratch;
+  const std::filesystem::path file = scratch.path() / "frame.step";
+  const std::vector<Diagnostic> problems =
+      export_solids(file, std::vector<NamedSolid>{profile}, LengthUnit::millimetre);
+  ASSERT_TRUE(problems.empty()) << problems.front().message;
+  EXPECT_NEAR(volume_read_back(file), 2 * b * h, 1e-9);
 }
 
 TEST(SweptSections, StandBesidePipes) {

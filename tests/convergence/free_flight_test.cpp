@@ -62,7 +62,7 @@ BeamModel flying(int dimension, bool with_body) {
 }
 
 // Momenta at the end less those at the start.
-Momenta drift(const BeamModel& model, const SimulationOptions& options) {
+Momenta flight_drift(const BeamModel& model, const SimulationOptions& options) {
   std::vector<Checkpoint> points;
   SimulationObserver observer;
   observer.checkpoint_due = [&] { return points.empty(); };
@@ -87,7 +87,7 @@ TEST(FreeFlight, WithoutBodiesLinearMomentumIsKeptToRoundOff) {
   for (const int dimension : {2, 3}) {
     SimulationOptions options = to_half_a_second();
     options.step = 2e-3;
-    EXPECT_LT(drift(flying(dimension, false), options).linear.norm(), 1e-11);
+    EXPECT_LT(flight_drift(flying(dimension, false), options).linear.norm(), 1e-11);
   }
 }
 
@@ -96,7 +96,8 @@ TEST(FreeFlight, WithABodyMomentaDriftWithTheTolerance) {
   for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
     SimulationOptions options = to_half_a_second();
     options.integrator = GeneralizedAlpha{.tolerance = tolerance};
-    const Momenta with = drift(flying(2, true), options), without = drift(flying(2, false), options);
+    const Momenta with = flight_drift(flying(2, true), options),
+                  without = flight_drift(flying(2, false), options);
     EXPECT_LT(without.linear.norm(), 1e-13);
     EXPECT_LT(with.linear.norm(), 0.1 * tolerance);
     for (const Momenta& momenta : {with, without}) EXPECT_LT(momenta.angular.norm(), tolerance);

@@ -44,7 +44,7 @@ struct Driven {
   std::function<BeamModel()> model;
 };
 
-class InputWork : public testing::TestWithParam<Driven> {};
+class InputWork : public ::testing::TestWithParam<Driven> {};
 
 TEST_P(InputWork, KeepsTheBalanceToTheOrderOfTheStep) {
   const BeamModel model = GetParam().model();
@@ -57,62 +57,61 @@ const TimeTable ramp{{0, 0}, {0.1, 1}, {0.2, 0.5}};
 
 INSTANTIATE_TEST_SUITE_P(
     Each, InputWork,
-    testing::Values(Driven{"DeadForce",
-                           [] {
-                             BeamModel model = arc();
-                             add_force(model, {3, 20, 0}, 10);
-                             return model;
-                           }},
-                    Driven{"RampedFollowerForceInSpace",
-                           [] {
-                             BeamModel model = arc(3);
-                             LoadAtPlace load = load_at(model, {0, -20, 5}, 10);
-                             load.follower = true;
-                             load.time = ramp;
-                             model.forces.push_back(PointLoad{load});
-                             return model;
-                           }},
-                    Driven{"Moment",
-                           [] {
-                             BeamModel model = arc();
-                             LoadAtPlace load = load_at(model, {0, 0, 2}, 10);
-                             load.time = ramp;
-                             model.forces.push_back(Moment{load});
-                             return model;
-                           }},
-                    Driven{"LineLoadBesideASlider",
-                           [] {
-                             BeamModel model = arc();
-                             add_slider(model, 0.5, 0.4);
-                             model.forces.push_back(LineLoad{0, {10, 30, 0}, ramp});
-                             return model;
-                           }},
-                    Driven{"MovingForce",
-                           [] {
-                             BeamModel model = arc();
-                             add_force(model, {0, -30, 0}, 0, 6);
-                             return model;
-                           }},
-                    Driven{
-                        "SpringToAPoint",
-                        [] {
-                          BeamModel model = arc();
-                          CustomForce spring;
-                          spring.points = {
-                              CustomForce::Attachment::to_beam(0, model.beams[0].curve.length())};
-                          spring.law = [](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
-                            return CustomForce::Response{200 * (Eigen::Vector3d(2, 2, 0) - r.col(0)), {}, {}};
-                          };
-                          model.forces.push_back(spring);
-                          return model;
-                        }},
-                    Driven{"DrivenSlider",
-                           [] {
-                             BeamModel model = arc();
-                             add_slider(model, 2, 0.3);
-                             model.joints[0].motion = TimeTable{{0, 0.3}, {0.2, 0.7}};
-                             return model;
-                           }}),
+    ::testing::Values(
+        Driven{"DeadForce",
+               [] {
+                 BeamModel model = arc();
+                 add_force(model, {3, 20, 0}, 10);
+                 return model;
+               }},
+        Driven{"RampedFollowerForceInSpace",
+               [] {
+                 BeamModel model = arc(3);
+                 LoadAtPlace load = load_at(model, {0, -20, 5}, 10);
+                 load.follower = true;
+                 load.time = ramp;
+                 model.forces.push_back(PointLoad{load});
+                 return model;
+               }},
+        Driven{"Moment",
+               [] {
+                 BeamModel model = arc();
+                 LoadAtPlace load = load_at(model, {0, 0, 2}, 10);
+                 load.time = ramp;
+                 model.forces.push_back(Moment{load});
+                 return model;
+               }},
+        Driven{"LineLoadBesideASlider",
+               [] {
+                 BeamModel model = arc();
+                 add_slider(model, 0.5, 0.4);
+                 model.forces.push_back(LineLoad{0, {10, 30, 0}, ramp});
+                 return model;
+               }},
+        Driven{"MovingForce",
+               [] {
+                 BeamModel model = arc();
+                 add_force(model, {0, -30, 0}, 0, 6);
+                 return model;
+               }},
+        Driven{"SpringToAPoint",
+               [] {
+                 BeamModel model = arc();
+                 CustomForce spring;
+                 spring.points = {CustomForce::Attachment::to_beam(0, model.beams[0].curve.length())};
+                 spring.law = [](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
+                   return CustomForce::Response{200 * (Eigen::Vector3d(2, 2, 0) - r.col(0)), {}, {}};
+                 };
+                 model.forces.push_back(spring);
+                 return model;
+               }},
+        Driven{"DrivenSlider",
+               [] {
+                 BeamModel model = arc();
+                 add_slider(model, 2, 0.3);
+                 model.joints[0].motion = TimeTable{{0, 0.3}, {0.2, 0.7}};
+                 return model;
+               }}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Slider {
 };
 
 // A beam of 1 m hung at both ends.
-BeamModel suspended_beam(int elements, const std::vector<Slider>& sliders) {
+BeamModel beam_with_joints(int elements, const std::vector<Slider>& sliders) {
   BeamModel model = one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2, round_bar(0.01, 7200, 20e6), elements,
                              {{0, false}, {1, false}});
   for (const Slider& slider : sliders) {
@@ -53,9 +53,9 @@ double largest_difference(const RunRecord& a, const RunRecord& b) {
 
 TEST(TwoSliders, ThatShareAnElementConvergeAndKeepTheirEnergy) {
   const std::vector<double> times = even_times(0.25, 25);
-  const RunRecord coarse = run_model(suspended_beam(12, chase()), times, 2e-4);
-  const RunRecord middle = run_model(suspended_beam(24, chase()), times, 2e-4);
-  const RunRecord fine = run_model(suspended_beam(48, chase()), times, 2e-4);
+  const RunRecord coarse = run_model(beam_with_joints(12, chase()), times, 2e-4);
+  const RunRecord middle = run_model(beam_with_joints(24, chase()), times, 2e-4);
+  const RunRecord fine = run_model(beam_with_joints(48, chase()), times, 2e-4);
   EXPECT_LT(smallest_distance(fine), 1.0 / 48);
   EXPECT_LT(largest_difference(middle, fine), largest_difference(coarse, fine) / 3);
   EXPECT_LT(largest_difference(middle, fine), 1e-3);
@@ -67,8 +67,8 @@ TEST(TwoSliders, MoveAsInAMirrorInTheReflectedModel) {
   const std::vector<double> times = even_times(0.25, 10);
   std::vector<Slider> reflected;
   for (const Slider& slider : chase()) reflected.push_back({slider.mass, 1 - slider.s, -slider.speed});
-  const RunRecord run = run_model(suspended_beam(16, chase()), times, 5e-4);
-  RunRecord mirror = run_model(suspended_beam(16, reflected), times, 5e-4);
+  const RunRecord run = run_model(beam_with_joints(16, chase()), times, 5e-4);
+  RunRecord mirror = run_model(beam_with_joints(16, reflected), times, 5e-4);
   EXPECT_GT(run.report.events.size(), 10U);
   for (Snapshot& frame : mirror.frames)
     for (BodyRecord& body : frame.bodies) body.point.position.x() = 1 - body.point.position.x();
@@ -77,8 +77,8 @@ TEST(TwoSliders, MoveAsInAMirrorInTheReflectedModel) {
 
 TEST(TwoBeams, MoveEachAsAlone) {
   const std::vector<double> times = even_times(0.3, 10);
-  const RunRecord alone = run_model(suspended_beam(12, {{2, 0.15, 1}}), times, 5e-4);
-  BeamModel both = suspended_beam(12, {{2, 0.15, 1}, {2, 0.15, 1}});
+  const RunRecord alone = run_model(beam_with_joints(12, {{2, 0.15, 1}}), times, 5e-4);
+  BeamModel both = beam_with_joints(12, {{2, 0.15, 1}, {2, 0.15, 1}});
   both.beams.push_back(both.beams[0]);
   both.beams[1].name = "other";
   both.joints[1].beam = 1;

@@ -14,7 +14,7 @@ namespace {
 using test::CaseRun;
 using test::TemporaryDirectory;
 
-constexpr int done = 0, bad_input = 2, not_converged = 3;
+constexpr int exit_done = 0, bad_input = 2, not_converged = 3;
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -40,7 +40,7 @@ void expect_refused(const CaseRun& run, const std::vector<std::string>& parts) {
 }
 
 void expect_done(const CaseRun& run) {
-  EXPECT_EQ(run.code, done) << run.messages;
+  EXPECT_EQ(run.code, exit_done) << run.messages;
   EXPECT_FALSE(run.left_half_files());
   ASSERT_FALSE(run.rows.empty());
   for (const char* column : {"energy.total [J]", "end.x [m]", "end.y [m]"})
@@ -197,7 +197,7 @@ TEST(Warnings, AMovingLoadThatLeavesAtOnceIsMentioned) {
   };
   for (const auto& [at, outward, inward] : {std::tuple{"start", "-1", "1"}, {"end", "1", "-1"}}) {
     const CaseRun run = run_beam({load(at, outward)});
-    EXPECT_EQ(run.code, done);
+    EXPECT_EQ(run.code, exit_done);
     EXPECT_TRUE(run.says("loads[0].moves.speed: ") && run.says("leaves the beam at once")) << run.messages;
     EXPECT_FALSE(run_beam({load(at, inward)}).says("leaves the beam at once"));
   }
@@ -269,7 +269,7 @@ TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
 TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {
   const std::vector<std::string> coarse = {"analysis.step=1", "output.every=1", "analysis.end_time=1"};
   const CaseRun run = run_beam(coarse);
-  if (run.code == done)
+  if (run.code == exit_done)
     expect_done(run);
   else
     expect_stopped(run, {"the step from t = ", "a shorter \"step\""});

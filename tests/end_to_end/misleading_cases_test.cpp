@@ -14,13 +14,14 @@
 namespace nurbeam::test {
 namespace {
 
-CaseRun run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+CaseRun run_misleading_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
   return run_file(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name, overrides);
 }
 
 // A touch of 1e-6 N out of its plane made the arch a wire that is straight when it is free: 26,394 N m.
 TEST(MisleadingCases, ATouchOutOfThePlaneChangesAPlanarAnswerByItsOwnSize) {
-  const CaseRun planar = run_case("d_flip_planar.json"), touched = run_case("d_flip_spatial.json");
+  const CaseRun planar = run_misleading_case("d_flip_planar.json"),
+                touched = run_misleading_case("d_flip_spatial.json");
   ASSERT_EQ(planar.code, 0) << planar.messages;
   ASSERT_EQ(touched.code, 0) << touched.messages;
   const double moment = std::abs(planar.last("arch.moment.max [N m]"));
@@ -31,7 +32,7 @@ TEST(MisleadingCases, ATouchOutOfThePlaneChangesAPlanarAnswerByItsOwnSize) {
 
 // On a weightless string the bead lies on the ellipse through its ends; 1,582 steps once, for eleven seconds.
 TEST(MisleadingCases, ABeadOnASlackCableHangsOnTheEllipse) {
-  const CaseRun run = run_case("b17_ellipse_h0.json");
+  const CaseRun run = run_misleading_case("b17_ellipse_h0.json");
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("m.x [m]"), 5, 1e-9);
   EXPECT_NEAR(run.last("m.z [m]"), -3.32428, 5e-5);
@@ -40,7 +41,8 @@ TEST(MisleadingCases, ABeadOnASlackCableHangsOnTheEllipse) {
 // At equilibrium a ring on eight pins stays where it is when it is let go, on 64 elements as on 72: at
 // 170,458 J the mesh of 64 once found 171,482 J.
 TEST(MisleadingCases, ARingRestsWhereOtherMeshesFindIt) {
-  const CaseRun statics = run_case("d_ring_static_ok72.json"), let_go = run_case("d_ring_eqdyn.json");
+  const CaseRun statics = run_misleading_case("d_ring_static_ok72.json"),
+                let_go = run_misleading_case("d_ring_eqdyn.json");
   ASSERT_EQ(statics.code, 0) << statics.messages;
   ASSERT_EQ(let_go.code, 0) << let_go.messages;
   const double energy = statics.last("energy.total [J]");
@@ -51,8 +53,8 @@ TEST(MisleadingCases, ARingRestsWhereOtherMeshesFindIt) {
 
 // A prescribed motion beyond a free end ended the run.
 TEST(MisleadingCases, ADriveThatReachesAFreeEndStopsOrLetsGo) {
-  const CaseRun stops = run_case("b11_motion_end_free_stop.json"),
-                leaves = run_case("b11_motion_end_free_leave.json");
+  const CaseRun stops = run_misleading_case("b11_motion_end_free_stop.json"),
+                leaves = run_misleading_case("b11_motion_end_free_leave.json");
   ASSERT_EQ(stops.code, 0) << stops.messages;
   ASSERT_EQ(leaves.code, 0) << leaves.messages;
   const auto place = std::find_if(stops.header.begin(), stops.header.end(),
@@ -66,7 +68,7 @@ TEST(MisleadingCases, ADriveThatReachesAFreeEndStopsOrLetsGo) {
 // tighter tolerance that failed where looser ones ran.
 TEST(MisleadingCases, AMovingHingeOnAStiffBarIsWarnedOfAndRefused) {
   for (const char* name : {"d_disc_start_96.json", "d_disc_tol6.json"}) {
-    const CaseRun run = run_case(name);
+    const CaseRun run = run_misleading_case(name);
     EXPECT_EQ(run.code, 3) << name;
     EXPECT_TRUE(run.says("the mesh would have to change")) << run.messages;
     EXPECT_TRUE(run.says("\"discontinuous\" makes a hinge that moves with the body")) << run.messages;
@@ -80,10 +82,10 @@ TEST(MisleadingCases, AMovingHingeOnAStiffBarIsWarnedOfAndRefused) {
 // of a moving node is a force on it. The reference is a bead that slides over the motion of the bar alone (64
 // elements, tolerance 1e-6, Hermite in s and cubic splines in t), by Runge and Kutta: 2.040706 m.
 TEST(MisleadingCases, ALightBeadIsNotDraggedAboutByTheMesh) {
-  const CaseRun run = run_case("b7_ratio1e-06_continuous.json");
+  const CaseRun run = run_misleading_case("b7_ratio1e-06_continuous.json");
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("m.x [m]"), 2.040706, 1e-4);
-  const CaseRun hinge = run_case("b7_ratio1e-06_discontinuous.json");
+  const CaseRun hinge = run_misleading_case("b7_ratio1e-06_discontinuous.json");
   EXPECT_TRUE(hinge.says("\"discontinuous\" makes a hinge that moves with the body")) << hinge.messages;
 }
 
@@ -113,8 +115,8 @@ struct BeadOnString {
 
 // Fifteen tonnes on a wire of 8 mm took minutes; the wire is a string to them, and only a kink carries them.
 TEST(MisleadingCases, AHeavyBodyOnAWireMovesAsOnAString) {
-  const CaseRun run = run_case("b7_ratio10000_continuous.json",
-                               {"sliding_joints[0].slope=discontinuous", "analysis.tolerance=1e-5"});
+  const CaseRun run = run_misleading_case(
+      "b7_ratio10000_continuous.json", {"sliding_joints[0].slope=discontinuous", "analysis.tolerance=1e-5"});
   ASSERT_EQ(run.code, 0) << run.messages;
   const double area = std::numbers::pi * 0.004 * 0.004;
   const Eigen::Vector4d exact = BeadOnString{2e11 * area, 4, 15783.36149163512, 1, 0, 1, 0}.after(1, 20000);
@@ -124,7 +126,7 @@ TEST(MisleadingCases, AHeavyBodyOnAWireMovesAsOnAString) {
 }
 
 TEST(MisleadingCases, AHeavyBodyThatTheSlopeCannotCarryIsToldToKinkTheWire) {
-  const CaseRun run = run_case("b7_ratio10000_continuous.json", {"beams[0].elements.count=8"});
+  const CaseRun run = run_misleading_case("b7_ratio10000_continuous.json", {"beams[0].elements.count=8"});
   EXPECT_EQ(run.code, 3);
   EXPECT_TRUE(run.says("or, for a cable that hardly resists bending, \"slope\": \"discontinuous\""))
       << run.messages;
@@ -133,7 +135,7 @@ TEST(MisleadingCases, AHeavyBodyThatTheSlopeCannotCarryIsToldToKinkTheWire) {
 // Between two droppers a contact wire has one tension; beside them it once had 10.9 to 11.8 kN in one
 // element.
 TEST(MisleadingCases, AContactWireHasNoTensionsOfItsMesh) {
-  const CaseRun run = run_case("u3_static.json");
+  const CaseRun run = run_misleading_case("u3_static.json");
   ASSERT_EQ(run.code, 0) << run.messages;
   // Each dropper hangs askew and takes its part of the pull; 25 m are half of the first span.
   EXPECT_NEAR(run.last("wire.axial_force.min [N]"), run.last("mid1.axial_force [N]"), 1);
@@ -142,14 +144,15 @@ TEST(MisleadingCases, AContactWireHasNoTensionsOfItsMesh) {
 
 // +73 kJ between two frames: a step had found the root of a snap.
 TEST(MisleadingCases, AStepDoesNotSnapToAnotherEnergy) {
-  const CaseRun run = run_case("u2_ring_eq3.json");
+  const CaseRun run = run_misleading_case("u2_ring_eq3.json");
   ASSERT_EQ(run.code, 0) << run.messages;
   const double start = run.value(0, "energy.total [J]");
   for (std::size_t i = 0; i < run.rows.size(); ++i) EXPECT_NEAR(run.value(i, "energy.total [J]"), start, 2);
 }
 
 TEST(MisleadingCases, WhatCannotBeIsBadInput) {
-  const CaseRun gravity = run_case("c_gravity_huge.json"), twice = run_case("u1_two_same.json");
+  const CaseRun gravity = run_misleading_case("c_gravity_huge.json"),
+                twice = run_misleading_case("u1_two_same.json");
   EXPECT_EQ(gravity.code, 2);
   EXPECT_TRUE(gravity.says("gravity[2]: is -1e+300 m/s^2; must be between")) << gravity.messages;
   EXPECT_EQ(twice.code, 2);

@@ -12,7 +12,7 @@ namespace {
 using std::numbers::pi;
 
 /// A cantilever of 2 m along x, round, of steel; what comes behind its supports is `rest`.
-std::string cantilever(const std::string& analysis, const std::string& rest = "") {
+std::string cantilever_case(const std::string& analysis, const std::string& rest = "") {
   return R"({ "nurbeam": 1,
   "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": "1 cm" },
               "material": { "density": 7850, "youngs_modulus": "210 GPa" }, "torsion": true }],
@@ -33,7 +33,7 @@ std::string text_of_file(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void run_text(const std::string& text, Left& left) {
+void run_modes_text(const std::string& text, Left& left) {
   const auto results = left.directory.path() / "results";
   std::ostringstream out, err;
   const CapturedErrors errors;
@@ -47,7 +47,7 @@ void run_text(const std::string& text, Left& left) {
 
 TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
   Left left;
-  run_text(cantilever(R"({ "type": "modes", "modes": { "count": 5 } })"), left);
+  run_modes_text(cantilever_case(R"({ "type": "modes", "modes": { "count": 5 } })"), left);
   ASSERT_EQ(left.code, 0) << left.messages;
   ASSERT_EQ(left.run["modes"].size(), 5u);
   const double omega =
@@ -67,7 +67,7 @@ TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
       << err.str();
   // Another run clears away what this one left.
   const auto again = left.directory.write(
-      "again.json", cantilever(R"({ "type": "modes", "modes": { "count": 1, "about": "drawn" } })"));
+      "again.json", cantilever_case(R"({ "type": "modes", "modes": { "count": 1, "about": "drawn" } })"));
   const CapturedErrors quiet;
   EXPECT_EQ(run_command_line({"run", again.string(), "--quiet", "--out", results.string()}, out, err), 0);
   EXPECT_FALSE(std::filesystem::exists(results / "mode_5.pvd"));
@@ -77,10 +77,11 @@ TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
 TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
   const double EI = 210e9 * pi * 1e-8 / 4, euler = pi * pi * EI / 16;
   Left left;
-  run_text(cantilever(
-               R"({ "type": "buckling", "modes": { "count": 2 } })",
-               R"("gravity": [0, 0, 0], "loads": [{ "beam": "bar", "at": "end", "force": [-100, 0, 0] }],)"),
-           left);
+  run_modes_text(
+      cantilever_case(
+          R"({ "type": "buckling", "modes": { "count": 2 } })",
+          R"("gravity": [0, 0, 0], "loads": [{ "beam": "bar", "at": "end", "force": [-100, 0, 0] }],)"),
+      left);
   ASSERT_EQ(left.code, 0) << left.messages;
   EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler / 100, 1e-4 * euler / 100);
   EXPECT_EQ(left.table.substr(0, 13), "number,factor");
@@ -89,16 +90,17 @@ TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
 TEST(Modes, ThatCannotBeAreRefusedInWords) {
   const auto expect = [](const std::string& text, int code, const std::string& words) {
     Left left;
-    run_text(text, left);
+    run_modes_text(text, left);
     EXPECT_EQ(left.code, code) << left.messages;
     EXPECT_NE(left.messages.find(words), std::string::npos) << left.messages;
   };
-  expect(cantilever(R"({ "type": "buckling" })"), 2, "there are no \"loads\"");
-  expect(cantilever(R"({ "type": "modes" })",
-                    R"("loads": [{ "beam": "bar", "at": "end", "force": [-1, 0, 0], "follower": true }],)"),
-         2, "has no energy");
-  expect(cantilever(R"({ "type": "modes" })",
-                    R"("loads": [{ "beam": "bar", "at": "end", "moment": [50, 20, 10] }],)"),
+  expect(cantilever_case(R"({ "type": "buckling" })"), 2, "there are no \"loads\"");
+  expect(
+      cantilever_case(R"({ "type": "modes" })",
+                      R"("loads": [{ "beam": "bar", "at": "end", "force": [-1, 0, 0], "follower": true }],)"),
+      2, "has no energy");
+  expect(cantilever_case(R"({ "type": "modes" })",
+                         R"("loads": [{ "beam": "bar", "at": "end", "moment": [50, 20, 10] }],)"),
          3, "moments in space");
   expect(R"({ "nurbeam": 1,
     "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },

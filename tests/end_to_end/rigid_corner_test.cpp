@@ -28,7 +28,7 @@ constexpr const char* frame = R"({
                          { "name": "tip", "beam": "frame", "at": "end" }] }
 })";
 
-constexpr double EA = 210e9 * std::numbers::pi * 1e-4, EI = 210e9 * std::numbers::pi * 1e-8 / 4;
+constexpr double corner_EA = 210e9 * std::numbers::pi * 1e-4, EI = 210e9 * std::numbers::pi * 1e-8 / 4;
 
 CaseRun run_frame(const std::vector<std::string>& overrides = {}) {
   const TemporaryDirectory directory;
@@ -41,7 +41,7 @@ TEST(RigidCornerRun, ACornerCarriesTheMomentAsTheTheoryOfFramesSays) {
   // The moment P L bends the column, which turns the corner by P L h/(E I) and moves it by P L h²/(2 E I).
   const double P = 0.01, corner = P / (2 * EI);
   EXPECT_NEAR(run.last("corner.x [m]"), corner, 1e-5 * corner);
-  EXPECT_NEAR(run.last("tip.y [m]") - 1, -(P / (3 * EI) + P / EI + P / EA), 1e-5 * P / EI);
+  EXPECT_NEAR(run.last("tip.y [m]") - 1, -(P / (3 * EI) + P / EI + P / corner_EA), 1e-5 * P / EI);
 }
 
 TEST(RigidCornerRun, AMomentAtTheCornerTurnsTheArmWithTheColumn) {
@@ -183,26 +183,26 @@ TEST(RigidCornerRun, CheckListsTheCorners) {
             std::string::npos);
 }
 
-void expect_refused(const std::vector<std::string>& overrides, const std::vector<std::string>& said) {
+void expect_corner_refused(const std::vector<std::string>& overrides, const std::vector<std::string>& said) {
   const CaseRun run = run_frame(overrides);
   EXPECT_EQ(run.code, 2) << run.messages;
   for (const std::string& part : said) EXPECT_TRUE(run.says(part)) << part << "\n" << run.messages;
 }
 
 TEST(RigidCornerRun, ABodyDoesNotSlideOverACorner) {
-  expect_refused({R"(bodies=[{"name": "bead", "mass": 1}])",
-                  R"(sliding_joints=[{"body": "bead", "beam": "frame", "at": {"fraction": 0.2}}])"},
-                 {"beams[0].corners: the axis has a corner of 90 degrees at (0, 1, 0) m",
-                  "cannot slide over a rigid corner", "divide the beam there", "\"joints\""});
+  expect_corner_refused({R"(bodies=[{"name": "bead", "mass": 1}])",
+                         R"(sliding_joints=[{"body": "bead", "beam": "frame", "at": {"fraction": 0.2}}])"},
+                        {"beams[0].corners: the axis has a corner of 90 degrees at (0, 1, 0) m",
+                         "cannot slide over a rigid corner", "divide the beam there", "\"joints\""});
 }
 
 TEST(RigidCornerRun, InSpaceACornerThatHardlyTurnsOrTurnsBackIsRefused) {
   const std::string spatial = "gravity=[0, 0, -1]";
-  expect_refused({spatial, "beams[0].axis.polyline=[[0, 0, 0], [0, 1, 0], [0.01, 2, 0]]"},
-                 {"beams[0].corners: is \"rigid\", but the corner at (0, 1, 0) m turns by 0.57",
-                  "corners of 1.1459", "\"smooth_up_to\": 2", "\"hinge\""});
-  expect_refused({spatial, "beams[0].axis.polyline=[[0, 0, 0], [0, 1, 0], [0.01, 0, 0]]"},
-                 {"turns by 179.4", "round it, or use \"hinge\""});
+  expect_corner_refused({spatial, "beams[0].axis.polyline=[[0, 0, 0], [0, 1, 0], [0.01, 2, 0]]"},
+                        {"beams[0].corners: is \"rigid\", but the corner at (0, 1, 0) m turns by 0.57",
+                         "corners of 1.1459", "\"smooth_up_to\": 2", "\"hinge\""});
+  expect_corner_refused({spatial, "beams[0].axis.polyline=[[0, 0, 0], [0, 1, 0], [0.01, 0, 0]]"},
+                        {"turns by 179.4", "round it, or use \"hinge\""});
   // In the plane every angle can be kept.
   EXPECT_EQ(run_frame({"beams[0].axis.polyline=[[0, 0, 0], [0, 1, 0], [0.01, 2, 0]]"}).code, 0);
   EXPECT_EQ(run_frame({"beams[0].axis.polyline=[[0, 0, 0], [0, 1, 0], [0.01, 0, 0]]"}).code, 0);

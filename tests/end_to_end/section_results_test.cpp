@@ -178,6 +178,27 @@ TEST_F(SectionResults, AProfileIsSweptAsTheBeamTwists) {
   }
 }
 
+TEST_F(SectionResults, AProfileIsSweptFromMitreToMitreAndRoundARing) {
+  if (!has_cgal()) GTEST_SKIP() << "this build is without CGAL";
+  write_profile(directory.path() / "profile.step", {rectangle(0.03, 0.05)});
+  for (
+      const std::string axis :
+      {R"("axis": {"polyline": [[0, 0, 0], [1, 0, 0], [1, 0.8, 0.2]]}, "corners": "rigid",
+           "elements": {"count": 12})",
+       R"("closed": true, "axis": {"nurbs": {"degree": 3, "knots": [-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9],
+           "control_points": [[1, 0, 0], [0.5, 0.9, 0.2], [-0.5, 0.9, -0.2], [-1, 0, 0], [-0.5, -0.9, 0.2],
+           [0.5, -0.9, -0.2], [1, 0, 0], [0.5, 0.9, 0.2], [-0.5, 0.9, -0.2]]}}, "elements": {"per_segment": 4})"}) {
+    ASSERT_EQ(run(axis + R"(, "section": {"profile": {"file": "profile.step"}})",
+                  R"({"beam": "bar", "at": {"fraction": 0.6}, "force": [0, 0, 100]})",
+                  R"("cad": {"formats": ["step", "step-solid", "step-section-lines"]}, )"),
+              0)
+        << messages;
+    EXPECT_EQ(messages.find("not written"), std::string::npos) << messages;
+    EXPECT_TRUE(std::filesystem::exists(results() / "deformed_solid.step"));
+    EXPECT_TRUE(std::filesystem::exists(results() / "deformed_section_lines.step"));
+  }
+}
+
 TEST_F(SectionResults, BeamsWithoutTorsionHaveNoColumnsOfIt) {
   ASSERT_EQ(run(R"("axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": 0.01},
                    "elements": {"count": 2})",

@@ -60,7 +60,7 @@ TEST(Ring, HasAsManyNodesAsElements) {
 }
 
 template <int D>
-Eigen::VectorXd residual(const BeamSystem& system, const State& state) {
+Eigen::VectorXd ring_residual(const BeamSystem& system, const State& state) {
   Eigen::VectorXd force(system.coordinate_count()), constraints(system.constraint_count());
   system.residual(state, force, constraints);
   return force;
@@ -94,7 +94,7 @@ TEST(Ring, AsDrawnAndTurnedAndMovedHasNoForce) {
   state = drawn_state(alone);
   map<2>(alone, turn, Eigen::Vector2d(3, -1), state.q);
   EXPECT_LT(energy(alone, state).mechanical(), 1e-24);
-  EXPECT_LT(residual<2>(alone, state).norm(), 1e-11);
+  EXPECT_LT(ring_residual<2>(alone, state).norm(), 1e-11);
 }
 
 TEST(Ring, SpinningIsStretchedByItsHoopForce) {
@@ -112,7 +112,7 @@ TEST(Ring, SpinningIsStretchedByItsHoopForce) {
   map<2>(system, spin, Eigen::Vector2d::Zero(), state.v);
   map<2>(system, -omega * omega * Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero(), state.a);
   EXPECT_GT(e, 0.1);
-  EXPECT_LT(residual<2>(system, state).norm(), 1e-10 * p.axial_stiffness * e);
+  EXPECT_LT(ring_residual<2>(system, state).norm(), 1e-10 * p.axial_stiffness * e);
   const double L = model.beams[0].curve.length();
   EXPECT_NEAR(energy(system, state).axial, p.axial_stiffness * e * e / 2 * L, 1e-10);
   EXPECT_NEAR(energy(system, state).kinetic,
@@ -133,7 +133,7 @@ void check_gradient(double place) {
   State state = disturbed_state(system, random, 0.01);
   state.v.setZero();
   state.a.setZero();
-  const Eigen::VectorXd force = residual<D>(system, state);
+  const Eigen::VectorXd force = ring_residual<D>(system, state);
   for (int i = 0; i < system.coordinate_count(); ++i) {
     const auto moved_energy = [&](double h) {
       State moved = state;
@@ -169,8 +169,8 @@ TEST(Ring, IsTheSameHoweverOftenTheSliderHasGoneRound) {
       const BeamSystem later(model, initial_plan(model));
       State same = state;
       same.q[later.mesh().joints[0].place] += turns * L;
-      EXPECT_LT((residual<2>(later, same) - residual<2>(first, state)).norm(),
-                1e-9 * residual<2>(first, state).norm());
+      EXPECT_LT((ring_residual<2>(later, same) - ring_residual<2>(first, state)).norm(),
+                1e-9 * ring_residual<2>(first, state).norm());
       EXPECT_NEAR(energy(later, same).mechanical(), energy(first, state).mechanical(), 1e-9);
       EXPECT_LT((momentum(later, same) - momentum(first, state)).norm(), 1e-9);
     }

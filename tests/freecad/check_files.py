@@ -69,10 +69,34 @@ def check_source():
                shape.BoundBox.Center.distanceToPoint(before[name].BoundBox.Center) > 1e-3)
 
 
+def roots_of(file):
+    """What the tree shows first, its label and its shape."""
+    document = FreeCAD.newDocument()
+    ImportGui.insert(file, document.Name, merge=False)
+    roots = [(o.Label, o.Shape.copy()) for o in document.Objects if not o.InList and hasattr(o, 'Shape')]
+    FreeCAD.closeDocument(document.Name)
+    return roots
+
+
+def check_added(stem):
+    """The source has the deformed curve besides, as one smooth edge, and is else as it was."""
+    file = f'{stem}/deformed_t0.02_source.step'
+    before, after = roots_of(f'{stem}.step'), roots_of(file)
+    expect(f'{file}: {[label for label, shape in after]}', len(after) == 1 and after[0][0] == before[0][0])
+    old, new = before[0][1], after[0][1]
+    expect(f'{file}: {len(new.Edges)} edges', len(new.Edges) == len(old.Edges) + 1)
+    expect(f'{file}: {new.Volume} mm^3', abs(new.Volume - old.Volume) <= 1e-9 * old.Volume)
+    added = Part.Shape(max(new.Edges, key=lambda edge: edge.Length))
+    expect(f'{file}: {added.Length} mm', abs(added.Length / 1796.9911 - 1) < 1e-3)
+    expect_one_smooth_edge(file, added)
+
+
 try:
     for stem in ('t0', 't0.05'):
         check_beams(stem)
     check_source()
+    for stem in ('bends', 'pipe'):
+        check_added(stem)
     report.write('all files are as they should be\n' if not problems else f'{len(problems)} problems\n')
 except Exception:
     report.write(traceback.format_exc())

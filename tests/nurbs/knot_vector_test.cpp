@@ -12,7 +12,7 @@ namespace nurbeam {
 namespace {
 
 /// The message of the std::invalid_argument that these knots raise; empty if they are accepted.
-std::string refusal(int degree, std::vector<double> knots) {
+std::string knot_refusal(int degree, std::vector<double> knots) {
   try {
     KnotVector(degree, std::move(knots));
   } catch (const std::invalid_argument& error) {
@@ -22,7 +22,7 @@ std::string refusal(int degree, std::vector<double> knots) {
 }
 
 void expect_refusal(const std::string& words, int degree, std::vector<double> knots) {
-  EXPECT_NE(refusal(degree, knots).find(words), std::string::npos) << refusal(degree, knots);
+  EXPECT_NE(knot_refusal(degree, knots).find(words), std::string::npos) << knot_refusal(degree, knots);
 }
 
 TEST(KnotVectorTest, AnInvalidOneIsRefusedWithTheValueAndTheRule) {
@@ -40,9 +40,9 @@ TEST(KnotVectorTest, AnInvalidOneIsRefusedWithTheValueAndTheRule) {
 }
 
 TEST(KnotVectorTest, InteriorKnotsMayStandAsOftenAsTheDegreeAndEndKnotsOnceMore) {
-  EXPECT_EQ(refusal(2, {0, 0, 0, 1, 1, 2, 2, 2}), "");
-  EXPECT_EQ(refusal(1, {0, 0, 1, 2, 2}), "");
-  EXPECT_EQ(refusal(3, {-3, -2, -1, 0, 1, 2, 3, 4}), "");
+  EXPECT_EQ(knot_refusal(2, {0, 0, 0, 1, 1, 2, 2, 2}), "");
+  EXPECT_EQ(knot_refusal(1, {0, 0, 1, 2, 2}), "");
+  EXPECT_EQ(knot_refusal(3, {-3, -2, -1, 0, 1, 2, 3, 4}), "");
 }
 
 TEST(KnotVectorTest, AnUnclampedCurveLivesBetweenTheKnotsOfItsDegree) {

@@ -18,7 +18,7 @@ using testing::CartesianPendulum;
 using testing::DrivenSlider;
 using testing::KeplerOrbit;
 
-State advance_evenly(Integrator& integrator, double time, int calls) {
+State advance_ida_evenly(Integrator& integrator, double time, int calls) {
   for (int i = 0; i < calls; ++i) {
     const StepReport report = integrator.advance(time / calls);
     EXPECT_EQ(report.status, StepStatus::converged);
@@ -27,14 +27,14 @@ State advance_evenly(Integrator& integrator, double time, int calls) {
   return integrator.state();
 }
 
-double distance(const State& a, const State& b) { return (a.q - b.q).norm() + (a.v - b.v).norm(); }
+double ida_distance(const State& a, const State& b) { return (a.q - b.q).norm() + (a.v - b.v).norm(); }
 
 TEST(Ida, FollowsAPendulumWithItsMultiplierAsCloselyAsItsToleranceSays) {
   const CartesianPendulum pendulum;
   const State exact = pendulum.reference(1.2, 2.0, 20000);
   for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
     IdaIntegrator integrator({.tolerance = tolerance}, pendulum, pendulum.at_angle(0, 1.2, 0));
-    const State end = advance_evenly(integrator, 2.0, 10);
+    const State end = advance_ida_evenly(integrator, 2.0, 10);
     EXPECT_DOUBLE_EQ(end.t, 2.0);
     EXPECT_LT((end.q - exact.q).norm(), 200 * tolerance);
     EXPECT_LT((end.v - exact.v).norm(), 500 * tolerance);
@@ -60,9 +60,9 @@ TEST(Ida, FollowsAMovingConstraint) {
   const DrivenSlider slider;
   for (const double tolerance : {1e-6, 1e-9}) {
     IdaIntegrator integrator({.tolerance = tolerance}, slider, slider.exact(0.3));
-    const State end = advance_evenly(integrator, 1.7, 7);
+    const State end = advance_ida_evenly(integrator, 1.7, 7);
     const State exact = slider.exact(2.0);
-    EXPECT_LT(distance(end, exact), 200 * tolerance);
+    EXPECT_LT(ida_distance(end, exact), 200 * tolerance);
     EXPECT_NEAR(end.lambda[0], exact.lambda[0], 5e3 * tolerance);
     EXPECT_NEAR(end.q[0], exact.q[0], 0.1 * tolerance);
     EXPECT_NEAR(end.v[0], exact.v[0], 0.1 * tolerance);
@@ -73,9 +73,9 @@ TEST(Ida, ClosesAnOrbitWithoutConstraintsAndWithAMassThatDependsOnPosition) {
   const KeplerOrbit orbit;
   State start = orbit.at_nearest_point();
   IdaIntegrator integrator({.tolerance = 1e-10}, orbit, start);
-  const State end = advance_evenly(integrator, 2 * std::numbers::pi, 3);
+  const State end = advance_ida_evenly(integrator, 2 * std::numbers::pi, 3);
   start.q[1] += 2 * std::numbers::pi;
-  EXPECT_LT(distance(end, start), 1e-6);
+  EXPECT_LT(ida_distance(end, start), 1e-6);
   EXPECT_LT((end.a - start.a).norm(), 1e-5);
 }
 
@@ -86,9 +86,9 @@ TEST(Ida, AndGeneralizedAlphaApproachEachOtherAsBothAreRefined) {
   for (int i = 0; i < 4; ++i) {
     IdaIntegrator ida({.tolerance = 1e-5 * std::pow(0.02, i)}, pendulum, start);
     GeneralizedAlphaIntegrator alpha({.newton_tolerance = 1e-14}, pendulum, start);
-    const State one = advance_evenly(ida, 2.0, 5);
-    const State other = advance_evenly(alpha, 2.0, 200 << (2 * i));
-    const double apart = distance(one, other) + (one.lambda - other.lambda).norm();
+    const State one = advance_ida_evenly(ida, 2.0, 5);
+    const State other = advance_ida_evenly(alpha, 2.0, 200 << (2 * i));
+    const double apart = ida_distance(one, other) + (one.lambda - other.lambda).norm();
     EXPECT_LT(apart, last / 10);
     last = apart;
   }
@@ -99,19 +99,19 @@ TEST(Ida, GivesTheSameOverAThousandCallsAsOverTen) {
   const CartesianPendulum pendulum;
   IdaIntegrator few({}, pendulum, pendulum.at_angle(0, 1.2, 0));
   IdaIntegrator many({}, pendulum, pendulum.at_angle(0, 1.2, 0));
-  const State one = advance_evenly(few, 2.0, 10);
-  const State other = advance_evenly(many, 2.0, 1000);
+  const State one = advance_ida_evenly(few, 2.0, 10);
+  const State other = advance_ida_evenly(many, 2.0, 1000);
   EXPECT_NEAR(one.t, other.t, 1e-12);
-  EXPECT_LT(distance(one, other), 5e-6);
+  EXPECT_LT(ida_distance(one, other), 5e-6);
   EXPECT_LT((one.lambda - other.lambda).norm(), 5e-5);
 }
 
 TEST(Ida, KeepsItsHistoryBetweenCalls) {
   const CartesianPendulum pendulum;
   IdaIntegrator integrator({.tolerance = 1e-6}, pendulum, pendulum.at_angle(0, 1.2, 0));
-  advance_evenly(integrator, 0.1, 1);
+  advance_ida_evenly(integrator, 0.1, 1);
   const long at_start = integrator.internal_steps();
-  advance_evenly(integrator, 1.0, 1000);
+  advance_ida_evenly(integrator, 1.0, 1000);
   EXPECT_LT(integrator.internal_steps() - at_start, 1100);
 }
 
@@ -133,11 +133,11 @@ TEST(Ida, DoesNotDependOnTheUnitOfLength) {
   millimetres.gravity *= 1000;
   IdaIntegrator one({}, metres, metres.at_angle(0, 1.2, 0));
   IdaIntegrator other({}, millimetres, millimetres.at_angle(0, 1.2, 0));
-  const State a = advance_evenly(one, 1.0, 4);
-  State b = advance_evenly(other, 1.0, 4);
+  const State a = advance_ida_evenly(one, 1.0, 4);
+  State b = advance_ida_evenly(other, 1.0, 4);
   b.q /= 1000;
   b.v /= 1000;
-  EXPECT_LT(distance(a, b), 2e-6);
+  EXPECT_LT(ida_distance(a, b), 2e-6);
   EXPECT_NEAR(static_cast<double>(other.internal_steps()), static_cast<double>(one.internal_steps()), 20);
 }
 
@@ -164,7 +164,7 @@ TEST(Ida, GivesUpAfterItsLargestNumberOfSteps) {
   EXPECT_EQ(integrator.state().q, start.q);
 }
 
-void expect_unchanged(const State& state, const State& before) {
+void expect_ida_unchanged(const State& state, const State& before) {
   EXPECT_EQ(state.t, before.t);
   EXPECT_EQ(state.q, before.q);
   EXPECT_EQ(state.v, before.v);
@@ -185,7 +185,7 @@ TEST(Ida, GoesUpToAnInadmissiblePlaceAndNotBeyond) {
     if (report.status == StepStatus::converged) continue;
     EXPECT_EQ(report.status, StepStatus::inadmissible);
     EXPECT_EQ(report.step, 0);
-    expect_unchanged(integrator.state(), before);
+    expect_ida_unchanged(integrator.state(), before);
     step /= 4;
   }
   EXPECT_GT(integrator.state().q[0], -1e-4);
@@ -198,13 +198,13 @@ TEST(Ida, AForceThatIsNoNumberIsAStatusAndLeavesTheStateAlone) {
     const State start = pendulum.at_angle(0, 1.2, 0);
     IdaIntegrator integrator({}, pendulum, start);
     EXPECT_EQ(integrator.advance(1).status, StepStatus::not_converged);
-    expect_unchanged(integrator.state(), start);
+    expect_ida_unchanged(integrator.state(), start);
   }
   const State start = pendulum.at_angle(0, 1.2, 0);
   IdaIntegrator integrator({}, pendulum, start);
   EXPECT_EQ(integrator.advance(1).status, StepStatus::not_converged);
   EXPECT_EQ(integrator.advance(0.3).status, StepStatus::converged);
-  EXPECT_LT(distance(integrator.state(), pendulum.reference(1.2, 0.3, 3000)), 1e-6);
+  EXPECT_LT(ida_distance(integrator.state(), pendulum.reference(1.2, 0.3, 3000)), 1e-6);
 }
 
 /// A pendulum whose constraint is stated twice.
@@ -238,7 +238,7 @@ TEST(Ida, ASingularMatrixIsAStatus) {
   IdaIntegrator integrator({}, pendulum, start);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(integrator.advance(0.1).status, StepStatus::singular_matrix);
-    expect_unchanged(integrator.state(), start);
+    expect_ida_unchanged(integrator.state(), start);
   }
 }
 
@@ -289,11 +289,11 @@ TEST(Ida, WhatTheSystemThrowsArrivesAndLeavesTheStateAlone) {
     const State before = integrator.state();
     for (int i = 0; i < 2; ++i) {
       EXPECT_THROW((void)integrator.advance(0.1), ThrowingPendulum::Tantrum);
-      expect_unchanged(integrator.state(), before);
+      expect_ida_unchanged(integrator.state(), before);
     }
     pendulum.throw_time = std::numeric_limits<double>::infinity();
     ASSERT_EQ(integrator.advance(0.1).status, StepStatus::converged);
-    EXPECT_LT(distance(integrator.state(), pendulum.reference(1.2, 0.2, 3000)), 1e-6);
+    EXPECT_LT(ida_distance(integrator.state(), pendulum.reference(1.2, 0.2, 3000)), 1e-6);
   }
 }
 

@@ -20,7 +20,7 @@ ChildResult run(const std::string& request, const ChildLimits& limits = {}) {
   return run_program(MISBEHAVING_PROGRAM, request, limits);
 }
 
-int open_descriptors() {
+int own_descriptors() {
   return static_cast<int>(std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
 }
 
@@ -66,19 +66,19 @@ TEST(ChildProcess, MemoryBeyondTheLimitIsAResult) {
 }
 
 TEST(ChildProcess, WhatTheChildPrintsIsNotSeen) {
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStdout();
   EXPECT_EQ(run("print").status, Status::finished);
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
 TEST(ChildProcess, NoDescriptorAndNoZombieIsLeft) {
-  const int before = open_descriptors();
+  const int before = own_descriptors();
   for (int i = 0; i < 20; ++i) {
     run("x");
     run("raise " + std::to_string(SIGSEGV));
     run("loop", {std::chrono::seconds(0), 0});
   }
-  EXPECT_EQ(open_descriptors(), before);
+  EXPECT_EQ(own_descriptors(), before);
   EXPECT_FALSE(has_children());
 }
 

@@ -31,13 +31,13 @@ const std::string styled_circles = R"(#100 = CIRCLE('a',#11,1.);
 #131 = PRESENTATION_LAYER_ASSIGNMENT('frame','',(#120));
 #132 = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#110,#120),#26);)";
 
-ImportReport import_text(const std::string& text) {
+ImportReport import_appearance(const std::string& text) {
   const ScratchDirectory scratch;
   return import_curves(scratch.file("styled.cad", text));
 }
 
 TEST(Appearance, StylesAndLayersOfStepCurvesAreRead) {
-  const ImportReport report = import_text(step_text_of("#100,#101,#102", styled_circles));
+  const ImportReport report = import_appearance(step_text_of("#100,#101,#102", styled_circles));
   ASSERT_EQ(report.curves.size(), 3U);
   const std::array<std::array<std::string, 3>, 3> expected{
       {{"a", "cables", "#ff8000"}, {"b", "frame", "#00ff00"}, {"c", "cables", ""}}};
@@ -50,7 +50,7 @@ TEST(Appearance, StylesAndLayersOfStepCurvesAreRead) {
 
 TEST(Appearance, ALayerOfASetIsThatOfItsCurves) {
   const std::string layer = "#130 = PRESENTATION_LAYER_ASSIGNMENT('all','',(#15));\n";
-  const ImportReport report = import_text(step_text_of("#100", layer + "#100 = CIRCLE('',#11,1.);"));
+  const ImportReport report = import_appearance(step_text_of("#100", layer + "#100 = CIRCLE('',#11,1.);"));
   ASSERT_EQ(report.curves.size(), 1U);
   EXPECT_EQ(report.curves[0].layer, "all");
 }
@@ -64,7 +64,7 @@ std::string iges_lines() {
 }
 
 TEST(Appearance, LevelsAndColoursOfIgesCurvesAreRead) {
-  const ImportReport report = import_text(iges_lines());
+  const ImportReport report = import_appearance(iges_lines());
   ASSERT_EQ(report.curves.size(), 3U);
   EXPECT_EQ(report.curves[0].layer, "7");
   EXPECT_EQ(report.curves[0].colour, "#0000ff");

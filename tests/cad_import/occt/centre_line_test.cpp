@@ -12,10 +12,13 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
 #include <GeomAPI_PointsToBSpline.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
@@ -23,12 +26,14 @@
 #include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Circ.hxx>
+#include <map>
 #include <numbers>
 
 #include "cad_import/import_curves.h"
@@ -40,13 +45,18 @@ namespace {
 
 using std::numbers::pi;
 
-ImportReport written_and_read(const TopoDS_Shape& shape) {
+ImportReport written_and_read(const TopoDS_Shape& shape, const std::string& name = "solid.step") {
   const ScratchDirectory scratch;
-  const std::filesystem::path file = scratch.path() / "solid.step";
+  const std::filesystem::path file = scratch.path() / name;
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
-  STEPControl_Writer writer;
-  EXPECT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
-  EXPECT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
+  if (file.extension() == ".igs") {
+    IGESControl_Writer writer;
+    EXPECT_TRUE(writer.AddShape(shape) && writer.Write(file.c_str()));
+  } else {
+    STEPControl_Writer writer;
+    EXPECT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
+    EXPECT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
+  }
   const ImportReport report = import_curves(file);
   EXPECT_TRUE(report.ok());
   return report;
@@ -107,14 +117,43 @@ TEST(CentreLine, OfTheSamePipeInBSplineSurfacesIsTheSame) {
   expect_elbow(centre_lines_of(report));
 }
 
-TEST(CentreLine, OfATubeKnowsItsBore) {
+TopoDS_Shape elbow_tube(double radius, double bore) {
   const gp_Ax2 start(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
-  BRepBuilderAPI_MakeFace ring(circle(start, 5));
-  ring.Add(TopoDS::Wire(circle(start, 4).Reversed()));
-  const std::vector<ImportedCurve> lines =
-      centre_lines_of(BRepOffsetAPI_MakePipe(elbow_path(), ring.Face()).Shape());
+  BRepBuilderAPI_MakeFace ring(circle(start, radius));
+  ring.Add(TopoDS::Wire(circle(start, bore).Reversed()));
+  return BRepOffsetAPI_MakePipe(elbow_path(), ring.Face()).Shape();
+}
+
+TEST(CentreLine, OfATubeKnowsItsBore) {
+  const std::vector<ImportedCurve> lines = centre_lines_of(elbow_tube(5, 4));
   expect_elbow(lines);
   for (const ImportedCurve& line : lines) EXPECT_NEAR(line.bore_radius, 4e-3, 1e-12);
+}
+
+// IGES has faces only, which do not say where the material is.
+TEST(CentreLine, OfATubeInIgesKnowsItsBore) {
+  IGESControl_Controller::Init();
+  const std::vector<ImportedCurve> lines = centre_lines_of(written_and_read(elbow_tube(5, 4), "tube.igs"));
+  ASSERT_EQ(lines.size(), 3U);
+  for (const ImportedCurve& line : lines) {
+    EXPECT_NEAR(line.pipe_radius, 5e-3, 1e-9);
+    EXPECT_NEAR(line.bore_radius, 4e-3, 1e-9);
+  }
+}
+
+TEST(CentreLine, OfATubeInATubeAreTwoWithABoreEach) {
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, elbow_tube(5, 4));
+  builder.Add(both, elbow_tube(3, 2));
+  for (const std::string file : {"tubes.step", "tubes.igs"}) {
+    std::map<int, int> bores_in_millimetres;
+    for (const ImportedCurve& line : centre_lines_of(written_and_read(both, file)))
+      bores_in_millimetres[static_cast<int>(std::lround(1e3 * line.pipe_radius))] =
+          static_cast<int>(std::lround(1e3 * line.bore_radius));
+    EXPECT_EQ(bores_in_millimetres, (std::map<int, int>{{5, 4}, {3, 2}})) << file;
+  }
 }
 
 TEST(CentreLine, OfAPipeSweptAlongASplineIsThatSplineWithinTheReportedDeviation) {

@@ -11,18 +11,18 @@ namespace nurbeam {
 namespace {
 
 template <int D>
-using Vector = Eigen::Matrix<double, D, 1>;
+using VectorOf = Eigen::Matrix<double, D, 1>;
 
 template <int D>
-Vector<D> random_vector(std::mt19937& random) {
+VectorOf<D> random_coordinates(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return Vector<D>::NullaryExpr([&] { return normal(random); });
+  return VectorOf<D>::NullaryExpr([&] { return normal(random); });
 }
 
 // The second derivative along the unit vectors i and j of (a, b) by nested dual numbers.
 template <int D>
-testing::Dual<testing::Dual<double>> differentiated(const HeldAngle<D>& angle, const Vector<D>& a,
-                                                    const Vector<D>& b, int i, int j) {
+testing::Dual<testing::Dual<double>> differentiated(const HeldAngle<D>& angle, const VectorOf<D>& a,
+                                                    const VectorOf<D>& b, int i, int j) {
   using Inner = testing::Dual<double>;
   using Outer = testing::Dual<Inner>;
   std::array<std::array<Outer, D>, 2> slopes;
@@ -33,11 +33,12 @@ testing::Dual<testing::Dual<double>> differentiated(const HeldAngle<D>& angle, c
 }
 
 template <int D>
-void check_derivatives(int seed) {
+void check_angle_derivatives(int seed) {
   std::mt19937 random(seed);
   for (int trial = 0; trial < 50; ++trial) {
-    const HeldAngle<D> angle(random_vector<D>(random).normalized(), random_vector<D>(random).normalized());
-    const Vector<D> a = random_vector<D>(random), b = random_vector<D>(random);
+    const HeldAngle<D> angle(random_coordinates<D>(random).normalized(),
+                             random_coordinates<D>(random).normalized());
+    const VectorOf<D> a = random_coordinates<D>(random), b = random_coordinates<D>(random);
     const auto terms = angle.terms(a, b);
     for (int i = 0; i < 2 * D; ++i)
       for (int j = 0; j < 2 * D; ++j) {
@@ -49,8 +50,8 @@ void check_derivatives(int seed) {
   }
 }
 
-TEST(HeldAngle, HasTheDerivativesOfItsValueInThePlane) { check_derivatives<2>(1); }
-TEST(HeldAngle, HasTheDerivativesOfItsValueInSpace) { check_derivatives<3>(2); }
+TEST(HeldAngle, HasTheDerivativesOfItsValueInThePlane) { check_angle_derivatives<2>(1); }
+TEST(HeldAngle, HasTheDerivativesOfItsValueInSpace) { check_angle_derivatives<3>(2); }
 
 TEST(HeldAngle, InThePlaneIsTheSineOfTheChangeOfTheAngle) {
   const Eigen::Rotation2Dd drawn(0.4), turned(1.9), opened(0.15);
@@ -64,9 +65,10 @@ TEST(HeldAngle, InThePlaneIsTheSineOfTheChangeOfTheAngle) {
 
 TEST(HeldAngle, InSpaceIsZeroForEveryMotionThatKeepsTheAngle) {
   std::mt19937 random(3);
-  const Eigen::Vector3d a = random_vector<3>(random).normalized(), b = random_vector<3>(random).normalized();
+  const Eigen::Vector3d a = random_coordinates<3>(random).normalized(),
+                        b = random_coordinates<3>(random).normalized();
   const HeldAngle<3> angle(a, b);
-  const Eigen::AngleAxisd about_a(1.1, a), any(0.7, random_vector<3>(random).normalized());
+  const Eigen::AngleAxisd about_a(1.1, a), any(0.7, random_coordinates<3>(random).normalized());
   EXPECT_NEAR(angle.terms(any * (1.2 * a), any * (about_a * (0.9 * b))).value, 0, 1e-15);
   EXPECT_GT(std::abs(angle.terms(a, any * b).value), 1e-3);
 }

@@ -10,7 +10,6 @@
 namespace nurbeam {
 namespace {
 
-using testing::Dual;
 using testing::lifted;
 using testing::real;
 
@@ -59,7 +58,7 @@ T norm(const std::array<T, D>& v) {
 
 template <int D, class T>
 T stretch(const RationalCubic& cubic, const T& u) {
-  const auto r = drawn_point<D, Dual<T>>(cubic, Dual<T>{u, T(1.0)});
+  const auto r = drawn_point<D, testing::Dual<T>>(cubic, testing::Dual<T>{u, T(1.0)});
   std::array<T, D> ru;
   for (int d = 0; d < D; ++d) ru[d] = r[d].d;
   return norm<D, T>(ru);
@@ -105,7 +104,8 @@ struct Witness {
     if (chart.constant_weights) {
       for (int i = 0; i < 4; ++i) w[i] = T((*chart.constant_weights)[i]);
     } else if (!arc) {
-      const Dual<T> Wa = weight_at(cubic, Dual<T>{ua, T(1.0)}), Wb = weight_at(cubic, Dual<T>{ub, T(1.0)});
+      const testing::Dual<T> Wa = weight_at(cubic, testing::Dual<T>{ua, T(1.0)}),
+                             Wb = weight_at(cubic, testing::Dual<T>{ub, T(1.0)});
       w = {Wa.x, Wa.x + l * Wa.d / T(3.0), Wb.x - l * Wb.d / T(3.0), Wb.x};
     }
     const T W = bernstein<T>(w, xi);
@@ -123,10 +123,10 @@ struct Witness {
   // Field, its first and second s-derivative at material point s.
   template <class T>
   std::array<std::array<T, D>, 3> jets(const std::array<T, n>& q, const T& s) const {
-    using S = Dual<Dual<T>>;
+    using S = testing::Dual<testing::Dual<T>>;
     std::array<S, n> lifted_q;
     for (int i = 0; i < n; ++i) lifted_q[i] = lifted(lifted(q[i]));
-    const S place{Dual<T>{s, T(1.0)}, Dual<T>{T(1.0), T(0.0)}};
+    const S place{testing::Dual<T>{s, T(1.0)}, testing::Dual<T>{T(1.0), T(0.0)}};
     const auto r = field<S>(lifted_q, place);
     std::array<std::array<T, D>, 3> out;
     for (int d = 0; d < D; ++d) {
@@ -158,8 +158,8 @@ struct Witness {
   template <class T>
   T drawn_curvature(const T& s) const {
     if (straight) return T(0.0);
-    using S = Dual<Dual<T>>;
-    const S place{Dual<T>{s, T(1.0)}, Dual<T>{T(1.0), T(0.0)}};
+    using S = testing::Dual<testing::Dual<T>>;
+    const S place{testing::Dual<T>{s, T(1.0)}, testing::Dual<T>{T(1.0), T(0.0)}};
     const auto r = drawn_point<D, S>(cubic, parameter<D, S>(cubic, map, place));
     std::array<T, D> rs, rss;
     for (int d = 0; d < D; ++d) {
@@ -232,9 +232,9 @@ struct Witness {
   T lagrangian(const std::array<T, n>& q, const std::array<T, n>& v) const {
     T sum(0.0);
     visit_points<T>(q, [&](const T& s, const T& weight) {
-      std::array<Dual<T>, n> moving;
+      std::array<testing::Dual<T>, n> moving;
       for (int i = 0; i < n; ++i) moving[i] = {q[i], v[i]};
-      const auto velocity = field<Dual<T>>(moving, lifted(s));
+      const auto velocity = field<testing::Dual<T>>(moving, lifted(s));
       T speed2(0.0);
       for (int d = 0; d < D; ++d) speed2 = speed2 + velocity[d].d * velocity[d].d;
       sum = sum + weight * (T(properties.mass_per_length / 2) * speed2 - potential<T>(q, s));
@@ -247,10 +247,10 @@ struct Witness {
   T dissipation(const std::array<T, n>& q, const std::array<T, n>& v) const {
     T sum(0.0);
     if (properties.damping == 0) return sum;
-    std::array<Dual<T>, n> moving;
+    std::array<testing::Dual<T>, n> moving;
     for (int i = 0; i < n; ++i) moving[i] = {q[i], v[i]};
     if (!pointwise()) {
-      const auto rate = [&](const T& s) { return strain<Dual<T>>(moving, lifted(s)).d; };
+      const auto rate = [&](const T& s) { return strain<testing::Dual<T>>(moving, lifted(s)).d; };
       T integral(0.0);
       visit_points<T>(q, [&](const T& s, const T& weight) { integral = integral + weight * rate(s); });
       const T length = q[4 * D + 1] - q[4 * D];
@@ -258,10 +258,10 @@ struct Witness {
             integral_of_square<T>(rate(q[4 * D]), rate(q[4 * D + 1]), integral / length, length);
     }
     visit_points<T>(q, [&](const T& s, const T& weight) {
-      const auto r = jets<Dual<T>>(moving, lifted(s));
-      Dual<T> rs2(0.0);
+      const auto r = jets<testing::Dual<T>>(moving, lifted(s));
+      testing::Dual<T> rs2(0.0);
       for (int d = 0; d < D; ++d) rs2 = rs2 + r[1][d] * r[1][d];
-      const T eps_rate = rs2.d / T(2.0), K_rate = curvature<Dual<T>>(r[1], r[2]).d;
+      const T eps_rate = rs2.d / T(2.0), K_rate = curvature<testing::Dual<T>>(r[1], r[2]).d;
       sum = sum + weight * T(properties.damping / 2) *
                       (T(pointwise() ? properties.axial_stiffness : 0) * eps_rate * eps_rate +
                        T(properties.bending_stiffness) * K_rate * K_rate);
@@ -272,10 +272,10 @@ struct Witness {
   // Virtual work at fixed material points, and its derivative along a direction (dq, dv, da).
   std::pair<Eigen::VectorXd, Eigen::VectorXd> virtual_work(const ElementState<D>& x,
                                                            const ElementState<D>& direction) const {
-    using A = Dual<double>;  // along the direction
-    using B = Dual<A>;       // along coordinate i, or time
+    using A = testing::Dual<double>;  // along the direction
+    using B = testing::Dual<A>;       // along coordinate i, or time
     std::array<A, n> q, v, work;
-    std::array<Dual<B>, n> motion;
+    std::array<testing::Dual<B>, n> motion;
     for (int k = 0; k < n; ++k) {
       q[k] = {x.q[k], direction.q[k]};
       v[k] = {x.v[k], direction.v[k]};
@@ -291,7 +291,7 @@ struct Witness {
         still[k] = {q[k], A(0.0)};
       }
       visit_points<A>(q, [&](const A& s, const A& weight) {
-        const auto r = field<Dual<B>>(motion, lifted(lifted(s)));
+        const auto r = field<testing::Dual<B>>(motion, lifted(lifted(s)));
         const auto variation = field<B>(varied, lifted(s));
         A density = potential<B>(varied, lifted(s)).d;
         for (int d = 0; d < D; ++d)
@@ -311,9 +311,9 @@ struct Witness {
   // d/dt(dL/dv) - dL/dq + dR/dv, and its derivative along a direction (dq, dv, da).
   std::pair<Eigen::VectorXd, Eigen::VectorXd> force(const ElementState<D>& x,
                                                     const ElementState<D>& direction) const {
-    using A = Dual<double>;  // along the direction
-    using B = Dual<A>;       // along coordinate i
-    using C = Dual<B>;       // along time
+    using A = testing::Dual<double>;  // along the direction
+    using B = testing::Dual<A>;       // along coordinate i
+    using C = testing::Dual<B>;       // along time
     Eigen::VectorXd value(n), derivative(n);
     for (int i = 0; i < n; ++i) {
       std::array<B, n> q, v;

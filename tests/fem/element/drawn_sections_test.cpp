@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using std::numbers::pi;
 using Rule = Orientation::Rule;
 
-RationalCubic cubic(const std::array<Vector3d, 4>& P, const std::array<double, 4>& w) {
+RationalCubic drawn_cubic(const std::array<Vector3d, 4>& P, const std::array<double, 4>& w) {
   Eigen::Matrix4d points;
   for (int i = 0; i < 4; ++i) points.col(i) << w[i] * P[i], w[i];
   return RationalCubic(points);
@@ -24,8 +24,8 @@ RationalCubic cubic(const std::array<Vector3d, 4>& P, const std::array<double, 4
 /// A space curve that turns by 108 degrees.
 ReferenceCurve bent() {
   return ReferenceCurve(
-      {cubic({Vector3d(0, 0, 0), Vector3d(1, 0, 0.2), Vector3d(1.2, 1, 0.4), Vector3d(0.6, 1.5, 1.4)},
-             {1, 0.8, 1.3, 1})},
+      {drawn_cubic({Vector3d(0, 0, 0), Vector3d(1, 0, 0.2), Vector3d(1.2, 1, 0.4), Vector3d(0.6, 1.5, 1.4)},
+                   {1, 0.8, 1.3, 1})},
       3);
 }
 
@@ -34,7 +34,7 @@ ReferenceCurve ring() {
   const std::array<double, 4> w{1, 0.9, 1.2, 1};
   const Vector3d a(0, 0, 0), b(1, 0.5, 0.3), along_a(0, -0.8, 0.5), along_b(0.2, 0.9, 0.4);
   return ReferenceCurve(
-      {cubic({a, a + along_a, b - along_b, b}, w), cubic({b, b + along_b, a - along_a, a}, w)}, 3,
+      {drawn_cubic({a, a + along_a, b - along_b, b}, w), drawn_cubic({b, b + along_b, a - along_a, a}, w)}, 3,
       Metric::arc_length, true);
 }
 

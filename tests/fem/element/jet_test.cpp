@@ -10,8 +10,6 @@
 namespace nurbeam {
 namespace {
 
-using testing::Dual;
-
 // Any function of both ends that uses every operation.
 template <class T>
 T sample(const T& a, const T& b) {
@@ -19,9 +17,9 @@ T sample(const T& a, const T& b) {
   return (s * s - a) / (b + T(3.0)) - s;
 }
 
-using D1 = Dual<double>;
-using D2 = Dual<D1>;
-using D3 = Dual<D2>;
+using D1 = testing::Dual<double>;
+using D2 = testing::Dual<D1>;
+using D3 = testing::Dual<D2>;
 
 // The derivative along directions i, j, k (0: a, 1: b) by dual numbers nested three deep.
 double third(double a, double b, int i, int j, int k) {

@@ -7,7 +7,7 @@
 namespace nurbeam {
 namespace {
 
-RationalCubic random_cubic(std::mt19937& random) {
+RationalCubic random_rational_cubic(std::mt19937& random) {
   std::uniform_real_distribution<double> coordinate(-3, 3), log_weight(-1.5, 1.5);
   Eigen::Matrix4d points;
   for (int i = 0; i < 4; ++i) {
@@ -21,7 +21,7 @@ TEST(RancfBasis, ToBezierIsTheInverseOfToRancf) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> log_length(-3, 3);
   for (int i = 0; i < 5000; ++i) {
-    const RationalCubic cubic = random_cubic(random);
+    const RationalCubic cubic = random_rational_cubic(random);
     const double l = std::exp(log_length(random));
     const Eigen::Vector4d weights = cubic.points().row(3);
     const RationalCubic back = to_bezier(to_rancf(cubic, l), weights, l);
@@ -32,7 +32,7 @@ TEST(RancfBasis, ToBezierIsTheInverseOfToRancf) {
 TEST(RancfBasis, TheCoordinatesOfACurveAreItsEndsAndTheirDerivatives) {
   std::mt19937 random(2);
   for (int i = 0; i < 200; ++i) {
-    const RationalCubic cubic = random_cubic(random);
+    const RationalCubic cubic = random_rational_cubic(random);
     const double l = 0.7, h = 1e-6;
     const NodalCoordinates nodes = to_rancf(cubic, l);
     EXPECT_LT((nodes.col(0) - cubic.point(0)).norm(), 1e-14);

@@ -23,7 +23,7 @@ CustomForce::Response spring(double t, const Eigen::Matrix3Xd& r, const Eigen::M
 }
 
 template <int D>
-void check_tangent(int seed) {
+void check_custom_tangent(int seed) {
   std::mt19937 random(seed);
   BeamModel model = testing::model_with_everything(random, D);
   using Point = CustomForce::Attachment;
@@ -61,8 +61,8 @@ void check_tangent(int seed) {
   EXPECT_NEAR(error(1e-3) / error(5e-4), 4, 0.3);
 }
 
-TEST(CustomForce, HasTheDerivativesOfItsLawInTheTangentInThePlane) { check_tangent<2>(3); }
-TEST(CustomForce, HasTheDerivativesOfItsLawInTheTangentInSpace) { check_tangent<3>(4); }
+TEST(CustomForce, HasTheDerivativesOfItsLawInTheTangentInThePlane) { check_custom_tangent<2>(3); }
+TEST(CustomForce, HasTheDerivativesOfItsLawInTheTangentInSpace) { check_custom_tangent<3>(4); }
 
 TEST(CustomForce, ThatGivesTooFewForcesIsRefused) {
   BeamModel model =

@@ -13,19 +13,20 @@
 namespace nurbeam {
 namespace {
 
-constexpr double radius = 0.02, density = 7200, youngs_modulus = 2e8;
+constexpr double arc_radius = 0.02, density = 7200, youngs_modulus = 2e8;
 
 // A quarter circle held at one end, with a body that slides on it.
 BeamModel arc_with_slider(WeightRule weights) {
-  BeamModel model = testing::one_beam(testing::arc_cubics({0, 0, 0}, 1, -M_PI / 2, 0, 2), 2,
-                                      testing::round_bar(radius, density, youngs_modulus), 6, {{0, true}});
+  BeamModel model =
+      testing::one_beam(testing::arc_cubics({0, 0, 0}, 1, -M_PI / 2, 0, 2), 2,
+                        testing::round_bar(arc_radius, density, youngs_modulus), 6, {{0, true}});
   model.beams[0].weights = weights;
   testing::add_slider(model, 0.8, 0.7);
   return model;
 }
 
 // Any motion near the drawing.
-State moved(const BeamSystem& system) {
+State moved_state(const BeamSystem& system) {
   State state = drawn_state(system);
   for (int i = 0; i < state.q.size(); ++i) {
     state.q[i] += 0.02 * std::sin(3.0 * i + 1);
@@ -39,7 +40,7 @@ class RecordedElements : public ::testing::TestWithParam<WeightRule> {};
 TEST_P(RecordedElements, HaveTheirSamplesAtThirdsOfTheCubicAndTheVelocityOfTheMaterialThere) {
   const BeamModel model = arc_with_slider(GetParam());
   const BeamSystem system(model, initial_plan(model));
-  const State state = moved(system);
+  const State state = moved_state(system);
   const BeamRecord beam = record_beams(system, state).at(0);
   ASSERT_EQ(beam.elements.size(), system.mesh().spans.size());
   for (std::size_t i = 0; i < beam.elements.size(); ++i) {
@@ -70,7 +71,7 @@ TEST(RecordedSections, OfADrawnArcCarryItsCurvatureAndNoForce) {
     EXPECT_NEAR((e.curvature.array() - 1).abs().maxCoeff(), 0, 1e-10);
     EXPECT_NEAR(e.strain.cwiseAbs().maxCoeff(), 0, 1e-12);
     EXPECT_NEAR(e.axial_force.cwiseAbs().maxCoeff(), 0, 1e-12 * youngs_modulus);
-    EXPECT_NEAR(e.bending_moment.cwiseAbs().maxCoeff(), 0, 1e-9 * youngs_modulus * std::pow(radius, 4));
+    EXPECT_NEAR(e.bending_moment.cwiseAbs().maxCoeff(), 0, 1e-9 * youngs_modulus * std::pow(arc_radius, 4));
     EXPECT_EQ(e.velocity, (Eigen::Matrix<double, 3, 4>::Zero()));
   }
 }
@@ -87,15 +88,16 @@ Snapshot resting(const BeamModel& model) {
 
 // Down from its held end; each section carries what hangs below it.
 TEST(RecordedSections, OfAHangingBarCarryTheWeightBelow) {
-  BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {0, -2, 0})}, 2,
-                                      testing::round_bar(radius, density, youngs_modulus), 16, {{0, true}});
-  const double weight_per_length = density * M_PI * radius * radius * 9.81;
+  BeamModel model =
+      testing::one_beam({testing::line_cubic({0, 0, 0}, {0, -2, 0})}, 2,
+                        testing::round_bar(arc_radius, density, youngs_modulus), 16, {{0, true}});
+  const double weight_per_length = density * M_PI * arc_radius * arc_radius * 9.81;
   const BeamRecord beam = resting(model).beams.at(0);
   for (const ElementRecord& e : beam.elements)
     for (int k = 0; k < 4; ++k) {
       const double s = e.s_start + k / 3.0 * (e.s_end - e.s_start);
       EXPECT_NEAR(e.axial_force[k], weight_per_length * (2 - s), 1e-3 * weight_per_length * 2);
-      EXPECT_NEAR(e.strain[k], e.axial_force[k] / (youngs_modulus * M_PI * radius * radius), 1e-6);
+      EXPECT_NEAR(e.strain[k], e.axial_force[k] / (youngs_modulus * M_PI * arc_radius * arc_radius), 1e-6);
     }
 }
 
@@ -103,7 +105,7 @@ TEST(RecordedSections, OfAHangingBarCarryTheWeightBelow) {
 double roll_up_error(int elements) {
   BeamModel model =
       testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
-                        testing::round_bar(radius, density, youngs_modulus), elements, {{0, true}});
+                        testing::round_bar(arc_radius, density, youngs_modulus), elements, {{0, true}});
   model.gravity.setZero();
   const double EI = model.beams[0].properties.bending_stiffness, curvature = M_PI / 2;
   model.forces.push_back(Moment{{.s = model.beams[0].curve.length(), .value = {0, 0, EI * curvature}}});

@@ -36,9 +36,9 @@ BeamModel rail(double mass, double speed, const Vector3d& gravity, double dampin
   return builder.build();
 }
 
-SimulationReport run(const BeamModel& model, double end, double step,
-                     const std::function<void(const Snapshot&)>& at_snapshot,
-                     const SimulationObserver& more = {}, const Checkpoint* from = nullptr) {
+SimulationReport run_sliding(const BeamModel& model, double end, double step,
+                             const std::function<void(const Snapshot&)>& at_snapshot,
+                             const SimulationObserver& more = {}, const Checkpoint* from = nullptr) {
   SimulationOptions options;
   options.end_time = end;
   options.step = step;
@@ -59,7 +59,7 @@ TEST(TorsionSliding, LeavesARailAtRestUnderABodyWithoutMass) {
   const double L = model.beams[0].curve.length();
   model.joints[0].motion = TimeTable{{0, 0.23 * L}, {1, 0.77 * L}};
   double largest = 0;
-  const SimulationReport report = run(model, 1, 2e-3, [&](const Snapshot& now) {
+  const SimulationReport report = run_sliding(model, 1, 2e-3, [&](const Snapshot& now) {
     largest = std::max({largest, now.energy.kinetic, now.energy.axial + now.energy.bending});
   });
   EXPECT_EQ(report.status, SimulationStatus::done);
@@ -74,7 +74,7 @@ TEST(TorsionSliding, KeepsTheEnergyThroughSplitsAndMerges) {
   Checkpoint last;
   SimulationObserver observer;
   observer.checkpoint = [&](const Checkpoint& now) { last = now; };
-  const SimulationReport report = run(model, 0.8, 5e-4, nullptr, observer);
+  const SimulationReport report = run_sliding(model, 0.8, 5e-4, nullptr, observer);
   const double torsion = energy(BeamSystem(model, last.plan), last.state).torsion;
   EXPECT_EQ(report.status, SimulationStatus::done);
   EXPECT_GE(count(report, EventKind::split), 2);
@@ -92,7 +92,7 @@ TEST(TorsionSliding, KeepsTheMomentumOfAFreeRail) {
   Checkpoint last;
   SimulationObserver observer;
   observer.checkpoint = [&](const Checkpoint& now) { last = now; };
-  const SimulationReport report = run(model, 0.8, 1e-3, nullptr, observer);
+  const SimulationReport report = run_sliding(model, 0.8, 1e-3, nullptr, observer);
   EXPECT_EQ(report.status, SimulationStatus::done);
   EXPECT_GE(count(report, EventKind::merge), 1);
   const BeamSystem at_end(model, last.plan);
@@ -106,11 +106,11 @@ TEST(TorsionSliding, GoesOnFromACheckpointBitByBit) {
   SimulationObserver observer;
   observer.checkpoint_due = [&] { return ++steps == 300; };
   observer.checkpoint = [&](const Checkpoint& now) { (steps <= 300 ? middle : end) = now; };
-  run(model, 0.6, 1e-3, nullptr, observer);
+  run_sliding(model, 0.6, 1e-3, nullptr, observer);
   ASSERT_FALSE(middle.plan.section_charts.empty());
   SimulationObserver again;
   again.checkpoint = [&](const Checkpoint& now) { resumed = now; };
-  run(model, 0.6, 1e-3, nullptr, again, &middle);
+  run_sliding(model, 0.6, 1e-3, nullptr, again, &middle);
   EXPECT_EQ(resumed.state.t, end.state.t);
   EXPECT_EQ(resumed.state.q, end.state.q);
   EXPECT_EQ(resumed.state.v, end.state.v);

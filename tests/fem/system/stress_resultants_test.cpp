@@ -142,15 +142,15 @@ TEST(Reactions, OfAClampAreForceAndCouple) {
 }
 
 // A body that slides over a disturbed beam in motion, with accelerations and multipliers that belong to it.
-struct Sliding {
+struct SlidingMass {
   BeamSystem system;
   State state;
 };
-Sliding sliding(std::mt19937& random, int dimension) {
+SlidingMass sliding(std::mt19937& random, int dimension) {
   BeamModel model = testing::one_beam(testing::uneven_axis(random, dimension), dimension,
                                       BeamProperties{300, 2, 0.7, 0.02}, 8, {{0, true}, {9, false}});
   testing::add_slider(model, 0.8, 0.4 * model.beams[0].curve.length());
-  Sliding at{BeamSystem(model), {}};
+  SlidingMass at{BeamSystem(model), {}};
   at.state = testing::disturbed_state(at.system, random, 0.01);
   EXPECT_EQ(project_velocities(at.system, at.state).status, ConsistencyStatus::done);
   EXPECT_EQ(make_accelerations_consistent(at.system, at.state), ConsistencyStatus::done);

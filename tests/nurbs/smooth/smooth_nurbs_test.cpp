@@ -170,7 +170,7 @@ TEST(SmoothNurbs, AWholeCircleIsC1ThroughoutWithMildWeights) {
   Generator generator(73);
   for (const int parts : {3, 4})
     for (const int cuts : {1, 2, 3, 5, 8, 25}) {
-      SCOPED_TRACE(testing::Message() << parts << " arcs in " << cuts << " pieces");
+      SCOPED_TRACE(::testing::Message() << parts << " arcs in " << cuts << " pieces");
       BezierPath arcs{{}, {0}, 0};
       for (int i = 0; i < parts; ++i) {
         const double angle = 2 * pi / parts;
@@ -264,7 +264,7 @@ TEST(SmoothNurbs, ARunOfLinesAndArcsIsC1OfDegreeTwoWithMildWeights) {
   for (int i = 0; i < 20; ++i) twenty_bends.insert(twenty_bends.end(), {{0.3}, {0.1, pi / 2}});
   for (const std::vector<RunPart>& parts : {three_bends, uneven, return_bend, twenty_bends})
     for (const int cuts : {1, 3}) {
-      SCOPED_TRACE(testing::Message() << parts.size() << " parts in " << cuts << " pieces");
+      SCOPED_TRACE(::testing::Message() << parts.size() << " parts in " << cuts << " pieces");
       const BezierPath path = pipe_run(parts, cuts);
       const double tolerance = 2e-13 * path.length();
       const SmoothNurbs smooth = smooth_nurbs(path, CurveParameter::free, tolerance);

@@ -17,18 +17,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct Outcome {
+struct CommandOutcome {
   int code;
   std::string out, err;
 };
 
-Outcome run(const std::vector<std::string>& arguments) {
+CommandOutcome run_line(const std::vector<std::string>& arguments) {
   std::ostringstream out, err;
   const int code = run_command_line(arguments, out, err);
   return {code, out.str(), err.str()};
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool text_holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// A quarter of the unit circle about the origin, moved along x.
 NurbsCurve quarter_circle(double x = 0) {
@@ -45,19 +47,19 @@ NurbsCurve line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
-  EXPECT_EQ(run({"--help"}).code, 0);
-  EXPECT_TRUE(holds(run({"--help"}).out, "nurbeam compare A B"));
-  EXPECT_TRUE(holds(run({"run", "--help"}).out, "--set path=value"));
-  EXPECT_TRUE(run({"--version"}).out.starts_with("nurbeam "));
-  EXPECT_EQ(run({}).code, 2);
+  EXPECT_EQ(run_line({"--help"}).code, 0);
+  EXPECT_TRUE(text_holds(run_line({"--help"}).out, "nurbeam compare A B"));
+  EXPECT_TRUE(text_holds(run_line({"run", "--help"}).out, "--set path=value"));
+  EXPECT_TRUE(run_line({"--version"}).out.starts_with("nurbeam "));
+  EXPECT_EQ(run_line({}).code, 2);
 }
 
 TEST(CommandLine, UnknownCommandsAndOptionsNameTheClosestOne) {
-  const Outcome command = run({"inspct"}), option = run({"run", "case.json", "--quite"});
+  const CommandOutcome command = run_line({"inspct"}), option = run_line({"run", "case.json", "--quite"});
   EXPECT_EQ(command.code, 2);
-  EXPECT_TRUE(holds(command.err, "did you mean \"inspect\"")) << command.err;
+  EXPECT_TRUE(text_holds(command.err, "did you mean \"inspect\"")) << command.err;
   EXPECT_EQ(option.code, 2);
-  EXPECT_TRUE(holds(option.err, "did you mean \"--quiet\"")) << option.err;
+  EXPECT_TRUE(text_holds(option.err, "did you mean \"--quiet\"")) << option.err;
 }
 
 TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
@@ -71,33 +73,34 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
                                                 {"export", "d", "--time", "x", "--to", "f.step"},
                                                 {"compare", "a", "b", "--tolerance", "-1"},
                                                 {"schema", "cases"}}) {
-    const Outcome outcome = run(words);
+    const CommandOutcome outcome = run_line(words);
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_TRUE(holds(outcome.err, "usage: nurbeam " + words[0])) << outcome.err;
+    EXPECT_TRUE(text_holds(outcome.err, "usage: nurbeam " + words[0])) << outcome.err;
     EXPECT_EQ(outcome.out, "");
   }
 }
 
 TEST(CommandLine, ACommandThatIsNotThereIsNeitherOfferedNorRun) {
-  const Outcome outcome = run({"study", "s.json"});
+  const CommandOutcome outcome = run_line({"study", "s.json"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(holds(outcome.err, "study")) << outcome.err;
-  EXPECT_FALSE(holds(run({"--help"}).out, "study"));
-  EXPECT_TRUE(holds(run({"schema", "study"}).err, "there is no schema \"study\""));
+  EXPECT_TRUE(text_holds(outcome.err, "study")) << outcome.err;
+  EXPECT_FALSE(text_holds(run_line({"--help"}).out, "study"));
+  EXPECT_TRUE(text_holds(run_line({"schema", "study"}).err, "there is no schema \"study\""));
 }
 
 TEST(CommandLine, ABadCaseFileEndsWithTwoAndItsPlace) {
   const test::TemporaryDirectory directory;
   const std::string file = directory.write("case.json", test::smallest_case).string();
-  const Outcome outcome = run({"check", file, "--set", "beams[0].section.radius=-1"});
+  const CommandOutcome outcome = run_line({"check", file, "--set", "beams[0].section.radius=-1"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(holds(outcome.err, "error: " + file + ": beams[0].section.radius: is -1 m")) << outcome.err;
-  EXPECT_EQ(run({"run", (directory.path() / "absent.json").string()}).code, 2);
+  EXPECT_TRUE(text_holds(outcome.err, "error: " + file + ": beams[0].section.radius: is -1 m"))
+      << outcome.err;
+  EXPECT_EQ(run_line({"run", (directory.path() / "absent.json").string()}).code, 2);
 }
 
 TEST(CommandLine, TheSchemaIsPrinted) {
-  EXPECT_TRUE(Json::parse(run({"schema"}).out).contains("properties"));
-  EXPECT_EQ(run({"schema", "case"}).out, run({"schema"}).out);
+  EXPECT_TRUE(Json::parse(run_line({"schema"}).out).contains("properties"));
+  EXPECT_EQ(run_line({"schema", "case"}).out, run_line({"schema"}).out);
 }
 
 TEST(CommandLine, InspectListsTheCurvesOfAFile) {
@@ -106,10 +109,10 @@ TEST(CommandLine, InspectListsTheCurvesOfAFile) {
   ASSERT_TRUE(export_curves(file, {{"arc", quarter_circle()}, {"line", line({0, 0, 0}, {0, 0, 2})}},
                             LengthUnit::millimetre)
                   .empty());
-  const Outcome table = run({"inspect", file}), json = run({"inspect", "--json", file});
+  const CommandOutcome table = run_line({"inspect", file}), json = run_line({"inspect", "--json", file});
   EXPECT_EQ(table.code, 0) << table.err;
-  EXPECT_TRUE(holds(table.out, "unit mm")) << table.out;
-  EXPECT_TRUE(holds(table.out, "(1, 0, 0)")) << table.out;
+  EXPECT_TRUE(text_holds(table.out, "unit mm")) << table.out;
+  EXPECT_TRUE(text_holds(table.out, "(1, 0, 0)")) << table.out;
   const Json curves = Json::parse(json.out).at(0).at("curves");
   ASSERT_EQ(curves.size(), 2u);
   EXPECT_EQ(curves[0].at("index"), 1);
@@ -125,10 +128,10 @@ TEST(CommandLine, InspectOfAnUnreadableFileEndsWithTwoAndStillListsTheOthers) {
   const std::string good = (directory.path() / "good.igs").string();
   ASSERT_TRUE(export_curves(good, {{"arc", quarter_circle()}}, LengthUnit::metre).empty());
   const std::string bad = directory.write("bad.step", "this is no CAD file").string();
-  const Outcome outcome = run({"inspect", bad, good});
+  const CommandOutcome outcome = run_line({"inspect", bad, good});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(holds(outcome.err, "error: ")) << outcome.err;
-  EXPECT_TRUE(holds(outcome.out, "good.igs: 1 curve(s)")) << outcome.out;
+  EXPECT_TRUE(text_holds(outcome.err, "error: ")) << outcome.err;
+  EXPECT_TRUE(text_holds(outcome.out, "good.igs: 1 curve(s)")) << outcome.out;
 }
 
 TEST(CommandLine, CompareMeasuresBothWaysAgainstAllCurves) {
@@ -141,22 +144,22 @@ TEST(CommandLine, CompareMeasuresBothWaysAgainstAllCurves) {
   const std::string whole = write("whole.step", {{"whole", line(a, c)}});
   const std::string halves = write("halves.igs", {{"first", line(a, b)}, {"second", line(b, c)}});
   const std::string half = write("half.step", {{"first", line(a, b)}});
-  const Outcome same = run({"compare", whole, halves, "--tolerance", "1e-12"});
+  const CommandOutcome same = run_line({"compare", whole, halves, "--tolerance", "1e-12"});
   EXPECT_EQ(same.code, 0) << same.out << same.err;
   for (const auto& [first, second] : {std::pair{whole, half}, {half, whole}}) {
-    const Outcome different = run({"compare", first, second, "--tolerance", "999 mm"});
+    const CommandOutcome different = run_line({"compare", first, second, "--tolerance", "999 mm"});
     EXPECT_EQ(different.code, 1) << different.out;
-    EXPECT_TRUE(holds(different.out, "largest distance: 1 m")) << different.out;
-    EXPECT_EQ(run({"compare", first, second, "--tolerance=1001 mm"}).code, 0);
+    EXPECT_TRUE(text_holds(different.out, "largest distance: 1 m")) << different.out;
+    EXPECT_EQ(run_line({"compare", first, second, "--tolerance=1001 mm"}).code, 0);
   }
-  EXPECT_EQ(run({"compare", whole, (directory.path() / "absent.step").string()}).code, 2);
+  EXPECT_EQ(run_line({"compare", whole, (directory.path() / "absent.step").string()}).code, 2);
   // Without a tolerance it is a millionth of the size, here of 2 m.
   const std::string near = write("near.step", {{"whole", line({0, 0, 1.9e-6}, {2, 0, 1.9e-6})}});
   const std::string off = write("off.step", {{"whole", line({0, 0, 2.1e-6}, {2, 0, 2.1e-6})}});
-  EXPECT_EQ(run({"compare", whole, near}).code, 0);
-  const Outcome differs = run({"compare", whole, off});
+  EXPECT_EQ(run_line({"compare", whole, near}).code, 0);
+  const CommandOutcome differs = run_line({"compare", whole, off});
   EXPECT_EQ(differs.code, 1);
-  EXPECT_TRUE(holds(differs.out, "1.05e-06 of the size; tolerance: 2e-06 m")) << differs.out;
+  EXPECT_TRUE(text_holds(differs.out, "1.05e-06 of the size; tolerance: 2e-06 m")) << differs.out;
 }
 
 TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
@@ -171,8 +174,8 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
   writer.write(frame);
   writer.finish();
   const std::string file = (directory.path() / "deformed.step").string();
-  const Outcome outcome =
-      run({"export", directory.path().string(), "--time", "0 ms", "--to", file, "--unit", "inch"});
+  const CommandOutcome outcome =
+      run_line({"export", directory.path().string(), "--time", "0 ms", "--to", file, "--unit", "inch"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const ImportReport report = import_curves(file);
   ASSERT_EQ(report.curves.size(), 1u);
@@ -190,7 +193,7 @@ TEST(CommandLine, ExportTellsBadInputFromWhatCannotBeWritten) {
   writer.write(frame);
   writer.finish();
   const auto code = [&](const std::string& results, const std::string& time, const std::string& file) {
-    return run({"export", results, "--time", time, "--to", file}).code;
+    return run_line({"export", results, "--time", time, "--to", file}).code;
   };
   const std::string results = directory.path().string();
   EXPECT_EQ(code(results, "0", results + "/good.igs"), 0);

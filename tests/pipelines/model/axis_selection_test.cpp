@@ -168,7 +168,7 @@ std::filesystem::path star(const test::TemporaryDirectory& directory) {
   return file;
 }
 
-BuildReport build(const test::TemporaryDirectory& directory, std::vector<std::string> overrides) {
+BuildReport build_axis(const test::TemporaryDirectory& directory, std::vector<std::string> overrides) {
   overrides.insert(overrides.begin(), {R"(beams[0].axis={"file": "star.step", "chains": "all"})",
                                        R"(beams[0].name="net")", R"(supports[0].beam="net")"});
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), overrides);
@@ -187,7 +187,7 @@ bool says(const BuildReport& report, Severity severity, const std::string& words
 TEST(AxisSelection, EveryChainOfAFileBecomesABeamAndIsSupportedAsTheWhole) {
   const test::TemporaryDirectory directory;
   star(directory);
-  const BuildReport report = build(directory, {});
+  const BuildReport report = build_axis(directory, {});
   ASSERT_TRUE(report.value);
   const BeamModel& model = report.value->model;
   ASSERT_EQ(model.beams.size(), 4U);
@@ -206,12 +206,12 @@ TEST(AxisSelection, OneOfSeveralChainsIsNamedByItsNumber) {
   const test::TemporaryDirectory directory;
   star(directory);
   const BuildReport report =
-      build(directory, {R"(loads=[{"beam": "net 4", "at": "end", "force": [0, 1, 0]}])"});
+      build_axis(directory, {R"(loads=[{"beam": "net 4", "at": "end", "force": [0, 1, 0]}])"});
   ASSERT_TRUE(report.value);
   ASSERT_EQ(report.value->model.forces.size(), 1U);
   EXPECT_EQ(std::get<PointLoad>(report.value->model.forces[0]).beam, 3);
   const BuildReport wrong =
-      build(directory, {R"(loads=[{"beam": "net 5", "at": "end", "force": [0, 1, 0]}])"});
+      build_axis(directory, {R"(loads=[{"beam": "net 5", "at": "end", "force": [0, 1, 0]}])"});
   EXPECT_FALSE(wrong.value);
   EXPECT_TRUE(says(wrong, Severity::error, "loads[0].beam: there is no beam \"net 5\""));
 }
@@ -220,8 +220,8 @@ TEST(AxisSelection, ABodySlidesOnOneBeamOnly) {
   const test::TemporaryDirectory directory;
   star(directory);
   const BuildReport report =
-      build(directory, {R"(bodies=[{"name": "bead", "mass": 1}])",
-                        R"(sliding_joints=[{"body": "bead", "beam": "net", "at": "start"}])"});
+      build_axis(directory, {R"(bodies=[{"name": "bead", "mass": 1}])",
+                             R"(sliding_joints=[{"body": "bead", "beam": "net", "at": "start"}])"});
   EXPECT_FALSE(report.value);
   EXPECT_TRUE(says(report, Severity::error, "choose one: \"net 1\", \"net 2\""));
 }

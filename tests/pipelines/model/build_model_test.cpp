@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -178,6 +179,18 @@ TEST(BuildModel, DrawsSectionsOfAnyKindAlongTheAxis) {
   EXPECT_LT((beam.curve.section(0).d2 - Eigen::Vector3d::UnitY()).norm(), 1e-15);
   EXPECT_LT((beam.curve.section(0.8).d2 + beam.curve.section(0).d1).norm(), 1e-14);
   EXPECT_TRUE(std::get<Support>(report.value->model.constraints[0]).fork);
+}
+
+TEST(BuildModel, SaysThatAnExtremeFibreHasNoPlaceOnASectionThatBendsUnalike) {
+  const BuildReport report = built(
+      {R"(beams[0].section={"area": 1e-4, "second_moments": [2e-9, 1e-9], "torsion_constant": 1e-9, "extreme_fibre": 0.01})",
+       "beams[0].torsion=true", "beams[0].material.poissons_ratio=0.3"});
+  ASSERT_TRUE(report.value);
+  EXPECT_TRUE(std::ranges::any_of(report.diagnostics, [](const Diagnostic& d) {
+    return d.severity == Severity::warning &&
+           d.where.find("beams[0].section.extreme_fibre") != std::string::npos &&
+           d.message.find("that needs a \"profile\"") != std::string::npos;
+  }));
 }
 
 TEST(BuildModel, GivesTorsionWhereAKeyNeedsSections) {

@@ -23,7 +23,7 @@ RationalCubic in_plane(const Vector3d& origin, const Vector3d& e1, const Vector3
   return cubic(origin, origin + e1, origin + 2 * e1 + e2, origin + 3 * e1 - e2);
 }
 
-RationalCubic line(const Vector3d& a, const Vector3d& b) {
+RationalCubic frame_line(const Vector3d& a, const Vector3d& b) {
   return cubic(a, a + (b - a) / 3, a + (b - a) * 2 / 3, b);
 }
 
@@ -65,14 +65,14 @@ TEST(ModelFrame, AnAxisOutOfThePlaneOfTheOthersMakesTheModelSpatial) {
 }
 
 TEST(ModelFrame, OfThePlanesThroughALineTheOneIsTakenThatTheFirstMomentIsNormalTo) {
-  const RationalCubic axis = line(Vector3d(1, 1, 1), Vector3d(4, 1, 1));
+  const RationalCubic axis = frame_line(Vector3d(1, 1, 1), Vector3d(4, 1, 1));
   const Vector3d moment(0, 3, 4);
   const ModelFrame asked = model_frame({axis}, {}, {moment});
   EXPECT_EQ(asked.dimension, 2);
   EXPECT_LT((asked.rotation.row(2).transpose() - moment / 5).norm(), 1e-12);
   const ModelFrame horizontal = model_frame({axis}, {}, {});
   EXPECT_EQ(horizontal.rotation, Eigen::Matrix3d::Identity().eval());
-  const ModelFrame upright = model_frame({line(Vector3d::Zero(), Vector3d::UnitZ())}, {}, {});
+  const ModelFrame upright = model_frame({frame_line(Vector3d::Zero(), Vector3d::UnitZ())}, {}, {});
   EXPECT_EQ(upright.rotation.row(2), Vector3d::UnitY().transpose().eval());
 }
 

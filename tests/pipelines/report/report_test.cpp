@@ -211,12 +211,12 @@ TEST(Report, TheProgramHoldsTheCommittedPage) {
   }
 }
 
-struct Outcome {
+struct ReportOutcome {
   int code;
   std::string err;
 };
 
-Outcome report(const std::filesystem::path& directory) {
+ReportOutcome report(const std::filesystem::path& directory) {
   std::ostringstream out, err;
   const int code = run_command_line({"report", directory.string()}, out, err);
   return {code, err.str()};
@@ -224,12 +224,12 @@ Outcome report(const std::filesystem::path& directory) {
 
 TEST(ReportCommand, ADirectoryWithoutResultsEndsWithTwoAndTheNameOfWhatIsMissing) {
   const TemporaryDirectory directory;
-  const Outcome empty = report(directory.path());
+  const ReportOutcome empty = report(directory.path());
   EXPECT_EQ(empty.code, 2);
   EXPECT_NE(empty.err.find((directory.path() / "run.json").string()), std::string::npos) << empty.err;
   EXPECT_NE(empty.err.find("nurbeam run"), std::string::npos) << empty.err;
   directory.write("run.json", "{}");
-  const Outcome half = report(directory.path());
+  const ReportOutcome half = report(directory.path());
   EXPECT_EQ(half.code, 2);
   EXPECT_NE(half.err.find("results.nc"), std::string::npos) << half.err;
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "report.html"));
@@ -244,7 +244,7 @@ TEST(ReportCommand, ABadSummaryEndsWithTwoAndLeavesTheFormerReport) {
   results.finish();
   directory.write("report.html", "former");
   directory.write("run.json", "no JSON");
-  const Outcome outcome = report(directory.path());
+  const ReportOutcome outcome = report(directory.path());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("run.json"), std::string::npos) << outcome.err;
   EXPECT_EQ(text_of(directory.path() / "report.html"), "former");

@@ -21,14 +21,16 @@ std::string refusal(const std::filesystem::path& path) {
   return "";
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool directory_holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
   const TemporaryDirectory temporary;
   const auto path = temporary.path() / "new" / "results";
   std::optional<ResultsDirectory> first(path);
   EXPECT_TRUE(std::filesystem::is_directory(path));
-  EXPECT_TRUE(holds(refusal(path), path.string() + ": another run")) << refusal(path);
+  EXPECT_TRUE(directory_holds(refusal(path), path.string() + ": another run")) << refusal(path);
   first.reset();
   EXPECT_EQ(refusal(path), "");
   EXPECT_TRUE(std::filesystem::is_empty(path));
@@ -75,11 +77,13 @@ TEST(ResultsDirectory, NamesTheFilesOfItsRunInOrder) {
 TEST(ResultsDirectory, SaysWhatStandsInItsWay) {
   const TemporaryDirectory temporary;
   const auto file = temporary.write("file", "");
-  EXPECT_TRUE(holds(refusal(file), file.string() + ": is a file; expected a directory")) << refusal(file);
-  EXPECT_TRUE(holds(refusal(file / "below"), "Not a directory")) << refusal(file / "below");
-  EXPECT_TRUE(holds(refusal("/proc/no"), "/proc/no: cannot be made")) << refusal("/proc/no");
+  EXPECT_TRUE(directory_holds(refusal(file), file.string() + ": is a file; expected a directory"))
+      << refusal(file);
+  EXPECT_TRUE(directory_holds(refusal(file / "below"), "Not a directory")) << refusal(file / "below");
+  EXPECT_TRUE(directory_holds(refusal("/proc/no"), "/proc/no: cannot be made")) << refusal("/proc/no");
   std::filesystem::create_directory(temporary.path() / "histories.csv");
-  EXPECT_TRUE(holds(refusal(temporary.path()), "histories.csv: is a directory")) << refusal(temporary.path());
+  EXPECT_TRUE(directory_holds(refusal(temporary.path()), "histories.csv: is a directory"))
+      << refusal(temporary.path());
 }
 
 }  // namespace

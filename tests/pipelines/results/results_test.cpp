@@ -263,7 +263,7 @@ TEST(Results, ADirectoryWithoutResultsIsNamed) {
   }
 }
 
-class ResumedResults : public testing::TestWithParam<bool> {};
+class ResumedResults : public ::testing::TestWithParam<bool> {};
 
 TEST_P(ResumedResults, AreThoseOfARunWithoutABreakWhereverItWasCut) {
   const bool finished = GetParam();
@@ -293,7 +293,7 @@ TEST_P(ResumedResults, AreThoseOfARunWithoutABreakWhereverItWasCut) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ResumedResults, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Of, ResumedResults, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "AFinishedRun" : "AKilledRun"; });
 
 TEST(Results, MoreFramesThanAreStoredCannotBeResumed) {

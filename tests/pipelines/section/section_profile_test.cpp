@@ -148,7 +148,8 @@ TEST(SectionProfile, WhatIsNoProfileIsRefusedWithThePlace) {
 /// A planar cantilever along x in the x-y plane, or one with a load across it, with a drawn section.
 class DrawnSection : public ::testing::Test {
  protected:
-  BuildReport build(const Outline& outline, const std::string& in_plane, bool spatial) {
+  BuildReport build(const Outline& outline, const std::string& in_plane, bool spatial,
+                    const std::string& more = "") {
     std::vector<NamedCurve> curves;
     for (const NurbsCurve& curve : outline) curves.push_back({"profile", curve});
     EXPECT_TRUE(export_curves(directory_.path() / "profile.step", curves, LengthUnit::millimetre).empty());
@@ -156,6 +157,7 @@ class DrawnSection : public ::testing::Test {
         R"(beams[0].section={"profile": {"file": "profile.step", "in_plane": ")" + in_plane + "\"}}",
         R"(gravity=[0, -9.81, 0])"};
     if (spatial) overrides.emplace_back(R"(loads=[{"beam": "cable", "at": "end", "force": [0, 0, 1]}])");
+    if (!more.empty()) overrides.push_back(more);
     case_ = read_case_file(directory_.write("case.json", test::smallest_case), overrides).value.value();
     return build_model(case_);
   }
@@ -177,12 +179,21 @@ TEST_F(DrawnSection, APlanarModelBendsAlongTheAxisInItsPlane) {
   }
 }
 
-TEST_F(DrawnSection, ASpatialModelRefusesASectionThatBendsUnlikeInTwoDirections) {
-  const BuildReport refused = build(rectangle(0.1, 0.3), "y", true);
+TEST_F(DrawnSection, ASpatialModelGivesASectionThatBendsUnlikeInTwoDirectionsTorsion) {
+  const BuildReport given = build(rectangle(0.1, 0.3), "y", true, "beams[0].section.torsion_constant=5e-5");
+  ASSERT_TRUE(given.value);
+  const std::optional<SectionStiffness>& sections = given.value->model.beams[0].properties.sections;
+  ASSERT_TRUE(sections);
+  EXPECT_NEAR(sections->bending_1 / (20e6 * 0.000225), 1, 1e-12);
+  EXPECT_NEAR(sections->bending_2 / (20e6 * 2.5e-5), 1, 1e-12);
+}
+
+TEST_F(DrawnSection, ABeamInSpaceThatIsToHaveNoTorsionRefusesASectionThatBendsUnlikeInTwoDirections) {
+  const BuildReport refused = build(rectangle(0.1, 0.3), "y", true, "beams[0].torsion=false");
   EXPECT_FALSE(refused.value);
   ASSERT_EQ(refused.diagnostics.size(), 1u);
   EXPECT_NE(refused.diagnostics[0].where.find("beams[0].section.profile"), std::string::npos);
-  for (const char* part : {"0.000225 and 2.5e-05 m^4", "\"area\" and \"second_moment\"", "one plane"})
+  for (const char* part : {"0.000225 and 2.5e-05 m^4", "\"area\" and \"second_moment\"", "\"torsion\": true"})
     EXPECT_NE(refused.diagnostics[0].message.find(part), std::string::npos) << refused.diagnostics[0].message;
   const BuildReport square = build(rectangle(0.1, 0.1), "y", true);
   ASSERT_TRUE(square.value);
