@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
@@ -98,6 +100,22 @@ double gap_of(const std::vector<RationalCubic>& segments) {
   return (segments.front().control_point(0) - segments.back().control_point(3)).norm();
 }
 
+// The segments with one tangent at each joint where the digits of the drawing, not its author, made a kink:
+// of a kink that stays an element would hold the angle in its drawn direction while the beam turns.
+std::vector<RationalCubic> without_kinks(const CaseBeam& beam, std::span<const RationalCubic> segments,
+                                         Findings& findings) {
+  constexpr double arithmetic = 1e-12, digits = default_corner_angle;  // [rad]
+  const std::vector<Corner> kinks = corners_of(segments, arithmetic);
+  if (std::none_of(kinks.begin(), kinks.end(), [](const Corner& kink) { return kink.angle <= digits; }))
+    return {segments.begin(), segments.end()};
+  SmoothCorners smooth = smooth_corners(segments, digits);
+  if (smooth.deviation > round_off * total_length(segments))
+    findings.add(Severity::note, beam.path + ".axis",
+                 "tangents that differed by up to " + text_of(digits) +
+                     " rad were made one; largest deviation " + text_of(smooth.deviation) + " m");
+  return smooth.segments;
+}
+
 // The axis of a ring: its end on its start, without a corner there, and two segments at least.
 void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Findings& findings) {
   const std::string where = beam.path + ".closed";
@@ -122,6 +140,10 @@ void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Find
   Eigen::Matrix4d points = segments.back().points();
   points.col(3).head<3>() = points(3, 3) * start;
   segments.back() = RationalCubic(points);
+  const std::vector<RationalCubic> smooth =
+      without_kinks(beam, std::array{segments.back(), segments.front()}, findings);
+  segments.back() = smooth[0];
+  segments.front() = smooth[1];
 }
 
 void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
@@ -150,21 +172,6 @@ std::vector<RationalCubic> regular(const CaseBeam& beam, const BeamAxis& axis, F
                       " that stand still at an end made anew; largest deviation " +
                       text_of(regular.deviation) + " m");
   return regular.segments;
-}
-
-// The axis with one tangent at each joint where the digits of the drawing, not its author, made a kink.
-std::vector<RationalCubic> without_kinks(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
-                                         Findings& findings) {
-  constexpr double arithmetic = 1e-12, digits = 1e-6;  // [rad]
-  const std::vector<Corner> kinks = corners_of(segments, arithmetic);
-  if (std::none_of(kinks.begin(), kinks.end(), [](const Corner& kink) { return kink.angle <= digits; }))
-    return segments;
-  SmoothCorners smooth = smooth_corners(segments, digits);
-  if (smooth.deviation <= round_off * total_length(segments)) return smooth.segments;
-  findings.add(Severity::note, beam.path + ".axis",
-               "tangents that differed by up to " + text_of(digits) +
-                   " rad were made one; largest deviation " + text_of(smooth.deviation) + " m");
-  return smooth.segments;
 }
 
 std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments,

@@ -49,7 +49,7 @@ NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
-    : file_(std::move(other.file_)), id_(std::exchange(other.id_, -1)) {}
+    : file_(std::move(other.file_)), id_(std::exchange(other.id_, -1)), texts_(std::move(other.texts_)) {}
 
 NetcdfFile::~NetcdfFile() {
   if (id_ >= 0) nc_close(id_);
@@ -74,10 +74,16 @@ void NetcdfFile::define(const std::string& name, Type type, const std::vector<st
 
 void NetcdfFile::define_texts(const std::string& name, const std::string& dimension,
                               const std::vector<std::string>& texts) {
-  const int variable = define_variable(name, NC_STRING, {dimension});
-  std::vector<const char*> pointers;
-  for (const std::string& text : texts) pointers.push_back(text.c_str());
-  check(nc_put_var_string(id_, variable, pointers.data()), name);
+  define_variable(name, NC_STRING, {dimension});
+  texts_.emplace_back(name, texts);
+}
+
+void NetcdfFile::put_texts() {
+  for (const auto& [name, texts] : std::exchange(texts_, {})) {
+    std::vector<const char*> pointers;
+    for (const std::string& text : texts) pointers.push_back(text.c_str());
+    check(nc_put_var_string(id_, variable(name), pointers.data()), name);
+  }
 }
 
 void NetcdfFile::put_attribute(const std::string& variable, const std::string& name,
@@ -96,10 +102,12 @@ std::string NetcdfFile::attribute(const std::string& variable, const std::string
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const double* values) {
+  put_texts();
   check(nc_put_vara_double(id_, variable(name), start.data(), count.data(), values), name);
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const int* values) {
+  put_texts();
   check(nc_put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
 }
 
@@ -144,7 +152,10 @@ std::size_t NetcdfFile::size(const std::string& dimension) const {
   return size;
 }
 
-void NetcdfFile::close() { check(nc_close(std::exchange(id_, -1)), "close"); }
+void NetcdfFile::close() {
+  put_texts();
+  check(nc_close(std::exchange(id_, -1)), "close");
+}
 
 void NetcdfFile::check(int status, const std::string& what) const {
   if (status != NC_NOERR) throw std::runtime_error(file_.string() + ": " + what + ": " + reason_of(status));

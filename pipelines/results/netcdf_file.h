@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nurbeam {
@@ -50,8 +51,12 @@ class NetcdfFile {
   int variable(const std::string& name) const;
   int define_variable(const std::string& name, int type, const std::vector<std::string>& dimensions);
 
+  void put_texts();
+
   std::filesystem::path file_;
   int id_;
+  /// Defined and not yet put: netCDF writes all it knows of a file where values follow definitions.
+  std::vector<std::pair<std::string, std::vector<std::string>>> texts_;
 };
 
 }  // namespace nurbeam

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/results/netcdf_file.h"
@@ -27,17 +29,21 @@ class Writer {
     const std::string dimension = name + "_count";
     file_.define_dimension(dimension, values.size());
     file_.define(name, NetcdfFile::Type::real, {dimension}, "SI", meaning, values.size());
-    file_.put(name, {0}, {values.size()}, values.data());
+    numbers_.emplace_back(name, values);
   }
   void texts(const std::string& name, std::vector<std::string>& values) {
     if (values.empty()) return;
     file_.define_dimension(name + "_count", values.size());
     file_.define_texts(name, name + "_count", values);
   }
-  void close() { file_.close(); }
+  void close() {
+    for (const auto& [name, values] : numbers_) file_.put(name, {0}, {values.size()}, values.data());
+    file_.close();
+  }
 
  private:
   NetcdfFile file_;
+  std::vector<std::pair<std::string, std::vector<double>>> numbers_;  ///< put when all are defined
 };
 
 class Reader {
@@ -171,6 +177,27 @@ void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
 }
 
 template <class Archive>
+void exchange_linearisation(Archive& archive, std::shared_ptr<const Linearisation>& linearisation) {
+  std::vector<Linearisation> at;
+  if (linearisation) at.push_back(*linearisation);
+  exchange_rows(archive, "matrix_step", "time and step of the matrix that the next step begins with", at,
+                [](Linearisation& each, auto& slot) {
+                  slot(each.state.t);
+                  slot(each.step);
+                });
+  if (at.empty()) {
+    linearisation = nullptr;
+    return;
+  }
+  State& state = at[0].state;
+  exchange_vector(archive, "matrix_q", "generalised positions of that matrix", state.q);
+  exchange_vector(archive, "matrix_v", "generalised velocities of that matrix", state.v);
+  exchange_vector(archive, "matrix_a", "generalised accelerations of that matrix", state.a);
+  exchange_vector(archive, "matrix_lambda", "Lagrange multipliers of that matrix", state.lambda);
+  linearisation = std::make_shared<const Linearisation>(std::move(at[0]));
+}
+
+template <class Archive>
 void exchange_history(Archive& archive, IntegratorHistory& history) {
   const auto copy = [](double& x, auto& slot) { slot(x); };
   exchange_rows(archive, "method_numbers", "what the method keeps between steps", history.numbers, copy);
@@ -180,6 +207,7 @@ void exchange_history(Archive& archive, IntegratorHistory& history) {
   for (std::size_t i = 0; i < history.vectors.size(); ++i)
     exchange_vector(archive, "method_vector_" + std::to_string(i), "what the method keeps between steps",
                     history.vectors[i]);
+  exchange_linearisation(archive, history.linearisation);
 }
 
 /// The one list of what a restart point holds: it writes and reads.

@@ -267,7 +267,8 @@ TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
 }
 
 TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {
-  const std::vector<std::string> coarse = {"analysis.step=1", "output.every=1", "analysis.end_time=1"};
+  const std::vector<std::string> coarse = {"analysis.step=1", "output.every=1", "analysis.end_time=1",
+                                           "beams[0].elements.count=16"};
   const CaseRun run = run_beam(coarse);
   if (run.code == exit_done)
     expect_done(run);

@@ -147,6 +147,34 @@ bool refuses(const BuildReport& report, const std::string& where, const std::vec
   return false;
 }
 
+/// The greatest jump of the tangent of the first beam, between its segments and at its seam.
+double greatest_kink(const BuildReport& report) {
+  const Beam& beam = report.value.value().model.beams.at(0);
+  double greatest = 0;
+  for (const HomeNode& node : beam.home)
+    greatest = std::max(greatest, (beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s)).norm());
+  return std::max(
+      greatest,
+      beam.is_ring() ? (beam.curve.tangent(beam.curve.length(), true) - beam.curve.tangent(0)).norm() : 0.0);
+}
+
+// An element beside a kink would hold its angle in the drawn direction while the beam turns.
+TEST(BuildModel, KinksOfTheDigitsOfADrawingGoWithANote) {
+  const BuildReport line = built({"beams[0].axis={\"polyline\": [[0, 0, 0], [1, 0, 0], [2, 5e-5, 0]]}",
+                                  "beams[0].torsion=true", "beams[0].material.poissons_ratio=0.3"});
+  EXPECT_LT(greatest_kink(line), 1e-14);
+  EXPECT_TRUE(std::any_of(line.diagnostics.begin(), line.diagnostics.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::note && d.message.find("were made one") != std::string::npos;
+  }));
+  EXPECT_TRUE(refuses(built({"beams[0].axis={\"polyline\": [[0, 0, 0], [1, 0, 0], [2, 5e-4, 0]]}"}),
+                      "beams[0].axis", {"a corner of 0.0286"}));
+  const BuildReport ring = built(
+      {R"(beams[0].axis={"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2], "control_points":)"
+       " [[0, 0, 0], [1, 0, 0], [2, 1, 0], [2, 2, 0], [2, 3, 0], [-1, 5e-5, 0], [0, 0, 0]]}}",
+       "beams[0].closed=true", "supports[0].at=start"});
+  EXPECT_LT(greatest_kink(ring), 1e-14);
+}
+
 TEST(BuildModel, GivesABeamWithTorsionTheStiffnessOfItsSections) {
   const BuildReport report = built({"beams[0].torsion=true", "beams[0].material.poissons_ratio=0.25"});
   ASSERT_TRUE(report.value);
