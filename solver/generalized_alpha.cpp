@@ -39,6 +39,35 @@ bool all_finite(const State& state) {
   return state.q.allFinite() && state.v.allFinite() && state.a.allFinite() && state.lambda.allFinite();
 }
 
+/// The residuals and corrections of one step, each with what the last correction left of the one before.
+class Convergence {
+ public:
+  /// Takes the norm of a residual and of the correction that answered it; both have one tolerance.
+  bool reached(double residual, double correction, double tolerance) {
+    contraction_ = correction / correction_;
+    const double decay = residual / residual_, last = correction_;
+    correction_ = correction;
+    residual_ = residual;
+    const bool balanced = residual <= tolerance, small = correction <= tolerance;
+    // Where forces are in balance, one more correction takes what is left; what would be left of that is
+    // foretold by the last two. So is the residual that would be left, with a margin: contractions vary.
+    const bool foretold = std::isfinite(last) && contracts() &&
+                          contraction_ * correction <= (balanced ? 1 : margin) * tolerance;
+    if (foretold && (balanced || decay * residual <= margin * tolerance)) return true;
+    // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
+    // its own round-off.
+    return small && (balanced || (last <= tolerance && !contracts()));
+  }
+  /// Whether the last correction was much smaller than the one before.
+  bool contracts() const { return contraction_ <= good_contraction; }
+
+ private:
+  static constexpr double margin = 0.05;
+  double residual_ = std::numeric_limits<double>::infinity();
+  double correction_ = std::numeric_limits<double>::infinity();
+  double contraction_ = 0;
+};
+
 }  // namespace
 
 GeneralizedAlphaIntegrator::Parameters GeneralizedAlphaIntegrator::parameters(double rho_infinity) {
@@ -134,35 +163,22 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
   predict(step);
   if (!all_finite(trial_)) return StepStatus::not_converged;
   if (!system_->admissible(trial_)) return StepStatus::inadmissible;
-  evaluate_residual(step);
   if (!has_matrix_for(step)) linearisation_ = nullptr;
-  double last_correction = std::numeric_limits<double>::infinity();
-  bool balanced = false;
+  Convergence convergence;
   for (int i = 0; i < settings_.max_iterations; ++i) {
+    evaluate_residual(step);
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
     if (!linearise(linearisation_ ? linearisation_ : std::make_shared<Linearisation>(trial_, step)))
       return StepStatus::singular_matrix;
+    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
     if (!all_finite(trial_)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
-    const double contraction = correction / last_correction;
-    const double tolerance = settings_.newton_tolerance;
-    // Where forces are in balance, one more correction takes what is left; what would be left of that is
-    // foretold by the last two. Two small ones running of which the second is no smaller are convergence too:
-    // the residual then sits on its own round-off.
-    const bool contracts = contraction <= good_contraction, small = correction <= tolerance;
-    if ((balanced && (small || (contracts && contraction * correction <= tolerance))) ||
-        (small && last_correction <= tolerance && !contracts)) {
-      if (i > many_corrections) linearisation_ = nullptr;
-      return StepStatus::converged;
-    }
-    evaluate_residual(step);
-    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
-    balanced = report.residual_norm <= tolerance;
-    if (!contracts) linearisation_ = nullptr;
-    last_correction = correction;
+    const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
+    if (!convergence.contracts() || (done && i > many_corrections)) linearisation_ = nullptr;
+    if (done) return StepStatus::converged;
   }
   return StepStatus::not_converged;
 }
@@ -255,7 +271,8 @@ void GeneralizedAlphaIntegrator::measure_reference() {
 /// it.
 void GeneralizedAlphaIntegrator::correct(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  correction_ = solver_.solve(-residual_);
+  residual_ = -residual_;
+  solver_.solve(residual_, correction_);
   const auto dq = correction_.head(trial_.q.size());
   const double acceleration = 1 / (beta * step * step);
   trial_.q += dq;

@@ -28,7 +28,8 @@ struct Linearisation {
 struct IntegratorHistory {
   std::vector<double> numbers;
   std::vector<Eigen::VectorXd> vectors;
-  std::shared_ptr<const Linearisation> linearisation;  ///< of the matrix that the next step begins with, if any
+  std::shared_ptr<const Linearisation>
+      linearisation;  ///< of the matrix that the next step begins with, if any
 };
 
 /// Advances one state of one SecondOrderSystem. What is kept between steps belongs to that system as it was:

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <vector>
 
+#include "solver/banded_lu.h"
+
 namespace nurbeam {
 
 namespace {
@@ -13,6 +15,9 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// A few machine epsilons: what cancellation leaves of a pivot that is zero in exact arithmetic.
 constexpr double smallest_reciprocal_condition = 1e-15;
+
+/// Widest band that is eliminated as one: chains of elements, rings and a few branches have less.
+constexpr int widest_band = 40;
 
 /// KLU's own estimate of the reciprocal condition, smallest over largest pivot of the row-scaled factors.
 class Klu : public Eigen::KLU<Matrix> {
@@ -31,6 +36,8 @@ bool all_finite(const Matrix& matrix) {
 
 struct KktSolver::Implementation {
   Klu klu;
+  BandedLu band;
+  bool is_banded = false;
   std::vector<int> column_starts;
   std::vector<int> row_indices;
 
@@ -45,6 +52,9 @@ struct KktSolver::Implementation {
   void analyse(const Matrix& matrix) {
     column_starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
     row_indices.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+    band.analyse(matrix);
+    is_banded = band.half_bandwidth() <= widest_band;
+    if (is_banded) return;
     klu.analyzePattern(matrix);
     structurally_regular = klu.info() == Eigen::Success;
   }
@@ -61,11 +71,24 @@ bool KktSolver::factorise(const Matrix& matrix) {
   assert(matrix.isCompressed() && matrix.rows() == matrix.cols());
   Implementation& self = *implementation_;
   if (!self.has_pattern_of(matrix)) self.analyse(matrix);
-  if (!self.structurally_regular || !all_finite(matrix)) return false;
+  if (!all_finite(matrix)) return false;
+  if (self.is_banded) return self.band.factorise(matrix) > smallest_reciprocal_condition;
+  if (!self.structurally_regular) return false;
   self.klu.factorize(matrix);
   return self.klu.info() == Eigen::Success && self.klu.reciprocal_condition() > smallest_reciprocal_condition;
 }
 
-Eigen::VectorXd KktSolver::solve(const Eigen::VectorXd& rhs) const { return implementation_->klu.solve(rhs); }
+void KktSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
+  if (implementation_->is_banded)
+    implementation_->band.solve(rhs, x);
+  else
+    x = implementation_->klu.solve(rhs);
+}
+
+Eigen::VectorXd KktSolver::solve(const Eigen::VectorXd& rhs) const {
+  Eigen::VectorXd x;
+  solve(rhs, x);
+  return x;
+}
 
 }  // namespace nurbeam

@@ -4,7 +4,8 @@
 
 namespace nurbeam {
 
-/// Sparse LU (KLU) of one matrix pattern: symbolic analysis once, numeric factorisation as often as wanted.
+/// LU of one matrix pattern: symbolic analysis once, numeric factorisation as often as wanted. Within a band
+/// where the unknowns can be put into a narrow one, else by KLU.
 class KktSolver {
  public:
   KktSolver();
@@ -19,6 +20,7 @@ class KktSolver {
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix);
   /// x with matrix x = rhs. Precondition: factorise returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
 
  private:
   struct Implementation;

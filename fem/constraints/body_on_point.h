@@ -37,7 +37,7 @@ class BodyOnPoint {
                            const typename ConstraintTerms<D>::Multipliers* y) const {
     constexpr int n = element_size<D>, place = n + D;
     ConstraintTerms<D> terms(rows, y != nullptr);
-    const PointShape<D> shape = point_shape<D>(at.elements[element_], state.q, state.q[dofs_[place]]);
+    const CurvedPointShape<D> shape = point_shape<D>(at.elements[element_], state.q, state.q[dofs_[place]]);
     const PointField<D> r = shape.position(), rs = shape.slope(), rss = shape.slope_s();
     terms.value = r.value - state.q.segment<D>(dofs_[n]);
     terms.gradient.template leftCols<n>() = r.gradient;

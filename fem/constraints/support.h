@@ -17,7 +17,10 @@ class HeldPosition {
   /// `motion`, if any, must outlive the constraint.
   HeldPosition(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s,
                const DisplacementTable* motion = nullptr)
-      : point_(at, drawn, beam, s), dofs_(point_.dofs(at)), motion_(motion) {}
+      : point_(at, drawn, beam, s),
+        dofs_(point_.dofs(at)),
+        drawn_(at.structure.beams[beam].curve.position(s).template head<D>()),
+        motion_(motion) {}
 
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
@@ -27,8 +30,7 @@ class HeldPosition {
     ConstraintTerms<D> terms(rows, y != nullptr);
     const PointShape<D> shape = point_.shape(at, state.q);
     const PointField<D> r = shape.position();
-    const ReferenceCurve& curve = point_.element(at).element.curve();
-    terms.value = r.value - curve.position(point_.s()).template head<D>();
+    terms.value = r.value - drawn_;
     if (motion_) terms.value -= state.load * motion_->at(state.t).value.template head<D>();
     terms.gradient.template leftCols<element_size<D>>() = r.gradient;
     if (y) r.add_hessian(*y, 1, shape.nodes, terms.hessian);
@@ -46,6 +48,7 @@ class HeldPosition {
  private:
   PointOnBeam<D> point_;
   std::vector<int> dofs_;
+  Vector drawn_;  // [m]
   const DisplacementTable* motion_;
 };
 

@@ -56,7 +56,7 @@ struct AxialSums {
   }
   void add_tangent(double EA, double k, const ElementMatrix<D>& I_qq, ElementMatrix<D>& K) const {
     const AssumedAxialEnergy U(EA, y);
-    K += k * (y_q.transpose() * U.hessian * y_q + U.gradient[0] * I_qq);
+    K += k * (y_q.transpose() * U.hessian() * y_q + U.gradient[0] * I_qq);
     for (const int end : {0, 1})
       K.diagonal().template segment<D>(Layout::slope(end)).array() += k * U.gradient[1 + end];
   }

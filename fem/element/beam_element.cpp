@@ -28,16 +28,34 @@ BeamElement<D>::BeamElement(const ReferenceCurve& curve, const BeamProperties& p
   if (!fixed() && curve.metric() == Metric::label)
     throw std::invalid_argument("an element whose ends move needs the metric of the drawn curve");
   if (!fixed()) return;
+  int point = 0;
   for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double weight) {
-    const FixedPoint p{row(shape.value), row(shape.d1), row(shape.d2), weight, shape.kappa0, curve.strain(s)};
-    points_.push_back(p);
-    mass_ += properties_->mass_per_length * weight * p.S * p.S.transpose();
-    load_factor_ += weight * p.S;
-    stretch_ += weight * p.S1 * p.S1.transpose();
-    strain0_[0] += weight * p.eps0;
+    add_point(point++ % PointPack::points, shape, weight, curve.strain(s));
   });
   length_ = s_b - s_a;
   strain0_.tail<2>() << curve.strain(s_a), curve.strain(s_b, true);
+}
+
+// The next Gauss point of a fixed element, with its number in its part.
+template <int D>
+void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0) {
+  const Eigen::Vector4d S = row(shape.value), S1 = row(shape.d1);
+  mass_ += properties_->mass_per_length * weight * S * S.transpose();
+  load_factor_ += weight * S;
+  stretch_ += weight * S1 * S1.transpose();
+  strain0_[0] += weight * eps0;
+  if (point == 0) packs_.emplace_back();
+  PointPack& pack = packs_.back();
+  // The last point fills the lanes beyond it.
+  const int more = point + 1 == PointPack::points ? PointPack::lanes - point : 1;
+  for (int k = 0; k < 4; ++k) {
+    pack.S1[k].segment(point, more) = shape.d1[k];
+    pack.S2[k].segment(point, more) = shape.d2[k];
+  }
+  pack.weight.segment(point, more) = 0;
+  pack.weight[point] = weight;
+  pack.kappa0.segment(point, more) = shape.kappa0;
+  pack.eps0.segment(point, more) = eps0;
 }
 
 template <int D>
@@ -47,7 +65,7 @@ bool BeamElement<D>::assumes_strain() const {
 
 template <int D>
 AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
-  if (fixed()) return fixed_sums(q);
+  if (fixed()) return fixed_sums({q, ElementVector<D>::Zero(), ElementVector<D>::Zero()});
   AxialSums<D> sums(q);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   for_each_point(q, [&](const ShapeFunctions<Jet>& shape, const Jet&, const Jet& weight) {
@@ -94,6 +112,7 @@ std::optional<AssumedStrain> BeamElement<D>::assumed_strain(const ElementVector<
 
 template <int D>
 ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& load) const {
+  if (fixed()) return fixed_energy(x, load);
   ElementEnergy sum;
   const auto motion = MovingPoint<D>::motion(x);
   const ElementNodes<D>&e = motion.e, &e_rate = motion.e_rate;
@@ -119,7 +138,6 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
     if (assumes_strain()) axial_rates.add(0, rs, rss, s, weight);
   });
   if (!assumes_strain()) return sum;
-  if (fixed()) axial.y.template head<3>() -= strain0_;
   axial.take_out(x.free_strain);
   sum.axial = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).value;
   if (!(properties_->damping > 0)) return sum;
@@ -133,6 +151,11 @@ double BeamElement<D>::length(const ElementVector<D>& q) const {
   using Layout = ElementLayout<D>;
   const ElementNodes<D> e = Layout::nodes(q);
   double sum = 0;
+  for (const PointPack& p : packs_) {
+    const VectorLanes<D> rs = combination<D>(e, p.S1);
+    sum += (p.weight * dot<D>(rs, rs).sqrt()).sum();
+  }
+  if (fixed()) return sum;
   for_each_point(q, [&](const ShapeFunctions<Jet>& shape, const Jet&, const Jet& weight) {
     sum += weight.value() * PointField<D>(shape.d1, e).value.norm();
   });
@@ -148,7 +171,7 @@ ShapeFunctions<double> BeamElement<D>::shape(const ElementVector<D>& q, double s
 template <int D>
 ShapeFunctions<Jet> BeamElement<D>::shape_series(const ElementVector<D>& q, double s) const {
   return MovingBasis(*curve_, chart_, Jet::variable(q[ElementLayout<D>::place(0)], 0),
-                           Jet::variable(q[ElementLayout<D>::place(1)], 1))
+                     Jet::variable(q[ElementLayout<D>::place(1)], 1))
       .at(Jet(s));
 }
 

@@ -8,6 +8,7 @@
 #include "fem/element/axial_sums.h"
 #include "fem/element/layout.h"
 #include "fem/element/moving_basis.h"
+#include "fem/element/point_pack.h"
 #include "fem/element/quadrature.h"
 #include "fem/element/rancf_basis.h"
 #include "fem/material/elastic.h"
@@ -86,17 +87,22 @@ class BeamElement {
   }
 
  private:
-  struct FixedPoint {
-    Eigen::Vector4d S, S1, S2;
-    double weight, kappa0, eps0;
-  };
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
   ElementVector<D> undamped_force(const ElementState<D>& x, const Vector& load) const;
+  void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0);
+  void add_point_forces(const ElementState<D>& x, ElementNodes<D>& force) const;
+  void add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const;
   ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
+  ElementEnergy fixed_energy(const ElementState<D>& x, const Vector& load) const;
   ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
   void add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w, ElementMatrix<D>& K) const;
-  AxialSums<D> fixed_sums(const ElementVector<D>& q) const;
+  struct FixedStretch {
+    Eigen::Vector4d y;    ///< as AxialSums has it, without the strain that carries no force
+    ElementNodes<D> I_e;  ///< dI/de
+  };
+  FixedStretch fixed_stretch(const ElementState<D>& x) const;
+  AxialSums<D> fixed_sums(const ElementState<D>& x) const;
   void add_ends(const ElementVector<D>& q, const ElementNodes<D>& e, AxialRates<D>& rates) const;
   bool assumes_strain() const;
   double axial_viscosity() const { return properties_->damping * properties_->axial_stiffness; }
@@ -105,12 +111,12 @@ class BeamElement {
   const BeamProperties* properties_;
   Chart chart_;
   Ends ends_;
-  std::vector<FixedPoint> points_;  // fixed elements only
-  Eigen::Matrix4d mass_;            // fixed elements only: rho A int S_k S_l ds
-  Eigen::Vector4d load_factor_;     // fixed elements only: int S_k ds
-  Eigen::Matrix4d stretch_;         // fixed elements only: int S'_k S'_l ds, G of AxialSums
-  Eigen::Vector3d strain0_;         // fixed elements only: int eps_0 ds and eps_0 at both ends
-  double length_ = 0;               // fixed elements only: s_b - s_a [m]
+  std::vector<PointPack> packs_;  // fixed elements only: one of each part
+  Eigen::Matrix4d mass_;          // fixed elements only: rho A int S_k S_l ds
+  Eigen::Vector4d load_factor_;   // fixed elements only: int S_k ds
+  Eigen::Matrix4d stretch_;       // fixed elements only: int S'_k S'_l ds, G of AxialSums
+  Eigen::Vector3d strain0_;       // fixed elements only: int eps_0 ds and eps_0 at both ends
+  double length_ = 0;             // fixed elements only: s_b - s_a [m]
 };
 
 template <int D>

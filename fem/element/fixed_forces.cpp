@@ -10,56 +10,97 @@ bool strains_at_points(const BeamProperties& beam) {
   return !beam.sections || beam.axial_strain == AxialStrain::pointwise;
 }
 
+// H of z = (r_s, r_ss) at a point, in the coordinates of the nodes.
+template <int D>
+void add_point_tangent(const Eigen::Matrix<double, 2 * D, 2 * D>& H, const Eigen::Vector4d& S1,
+                       const Eigen::Vector4d& S2, ElementMatrix<D>& K) {
+  for (int l = 0; l < 4; ++l) {
+    const Eigen::Matrix<double, 2 * D, D> column =
+        H.template leftCols<D>() * S1[l] + H.template rightCols<D>() * S2[l];
+    for (int k = 0; k < 4; ++k)
+      K.template block<D, D>(k * D, l * D) +=
+          S1[k] * column.template topRows<D>() + S2[k] * column.template bottomRows<D>();
+  }
+}
+
 }  // namespace
 
-// The sums of a fixed element: I = (tr(e G e') - l)/2 - int eps_0 ds, with positions counted from the start,
-// which G does not see: far from the origin they would leave their round-off.
+// I = (tr(e G e') - l)/2 - int eps_0 ds and its gradient e G in the nodes, with positions counted from the
+// start, which G does not see: far from the origin they would leave their round-off; and the strains at the
+// ends.
 template <int D>
-AxialSums<D> BeamElement<D>::fixed_sums(const ElementVector<D>& q) const {
-  ElementNodes<D> e = ElementLayout<D>::nodes(q);
+typename BeamElement<D>::FixedStretch BeamElement<D>::fixed_stretch(const ElementState<D>& x) const {
+  ElementNodes<D> e = x.nodes();
   const Vector start = e.col(0);
   e.col(0).setZero();
   e.col(2) -= start;
-  const ElementNodes<D> I_e = e * stretch_;
-  AxialSums<D> sums(q);
-  sums.y[0] = (e.cwiseProduct(I_e).sum() - length_) / 2;
-  sums.y[3] = length_;
+  FixedStretch sums{{}, e * stretch_};
+  sums.y << (e.cwiseProduct(sums.I_e).sum() - length_) / 2, (e.col(1).squaredNorm() - 1) / 2,
+      (e.col(3).squaredNorm() - 1) / 2, length_;
   sums.y.template head<3>() -= strain0_;
-  sums.y_q.template block<1, 4 * D>(0, 0) = Eigen::Map<const Eigen::Matrix<double, 1, 4 * D>>(I_e.data());
+  sums.y[0] -= x.free_strain * length_;
+  sums.y.template segment<2>(1).array() -= x.free_strain;
+  return sums;
+}
+
+// The same as sums of any element.
+template <int D>
+AxialSums<D> BeamElement<D>::fixed_sums(const ElementState<D>& x) const {
+  const FixedStretch stretch = fixed_stretch(x);
+  AxialSums<D> sums(x.q);
+  sums.y = stretch.y;
+  sums.y_q.template block<1, 4 * D>(0, 0) =
+      Eigen::Map<const Eigen::Matrix<double, 1, 4 * D>>(stretch.I_e.data());
   sums.y_q.row(3).setZero();
   return sums;
 }
 
+// The elastic and damping stresses of the axis at the Gauss points, dU/dr_s and dU/dr_ss, on the shape
+// functions.
+template <int D>
+void BeamElement<D>::add_point_forces(const ElementState<D>& x, ElementNodes<D>& force) const {
+  const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
+  const double EA = properties_->pointwise_axial_stiffness(), EI = properties_->axis_bending_stiffness();
+  const double c = properties_->damping;
+  for (const PointPack& p : packs_) {
+    const VectorLanes<D> rs = combination<D>(e, p.S1), rss = combination<D>(e, p.S2);
+    const CurvatureLanes<D> K(rs, rss, properties_->curvature);
+    Lanes moment = EI * (K.value - p.kappa0), stretching = EA * ((dot<D>(rs, rs) - 1) / 2 - p.eps0);
+    if (c > 0) {
+      const VectorLanes<D> rs_rate = combination<D>(e_rate, p.S1);
+      moment += c * EI * K.rate(rs_rate, combination<D>(e_rate, p.S2));
+      stretching += c * EA * dot<D>(rs, rs_rate);
+    }
+    moment *= p.weight;
+    stretching *= p.weight;
+    for (int d = 0; d < D; ++d) {
+      const Lanes on_rs = moment * K.by_rs[d] + stretching * rs[d], on_rss = moment * K.by_rss[d];
+      for (int k = 0; k < 4; ++k) force(d, k) += (on_rs * p.S1[k] + on_rss * p.S2[k]).sum();
+    }
+  }
+}
+
 template <int D>
 ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vector& load) const {
-  const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
+  const ElementNodes<D> e = x.nodes();
   ElementVector<D> f = ElementVector<D>::Zero();
-  Eigen::Map<ElementNodes<D>> force(f.data());
-  force = ElementLayout<D>::nodes(x.a) * mass_ - load * load_factor_.transpose();
-  for (const FixedPoint& p : points_) {
-    if (!strains_at_points(*properties_)) break;
-    const Vector rs = e * p.S1, rss = e * p.S2;
-    Eigen::Matrix<double, 2 * D, 1> stress =
-        elastic_response<D, Derivatives::one>(*properties_, rs, rss, p.kappa0, p.eps0).gradient;
-    if (properties_->damping > 0) {
-      Eigen::Matrix<double, 2 * D, 1> rate;
-      rate << e_rate * p.S1, e_rate * p.S2;
-      stress += damping_response<D>(*properties_, rs, rss, rate).stress;
-    }
-    force += p.weight *
-             (stress.template head<D>() * p.S1.transpose() + stress.template tail<D>() * p.S2.transpose());
-  }
+  ElementNodes<D> force = ElementLayout<D>::nodes(x.a) * mass_ - load * load_factor_.transpose();
+  if (strains_at_points(*properties_)) add_point_forces(x, force);
+  f.template head<4 * D>() = force.reshaped();
   if (!assumes_strain()) return f;
-  AxialSums<D> axial = fixed_sums(x.q);
-  axial.take_out(x.free_strain);
-  const Eigen::Vector4d stress = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).gradient;
-  const auto I_e = axial.y_q.template block<1, 4 * D>(0, 0);
-  f.template head<4 * D>() += stress[0] * I_e.transpose();
-  for (const int end : {0, 1}) force.col(2 * end + 1) += stress[1 + end] * e.col(2 * end + 1);
   if (properties_->damping > 0) {
+    const AxialSums<D> axial = fixed_sums(x);
     const auto x_q = axial.y_q.template topRows<3>();
-    f += x_q.transpose() * AssumedAxialDamping(axial_viscosity(), length_, x_q * x.v).stress;
+    f += x_q.transpose() *
+         (AssumedAxialEnergy(properties_->axial_stiffness, axial.y).gradient.template head<3>() +
+          AssumedAxialDamping(axial_viscosity(), length_, x_q * x.v).stress);
+    return f;
   }
+  const FixedStretch axial = fixed_stretch(x);
+  const Eigen::Vector4d stress = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).gradient;
+  f.template head<4 * D>() += stress[0] * axial.I_e.reshaped();
+  for (const int end : {0, 1})
+    f.template segment<D>(ElementLayout<D>::slope(end)) += stress[1 + end] * e.col(2 * end + 1);
   return f;
 }
 
@@ -67,23 +108,20 @@ template <int D>
 ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const {
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   ElementMatrix<D> K = ElementMatrix<D>::Zero();
-  for (const FixedPoint& p : points_) {
+  for (const PointPack& pack : packs_) {
     if (!strains_at_points(*properties_)) break;
-    const Vector rs = e * p.S1, rss = e * p.S2;
-    Eigen::Matrix<double, 2 * D, 2 * D> H =
-        w.stiffness * elastic_response<D>(*properties_, rs, rss, p.kappa0, p.eps0).hessian;
-    if (properties_->damping > 0) {
-      Eigen::Matrix<double, 2 * D, 1> rate;
-      rate << e_rate * p.S1, e_rate * p.S2;
-      const DampingResponse<D> d = damping_response<D>(*properties_, rs, rss, rate);
-      H += w.stiffness * d.by_z + w.damping * d.by_rate;
-    }
-    for (int l = 0; l < 4; ++l) {
-      const Eigen::Matrix<double, 2 * D, D> column =
-          p.weight * (H.template leftCols<D>() * p.S1[l] + H.template rightCols<D>() * p.S2[l]);
-      for (int k = 0; k < 4; ++k)
-        K.template block<D, D>(k * D, l * D) +=
-            p.S1[k] * column.template topRows<D>() + p.S2[k] * column.template bottomRows<D>();
+    for (int g = 0; g < PointPack::points; ++g) {
+      const auto [S1, S2] = pack.derivatives(g);
+      const Vector rs = e * S1, rss = e * S2;
+      Eigen::Matrix<double, 2 * D, 2 * D> H =
+          w.stiffness * elastic_response<D>(*properties_, rs, rss, pack.kappa0[g], pack.eps0[g]).hessian;
+      if (properties_->damping > 0) {
+        Eigen::Matrix<double, 2 * D, 1> rate;
+        rate << e_rate * S1, e_rate * S2;
+        const DampingResponse<D> d = damping_response<D>(*properties_, rs, rss, rate);
+        H += w.stiffness * d.by_z + w.damping * d.by_rate;
+      }
+      add_point_tangent<D>(pack.weight[g] * H, S1, S2, K);
     }
   }
   if (assumes_strain()) add_fixed_axial_tangent(x, w, K);
@@ -98,11 +136,10 @@ template <int D>
 void BeamElement<D>::add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w,
                                              ElementMatrix<D>& K) const {
   using Layout = ElementLayout<D>;
-  AxialSums<D> axial = fixed_sums(x.q);
-  axial.take_out(x.free_strain);
+  const AxialSums<D> axial = fixed_sums(x);
   const AssumedAxialEnergy U(properties_->axial_stiffness, axial.y);
   const auto x_q = axial.y_q.template topRows<3>();
-  Eigen::Matrix3d by_x = w.stiffness * U.hessian.template topLeftCorner<3, 3>();
+  Eigen::Matrix3d by_x = w.stiffness * U.hessian().template topLeftCorner<3, 3>();
   Eigen::Vector3d stress = w.stiffness * U.gradient.template head<3>();
   if (properties_->damping > 0) {
     const AssumedAxialDamping damping(axial_viscosity(), length_, x_q * x.v);
@@ -125,8 +162,53 @@ void BeamElement<D>::add_fixed_axial_tangent(const ElementState<D>& x, const Tan
     K.diagonal().template segment<D>(Layout::slope(end)).array() += stress[1 + end];
 }
 
-template AxialSums<2> BeamElement<2>::fixed_sums(const ElementVector<2>&) const;
-template AxialSums<3> BeamElement<3>::fixed_sums(const ElementVector<3>&) const;
+template <int D>
+void BeamElement<D>::add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const {
+  const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
+  const double EA = properties_->pointwise_axial_stiffness(), EI = properties_->axis_bending_stiffness();
+  for (const PointPack& p : packs_) {
+    const VectorLanes<D> rs = combination<D>(e, p.S1), rss = combination<D>(e, p.S2);
+    const CurvatureLanes<D> K(rs, rss, properties_->curvature);
+    const Lanes stretch = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
+    Lanes bend = (K.value - p.kappa0).square();
+    if constexpr (D == 3)
+      bend -= (p.kappa0 == 0).template cast<double>() * (curvature_rounding * curvature_rounding);
+    sum.axial += EA / 2 * (p.weight * stretch.square()).sum();
+    sum.bending += EI / 2 * (p.weight * bend).sum();
+    if (!(properties_->damping > 0)) continue;
+    const VectorLanes<D> rs_rate = combination<D>(e_rate, p.S1), rss_rate = combination<D>(e_rate, p.S2);
+    sum.dissipation +=
+        properties_->damping *
+        (p.weight * (EI * K.rate(rs_rate, rss_rate).square() + EA * dot<D>(rs, rs_rate).square())).sum();
+  }
+}
+
+template <int D>
+ElementEnergy BeamElement<D>::fixed_energy(const ElementState<D>& x, const Vector& load) const {
+  ElementEnergy sum;
+  const ElementNodes<D> e_rate = x.node_rates();
+  sum.kinetic = e_rate.cwiseProduct(e_rate * mass_).sum() / 2;
+  sum.external = -load.dot(x.nodes() * load_factor_);
+  if (strains_at_points(*properties_)) add_point_energies(x, sum);
+  if (!assumes_strain()) return sum;
+  const AxialSums<D> axial = fixed_sums(x);
+  sum.axial = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).value;
+  if (!(properties_->damping > 0)) return sum;
+  const Eigen::Vector3d rate = axial.y_q.template topRows<3>() * x.v;
+  sum.dissipation += AssumedAxialDamping(axial_viscosity(), length_, rate).stress.dot(rate);
+  return sum;
+}
+
+template AxialSums<2> BeamElement<2>::fixed_sums(const ElementState<2>&) const;
+template AxialSums<3> BeamElement<3>::fixed_sums(const ElementState<3>&) const;
+template BeamElement<2>::FixedStretch BeamElement<2>::fixed_stretch(const ElementState<2>&) const;
+template BeamElement<3>::FixedStretch BeamElement<3>::fixed_stretch(const ElementState<3>&) const;
+template void BeamElement<2>::add_point_forces(const ElementState<2>&, ElementNodes<2>&) const;
+template void BeamElement<3>::add_point_forces(const ElementState<3>&, ElementNodes<3>&) const;
+template void BeamElement<2>::add_point_energies(const ElementState<2>&, ElementEnergy&) const;
+template void BeamElement<3>::add_point_energies(const ElementState<3>&, ElementEnergy&) const;
+template ElementEnergy BeamElement<2>::fixed_energy(const ElementState<2>&, const Vector&) const;
+template ElementEnergy BeamElement<3>::fixed_energy(const ElementState<3>&, const Vector&) const;
 template ElementVector<2> BeamElement<2>::fixed_force(const ElementState<2>&, const Vector&) const;
 template ElementVector<3> BeamElement<3>::fixed_force(const ElementState<3>&, const Vector&) const;
 template void BeamElement<2>::add_fixed_axial_tangent(const ElementState<2>&, const TangentWeights&,

@@ -31,24 +31,33 @@ struct AssumedStrain {
 
 /// The axial energy of an element, U = EA l/2 (c0^2 + c1^2/3 + c2^2/5) [J], as a function of
 /// y = (I, eps_A, eps_B, l), with its gradient and Hessian.
-struct AssumedAxialEnergy {
+class AssumedAxialEnergy {
+ public:
   double value;
   Eigen::Vector4d gradient;  ///< the first: the axial force (mean, less the residue of bending) [N]
-  Eigen::Matrix4d hessian;
 
-  AssumedAxialEnergy(double EA, const Eigen::Vector4d& y) {
-    const double I = y[0], l = y[3], m = I / l;
-    const AssumedStrain c(I, y[1], y[2], l);
-    value = EA * l / 2 * (m * m + c.c1 * c.c1 / 3 + c.c2 * c.c2 / 5);
-    gradient << m - c.c2 / 5, l * (c.c2 / 10 - c.c1 / 6), l * (c.c2 / 10 + c.c1 / 6),
-        (c.c1 * c.c1 / 3 + c.c2 * c.c2 / 5 - m * m) / 2 + c.c2 * m / 5;
+  AssumedAxialEnergy(double EA, const Eigen::Vector4d& y) : EA_(EA), l_(y[3]), c_(y[0], y[1], y[2], y[3]) {
+    const double m = c_.c0, odd = c_.c1 * c_.c1 / 3, even = c_.c2 * c_.c2 / 5;
+    value = EA * l_ / 2 * (m * m + odd + even);
+    gradient << m - c_.c2 / 5, l_ * (c_.c2 / 10 - c_.c1 / 6), l_ * (c_.c2 / 10 + c_.c1 / 6),
+        (odd + even - m * m) / 2 + c_.c2 * m / 5;
     gradient *= EA;
-    hessian << 1.2 / l, -0.1, -0.1, -1.2 * m / l,  //
-        -0.1, l * 2 / 15, -l / 30, c.c2 / 10 - c.c1 / 6 + m / 10, -0.1, -l / 30, l * 2 / 15,
-        c.c2 / 10 + c.c1 / 6 + m / 10, -1.2 * m / l, c.c2 / 10 - c.c1 / 6 + m / 10,
-        c.c2 / 10 + c.c1 / 6 + m / 10, 1.2 * m * m / l;
-    hessian *= EA;
   }
+
+  Eigen::Matrix4d hessian() const {
+    const double l = l_, m = c_.c0;
+    const double by_a = c_.c2 / 10 - c_.c1 / 6 + m / 10, by_b = c_.c2 / 10 + c_.c1 / 6 + m / 10;
+    Eigen::Matrix4d H;
+    H << 1.2 / l, -0.1, -0.1, -1.2 * m / l,  //
+        -0.1, l * 2 / 15, -l / 30, by_a,     //
+        -0.1, -l / 30, l * 2 / 15, by_b,     //
+        -1.2 * m / l, by_a, by_b, 1.2 * m * m / l;
+    return EA_ * H;
+  }
+
+ private:
+  double EA_, l_;
+  AssumedStrain c_;
 };
 
 /// Kelvin-Voigt damping of the assumed strain with viscosity c EA: the generalised stress c H x' of

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 
 #include "fem/mesh/mesh_elements.h"
@@ -6,22 +7,30 @@
 
 namespace nurbeam {
 
-/// The shape functions of one element at one material point, and its nodal coordinates.
+/// Position and slope of one element at one material point, as combinations of its nodal coordinates.
 template <int D>
 struct PointShape {
   ElementNodes<D> nodes;
-  ShapeFunctions<Jet> shape;
+  std::array<Jet, 4> value, d1;
 
-  PointField<D> position() const { return {shape.value, nodes}; }
-  PointField<D> slope() const { return {shape.d1, nodes}; }
-  PointField<D> slope_s() const { return {shape.d2, nodes}; }
+  PointField<D> position() const { return {value, nodes}; }
+  PointField<D> slope() const { return {d1, nodes}; }
+};
+
+/// Its second derivative by the material too.
+template <int D>
+struct CurvedPointShape : PointShape<D> {
+  std::array<Jet, 4> d2;
+
+  PointField<D> slope_s() const { return {d2, this->nodes}; }
 };
 
 /// At material point s of the element, for the coordinates q.
 template <int D>
-PointShape<D> point_shape(const MeshElement<D>& e, const Eigen::VectorXd& q, double s) {
+CurvedPointShape<D> point_shape(const MeshElement<D>& e, const Eigen::VectorXd& q, double s) {
   const ElementVector<D> x = gather<D>(e, q);
-  return {ElementLayout<D>::nodes(x), e.element.shape_series(x, e.local(x, s))};
+  const ShapeFunctions<Jet> shape = e.element.shape_series(x, e.local(x, s));
+  return {{ElementLayout<D>::nodes(x), shape.value, shape.d1}, shape.d2};
 }
 
 /// A material point that stays in one element as long as the mesh stands.
@@ -31,7 +40,11 @@ class PointOnBeam {
   PointOnBeam(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s)
       : element_(find_span(at.structure, at.mesh, drawn, beam, s)), s_(s) {
     const MeshElement<D>& e = at.elements[element_];
-    if (e.element.fixed()) fixed_ = point_shape<D>(e, drawn, s).shape;
+    const int node = s == e.s_a && e.place_a < 0 ? 0 : s == e.s_b && e.place_b < 0 ? 1 : -1;
+    if (node >= 0)
+      fixed_ = at_node(node);
+    else if (e.element.fixed())
+      fixed_ = point_shape<D>(e, drawn, s);
   }
 
   double s() const { return s_; }
@@ -42,13 +55,20 @@ class PointOnBeam {
   }
   PointShape<D> shape(const MeshedBeams<D>& at, const Eigen::VectorXd& q) const {
     if (!fixed_) return point_shape<D>(element(at), q, s_);
-    return {ElementLayout<D>::nodes(gather<D>(element(at), q)), *fixed_};
+    return {ElementLayout<D>::nodes(gather<D>(element(at), q)), fixed_->value, fixed_->d1};
   }
 
  private:
+  // What an element has at a node of its own that does not move.
+  static PointShape<D> at_node(int node) {
+    PointShape<D> shape;
+    shape.value[2 * node] = shape.d1[2 * node + 1] = 1;
+    return shape;
+  }
+
   int element_;
-  double s_;                                  // [m]
-  std::optional<ShapeFunctions<Jet>> fixed_;  // where the element's ends do not move
+  double s_;                            // [m]
+  std::optional<PointShape<D>> fixed_;  // where that does not change with the element's ends
 };
 
 }  // namespace nurbeam

@@ -51,10 +51,10 @@ TEST(AssumedAxialEnergy, GradientAndHessianAreTheLimitsOfDifferencesAtSecondOrde
       const double h = k == 0 ? 1e-2 : 5e-3;
       const AssumedAxialEnergy forward(350, y + h * along), backward(350, y - h * along);
       errors[0][k] = std::abs((forward.value - backward.value) / (2 * h) - at.gradient.dot(along));
-      errors[1][k] = ((forward.gradient - backward.gradient) / (2 * h) - at.hessian * along).norm();
+      errors[1][k] = ((forward.gradient - backward.gradient) / (2 * h) - at.hessian() * along).norm();
     }
     for (const auto& error : errors) EXPECT_NEAR(error[0] / error[1], 4, 0.1);
-    EXPECT_EQ(at.hessian, at.hessian.transpose());
+    EXPECT_EQ(at.hessian(), at.hessian().transpose());
   }
 }
 
@@ -74,8 +74,8 @@ TEST(AssumedAxialDamping, IsTheStressOfTheRatesAndLosesPower) {
     const AssumedAxialEnergy U(7, y);
     const AssumedAxialDamping damping(7, y[3], y.head<3>());
     EXPECT_LT((damping.stress - U.gradient.head<3>()).norm(), 1e-14 * U.gradient.norm());
-    EXPECT_LT((damping.by_rate - U.hessian.topLeftCorner<3, 3>()).norm(), 1e-14 * U.hessian.norm());
-    EXPECT_LT((damping.by_length - U.hessian.topRightCorner<3, 1>()).norm(), 1e-13 * U.hessian.norm());
+    EXPECT_LT((damping.by_rate - U.hessian().topLeftCorner<3, 3>()).norm(), 1e-14 * U.hessian().norm());
+    EXPECT_LT((damping.by_length - U.hessian().topRightCorner<3, 1>()).norm(), 1e-13 * U.hessian().norm());
     EXPECT_GE(damping.stress.dot(y.head<3>()), 0);
   }
 }

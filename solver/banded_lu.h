@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace nurbeam {
+
+/// LU with partial pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain of
+/// elements are: they are put into the reverse order of Cuthill and McKee and eliminated within the band.
+class BandedLu {
+ public:
+  /// Finds the order for a square pattern (of A + A', where A's is not symmetric).
+  void analyse(const Eigen::SparseMatrix<double>& pattern);
+  /// Greatest distance of an entry from the diagonal, in that order.
+  int half_bandwidth() const { return half_bandwidth_; }
+
+  /// Row-scales and factorises a matrix of that pattern; `compressed`, and finite. Returns the smallest over
+  /// the largest pivot.
+  double factorise(const Eigen::SparseMatrix<double>& matrix);
+  /// x with matrix x = rhs.
+  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
+
+ private:
+  double* row(int i) { return band_.data() + static_cast<std::size_t>(i) * width_; }
+  const double* row(int i) const { return band_.data() + static_cast<std::size_t>(i) * width_; }
+  void fill_band(const Eigen::SparseMatrix<double>& matrix);
+  int pivot_of(int column) const;
+
+  int half_bandwidth_ = 0;
+  int width_ = 0;                  ///< of a row in storage: columns i - b to i + 2 b
+  std::vector<int> place_;         ///< of each unknown in the order
+  std::vector<int> unknown_;       ///< at each place of the order
+  std::vector<double> band_;       ///< what is left to eliminate, then U
+  std::vector<double> lower_;      ///< multipliers below the diagonal, b of each column
+  std::vector<double> scale_;      ///< of each row of the matrix
+  std::vector<int> pivots_;        ///< row that was brought to each place
+  std::vector<int> ends_;          ///< one past the last column of each row of U
+  mutable std::vector<double> y_;  ///< of solve
+};
+
+}  // namespace nurbeam
