@@ -45,25 +45,21 @@ class Convergence {
   /// Takes the norm of a residual and of the correction that answered it; both have one tolerance.
   bool reached(double residual, double correction, double tolerance) {
     contraction_ = correction / correction_;
-    const double decay = residual / residual_, last = correction_;
+    const double last = correction_;
     correction_ = correction;
-    residual_ = residual;
     const bool balanced = residual <= tolerance, small = correction <= tolerance;
     // Where forces are in balance, one more correction takes what is left; what would be left of that is
-    // foretold by the last two. So is the residual that would be left, with a margin: contractions vary.
-    const bool foretold = std::isfinite(last) && contracts() &&
-                          contraction_ * correction <= (balanced ? 1 : margin) * tolerance;
-    if (foretold && (balanced || decay * residual <= margin * tolerance)) return true;
+    // foretold by the last two.
+    const bool foretold = std::isfinite(last) && contracts() && contraction_ * correction <= tolerance;
+    if (balanced && (small || foretold)) return true;
     // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
     // its own round-off.
-    return small && (balanced || (last <= tolerance && !contracts()));
+    return small && last <= tolerance && !contracts();
   }
   /// Whether the last correction was much smaller than the one before.
   bool contracts() const { return contraction_ <= good_contraction; }
 
  private:
-  static constexpr double margin = 0.05;
-  double residual_ = std::numeric_limits<double>::infinity();
   double correction_ = std::numeric_limits<double>::infinity();
   double contraction_ = 0;
 };

@@ -111,7 +111,7 @@ std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_k
     const double last = found->values.size() > 0 ? found->values[found->values.size() - 1] : 0;
     const bool moves_freely = !(last > 1e-6 * shift);  // nothing but rigid motions
     if (moves_freely && shift <= 1e-12 * largest) return found;
-    if (shift > 1e-5 * last && shift < 0.2 * last) return found;
+    if (shift > 1e-3 * last && shift < 0.2 * last) return found;
     shift = moves_freely ? shift / 1e4 : 1e-2 * last;
   }
   return std::nullopt;
