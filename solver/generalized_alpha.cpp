@@ -47,11 +47,12 @@ class Convergence {
     contraction_ = correction / correction_;
     const double last = correction_;
     correction_ = correction;
-    const bool balanced = residual <= tolerance, small = correction <= tolerance;
+    const bool small = correction <= tolerance;
+    if (!std::isfinite(last)) return false;
     // Where forces are in balance, one more correction takes what is left; what would be left of that is
     // foretold by the last two.
-    const bool foretold = std::isfinite(last) && contracts() && contraction_ * correction <= tolerance;
-    if (balanced && (small || foretold)) return true;
+    const bool foretold = contracts() && contraction_ * correction <= tolerance;
+    if (residual <= tolerance && (small || foretold)) return true;
     // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
     // its own round-off.
     return small && last <= tolerance && !contracts();
