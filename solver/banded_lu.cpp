@@ -11,55 +11,57 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Numbers = Eigen::Map<const Eigen::VectorXd>;
-using Neighbours = std::vector<std::vector<int>>;
+// The unknowns that each is coupled with: itself too, and the rows of its column alone.
+class Neighbours {
+ public:
+  explicit Neighbours(const Matrix& pattern) : pattern_(pattern) {}
 
-Neighbours neighbours_in(const Matrix& pattern) {
-  Neighbours neighbours(static_cast<std::size_t>(pattern.cols()));
-  for (int column = 0; column < pattern.cols(); ++column)
-    for (Matrix::InnerIterator entry(pattern, column); entry; ++entry) {
-      const int row = static_cast<int>(entry.row());
-      if (row == column) continue;
-      neighbours[column].push_back(row);
-      neighbours[row].push_back(column);
-    }
-  for (std::vector<int>& each : neighbours) {
-    std::sort(each.begin(), each.end());
-    each.erase(std::unique(each.begin(), each.end()), each.end());
-  }
-  return neighbours;
-}
+  int size() const { return static_cast<int>(pattern_.cols()); }
+  int count(int i) const { return pattern_.outerIndexPtr()[i + 1] - pattern_.outerIndexPtr()[i]; }
+  const int* begin(int i) const { return pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[i]; }
+  const int* end(int i) const { return begin(i) + count(i); }
+
+ private:
+  const Matrix& pattern_;
+};
+
+// Which unknowns have been seen, and in which walk last.
+struct Walks {
+  std::vector<int> last;
+  int number = 0;
+};
 
 // Appends the component of `start`, by levels, in each those with the fewest neighbours first. Returns the
 // number of levels.
-int append_by_levels(const Neighbours& neighbours, int start, std::vector<bool>& seen,
-                     std::vector<int>& order) {
-  const auto fewer = [&](int a, int b) { return neighbours[a].size() < neighbours[b].size(); };
+int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std::vector<int>& order) {
+  const auto fewer = [&](int a, int b) { return neighbours.count(a) < neighbours.count(b); };
+  const auto append = [&](int unknown) {
+    walks.last[unknown] = walks.number;
+    order.push_back(unknown);
+  };
+  ++walks.number;
   std::size_t next = order.size(), level_end = next + 1;
   int levels = 1;
-  order.push_back(start);
-  seen[start] = true;
+  append(start);
   for (; next < order.size(); ++next) {
     if (next == level_end) {
       ++levels;
       level_end = order.size();
     }
     const auto first_new = static_cast<std::ptrdiff_t>(order.size());
-    for (const int other : neighbours[order[next]])
-      if (!seen[other]) {
-        seen[other] = true;
-        order.push_back(other);
-      }
+    for (const int* other = neighbours.begin(order[next]); other != neighbours.end(order[next]); ++other)
+      if (walks.last[*other] != walks.number) append(*other);
     std::stable_sort(order.begin() + first_new, order.end(), fewer);
   }
   return levels;
 }
 
 // An unknown at an end of the component of `start`: from it the levels are the most that are easily found.
-int end_of_component(const Neighbours& neighbours, int start) {
+int end_of_component(const Neighbours& neighbours, int start, Walks& walks) {
+  std::vector<int> order;
   for (int levels = 0;;) {
-    std::vector<bool> seen(neighbours.size(), false);
-    std::vector<int> order;
-    const int found = append_by_levels(neighbours, start, seen, order);
+    order.clear();
+    const int found = append_by_levels(neighbours, start, walks, order);
     if (found <= levels) return start;
     levels = found;
     start = order.back();
@@ -69,19 +71,20 @@ int end_of_component(const Neighbours& neighbours, int start) {
 }  // namespace
 
 void BandedLu::analyse(const Matrix& pattern) {
-  const Neighbours neighbours = neighbours_in(pattern);
-  const int n = static_cast<int>(neighbours.size());
-  std::vector<bool> seen(neighbours.size(), false);
+  const Neighbours neighbours(pattern);
+  const int n = neighbours.size();
+  Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
   unknown_.clear();
   for (int i = 0; i < n; ++i)
-    if (!seen[i]) append_by_levels(neighbours, end_of_component(neighbours, i), seen, unknown_);
+    if (walks.last[i] == 0)
+      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown_);
   std::reverse(unknown_.begin(), unknown_.end());
-  place_.resize(neighbours.size());
+  place_.resize(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k) place_[unknown_[k]] = k;
   half_bandwidth_ = 0;
   for (int i = 0; i < n; ++i)
-    for (const int j : neighbours[i])
-      half_bandwidth_ = std::max(half_bandwidth_, std::abs(place_[i] - place_[j]));
+    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j)
+      half_bandwidth_ = std::max(half_bandwidth_, std::abs(place_[i] - place_[*j]));
   width_ = 3 * half_bandwidth_ + 1;
 }
 

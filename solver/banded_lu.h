@@ -8,7 +8,7 @@ namespace nurbeam {
 /// elements are: they are put into the reverse order of Cuthill and McKee and eliminated within the band.
 class BandedLu {
  public:
-  /// Finds the order for a square pattern (of A + A', where A's is not symmetric).
+  /// Finds the order for a square pattern, which should be symmetric: else the order is poor, not wrong.
   void analyse(const Eigen::SparseMatrix<double>& pattern);
   /// Greatest distance of an entry from the diagonal, in that order.
   int half_bandwidth() const { return half_bandwidth_; }

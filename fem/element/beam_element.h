@@ -51,6 +51,9 @@ class BeamElement {
   /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
   ElementMatrix<D> tangent(const ElementState<D>& x, const Vector& load, const TangentWeights& w) const;
   ElementEnergy energy(const ElementState<D>& x, const Vector& load) const;
+  /// int rho A S_k v ds [kg m/s] for the rates of the nodes, of an element whose ends are fixed. The columns
+  /// of the positions add up to the momentum of the whole.
+  ElementNodes<D> nodal_momentum(const ElementNodes<D>& rates) const { return rates * mass_; }
   /// Deformed [m].
   double length(const ElementVector<D>& q) const;
   /// What the assumed strain is made of, with its gradient in q.

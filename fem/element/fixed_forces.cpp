@@ -108,8 +108,9 @@ template <int D>
 ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const {
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   ElementMatrix<D> K = ElementMatrix<D>::Zero();
+  const bool mass_alone = w.stiffness == 0 && w.damping == 0;
   for (const PointPack& pack : packs_) {
-    if (!strains_at_points(*properties_)) break;
+    if (mass_alone || !strains_at_points(*properties_)) break;
     for (int g = 0; g < PointPack::points; ++g) {
       const auto [S1, S2] = pack.derivatives(g);
       const Vector rs = e * S1, rss = e * S2;
@@ -124,7 +125,7 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
       add_point_tangent<D>(pack.weight[g] * H, S1, S2, K);
     }
   }
-  if (assumes_strain()) add_fixed_axial_tangent(x, w, K);
+  if (assumes_strain() && !mass_alone) add_fixed_axial_tangent(x, w, K);
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l)
       K.template block<D, D>(k * D, l * D).diagonal().array() += w.mass * mass_(k, l);

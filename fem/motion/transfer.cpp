@@ -75,7 +75,7 @@ class Remap {
       for (double s : to_.model().beams[beam].curve.breaks()) places.push_back(s);
       return places;
     };
-    return generalised_momentum(to_, next, motion, breaks, body_motions(from_, state_));
+    return generalised_momentum(to_, next, motion, breaks, body_motions(from_, state_), from_, state_);
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola

@@ -103,10 +103,11 @@ BodyMotions body_motions(const BeamSystem& system, const State& state);
 /// int (rho A N' v + rho I_p W' w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
 /// material, plus the bodies' momenta: what the motion `field`(beam, s), of velocity v and spin w, and that
 /// of the bodies mean for the coordinates of `state`. Elements are integrated in parts
-/// between the places that `breaks`(beam) lists [m].
+/// between the places that `breaks`(beam) lists [m]; those that `from` has too, with fixed ends and without
+/// torsion, have the momentum that they have in `motion`, a state of `from`, which moves as `field`.
 Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
                                      const std::function<MaterialMotion(int beam, double s)>& field,
                                      const std::function<std::vector<double>(int beam)>& breaks,
-                                     const BodyMotions& bodies);
+                                     const BodyMotions& bodies, const BeamSystem& from, const State& motion);
 
 }  // namespace nurbeam

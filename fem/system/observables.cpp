@@ -99,7 +99,13 @@ Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   using Layout = ElementLayout<D>;
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
   for (const MeshElement<D>& e : a.elements()) {
-    const ElementVector<D> q = gather<D>(e, state.q);
+    const ElementState<D> x = gather<D>(e, state);
+    if (e.element.fixed()) {
+      const ElementNodes<D> nodal = e.element.nodal_momentum(x.node_rates());
+      sum += nodal.col(0) + nodal.col(2);
+      continue;
+    }
+    const ElementVector<D>& q = x.q;
     const double rho = e.element.properties().mass_per_length;
     e.element.for_each_point(q[Layout::place(0)], q[Layout::place(1)],
                              [&](const ShapeFunctions<double>&, double s, double weight) {
