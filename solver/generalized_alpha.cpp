@@ -166,7 +166,8 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     evaluate_residual(step);
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
-    if (!linearise(linearisation_ ? linearisation_ : std::make_shared<Linearisation>(trial_, step)))
+    if (!linearise(linearisation_ ? linearisation_
+                                  : std::make_shared<Linearisation>(Linearisation{trial_, step})))
       return StepStatus::singular_matrix;
     report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
     correct(step);

@@ -149,11 +149,14 @@ std::pair<double, bool> MovingBasis::fraction(const Jet& s) const {
 }
 
 ShapeFunctions<Jet> MovingBasis::uniform_at(const Jet& s) const {
-  const auto& [s_a, l, l_1, l_2, l_3] = *uniform_;
-  const auto [x, moves_with_ends] = fraction(s);
-  const Jet xi = moves_with_ends ? Jet(x) : (s - s_a) * l_1;
+  const Jet &s_a = uniform_->s_a, &l = uniform_->l, &l_1 = uniform_->l_1, &l_2 = uniform_->l_2,
+            &l_3 = uniform_->l_3;
+  const auto at_fraction = fraction(s);
+  const double x = at_fraction.first;
+  const bool moves = at_fraction.second;
+  const Jet xi = moves ? Jet(x) : (s - s_a) * l_1;
   // A Hermite function of xi from its value and derivatives; its last one is constant.
-  const auto at = [&, moves = moves_with_ends](double f, double f1, double f2, double f3, const Jet& factor) {
+  const auto at = [&](double f, double f1, double f2, double f3, const Jet& factor) {
     return moves ? f * factor : compose({f, f1, f2, f3}, xi) * factor;
   };
   ShapeFunctions<Jet> shape;
