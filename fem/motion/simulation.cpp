@@ -1,3 +1,4 @@
+// Long because it is the course of one run: its start, steps, landings and events share what they know of it.
 #include "fem/motion/simulation.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Long because it is the one walk over elements, forces and constraints, for each of what a system is asked.
 #include "fem/system/assembly.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Long because it is the one list of all keys.
 #include "pipelines/case/case_keys.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Long because it is all steps from a case to its model, in their order.
 #include "pipelines/model/build_model.h"
 
 #include <algorithm>

@@ -133,95 +133,138 @@ void FrameStore::define_steps() {
   define("solver_step_rejected", Type::integer, "1", "attempts at the step that were thrown away");
 }
 
-void FrameStore::write(std::span<const Snapshot> frames) {
-  const std::size_t n = frames.size();
-  if (n == 0) return;
-  const auto put = [&](const std::string& name, NetcdfFile::Sizes shape, const auto& values) {
-    NetcdfFile::Sizes start(shape.size() + 1, 0);
-    start[0] = frames_;
-    shape.insert(shape.begin(), n);
-    file_.put(name, start, shape, values.data());
-  };
-  const auto reals = [&](auto value) {
+// What has one value, or one row of values, in every frame.
+class FrameStore::PerFrame {
+ public:
+  PerFrame(NetcdfFile& file, std::size_t first, std::span<const Snapshot> frames)
+      : file_(&file), first_(first), frames_(frames) {}
+
+  /// What `value`(frame, values) appends for each frame, as one array of that shape.
+  template <class Value>
+  void write(const std::string& name, const NetcdfFile::Sizes& shape, Value value) const {
     Doubles values;
-    for (const Snapshot& frame : frames) value(frame, values);
-    return values;
-  };
-  put("time", {}, reals([](const Snapshot& f, Doubles& x) { x.push_back(f.time); }));
-  put("step", {}, reals([](const Snapshot& f, Doubles& x) { x.push_back(f.step); }));
-  for (const EnergyPart& part : energy_parts)
-    put(std::string("energy_") + part.name, {},
-        reals([&](const Snapshot& f, Doubles& x) { x.push_back(f.energy.*part.value); }));
-  Integers iterations;
-  for (const Snapshot& frame : frames) iterations.push_back(frame.newton_iterations);
-  put("newton_iterations", {}, iterations);
-  if (probe_count_ > 0) {
-    put("probe_position", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
-          for (const PointRecord& probe : f.probes) append(x, probe.position);
-        }));
-    put("probe_velocity", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
-          for (const PointRecord& probe : f.probes) append(x, probe.velocity);
-        }));
-    put("probe_displacement", {probe_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
-          for (const ProbeRecord& probe : f.probes) append(x, probe.displacement);
-        }));
-    for (const SectionPart& part : section_parts_)
-      put(std::string("probe_") + part.name, {probe_count_}, reals([&](const Snapshot& f, Doubles& x) {
-            for (const ProbeRecord& probe : f.probes) x.push_back(filled(probe.section.*part.value));
-          }));
+    for (const Snapshot& frame : frames_) value(frame, values);
+    put(name, shape, values);
   }
-  if (body_count_ > 0) {
-    put("body_position", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
-          for (const BodyRecord& body : f.bodies) append(x, body.point.position);
-        }));
-    put("body_velocity", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
-          for (const BodyRecord& body : f.bodies) append(x, body.point.velocity);
-        }));
-    put("body_joint_force", {body_count_, 3}, reals([](const Snapshot& f, Doubles& x) {
-          for (const BodyRecord& body : f.bodies) append(x, body.joint_force);
-        }));
-    put("body_s", {body_count_}, reals([](const Snapshot& f, Doubles& x) {
-          for (const BodyRecord& body : f.bodies) x.push_back(body.s.value_or(NetcdfFile::fill));
-        }));
-    put("body_holding_force", {body_count_}, reals([](const Snapshot& f, Doubles& x) {
-          for (const BodyRecord& body : f.bodies) x.push_back(body.holding_force);
-        }));
+  template <class Value>
+  void write_integers(const std::string& name, const NetcdfFile::Sizes& shape, Value value) const {
+    Integers values;
+    for (const Snapshot& frame : frames_) value(frame, values);
+    put(name, shape, values);
   }
-  put("beam_length", {beam_count_}, reals([](const Snapshot& f, Doubles& x) {
-        for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
-      }));
-  for (const BeamExtreme& extreme : beam_extremes_) {
-    const std::string variable = std::string("beam_") + extreme.name;
-    const auto of_beams = [&](double Extreme::*part) {
-      return reals([&](const Snapshot& f, Doubles& x) {
-        for (const BeamRecord& beam : f.beams) x.push_back(filled(beam.*extreme.value.*part));
-      });
-    };
-    put(variable, {beam_count_}, of_beams(&Extreme::value));
-    put(variable + "_s", {beam_count_}, of_beams(&Extreme::s));
+
+ private:
+  template <class Values>
+  void put(const std::string& name, NetcdfFile::Sizes shape, const Values& values) const {
+    NetcdfFile::Sizes start(shape.size() + 1, 0);
+    start[0] = first_;
+    shape.insert(shape.begin(), frames_.size());
+    file_->put(name, start, shape, values.data());
   }
-  if (reaction_count_ > 0) {
-    const auto of_reactions = [&](Eigen::Vector3d ReactionRecord::*part) {
-      return reals([&](const Snapshot& f, Doubles& x) {
-        for (const ReactionRecord& reaction : f.reactions) append(x, reaction.*part);
-      });
-    };
-    put("reaction_position", {reaction_count_, 3}, of_reactions(&ReactionRecord::position));
-    put("reaction_force", {reaction_count_, 3}, of_reactions(&ReactionRecord::force));
-    put("reaction_couple", {reaction_count_, 3}, of_reactions(&ReactionRecord::couple));
-  }
-  Integers element_counts, node_counts;
-  for (const Snapshot& frame : frames)
-    for (const BeamRecord& beam : frame.beams) {
-      element_counts.push_back(static_cast<int>(beam.elements.size()));
-      node_counts.push_back(static_cast<int>(beam.node_s.size()));
-    }
-  put("element_count", {beam_count_}, element_counts);
-  put("node_count", {beam_count_}, node_counts);
+
+  NetcdfFile* file_;
+  std::size_t first_;
+  std::span<const Snapshot> frames_;
+};
+
+void FrameStore::write(std::span<const Snapshot> frames) {
+  if (frames.empty()) return;
+  const PerFrame each(file_, frames_, frames);
+  write_scalars(each);
+  if (probe_count_ > 0) write_probes(each);
+  if (body_count_ > 0) write_bodies(each);
+  write_beams(each);
+  if (reaction_count_ > 0) write_reactions(each);
   write_elements(frames);
   write_nodes(frames);
   write_steps(frames);
-  frames_ += n;
+  frames_ += frames.size();
+}
+
+void FrameStore::write_scalars(const PerFrame& each) {
+  each.write(
+      "time", {}, [](const Snapshot& f, Doubles& x) { x.push_back(f.time); });
+  each.write("step", {}, [](const Snapshot& f, Doubles& x) { x.push_back(f.step); });
+  for (const EnergyPart& part : energy_parts)
+    each.write(
+        std::string("energy_") + part.name, {},
+        [&](const Snapshot& f, Doubles& x) { x.push_back(f.energy.*part.value); });
+  each.write_integers("newton_iterations", {},
+                      [](const Snapshot& f, Integers& x) { x.push_back(f.newton_iterations); });
+}
+
+void FrameStore::write_probes(const PerFrame& each) {
+  const auto vectors = [&](const std::string& name, Eigen::Vector3d ProbeRecord::*part) {
+    each.write(name, {probe_count_, 3}, [&](const Snapshot& f, Doubles& x) {
+      for (const ProbeRecord& probe : f.probes) append(x, probe.*part);
+    });
+  };
+  vectors("probe_position", &ProbeRecord::position);
+  vectors("probe_velocity", &ProbeRecord::velocity);
+  vectors("probe_displacement", &ProbeRecord::displacement);
+  for (const SectionPart& part : section_parts_)
+    each.write(std::string("probe_") + part.name, {probe_count_}, [&](const Snapshot& f, Doubles& x) {
+      for (const ProbeRecord& probe : f.probes) x.push_back(filled(probe.section.*part.value));
+    });
+}
+
+void FrameStore::write_bodies(const PerFrame& each) {
+  const auto write = [&](const std::string& name, const NetcdfFile::Sizes& shape, auto append_part) {
+    each.write(
+        name, shape,
+        [&](const Snapshot& f, Doubles& x) {
+          for (const BodyRecord& body : f.bodies) append_part(x, body);
+        });
+  };
+  write(
+      "body_position", {body_count_, 3},
+      [](Doubles& x, const BodyRecord& body) { append(x, body.point.position); });
+  write(
+      "body_velocity", {body_count_, 3},
+      [](Doubles& x, const BodyRecord& body) { append(x, body.point.velocity); });
+  write(
+      "body_joint_force", {body_count_, 3},
+      [](Doubles& x, const BodyRecord& body) { append(x, body.joint_force); });
+  write(
+      "body_s", {body_count_},
+      [](Doubles& x, const BodyRecord& body) { x.push_back(body.s.value_or(NetcdfFile::fill)); });
+  write("body_holding_force", {body_count_},
+        [](Doubles& x, const BodyRecord& body) { x.push_back(body.holding_force); });
+}
+
+void FrameStore::write_beams(const PerFrame& each) {
+  each.write("beam_length", {beam_count_}, [](const Snapshot& f, Doubles& x) {
+    for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
+  });
+  for (const BeamExtreme& extreme : beam_extremes_) {
+    const std::string variable = std::string("beam_") + extreme.name;
+    const auto write = [&](const std::string& name, double Extreme::*part) {
+      each.write(name, {beam_count_}, [&](const Snapshot& f, Doubles& x) {
+        for (const BeamRecord& beam : f.beams) x.push_back(filled(beam.*extreme.value.*part));
+      });
+    };
+    write(variable, &Extreme::value);
+    write(variable + "_s", &Extreme::s);
+  }
+  each.write_integers(
+      "element_count", {beam_count_},
+      [](const Snapshot& f, Integers& x) {
+        for (const BeamRecord& beam : f.beams) x.push_back(static_cast<int>(beam.elements.size()));
+      });
+  each.write_integers("node_count", {beam_count_}, [](const Snapshot& f, Integers& x) {
+    for (const BeamRecord& beam : f.beams) x.push_back(static_cast<int>(beam.node_s.size()));
+  });
+}
+
+void FrameStore::write_reactions(const PerFrame& each) {
+  const auto write = [&](const std::string& name, Eigen::Vector3d ReactionRecord::*part) {
+    each.write(name, {reaction_count_, 3}, [&](const Snapshot& f, Doubles& x) {
+      for (const ReactionRecord& reaction : f.reactions) append(x, reaction.*part);
+    });
+  };
+  write("reaction_position", &ReactionRecord::position);
+  write("reaction_force", &ReactionRecord::force);
+  write("reaction_couple", &ReactionRecord::couple);
 }
 
 void FrameStore::write_elements(std::span<const Snapshot> frames) {

@@ -42,6 +42,12 @@ class FrameStore {
   void define_beams(const std::vector<std::string>& names);
   void define_reactions(const std::vector<std::string>& names);
   void define_steps();
+  class PerFrame;
+  void write_scalars(const PerFrame& each);
+  void write_probes(const PerFrame& each);
+  void write_bodies(const PerFrame& each);
+  void write_beams(const PerFrame& each);
+  void write_reactions(const PerFrame& each);
   void write_elements(std::span<const Snapshot> frames);
   void write_nodes(std::span<const Snapshot> frames);
   void write_steps(std::span<const Snapshot> frames);

@@ -210,13 +210,9 @@ void exchange_history(Archive& archive, IntegratorHistory& history) {
   exchange_linearisation(archive, history.linearisation);
 }
 
-/// The one list of what a restart point holds: it writes and reads.
+// All that is a single number, as one row.
 template <class Archive>
-void exchange(Archive& archive, Checkpoint& p) {
-  std::vector<std::string> inputs{p.inputs};
-  archive.texts("inputs", inputs);
-
-  // One row, of all that is a single number.
+void exchange_numbers(Archive& archive, Checkpoint& p) {
   std::vector<Checkpoint> row{p};
   exchange_rows(archive, "scalars", "time, frames, and what the run has counted", row,
                 [](Checkpoint& point, auto& slot) {
@@ -243,35 +239,30 @@ void exchange(Archive& archive, Checkpoint& p) {
                     slot(range->greatest);
                   }
                 });
-  const std::string digest = inputs.at(0);
   p = row.at(0);
-  p.inputs = digest;
+}
 
-  exchange_vector(archive, "q", "generalised positions", p.state.q);
-  exchange_vector(archive, "v", "generalised velocities", p.state.v);
-  exchange_vector(archive, "a", "generalised accelerations", p.state.a);
-  exchange_vector(archive, "lambda", "Lagrange multipliers", p.state.lambda);
-  exchange_history(archive, p.history);
-
-  std::vector<PresentNode> nodes = flattened(p.plan.beams);
+template <class Archive>
+void exchange_plan(Archive& archive, MeshPlan& plan) {
+  std::vector<PresentNode> nodes = flattened(plan.beams);
   exchange_rows(archive, "home_nodes", "beam, and whether the node is in the mesh", nodes,
                 [](PresentNode& node, auto& slot) {
                   slot(node.beam);
                   slot(node.present);
                 });
-  p.plan.beams = by_beam(nodes);
+  plan.beams = by_beam(nodes);
   exchange_rows(
-      archive, "joint_places", "s of the sliding joints when the mesh was made", p.plan.places,
+      archive, "joint_places", "s of the sliding joints when the mesh was made", plan.places,
       [](double& place, auto& slot) { slot(place); });
-  exchange_rows(archive, "joint_modes", "node, point, stopped, free", p.plan.modes,
+  exchange_rows(archive, "joint_modes", "node, point, stopped, free", plan.modes,
                 [](JointMode& mode, auto& slot) { slot(mode); });
-  std::vector<int> held(p.plan.held.begin(), p.plan.held.end());
+  std::vector<int> held(plan.held.begin(), plan.held.end());
   exchange_rows(archive, "held_joints", "whether a body waits for its release", held,
                 [](int& each, auto& slot) { slot(each); });
-  p.plan.held.assign(held.begin(), held.end());
+  plan.held.assign(held.begin(), held.end());
   exchange_rows(archive, "spins", "with which bodies that followed a section have left their beams",
-                p.plan.spins, [](double& spin, auto& slot) { slot(spin); });
-  exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", p.plan.weights,
+                plan.spins, [](double& spin, auto& slot) { slot(spin); });
+  exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", plan.weights,
                 [](MeshPlan::Weights& weights, auto& slot) {
                   slot(weights.beam);
                   slot(weights.s_a);
@@ -279,7 +270,7 @@ void exchange(Archive& archive, Checkpoint& p) {
                   for (double& w : weights.w) slot(w);
                 });
   exchange_rows(archive, "section_charts",
-                "beam, s_a, s_b, axes at both ends and turn, of elements with torsion", p.plan.section_charts,
+                "beam, s_a, s_b, axes at both ends and turn, of elements with torsion", plan.section_charts,
                 [](MeshPlan::SectionCharts& charts, auto& slot) {
                   slot(charts.beam);
                   slot(charts.s_a);
@@ -288,6 +279,22 @@ void exchange(Archive& archive, Checkpoint& p) {
                     for (double& component : chart.reshaped()) slot(component);
                   slot(charts.turn);
                 });
+}
+
+/// The one list of what a restart point holds: it writes and reads.
+template <class Archive>
+void exchange(Archive& archive, Checkpoint& p) {
+  std::vector<std::string> inputs{p.inputs};
+  archive.texts("inputs", inputs);
+  exchange_numbers(archive, p);
+  p.inputs = inputs.at(0);
+  exchange_vector(archive, "q", "generalised positions", p.state.q);
+  exchange_vector(archive, "v", "generalised velocities", p.state.v);
+  exchange_vector(archive, "a", "generalised accelerations", p.state.a);
+  exchange_vector(archive, "lambda", "Lagrange multipliers", p.state.lambda);
+  exchange_history(archive, p.history);
+
+  exchange_plan(archive, p.plan);
   exchange_rows(archive, "steps",
                 "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
                 [](StepRecord& step, auto& slot) {

@@ -1,3 +1,4 @@
+// Long because its tests share what they build.
 #include "cad_import/export_into_step.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Long because its tests share what they build.
 // What we write, judged by OpenCASCADE's own readers, in their default settings, and checkers.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Long because its tests share what they build.
 #include "solver/static_equilibrium.h"
 
 #include <gtest/gtest.h>

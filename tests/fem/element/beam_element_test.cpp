@@ -1,3 +1,4 @@
+// Long because its tests share what they build.
 #include "fem/element/beam_element.h"
 
 #include <gtest/gtest.h>

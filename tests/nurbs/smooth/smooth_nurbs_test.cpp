@@ -1,3 +1,4 @@
+// Long because its tests share what they build.
 #include "nurbs/smooth/smooth_nurbs.h"
 
 #include <gtest/gtest.h>

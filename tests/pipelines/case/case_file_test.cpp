@@ -1,3 +1,4 @@
+// Long because its tests share what they build.
 #include "pipelines/case/case_file.h"
 
 #include <gtest/gtest.h>
