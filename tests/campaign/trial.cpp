@@ -179,6 +179,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   SimulationObserver observer;
   std::optional<MeshPlan> plan;
   std::size_t events = 0;
+  double longest_step = 0;
   // IDA takes many steps within one of ours where waves are undamped.
   const auto start = std::chrono::steady_clock::now();
   bool left = false;
@@ -197,6 +198,10 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     events = point.report.events.size();
     // Right after a change of the mesh, where it may be left, accelerations are means over the next step.
     if (!goes_on || left || !with_accelerations || point.steps.empty()) return;
+    // Where a run is about to fail its steps shorten until round-off, over their square, is what accelerates.
+    const double step = point.steps.back().size;
+    longest_step = std::max(longest_step, step);
+    if (step < 1e-4 * longest_step) return;
     const BeamSystem system(model, point.plan);
     const double found = imbalance(system, point.state);
     if (!(found <= trial.imbalance)) {
@@ -284,7 +289,7 @@ Verdict try_case(const std::filesystem::path& file, long most_steps) {
   // A run that says that it goes wrong may leave anything in its frames.
   const bool warned = energy_change(report) > noticed(report);
   if (!trial.not_finite.empty() && !warned) return finish("done", "not finite: " + trial.not_finite);
-  if (!(trial.imbalance <= most_imbalance))
+  if (!(trial.imbalance <= most_imbalance) && !warned)
     return finish("done", "reactions, loads and inertia miss each other by " +
                               std::to_string(trial.imbalance * 1e9) +
                               "e-9 of the largest force at t = " + std::to_string(trial.imbalance_time));
