@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "fem/motion/kinks.h"
 #include "fem/motion/resting_place.h"
 #include "fem/motion/simulation.h"
 #include "fem/system/observables.h"
@@ -196,8 +197,10 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     const bool goes_on = plan && same_mesh(*plan, point.plan) && events == point.report.events.size();
     plan = point.plan;
     events = point.report.events.size();
-    // Right after a change of the mesh, where it may be left, accelerations are means over the next step.
+    // Right after a change of the mesh, where it may be left, or a jump of a prescribed speed accelerations
+    // are means over the next step.
     if (!goes_on || left || !with_accelerations || point.steps.empty()) return;
+    if (!motion_kinks(*model, point.state.t).empty()) return;
     // Where a run is about to fail its steps shorten until round-off, over their square, is what accelerates.
     const double step = point.steps.back().size;
     longest_step = std::max(longest_step, step);
