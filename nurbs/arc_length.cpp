@@ -28,9 +28,21 @@ double slowest_place(const Speed& speed, const Panels& panels, const std::vector
   return speed(between) < speed(at_break) ? between : at_break;
 }
 
+/// Whether the speed is the same everywhere, to the last bits of the control points.
+bool is_uniform(const RationalCubic& cubic, const Eigen::Matrix<double, 3, 5>& hodograph) {
+  const Eigen::RowVector4d weights = cubic.points().row(3);
+  const Eigen::Vector3d mean = hodograph.rowwise().mean();
+  return (weights.array() == weights[0]).all() &&
+         (hodograph.colwise() - mean).cwiseAbs().maxCoeff() <=
+             1e-15 * cubic.points().topRows<3>().cwiseAbs().maxCoeff() * weights[0];
+}
+
 }  // namespace
 
-Speed::Speed(const RationalCubic& cubic) : hodograph_(cubic.hodograph()), weights_(cubic.points().row(3)) {}
+Speed::Speed(const RationalCubic& cubic)
+    : hodograph_(cubic.hodograph()),
+      weights_(cubic.points().row(3)),
+      uniform_(is_uniform(cubic, hodograph_)) {}
 
 double Speed::operator()(double u) const {
   const double v = 1 - u;
@@ -62,6 +74,7 @@ double ArcLengthMap::arc_length(double u) const {
 }
 
 double ArcLengthMap::parameter(double s) const {
+  if (speed_.uniform()) return s / length();
   const std::size_t k = panel_holding(panels_.integrals, s);
   const double a = panels_.breaks[k], b = panels_.breaks[k + 1];
   const double panel_length = panels_.integrals[k + 1] - panels_.integrals[k];
@@ -77,14 +90,16 @@ double ArcLengthMap::parameter(double s) const {
   double u =
       inside ? std::clamp(guess, a, b)
              : (t < 0 ? a + from_a / break_speeds_[k] : b + (from_a - panel_length) / break_speeds_[k + 1]);
+  double excess = gauss(speed_, a, u) - from_a;
   for (int i = 0; i < 60; ++i) {
-    const double excess = gauss(speed_, a, u) - from_a;
     (excess > 0 ? high : low) = u;
     double next = u - excess / speed_(u);
     if (inside && (next < low || next > high)) next = 0.5 * (low + high);
     const double step = std::abs(next - u);
+    if (step <= 1e-9 * (b - a)) return next;
+    // Where the step is short, three points integrate it to round-off.
+    excess = step <= 1e-2 * (b - a) ? excess + gauss_of_3(speed_, u, next) : gauss(speed_, a, next) - from_a;
     u = next;
-    if (step <= 1e-9 * (b - a)) break;
   }
   return u;
 }

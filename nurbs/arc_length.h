@@ -11,10 +11,13 @@ class Speed {
  public:
   explicit Speed(const RationalCubic& cubic);
   double operator()(double u) const;
+  /// Whether it is the same everywhere, to round-off: a straight line in even steps.
+  bool uniform() const { return uniform_; }
 
  private:
   Eigen::Matrix<double, 3, 5> hodograph_;
   Eigen::RowVector4d weights_;
+  bool uniform_;
 };
 
 /// Length of a rational cubic [m], to about 1e-14; cusps are allowed.

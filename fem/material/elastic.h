@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "fem/material/section.h"
 #include "fem/material/strain.h"
 
@@ -54,14 +57,16 @@ struct SectionForces {
   double bending_moment = 0;  ///< EI (K - kappa_0) [N m]
 };
 
-/// `eps`: the axial strain that the section carries; eps_0 the drawing's; `free` that without axial force.
+/// `eps`: the axial strain that the section carries; eps_0 the drawing's; `free` that without axial force. A
+/// section that is compressed to nothing, eps <= -1/2, as the assumed strain of a coarse element can be,
+/// carries no force.
 template <int D>
 SectionForces section_forces(const BeamProperties& beam, double eps, const Eigen::Matrix<double, D, 1>& rs,
                              const Eigen::Matrix<double, D, 1>& rss, double kappa0, double eps0 = 0,
                              double free = 0) {
   const double K = curvature<D, Derivatives::one>(rs, rss, beam.curvature).value;
   return {(eps - free) / (1 + 2 * beam.free_strain.constant), K,
-          beam.axial_stiffness * (eps - eps0 - free) * std::sqrt(1 + 2 * eps),
+          beam.axial_stiffness * (eps - eps0 - free) * std::sqrt(std::max(0.0, 1 + 2 * eps)),
           beam.axis_bending_stiffness() * (K - kappa0)};
 }
 

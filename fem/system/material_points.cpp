@@ -84,14 +84,13 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
 
 template <int D>
 SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
-                         const SpanResultants& carried, const PlaceInElement<D>& at) {
+                         const SpanResultants& carried, const ElementVector<D>& q,
+                         const std::optional<AssumedStrain>& assumed, const PlaceInElement<D>& at) {
   using Layout = ElementLayout<D>;
-  const ElementVector<D> q = gather<D>(e, state.q);
   const double s = at.s, s_a = q[Layout::place(0)], s_b = q[Layout::place(1)];
   const MaterialPoint<D>& p = at.point;
   const MaterialPoint<3> point = widened_point<D>(p);
   const double drawn = e.element.curve().strain(s);
-  const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
   const double strain =
       assumed ? drawn + assumed->carried((s - s_a) / (s_b - s_a)) : axial_strain<D>(p.rs).value;
   const SectionForces elastic =
@@ -121,9 +120,10 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.s_start = q[Layout::place(0)];
   record.s_end = q[Layout::place(1)];
   record.axial_mismatch = e.element.axial_mismatch(q);
+  const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
   for (int i = 0; i < 4; ++i) {
     const PlaceInElement<D> at(e, state, e.element.place(q, i / 3.0));
-    const SectionRecord section = section_of<D>(a, e, state, carried, at);
+    const SectionRecord section = section_of<D>(a, e, state, carried, q, assumed, at);
     record.strain[i] = section.strain;
     record.curvature[i] = section.curvature;
     record.axial_force[i] = section.axial_force;
@@ -264,8 +264,9 @@ SectionRecord section_at(const BeamSystem& system, const State& state, int span,
       system,
       [&]<int D>(const Assembly<D>& a) {
         const MeshElement<D>& e = a.elements()[span];
-        return section_of<D>(a, e, state, carried,
-                             PlaceInElement<D>(e, state, e.local(gather<D>(e, state.q), s)));
+        const ElementVector<D> q = gather<D>(e, state.q);
+        return section_of<D>(a, e, state, carried, q, e.element.assumed_strain(q),
+                             PlaceInElement<D>(e, state, e.local(q, s)));
       });
 }
 

@@ -72,6 +72,12 @@ void NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
   check(nc_def_dim(id_, name.c_str(), size, &dimension), name);
 }
 
+void NetcdfFile::define_plain(const std::string& name, Type type, const std::vector<std::string>& dimensions,
+                              const std::string& unit, const std::string& long_name) {
+  define_variable(name, type == Type::real ? NC_DOUBLE : NC_INT, dimensions);
+  put_meaning(name, unit, long_name);
+}
+
 void NetcdfFile::define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
                         const std::string& unit, const std::string& long_name, std::size_t chunk) {
   const auto lock = one_at_a_time();
@@ -81,6 +87,10 @@ void NetcdfFile::define(const std::string& name, Type type, const std::vector<st
   check(nc_def_var_chunking(id_, variable, NC_CHUNKED, chunks.data()), name);
   constexpr int shuffle = 1, deflate = 1, level = 2;
   check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
+  put_meaning(name, unit, long_name);
+}
+
+void NetcdfFile::put_meaning(const std::string& name, const std::string& unit, const std::string& long_name) {
   put_attribute(name, "units", unit);
   put_attribute(name, "long_name", long_name);
 }

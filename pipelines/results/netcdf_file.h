@@ -25,6 +25,9 @@ class NetcdfFile {
   ~NetcdfFile();
 
   void define_dimension(const std::string& name, std::size_t size);
+  /// A variable without compression, of fixed size: what is read again soon.
+  void define_plain(const std::string& name, Type type, const std::vector<std::string>& dimensions,
+                    const std::string& unit, const std::string& long_name);
   /// A compressed variable; `chunk` rows of its first dimension lie together in the file.
   void define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
               const std::string& unit, const std::string& long_name, std::size_t chunk);
@@ -51,6 +54,7 @@ class NetcdfFile {
   int dimension(const std::string& name) const;
   int variable(const std::string& name) const;
   int define_variable(const std::string& name, int type, const std::vector<std::string>& dimensions);
+  void put_meaning(const std::string& name, const std::string& unit, const std::string& long_name);
 
   void put_texts();
 

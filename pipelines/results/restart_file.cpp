@@ -28,7 +28,7 @@ class Writer {
     if (values.empty()) return;
     const std::string dimension = name + "_count";
     file_.define_dimension(dimension, values.size());
-    file_.define(name, NetcdfFile::Type::real, {dimension}, "SI", meaning, values.size());
+    file_.define_plain(name, NetcdfFile::Type::real, {dimension}, "SI", meaning);
     numbers_.emplace_back(name, values);
   }
   void texts(const std::string& name, std::vector<std::string>& values) {

@@ -179,6 +179,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   SimulationObserver observer;
   std::optional<MeshPlan> plan;
   std::size_t events = 0;
+  double longest_step = 0;
   // IDA takes many steps within one of ours where waves are undamped.
   const auto start = std::chrono::steady_clock::now();
   bool left = false;
@@ -197,6 +198,10 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     events = point.report.events.size();
     // Right after a change of the mesh, where it may be left, accelerations are means over the next step.
     if (!goes_on || left || !with_accelerations || point.steps.empty()) return;
+    // Where a run is about to fail its steps shorten until round-off, over their square, is what accelerates.
+    const double step = point.steps.back().size;
+    longest_step = std::max(longest_step, step);
+    if (step < 1e-4 * longest_step) return;
     const BeamSystem system(model, point.plan);
     const double found = imbalance(system, point.state);
     if (!(found <= trial.imbalance)) {
@@ -233,7 +238,8 @@ std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analys
   if (energy_change(first) > noticed(first)) return {};  // the run says so itself
   double last = energy_change(first);
   std::string seen = std::to_string(last / first.energy_scale());
-  for (int refinement = 2; refinement <= 8; refinement += 2) {  // waves are damped until a step resolves them
+  for (int refinement = 2; refinement <= 12;
+       refinement += 2) {  // waves are damped until a step resolves them
     const Trial finer = run(built, options_of(analysis, refinement), false, most_steps << refinement);
     if (finer.report.status != SimulationStatus::done) return {};
     const double change = energy_change(finer.report);
@@ -280,11 +286,10 @@ Verdict try_case(const std::filesystem::path& file, long most_steps) {
   const SimulationReport& report = trial.report;
   verdict.imbalance = trial.imbalance;
   if (report.energy_scale() > 0) verdict.drift = energy_change(report) / report.energy_scale();
-  // A run that has said that it goes wrong may leave anything in its last frame.
-  const bool warned =
-      report.status == SimulationStatus::not_converged && energy_change(report) > noticed(report);
+  // A run that says that it goes wrong may leave anything in its frames.
+  const bool warned = energy_change(report) > noticed(report);
   if (!trial.not_finite.empty() && !warned) return finish("done", "not finite: " + trial.not_finite);
-  if (!(trial.imbalance <= most_imbalance))
+  if (!(trial.imbalance <= most_imbalance) && !warned)
     return finish("done", "reactions, loads and inertia miss each other by " +
                               std::to_string(trial.imbalance * 1e9) +
                               "e-9 of the largest force at t = " + std::to_string(trial.imbalance_time));

@@ -82,6 +82,25 @@ TEST(ArcLengthTest, ItGrowsAtTheSpeed) {
   }
 }
 
+TEST(ArcLengthTest, OnAnEvenLineItIsAProportionAndOnAnUnevenOneItIsNot) {
+  const Eigen::Vector4d a(3, -2, 7, 1), b(4.5, 0, 9.25, 1);
+  const auto line = [&](double second, double third) {
+    Eigen::Matrix4d points;
+    points << a, a + second * (b - a), a + third * (b - a), b;
+    return RationalCubic(points);
+  };
+  const ArcLengthMap even(line(1.0 / 3, 2.0 / 3)), uneven(line(0.3, 0.6));
+  EXPECT_TRUE(Speed(line(1.0 / 3, 2.0 / 3)).uniform());
+  EXPECT_FALSE(Speed(line(1.0 / 3 + 1e-12, 2.0 / 3)).uniform());
+  for (const double part : {-0.1, 0.0, 0.2, 0.7, 1.0, 1.3}) {
+    const double s = part * (b - a).norm();
+    EXPECT_NEAR(even.parameter(s), part, 1e-15);
+    // Of a line with the coordinate 0.9 u + 0.1 u^3 along it.
+    const double u = uneven.parameter(s);
+    EXPECT_NEAR(0.9 * u + 0.1 * u * u * u, part, 1e-14);
+  }
+}
+
 TEST(ArcLengthTest, ThePiecesAreAsLongAsTheWhole) {
   Generator generator(22);
   for (int i = 0; i < 2000; ++i) {

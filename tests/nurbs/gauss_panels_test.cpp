@@ -18,6 +18,17 @@ TEST(GaussPanelsTest, TheRuleIsExactForPowersUpTo19AndNotFor20) {
   }
 }
 
+TEST(GaussPanelsTest, TheRuleOfThreePointsIsExactForPowersUpTo5AndNotFor6) {
+  for (int power = 0; power <= 6; ++power) {
+    const double integral = gauss_of_3([power](double x) { return std::pow(x, power); }, 1, 2);
+    const double error = std::abs(integral - (std::pow(2, power + 1) - 1) / (power + 1));
+    if (power <= 5)
+      EXPECT_LE(error, 1e-14) << power;
+    else
+      EXPECT_GE(error, 1e-5);
+  }
+}
+
 TEST(GaussPanelsTest, PanelsResolveAnAlmostSingularIntegrand) {
   const double a = 1e-3;
   const Panels panels = panels_of([a](double x) { return 1 / (a * a + (x - 0.3) * (x - 0.3)); }, 0, 1);

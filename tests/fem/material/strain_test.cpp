@@ -180,6 +180,17 @@ void check_damping() {
     EXPECT_GE(here.power, 0);
   }
 }
+TEST(Elastic, ASectionThatIsCompressedToNothingCarriesNoForce) {
+  BeamProperties beam;
+  beam.axial_stiffness = 1e6;
+  const Eigen::Vector2d rs(1, 0), rss(0, 0);
+  // d/dl of EA/2 eps^2 with eps = (l^2 - 1)/2.
+  const double l = 0.3, eps = (l * l - 1) / 2;
+  EXPECT_NEAR(section_forces<2>(beam, eps, rs, rss, 0).axial_force, 1e6 * eps * l, 1e-6);
+  EXPECT_EQ(section_forces<2>(beam, -0.5, rs, rss, 0).axial_force, 0);
+  EXPECT_EQ(section_forces<2>(beam, -0.7, rs, rss, 0).axial_force, 0);
+}
+
 TEST(Damping, StressHasItsDerivativesAndTakesEnergyAway) {
   check_damping<2>();
   check_damping<3>();
