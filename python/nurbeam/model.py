@@ -96,9 +96,11 @@ def _json(value: Any) -> Any:
 
 def _place(at: Any) -> Any:
     """As the case file has it."""
-    if at is None or isinstance(at, Mapping) or (isinstance(at, str) and at in ("start", "end")):
+    if at is None or isinstance(at, Mapping):
         return at
-    return {"length": at} if isinstance(at, str) or np.ndim(at) == 0 else {"near": at}
+    if isinstance(at, str):
+        return {"length": at} if re.match(r"\s*[-+.\d]", at) else at
+    return {"length": at} if np.ndim(at) == 0 else {"near": at}
 
 
 def _axis(axis: Any) -> Any:
@@ -313,7 +315,11 @@ class Model:
 
     def _text(self, analysis: Mapping[str, Any], every: Quantity | None) -> str:
         case = dict(self.case)
-        case["analysis"] = {**case.get("analysis", {}), **_json(analysis)}
+        own, asked = case.get("analysis", {}), _json(analysis)
+        if isinstance(own, dict):  # else it is said what is wrong with it
+            if asked.get("type", own.get("type", "dynamic")) != own.get("type", "dynamic"):
+                own = {key: own[key] for key in ("length_control",) if key in own}
+            case["analysis"] = {**own, **asked}
         if every is not None:
             case["output"] = {**case.get("output", {}), "every": _json(every)}
         if self._laws:
@@ -354,7 +360,8 @@ class Model:
         """Runs the model to its end.
 
         Keywords are the keys of `analysis` in the case file (`type`, `end_time`, `step`, `tolerance`, `initial`,
-        `load_steps`, `integrator`, ...) and go before those of the case; `every` is the time between snapshots. With
+        `load_steps`, `integrator`, ...) and go before those of the case, which do not count for another `type`; `every`
+        is the time between snapshots. With
         `out` the run writes a results directory, as the command line does; `resume` goes on from the restart point
         there. Else the results are in memory alone. `progress` shows a bar, by tqdm; when omitted on a terminal.
 

@@ -169,6 +169,24 @@ def test_a_run_that_fails_says_why_and_keeps_what_there_is(tmp_path):
     assert isinstance(caught.value.results, nb.Results)
 
 
+def test_places_are_said_in_words_numbers_and_points():
+    def tip(at):
+        model = straight_cantilever()
+        model.add_load("rod", at=at, force=[0, -1, 0])
+        return model.run(type="static")[-1].beams["rod"].nodes[-1, 1]
+
+    ways = ["end", 1.0, "1 m", "100 cm", {"fraction": 1}, {"length": 1}, [1, 0, 0], np.array([1.0, 0, 0])]
+    assert np.ptp([tip(at) for at in ways]) < 1e-12
+    assert abs(tip(0.5)) < 0.5 * abs(tip("end"))
+    with pytest.raises(nb.CaseError, match='"ent" is not known here; did you mean "end"'):
+        tip("ent")
+
+
+def test_another_type_of_analysis_leaves_the_keys_of_the_cases_own_out(root, recwarn):
+    nb.load(root / "samples/zipline/zipline.json").modes(count=1)
+    assert not [warning for warning in recwarn if "no effect" in str(warning.message)]
+
+
 def test_summary_and_schema_are_json(root):
     summary = straight_cantilever().summary(type="static")
     assert summary["dimension"] == 2 and summary["beams"][0]["name"] == "rod"
