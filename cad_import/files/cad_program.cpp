@@ -1,5 +1,7 @@
 #include "cad_import/files/cad_program.h"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -7,16 +9,28 @@
 
 namespace nurbeam {
 
+namespace {
+
+// The folder of the shared library that this function is in; of the program, where it is in none.
+std::filesystem::path this_library() {
+  Dl_info info;
+  if (dladdr(reinterpret_cast<void*>(&this_library), &info) == 0 || !info.dli_fname) return {};
+  std::error_code ignored;
+  return std::filesystem::canonical(info.dli_fname, ignored).parent_path();
+}
+
+}  // namespace
+
 std::filesystem::path cad_program() {
   namespace fs = std::filesystem;
   constexpr const char* name = "nurbeam-cad";
   std::vector<fs::path> places;
   if (const char* named = std::getenv("NURBEAM_CAD")) places.emplace_back(named);
   std::error_code error;
-  const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (!error)
-    for (const char* folder : {".", "../libexec/nurbeam", "../cad_import", "../../cad_import"})
-      places.push_back(own / folder / name);
+  for (const fs::path& own : {fs::read_symlink("/proc/self/exe", error).parent_path(), this_library()})
+    if (!own.empty())
+      for (const char* folder : {".", "../libexec/nurbeam", "../cad_import", "../../cad_import"})
+        places.push_back(own / folder / name);
   places.push_back(fs::path(NURBEAM_LIBEXEC) / name);
   for (const fs::path& place : places)
     if (fs::is_regular_file(place, error)) return place;

@@ -139,8 +139,9 @@ void BoundCustomForce<D>::add_force(const MeshedBeams<D>& at, const State& state
 template <int D>
 Eigen::MatrixXd BoundCustomForce<D>::derivative(const State& state, const Points& p, bool by_velocity) const {
   const Eigen::Index n = p.r.size();
-  Eigen::MatrixXd result(n, n);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
+    if (k % 3 >= D) continue;  // nothing leaves the plane of a planar model
     const double x = by_velocity ? p.v(k) : p.r(k);
     const double h = 1e-6 * std::max(1.0, std::abs(x));
     const auto moved = [&](double by) {

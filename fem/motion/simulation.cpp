@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "fem/motion/crossing.h"
@@ -28,52 +29,106 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-class Simulation {
+}  // namespace
+
+struct Simulation::Implementation {
  public:
-  Simulation(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
-             const SimulationOptions& options, const SimulationObserver& observer)
+  Implementation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
+                 SimulationOptions options, SimulationObserver observer, const Checkpoint* from)
       : model_(std::move(model)),
-        probes_(probes),
-        options_(options),
-        observer_(observer),
-        kinks_(kink_times(*model_)) {}
-
-  SimulationReport resume(const Checkpoint& from) {
-    go_on_from(from);
-    move(from.snapshots);
-    return report_up_to_now();
+        probes_(std::move(probes)),
+        options_(std::move(options)),
+        observer_(std::move(observer)),
+        kinks_(kink_times(*model_)) {
+    if (from) {
+      go_on_from(*from);
+      next_output_ = from->snapshots;
+    } else {
+      at_ = MeshedState::drawn(model_);
+      report_.strain_noise = strain_noise();
+      step_ = options_.step.value_or(step_);
+    }
   }
 
-  SimulationReport run() {
-    report_.strain_noise = strain_noise();
-    at_ = MeshedState::drawn(model_);
-    step_ = options_.step.value_or(step_);
-    if (options_.statics)
-      rest();
-    else if (start_motion())
-      begin_motion();
-    return report_up_to_now();
+  bool advance() {
+    call_ = Clock::now();
+    switch (phase_) {
+      case Phase::start:
+        begin();
+        break;
+      case Phase::rest:
+        rest();
+        break;
+      case Phase::motion:
+        move();
+        break;
+      case Phase::ended:
+        break;
+    }
+    seconds_ += seconds_since(*call_);
+    call_.reset();
+    return phase_ != Phase::ended;
   }
 
- private:
+  const MeshedState& at() const { return at_; }
+
   SimulationReport report_up_to_now() const {
     SimulationReport report = report_;
     report.time = at_.state.t;
-    report.motion_seconds = seconds_before_ + seconds_since(start_) - report_.length_control_seconds;
+    report.motion_seconds = seconds_ + (call_ ? seconds_since(*call_) : 0) - report_.length_control_seconds;
     return report;
   }
 
-  // At each of the output times in turn.
+  Checkpoint checkpoint() const {
+    if (!integrator_) throw std::invalid_argument("a checkpoint is one of a motion that has begun");
+    Checkpoint point;
+    point.snapshots = next_output_;
+    point.plan = at_.system->mesh().plan;
+    point.state = at_.state;
+    point.history = integrator_->history();
+    point.next_step = step_;
+    point.last_step = last_step_;
+    point.dissipated = dissipated_;
+    point.input = input_;
+    point.start_energy = start_energy_;
+    point.iterations_in_snapshots = iterations_written_;
+    point.steps = steps_;
+    point.report = report_up_to_now();
+    return point;
+  }
+
+  bool change_forces(const std::function<void(std::vector<Force>&)>& change) {
+    auto changed = std::make_shared<BeamModel>(*model_);
+    change(changed->forces);
+    model_ = std::move(changed);
+    kinks_ = kink_times(*model_);
+    at_.system = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
+    return phase_ != Phase::motion || restart();
+  }
+
+ private:
+  enum class Phase { start, rest, motion, ended };
+
+  void begin() {
+    if (options_.statics)
+      rest();
+    else if (!integrator_ && !(start_motion() && begin_motion()))
+      phase_ = Phase::ended;
+    else
+      begin_moving();
+  }
+
+  // At the next of the output times.
   void rest() {
     const auto asked = [this] { return interrupted(); };
     const std::vector<double>& times = options_.output_times;
-    if (!times.empty()) at_.state.t = times.front();
-    if (!book(find_rest(at_, options_.length_control, asked))) return;
-    take_snapshot();
-    for (std::size_t k = 1; k < times.size(); ++k) {
-      if (!book(find_next_rest(at_, times[k], options_.length_control, asked))) return;
-      take_snapshot();
-    }
+    if (phase_ == Phase::start && !times.empty()) at_.state.t = times.front();
+    const bool found = phase_ == Phase::start
+                           ? book(find_rest(at_, options_.length_control, asked))
+                           : book(find_next_rest(at_, times[next_output_], options_.length_control, asked));
+    if (found) take_snapshot();
+    ++next_output_;
+    phase_ = found && next_output_ < times.size() ? Phase::rest : Phase::ended;
   }
 
   // Takes over what a search for rest came to; whether the run goes on.
@@ -110,22 +165,8 @@ class Simulation {
 
   // --- Checkpoints
 
-  void hand_over(std::size_t snapshots) const {
-    if (!observer_.checkpoint) return;
-    Checkpoint point;
-    point.snapshots = snapshots;
-    point.plan = at_.system->mesh().plan;
-    point.state = at_.state;
-    point.history = integrator_->history();
-    point.next_step = step_;
-    point.last_step = last_step_;
-    point.dissipated = dissipated_;
-    point.input = input_;
-    point.start_energy = start_energy_;
-    point.iterations_in_snapshots = iterations_written_;
-    point.steps = steps_;
-    point.report = report_up_to_now();
-    observer_.checkpoint(point);
+  void hand_over() const {
+    if (observer_.checkpoint) observer_.checkpoint(checkpoint());
   }
 
   void go_on_from(const Checkpoint& point) {
@@ -141,7 +182,7 @@ class Simulation {
     steps_ = point.steps;
     report_ = point.report;
     report_.strain_noise = strain_noise();
-    seconds_before_ = report_.motion_seconds + report_.length_control_seconds;
+    seconds_ = report_.motion_seconds + report_.length_control_seconds;
   }
 
   // Shorter than this nothing is followed: the steps of a method for stiff systems.
@@ -160,66 +201,73 @@ class Simulation {
 
   double total_energy() const { return energy(*at_.system, at_.state).mechanical() + dissipated_ - input_; }
 
-  void begin_motion() {
+  // Whether it has begun.
+  bool begin_motion() {
     start_energy_ = total_energy();
     settle_mesh();
-    if (report_.status == SimulationStatus::done) move(0);
+    return report_.status == SimulationStatus::done;
   }
 
-  // From at_.state to the end, with the first output times behind it.
-  void move(std::size_t next_output) {
+  // A step much shorter than the others would take the round-off of positions for velocities. What is left
+  // after an event just before an output time is not worth one.
+  double resolution() const { return std::max(1e-12 * std::max(1.0, options_.end_time), 1e-5 * step_); }
+
+  void write_due() {
     const auto& times = options_.output_times;
-    // A step much shorter than the others would take the round-off of positions for velocities. What is left
-    // after an event just before an output time is not worth one.
-    const auto resolution = [&] { return std::max(1e-12 * std::max(1.0, options_.end_time), 1e-5 * step_); };
-    const auto write_due = [&] {
-      while (next_output < times.size() && times[next_output] <= at_.state.t + resolution()) {
-        at_.state.t = std::max(at_.state.t, times[next_output]);
-        take_snapshot();
-        ++next_output;
-      }
-    };
-    const auto next_kink = [&] {
-      const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), at_.state.t + resolution());
-      return kink != kinks_.end() ? std::min(*kink, options_.end_time) : options_.end_time;
-    };
-    write_due();
-    bool complete = true;
-    while (at_.state.t < options_.end_time - resolution()) {
-      if (interrupted()) {
-        hand_over(next_output);
-        report_.status = SimulationStatus::interrupted;
-        complete = false;
-        break;
-      }
-      const double output = next_output < times.size() ? times[next_output] : options_.end_time;
-      // A kink that an output time cannot be told from comes first: it would be passed by.
-      const double kink = next_kink(), target = kink <= output + resolution() ? kink : output;
-      const double rest = target - at_.state.t;
-      const double step = rest / std::max(1.0, std::ceil(rest / step_ - 1e-9));
-      if (!advance(step)) {
-        complete = false;
-        break;
-      }
-      if (std::abs(at_.state.t - target) < resolution()) at_.state.t = target;
-      if (at_.state.t == kink && !(pass_kink() && release_bodies())) {
-        complete = false;
-        break;
-      }
-      write_due();
-      if (!goes_on(energy_from_nowhere())) {
-        complete = false;
-        break;
-      }
-      if (observer_.progress) observer_.progress(last_record_);
-      if (observer_.checkpoint_due && observer_.checkpoint_due()) hand_over(next_output);
+    while (next_output_ < times.size() && times[next_output_] <= at_.state.t + resolution()) {
+      at_.state.t = std::max(at_.state.t, times[next_output_]);
+      take_snapshot();
+      ++next_output_;
     }
-    if (complete) hand_over(next_output);
-    if (!complete && (times.empty() || at_.state.t > last_written_)) take_snapshot();
+  }
+
+  double next_kink() const {
+    const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), at_.state.t + resolution());
+    return kink != kinks_.end() ? std::min(*kink, options_.end_time) : options_.end_time;
+  }
+
+  // With the first output times behind it.
+  void begin_moving() {
+    phase_ = Phase::motion;
+    write_due();
+    end_at_end_time();
+  }
+
+  void end_at_end_time() {
+    if (at_.state.t < options_.end_time - resolution()) return;
+    phase_ = Phase::ended;
+    hand_over();
+  }
+
+  void end_early() {
+    phase_ = Phase::ended;
+    if (options_.output_times.empty() || at_.state.t > last_written_) take_snapshot();
+  }
+
+  // A step towards the next output time, and what is to be told of it.
+  void move() {
+    if (interrupted()) {
+      hand_over();
+      report_.status = SimulationStatus::interrupted;
+      return end_early();
+    }
+    const auto& times = options_.output_times;
+    const double output = next_output_ < times.size() ? times[next_output_] : options_.end_time;
+    // A kink that an output time cannot be told from comes first: it would be passed by.
+    const double kink = next_kink(), target = kink <= output + resolution() ? kink : output;
+    const double rest = target - at_.state.t;
+    if (!take_step(rest / std::max(1.0, std::ceil(rest / step_ - 1e-9)))) return end_early();
+    if (std::abs(at_.state.t - target) < resolution()) at_.state.t = target;
+    if (at_.state.t == kink && !(pass_kink() && release_bodies())) return end_early();
+    write_due();
+    if (!goes_on(energy_from_nowhere())) return end_early();
+    if (observer_.progress) observer_.progress(last_record_);
+    if (observer_.checkpoint_due && observer_.checkpoint_due()) hand_over();
+    end_at_end_time();
   }
 
   // One accepted step and what follows from it. Returns false when the run cannot go on.
-  bool advance(double step) {
+  bool take_step(double step) {
     const State before = at_.state;
     const IntegratorHistory history = integrator_->history();
     const StepReport taken = step_keeping_energy(before, history, step);
@@ -547,12 +595,14 @@ class Simulation {
   }
 
   std::shared_ptr<const BeamModel> model_;
-  const std::vector<ProbePlace>& probes_;
-  const SimulationOptions& options_;
-  const SimulationObserver& observer_;
-  const Clock::time_point start_ = Clock::now();
-  double seconds_before_ = 0;        // of the run that was interrupted
-  const std::vector<double> kinks_;  // of tables: steps end there
+  const std::vector<ProbePlace> probes_;
+  const SimulationOptions options_;
+  const SimulationObserver observer_;
+  Phase phase_ = Phase::start;
+  std::size_t next_output_ = 0;
+  double seconds_ = 0;                     // of the calls so far, and of the run that was interrupted
+  std::optional<Clock::time_point> call_;  // when the present one began
+  std::vector<double> kinks_;              // of tables: steps end there
   SimulationReport report_;
   MeshedState at_;
   std::unique_ptr<Integrator> integrator_;
@@ -566,13 +616,29 @@ class Simulation {
   long iterations_written_ = 0;
 };
 
-}  // namespace
+Simulation::Simulation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
+                       SimulationOptions options, SimulationObserver observer, const Checkpoint* from)
+    : implementation_(std::make_unique<Implementation>(std::move(model), std::move(probes),
+                                                       std::move(options), std::move(observer), from)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+bool Simulation::advance() { return implementation_->advance(); }
+bool Simulation::change_forces(const std::function<void(std::vector<Force>&)>& change) {
+  return implementation_->change_forces(change);
+}
+const BeamSystem& Simulation::system() const { return *implementation_->at().system; }
+const State& Simulation::state() const { return implementation_->at().state; }
+SimulationReport Simulation::report() const { return implementation_->report_up_to_now(); }
+Checkpoint Simulation::checkpoint() const { return implementation_->checkpoint(); }
 
 SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
                           const Checkpoint* from) {
-  Simulation simulation(std::move(model), probes, options, observer);
-  return from ? simulation.resume(*from) : simulation.run();
+  Simulation simulation(std::move(model), probes, options, observer, from);
+  while (simulation.advance()) {
+  }
+  return simulation.report();
 }
 
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,

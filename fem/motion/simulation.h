@@ -9,6 +9,7 @@
 #include "fem/motion/mesh_rules.h"
 #include "fem/motion/simulation_report.h"
 #include "fem/motion/snapshot.h"
+#include "fem/system/beam_system.h"
 
 namespace nurbeam {
 
@@ -34,6 +35,34 @@ struct SimulationObserver {
   std::function<bool()> checkpoint_due = nullptr;  ///< asked after every step
   /// Takes checkpoints (`inputs` left empty): those asked for, and the last one.
   std::function<void(const Checkpoint&)> checkpoint = nullptr;
+};
+
+/// A run that is taken step by step: from the drawn shape of a model, or from equilibrium, to its end. All is
+/// in the model's own coordinates.
+class Simulation {
+ public:
+  /// With `from`, which must belong to the same model and options, a motion goes on from there.
+  Simulation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
+             SimulationOptions options, SimulationObserver observer = {}, const Checkpoint* from = nullptr);
+  Simulation(Simulation&&) noexcept;
+  ~Simulation();
+
+  /// Takes what is next: the state at time 0; then a step, at most to the next output time, with what follows
+  /// from it, or the next state at rest. Returns whether more is to come. What a force or the observer throws
+  /// arrives unchanged; a motion can then go on from the last step.
+  bool advance();
+  /// Changes forces, in place and in their number, between two steps. Returns whether the motion goes on.
+  bool change_forces(const std::function<void(std::vector<Force>&)>& change);
+
+  const BeamSystem& system() const;
+  const State& state() const;
+  SimulationReport report() const;
+  /// Of the present moment. Throws std::invalid_argument before the first call of advance(), and in statics.
+  Checkpoint checkpoint() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 /// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies

@@ -8,6 +8,7 @@
 #include "pipelines/case/case_check.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_references.h"
+#include "pipelines/case/host_keys.h"
 #include "pipelines/case/table_files.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -257,6 +258,20 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   return result;
 }
 
+// The case that a JSON value is, once its shape and what it refers to have been checked.
+CaseFileReport checked_case(Json& json, const Shape& shape, const std::filesystem::path& file,
+                            Findings& findings) {
+  std::optional<CaseFile> value;
+  put_in_tables(shape, json, "", std::filesystem::absolute(file).parent_path(), findings);
+  if (check_shape(shape, json, findings)) {
+    value = read_case(json, file, findings);
+    value->json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    check_across(json, *value, findings);
+  }
+  if (findings.has_errors()) value.reset();
+  return {std::move(value), findings.take()};
+}
+
 }  // namespace
 
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -265,17 +280,32 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   if (!json) return {{}, findings.take()};
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
-  std::optional<CaseFile> value;
-  put_in_tables(case_keys(), *json, "", std::filesystem::absolute(file).parent_path(), findings);
-  if (check_shape(case_keys(), *json, findings)) {
-    value = read_case(*json, file, findings);
-    value->json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
-    check_across(*json, *value, findings);
-  }
-  if (findings.has_errors() || !diagnostics.empty()) value.reset();
+  CaseFileReport report = checked_case(*json, case_keys(), file, findings);
+  if (!diagnostics.empty()) report.value.reset();
+  report.diagnostics.insert(report.diagnostics.begin(), diagnostics.begin(), diagnostics.end());
+  return report;
+}
+
+CaseFileReport read_case_text(const std::string& text, const std::filesystem::path& file) {
+  Findings findings(file.string());
+  auto json = parse_json(text, findings);
+  if (!json) return {{}, findings.take()};
+  CaseFileReport report = checked_case(*json, host_keys(), file, findings);
+  if (report.value) report.value->laws = read_laws(*json);
+  return report;
+}
+
+CaseTextReport case_text(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Findings findings(file.string());
+  auto json = read_json(file, findings);
+  if (!json) return {{}, findings.take()};
+  CaseTextReport report;
+  apply_overrides(*json, overrides, report.diagnostics);
   const std::vector<Diagnostic> found = findings.take();
-  diagnostics.insert(diagnostics.end(), found.begin(), found.end());
-  return {std::move(value), std::move(diagnostics)};
+  report.diagnostics.insert(report.diagnostics.end(), found.begin(), found.end());
+  if (!has_errors(report.diagnostics))
+    report.json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
+  return report;
 }
 
 }  // namespace nurbeam

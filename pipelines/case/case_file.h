@@ -222,6 +222,20 @@ struct CaseOutput {
   bool report = true;     ///< report.html
 };
 
+/// A place on a beam or a body that the law of a host program acts on.
+struct CaseLawPoint {
+  std::string path;
+  std::string body, beam;  ///< one of them
+  Place at;                ///< on the beam
+};
+
+/// A force whose law is a function of the program that has made the case in memory.
+struct CaseLaw {
+  std::string path;
+  std::vector<CaseLawPoint> points;
+  bool spatial = false;  ///< it may act in every direction: the model is no planar one
+};
+
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
 struct CaseFile {
   std::filesystem::path path;
@@ -236,6 +250,7 @@ struct CaseFile {
   std::vector<CaseBeamJoint> joints;
   CaseAnalysis analysis;
   CaseOutput output;
+  std::vector<CaseLaw> laws = {};  ///< of a case made in memory
 };
 
 /// A case file and everything that is wrong with it; `value` is empty when any diagnostic is an error.
@@ -249,5 +264,17 @@ struct CaseFileReport {
 /// (--set), applied before the checks; the value is JSON or else a text, and null removes the key.
 CaseFileReport read_case_file(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides = {});
+
+/// The same of a text made by a program, which may have the keys of host_keys() besides; `file` heads the
+/// messages, and files that the text names are relative to its folder.
+CaseFileReport read_case_text(const std::string& text, const std::filesystem::path& file);
+
+/// The text of a case file as JSON without comments, overrides applied; empty, with errors, where it cannot
+/// be read as JSON. Nothing else is checked.
+struct CaseTextReport {
+  std::string json;
+  std::vector<Diagnostic> diagnostics;
+};
+CaseTextReport case_text(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 }  // namespace nurbeam

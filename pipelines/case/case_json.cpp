@@ -92,7 +92,9 @@ class DuplicateKeys {
   std::vector<Level> levels_;
 };
 
-std::optional<Json> parse(const std::string& text, Findings& findings) {
+}  // namespace
+
+std::optional<Json> parse_json(const std::string& text, Findings& findings) {
   if (const std::size_t offset = too_deep_at(text); offset != std::string::npos) {
     findings.error(line_and_column(text, offset), too_deep_message());
     return {};
@@ -115,6 +117,8 @@ std::optional<Json> parse(const std::string& text, Findings& findings) {
   }
   return {};
 }
+
+namespace {
 
 std::optional<std::string> read_text(const std::filesystem::path& file, Findings& findings) {
   if (std::filesystem::is_directory(file)) {
@@ -190,7 +194,7 @@ std::vector<std::string> key_names(const Shape& shape) {
 
 std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings) {
   const auto text = read_text(file, findings);
-  return text ? parse(*text, findings) : std::nullopt;
+  return text ? parse_json(*text, findings) : std::nullopt;
 }
 
 }  // namespace nurbeam

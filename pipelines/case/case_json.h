@@ -29,7 +29,9 @@ std::string too_deep_message();
 const Key* find_key(const Shape& shape, const std::string& name);
 std::vector<std::string> key_names(const Shape& shape);
 
-/// The JSON of a case file with comments; nothing, and findings, when it cannot be read as JSON.
+/// The JSON of a text with comments; nothing, and findings, when it cannot be read as JSON.
+std::optional<Json> parse_json(const std::string& text, Findings& findings);
+/// The same of a file.
 std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings);
 
 }  // namespace nurbeam

@@ -19,6 +19,7 @@
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/drawn_bending.h"
 #include "pipelines/model/join_beams.h"
+#include "pipelines/model/law_points.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
 #include "pipelines/model/why_torsion.h"
@@ -52,6 +53,9 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
       forces.push_back(beam.velocity->translation);
       moments.push_back(beam.velocity->rotation);
     }
+  for (const CaseLaw& law : resolved.laws)
+    if (law.spatial)
+      for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));
   const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(),
                                    [](const CaseBeam& beam) { return beam.torsion; });
   return model_frame(segments, forces, moments, torsion);
@@ -407,6 +411,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
     const double s = place_on(beams[b], probe.at, "output.probes", findings);
     built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
   }
+  for (const CaseLaw& law : resolved.laws) built.laws.push_back(law_points(law, resolved, beams, findings));
   built.inputs = files.inputs();
   built.import_seconds = files.seconds();
   if (findings.has_errors()) return {};

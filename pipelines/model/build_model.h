@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/forces/custom_force.h"
 #include "fem/model/beam_model.h"
 #include "fem/motion/adapted_mesh.h"
 #include "pipelines/case/case_file.h"
@@ -43,6 +44,7 @@ struct BuiltModel {
   ModelFrame frame;
   std::vector<BeamSource> sources;  ///< per beam
   std::vector<Probe> probes;
+  std::vector<std::vector<CustomForce::Attachment>> laws = {};  ///< where each law of the case acts
   std::optional<AdaptedMesh> adapted = {};  ///< where beams name a tolerance instead of a number of elements
   std::vector<std::filesystem::path> inputs;  ///< CAD files read
   double import_seconds = 0;

@@ -150,6 +150,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .sliding_joints = case_file.sliding_joints,
                         .joints = case_file.joints,
                         .probes = case_file.output.probes,
+                        .laws = case_file.laws,
                         .analysis = case_file.analysis};
   BeamNames names;
   for (const CaseBeam& beam : case_file.beams) {

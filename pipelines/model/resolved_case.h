@@ -21,6 +21,7 @@ struct ResolvedCase {
   std::vector<CaseSlidingJoint> sliding_joints;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseProbe> probes;
+  std::vector<CaseLaw> laws = {};
   CaseAnalysis analysis;
 
   /// The number of the beam of that name, which the case has.

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <functional>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +18,12 @@ namespace {
 std::string reason_of(int status) {
   const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
   return is_full ? std::strerror(errno) : nc_strerror(status);
+}
+
+// netCDF and HDF5 are not made for threads: one call at a time in the whole process.
+[[nodiscard]] std::unique_lock<std::recursive_mutex> one_at_a_time() {
+  static std::recursive_mutex mutex;
+  return std::unique_lock(mutex);
 }
 
 std::size_t product(const NetcdfFile::Sizes& count) {
@@ -35,6 +42,7 @@ NetcdfFile::NetcdfFile(std::filesystem::path file, int id, int status) : file_(s
 }
 
 NetcdfFile NetcdfFile::create(const std::filesystem::path& file) {
+  const auto lock = one_at_a_time();
   int id = -1;
   errno = 0;
   const int status = nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
@@ -42,6 +50,7 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& file) {
 }
 
 NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
+  const auto lock = one_at_a_time();
   int id = -1;
   errno = 0;
   const int status = nc_open(file.c_str(), NC_NOWRITE, &id);
@@ -52,10 +61,13 @@ NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
     : file_(std::move(other.file_)), id_(std::exchange(other.id_, -1)), texts_(std::move(other.texts_)) {}
 
 NetcdfFile::~NetcdfFile() {
-  if (id_ >= 0) nc_close(id_);
+  if (id_ < 0) return;
+  const auto lock = one_at_a_time();
+  nc_close(id_);
 }
 
 void NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
+  const auto lock = one_at_a_time();
   int dimension;
   check(nc_def_dim(id_, name.c_str(), size, &dimension), name);
 }
@@ -68,6 +80,7 @@ void NetcdfFile::define_plain(const std::string& name, Type type, const std::vec
 
 void NetcdfFile::define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
                         const std::string& unit, const std::string& long_name, std::size_t chunk) {
+  const auto lock = one_at_a_time();
   const int variable = define_variable(name, type == Type::real ? NC_DOUBLE : NC_INT, dimensions);
   Sizes chunks(dimensions.size());
   for (std::size_t i = 0; i < dimensions.size(); ++i) chunks[i] = i == 0 ? chunk : size(dimensions[i]);
@@ -84,6 +97,7 @@ void NetcdfFile::put_meaning(const std::string& name, const std::string& unit, c
 
 void NetcdfFile::define_texts(const std::string& name, const std::string& dimension,
                               const std::vector<std::string>& texts) {
+  const auto lock = one_at_a_time();
   define_variable(name, NC_STRING, {dimension});
   texts_.emplace_back(name, texts);
 }
@@ -98,11 +112,13 @@ void NetcdfFile::put_texts() {
 
 void NetcdfFile::put_attribute(const std::string& variable, const std::string& name,
                                const std::string& text) {
+  const auto lock = one_at_a_time();
   const int owner = variable.empty() ? NC_GLOBAL : this->variable(variable);
   check(nc_put_att_text(id_, owner, name.c_str(), text.size(), text.c_str()), name);
 }
 
 std::string NetcdfFile::attribute(const std::string& variable, const std::string& name) const {
+  const auto lock = one_at_a_time();
   const int owner = variable.empty() ? NC_GLOBAL : this->variable(variable);
   std::size_t length = 0;
   check(nc_inq_attlen(id_, owner, name.c_str(), &length), name);
@@ -112,29 +128,34 @@ std::string NetcdfFile::attribute(const std::string& variable, const std::string
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const double* values) {
+  const auto lock = one_at_a_time();
   put_texts();
   check(nc_put_vara_double(id_, variable(name), start.data(), count.data(), values), name);
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const int* values) {
+  const auto lock = one_at_a_time();
   put_texts();
   check(nc_put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
 }
 
 std::vector<double> NetcdfFile::doubles(const std::string& name, const Sizes& start,
                                         const Sizes& count) const {
+  const auto lock = one_at_a_time();
   std::vector<double> values(product(count));
   check(nc_get_vara_double(id_, variable(name), start.data(), count.data(), values.data()), name);
   return values;
 }
 
 std::vector<int> NetcdfFile::integers(const std::string& name, const Sizes& start, const Sizes& count) const {
+  const auto lock = one_at_a_time();
   std::vector<int> values(product(count));
   check(nc_get_vara_int(id_, variable(name), start.data(), count.data(), values.data()), name);
   return values;
 }
 
 std::vector<std::string> NetcdfFile::texts(const std::string& name) const {
+  const auto lock = one_at_a_time();
   int dimension;
   check(nc_inq_vardimid(id_, variable(name), &dimension), name);
   std::size_t size = 0;
@@ -147,22 +168,26 @@ std::vector<std::string> NetcdfFile::texts(const std::string& name) const {
 }
 
 bool NetcdfFile::has_dimension(const std::string& name) const {
+  const auto lock = one_at_a_time();
   int dimension;
   return nc_inq_dimid(id_, name.c_str(), &dimension) == NC_NOERR;
 }
 
 bool NetcdfFile::has_variable(const std::string& name) const {
+  const auto lock = one_at_a_time();
   int variable;
   return nc_inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
 }
 
 std::size_t NetcdfFile::size(const std::string& dimension) const {
+  const auto lock = one_at_a_time();
   std::size_t size = 0;
   check(nc_inq_dimlen(id_, this->dimension(dimension), &size), dimension);
   return size;
 }
 
 void NetcdfFile::close() {
+  const auto lock = one_at_a_time();
   put_texts();
   check(nc_close(std::exchange(id_, -1)), "close");
 }

@@ -7,7 +7,8 @@
 
 namespace nurbeam {
 
-/// An open netCDF-4 file; everything that fails throws std::runtime_error with the file and the reason.
+/// An open netCDF-4 file; everything that fails throws std::runtime_error with the file and the reason. Files
+/// may be used in several threads, each file in one at a time: calls of netCDF wait for each other.
 /// Arrays are row-major; `start` and `count` have one entry per dimension of the variable.
 class NetcdfFile {
  public:

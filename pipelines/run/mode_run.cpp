@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fem/motion/modes.h"
+#include "pipelines/run/simulation_plan.h"
 
 namespace nurbeam {
 
@@ -41,10 +42,10 @@ std::vector<Snapshot> oscillation(const MeshedState& at, const Mode& mode,
 }  // namespace
 
 SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
-                           const std::function<bool()>& interrupted, RunOutputs& outputs, ModeTable& table) {
+                           const std::function<bool()>& interrupted, const ModeShapes& shapes,
+                           ModeTable& table) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<ProbePlace> probes;
-  for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
+  const std::vector<ProbePlace> probes = probe_places(built);
   const ModesReport found =
       find_modes(std::make_shared<const BeamModel>(built.model), modes_options(c.analysis), interrupted);
   SimulationReport report;
@@ -53,7 +54,7 @@ SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
   if (found.rest.failure) report.fail(*found.rest.failure);
   if (found.rest.interrupted) report.status = SimulationStatus::interrupted;
   if (report.status == SimulationStatus::done) {
-    outputs.write(record_snapshot(*found.at.system, found.at.state, probes));
+    shapes.state(record_snapshot(*found.at.system, found.at.state, probes));
     table.buckling = c.analysis.type == CaseAnalysis::Type::buckling;
     table.mass = found.mass;
     for (std::size_t i = 0; i < found.modes.size(); ++i) {
@@ -61,9 +62,9 @@ SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
       const double amplitude = visible_amplitude(found.at, mode);
       Snapshot shape = record_mode(found.at, mode, amplitude, amplitude * mode.omega, probes);
       shape.time = static_cast<double>(i + 1);
-      outputs.write_shape(shape);
+      shapes.shape(shape);
       if (c.output.paraview)
-        outputs.write_series("mode_" + std::to_string(i + 1), oscillation(found.at, mode, probes));
+        shapes.turn("mode_" + std::to_string(i + 1), oscillation(found.at, mode, probes));
       table.rows.push_back({mode.omega, mode.factor, built.frame.direction_to_world(mode.participation)});
     }
   }

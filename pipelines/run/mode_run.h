@@ -2,16 +2,25 @@
 #include <functional>
 
 #include "fem/motion/simulation_report.h"
+#include "pipelines/model/build_model.h"
 #include "pipelines/results/mode_table.h"
-#include "pipelines/run/run_outputs.h"
 
 namespace nurbeam {
 
+/// What takes the frames of modes, in the model's own coordinates.
+struct ModeShapes {
+  std::function<void(const Snapshot&)> state;  ///< that they are about
+  std::function<void(const Snapshot&)> shape;  ///< of each mode
+  /// The frames of one period of each, by the name of a series of files.
+  std::function<void(const std::string&, const std::vector<Snapshot>&)> turn;
+};
+
 /// Computes the modes or the buckling factors that a case asks for. The first frame is the state they are
 /// about, at time 0; frame i shows mode i, at time i, with an amplitude that makes it visible, and as
-/// velocities (0 for buckling) those with which it swings through the state. Throws std::runtime_error where
-/// `outputs` does.
+/// velocities (0 for buckling) those with which it swings through the state. Throws what
+/// `shapes` does.
 SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
-                           const std::function<bool()>& interrupted, RunOutputs& outputs, ModeTable& table);
+                           const std::function<bool()>& interrupted, const ModeShapes& shapes,
+                           ModeTable& table);
 
 }  // namespace nurbeam

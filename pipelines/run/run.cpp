@@ -24,6 +24,7 @@
 #include "pipelines/run/progress.h"
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
+#include "pipelines/run/simulation_plan.h"
 
 namespace nurbeam {
 
@@ -31,52 +32,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-std::vector<double> output_times(const CaseFile& c) {
-  const double end = c.analysis.end_time;
-  std::vector<double> times;
-  const double every = *c.output.every;
-  for (int k = 0; k * every < end * (1 - 1e-9); ++k) times.push_back(k * every);
-  times.push_back(end);
-  for (double t : c.output.cad_times)
-    if (t >= 0 && t <= end) times.push_back(t);
-  std::sort(times.begin(), times.end());
-  const double same = 1e-9 * end;
-  times.erase(std::unique(times.begin(), times.end(), [=](double a, double b) { return b - a < same; }),
-              times.end());
-  return times;
-}
-
-SimulationOptions simulation_options(const CaseFile& c) {
-  SimulationOptions options;
-  const CaseAnalysis& a = c.analysis;
-  options.statics = a.type == CaseAnalysis::Type::statics;
-  options.start_from_equilibrium = a.start_from_equilibrium;
-  options.end_time = a.end_time;
-  options.step = a.step;
-  options.integrator = a.integrator;
-  options.length_control = a.length_control;
-  options.output_times = options.statics ? a.load_factors : output_times(c);
-  return options;
-}
-
-// A warning where energy comes from nowhere or is lost.
-std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
-  const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
-  const bool between_events = run.integration_error > noticed;
-  if (!between_events && !(run.energy_drift > noticed)) return {};
-  std::ostringstream message;
-  message << "the total energy, less the work of loads and motions, changed by "
-          << (between_events ? run.integration_error : run.energy_drift)
-          << " J, where kinetic, strain and gravity energy change by up to " << run.energy_scale()
-          << " J: do not trust the result; ";
-  if (between_events)
-    message << "take a shorter \"step\" or a \"tolerance\"";
-  else
-    message << "nodes were removed where the mesh is too coarse: take more elements or, for a cable that "
-               "hardly resists bending, \"slope\": \"discontinuous\"";
-  return Diagnostic{Severity::warning, c.path.string() + ": analysis", message.str()};
 }
 
 ExitCode exit_code_of(SimulationStatus status) {
@@ -130,6 +85,7 @@ class Run {
       : case_(c),
         built_(*report.value),
         options_(options),
+        messages_(options.messages ? *options.messages : std::cerr),
         directory_(options.out),
         inputs_(digest_of_inputs(c, built_)),
         summary_(std::move(summary)) {
@@ -160,7 +116,7 @@ class Run {
  private:
   // A line for people, and for the log.
   void tell(const std::string& line) {
-    std::cerr << line << "\n";
+    messages_ << line << "\n";
     *log_ << line << std::endl;
   }
 
@@ -170,11 +126,21 @@ class Run {
     print_diagnostics(*log_, summary_.diagnostics);
   }
 
+  // What asks for an end: the caller, or else the signals while the guard lives.
+  std::function<bool()> interruption(std::optional<InterruptGuard>& guard) const {
+    if (options_.interrupted) return options_.interrupted;
+    guard.emplace();
+    return [&guard] { return guard->interrupted(); };
+  }
+
   SimulationReport find_modes_into(RunOutputs& outputs) {
-    const InterruptGuard guard;
+    std::optional<InterruptGuard> guard;
     ModeTable table;
-    const SimulationReport report = run_modes(
-        case_, built_, [&] { return guard.interrupted(); }, outputs, table);
+    const ModeShapes shapes{
+        .state = [&](const Snapshot& state) { outputs.write(state); },
+        .shape = [&](const Snapshot& shape) { outputs.write_shape(shape); },
+        .turn = [&](const std::string& name, const auto& frames) { outputs.write_series(name, frames); }};
+    const SimulationReport report = run_modes(case_, built_, interruption(guard), shapes, table);
     if (report.status != SimulationStatus::done) return report;
     write_mode_table(options_.out / "modes.csv", table);
     for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -185,22 +151,23 @@ class Run {
 
   SimulationReport simulate_into(RunOutputs& outputs) {
     const double start_time = from_ ? from_->state.t : 0;
-    Progress shown(std::cerr, Progress::style_of_stderr(options_.quiet), start_time, case_.analysis.end_time);
+    Progress shown(messages_,
+                   options_.progress ? Progress::Style::quiet : Progress::style_of_stderr(options_.quiet),
+                   start_time, case_.analysis.end_time);
     Progress logged(*log_, Progress::Style::lines, start_time, case_.analysis.end_time);
-    std::vector<ProbePlace> probes;
-    for (const Probe& probe : built_.probes) probes.push_back({probe.beam, probe.s});
-    const InterruptGuard guard;
+    std::optional<InterruptGuard> guard;
     SimulationObserver observer;
-    observer.interrupted = [&] { return guard.interrupted(); };
+    observer.interrupted = interruption(guard);
     observer.progress = [&](const StepRecord& step) {
       shown.update(step);
       logged.update(step);
+      if (options_.progress) options_.progress(step);
     };
     observer.snapshot = [&](const Snapshot& snapshot) { outputs.write(snapshot); };
     observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
     observer.checkpoint = [&](const Checkpoint& point) { outputs.write(point); };
-    SimulationReport simulated =
-        simulate(built_.model, probes, simulation_options(case_), observer, from_ ? &*from_ : nullptr);
+    SimulationReport simulated = simulate(built_.model, probe_places(built_), simulation_options(case_),
+                                          observer, from_ ? &*from_ : nullptr);
     shown.finish();
     return simulated;
   }
@@ -231,8 +198,8 @@ class Run {
       event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
-    if (const auto warning = energy_warning(case_, simulated)) {
-      print_diagnostics(std::cerr, {*warning});
+    if (const auto warning = energy_warning(case_.path, simulated)) {
+      print_diagnostics(messages_, {*warning});
       print_diagnostics(*log_, {*warning});
       summary_.diagnostics.push_back(*warning);
     }
@@ -246,6 +213,7 @@ class Run {
   const CaseFile& case_;
   const BuiltModel& built_;
   const RunOptions& options_;
+  std::ostream& messages_;
   ResultsDirectory directory_;
   std::string inputs_;
   RunSummary summary_;
@@ -257,31 +225,37 @@ class Run {
 
 int run_case(const CaseFile& c, const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
+  std::ostream& messages = options.messages ? *options.messages : std::cerr;
   if (options.resume && !std::filesystem::exists(restart_file(options.out))) {
-    std::cerr << "error: " << restart_file(options.out).string()
-              << ": does not exist: there is no run to resume; run without --resume\n";
+    messages << "error: " << restart_file(options.out).string()
+             << ": does not exist: there is no run to resume; run without --resume\n";
     return exit_bad_input;
   }
   const BuildReport report = build_model(c);
-  print_diagnostics(std::cerr, report.diagnostics);
+  print_diagnostics(messages, report.diagnostics);
   if (!report.value) return exit_bad_input;
+  return run_model(c, report, options, seconds_since(start) - report.value->import_seconds);
+}
 
+int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& options, double build_seconds) {
   RunSummary summary;
   summary.version = NURBEAM_VERSION;
   summary.case_name = c.name;
   summary.model = model_summary(c, *report.value);
   summary.diagnostics = report.diagnostics;
   summary.wall_times.import = report.value->import_seconds;
-  summary.wall_times.model = seconds_since(start) - report.value->import_seconds;
-  summary.inputs.push_back({c.path, sha256_of_file(c.path)});
-  for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
+  summary.wall_times.model = build_seconds;
+  std::ostream& messages = options.messages ? *options.messages : std::cerr;
   try {
+    const bool in_file = std::filesystem::is_regular_file(c.path);
+    summary.inputs.push_back({c.path, in_file ? sha256_of_file(c.path) : sha256_of_text(c.json)});
+    for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
     return Run(c, report, options, std::move(summary)).play();
   } catch (const UnusableCheckpoint& problem) {
-    std::cerr << "error: " << problem.what() << "\n";
+    messages << "error: " << problem.what() << "\n";
     return exit_bad_input;
   } catch (const std::runtime_error& problem) {
-    std::cerr << "error: " << problem.what() << "\n";
+    messages << "error: " << problem.what() << "\n";
     return exit_not_written;
   }
 }

@@ -5,6 +5,7 @@
 
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/model/model_snapshot.h"
 #include "pipelines/results/paraview.h"
 #include "pipelines/results/restart_file.h"
 #include "pipelines/results/results.h"
@@ -12,9 +13,6 @@
 #include "pipelines/run/cad_output.h"
 
 namespace nurbeam {
-
-/// Names in the order of the vectors of a Snapshot.
-SnapshotNames snapshot_names(const BuiltModel& built);
 
 /// All that a run writes frame by frame: stored frames, CAD files, ParaView files, restart points.
 class RunOutputs {

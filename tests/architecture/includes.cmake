@@ -1,33 +1,37 @@
 # cmake -DROOT=<source tree> -P includes.cmake: fails on an #include that the drawing of the rooms does not have, and
 # on a library's header outside its home.
 #
-#   cad_import --> nurbs <-- fem --> solver        pipelines --> all of them        nothing --> pipelines, tests, samples
+#   cad_import --> nurbs <-- fem --> solver        pipelines --> all of them        python --> pipelines and all of them
+#   nothing --> python, tests, samples
 #
 # Inside a room a folder may include itself and those that stand before it in the room's list; "." is the room itself.
 
 cmake_minimum_required(VERSION 3.25)
-set(rooms cad_import fem nurbs pipelines solver)
+set(rooms cad_import fem nurbs pipelines python solver)
 set(nurbs_may_include nurbs)
 set(solver_may_include solver)
 set(fem_may_include fem nurbs solver)
 set(cad_import_may_include cad_import nurbs)
 set(pipelines_may_include pipelines cad_import fem nurbs solver)
+set(python_may_include python pipelines cad_import fem nurbs solver)
 
 set(nurbs_floors . smooth)
 set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion)
+set(python_floors .)
 set(pipelines_floors diagnostics case section model results report run verification papers command)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
   "[a-z_]+"                                                                       ".*"  # the standard library
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
-  "(fcntl|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
+  "(dlfcn|fcntl|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(occt|iges|step|program)/.*"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "Spectra/.*"                                                                    "solver/eigenpairs\\.cpp"
+  "pybind11/.*"                                                                   "python/.*"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
   "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"

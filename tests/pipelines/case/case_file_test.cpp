@@ -374,6 +374,33 @@ TEST_F(CaseFileTest, UnreadableFilesAreNamed) {
   check_error(read_case_file(directory_.path()), directory_.path().string(), {"directory"});
 }
 
+TEST_F(CaseFileTest, ATextIsReadAsTheFileThatHoldsIt) {
+  const CaseFile from_file = read_valid(smallest_case);
+  const CaseTextReport text = case_text(file(), {"analysis.end_time=0.1"});
+  EXPECT_TRUE(text.diagnostics.empty());
+  const CaseFileReport from_text = read_case_text(text.json, file());
+  ASSERT_TRUE(from_text.value) << messages(from_text);
+  EXPECT_EQ(from_text.value->analysis.end_time, 0.1);
+  EXPECT_EQ(read_case_text(smallest_case, file()).value->json, from_file.json);
+  EXPECT_FALSE(case_text(file(), {"no.such.key=1"}).diagnostics.empty());
+  EXPECT_EQ(case_text(directory_.path() / "absent.json").json, "");
+}
+
+TEST_F(CaseFileTest, OnlyTextsOfProgramsHaveLaws) {
+  const std::string with_law =
+      smallest_case.substr(0, smallest_case.rfind('}')) +
+      R"(, "laws": [{ "points": [{ "beam": "cable", "at": "end" }], "spatial": true }] })";
+  check_error(read(with_law), file() + ": laws", {"unknown key"});
+  const CaseFileReport read = read_case_text(with_law, "model");
+  ASSERT_TRUE(read.value) << messages(read);
+  ASSERT_EQ(read.value->laws.size(), 1u);
+  EXPECT_EQ(read.value->laws[0].points[0].beam, "cable");
+  EXPECT_TRUE(read.value->laws[0].spatial);
+  std::string without_place = with_law;
+  without_place.replace(without_place.find(", \"at\": \"end\" }]"), 14, " ");
+  EXPECT_FALSE(read_case_text(without_place, "model").value);
+}
+
 TEST_F(CaseFileTest, OverridesReplaceAddAndRemoveValues) {
   const CaseFile c =
       read_valid(smallest_case, {"analysis.end_time=0.1", "beams[0].elements.count=40",

@@ -1,0 +1,88 @@
+#include "pipelines/model/model_snapshot.h"
+
+#include <algorithm>
+
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+void to_world(const ModelFrame& f, PointRecord& p) {
+  p.position = f.to_world(p.position);
+  p.velocity = f.direction_to_world(p.velocity);
+}
+
+// "reaction.cable.start", where the support has no name of its own.
+std::string reaction_name(const BeamModel& model, const Support& support) {
+  if (!support.name.empty()) return support.name;
+  const Beam& beam = model.beams[support.beam];
+  const bool open = !beam.is_ring();
+  const std::string place = open && support.s == 0                     ? ".start"
+                            : open && support.s == beam.curve.length() ? ".end"
+                                                                       : "@" + text_of(support.s);
+  return "reaction." + beam.name + place;
+}
+std::string reaction_name(const BeamModel& model, const BeamJoint& joint) {
+  if (!joint.name.empty()) return joint.name;
+  return "joint." + model.beams[joint.beam_a].name + "." + model.beams[joint.beam_b].name;
+}
+
+// With a number behind it where others have the name.
+std::string distinct(const std::string& name, const std::vector<std::string>& others) {
+  std::string free = name;
+  for (int i = 2; std::find(others.begin(), others.end(), free) != others.end(); ++i)
+    free = name + " " + std::to_string(i);
+  return free;
+}
+
+}  // namespace
+
+Snapshot to_world(const ModelFrame& f, Snapshot frame) {
+  for (ProbeRecord& p : frame.probes) {
+    to_world(f, p);
+    p.displacement = f.direction_to_world(p.displacement);
+  }
+  for (ReactionRecord& reaction : frame.reactions) {
+    reaction.position = f.to_world(reaction.position);
+    reaction.force = f.direction_to_world(reaction.force);
+    reaction.couple = f.direction_to_world(reaction.couple);
+  }
+  for (BodyRecord& body : frame.bodies) {
+    to_world(f, body.point);
+    body.joint_force = f.direction_to_world(body.joint_force);
+  }
+  for (BeamRecord& beam : frame.beams) {
+    for (ElementRecord& e : beam.elements)
+      for (int i = 0; i < 4; ++i) {
+        const double w = e.control_points(3, i);
+        const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
+        e.control_points.col(i).head<3>() = w * p;
+        e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
+        e.d1.col(i) = f.direction_to_world(e.d1.col(i));
+        e.d2.col(i) = f.direction_to_world(e.d2.col(i));
+      }
+    for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
+    for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
+  }
+  frame.energy.gravity += f.gravity_energy;
+  frame.energy.total += f.gravity_energy;
+  return frame;
+}
+
+SnapshotNames snapshot_names(const BuiltModel& built) {
+  SnapshotNames names;
+  for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
+  for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
+  for (const Beam& beam : built.model.beams) {
+    names.beams.push_back(beam.name);
+    names.sections = names.sections || beam.has_torsion();
+  }
+  for (const Constraint& constraint : built.model.constraints)
+    names.reactions.push_back(
+        std::visit([&](const auto& of) { return distinct(reaction_name(built.model, of), names.reactions); },
+                   constraint));
+  return names;
+}
+
+}  // namespace nurbeam

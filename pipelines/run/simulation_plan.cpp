@@ -1,0 +1,63 @@
+#include "pipelines/run/simulation_plan.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace nurbeam {
+
+namespace {
+
+std::vector<double> output_times(const CaseFile& c) {
+  const double end = c.analysis.end_time;
+  std::vector<double> times;
+  const double every = *c.output.every;
+  for (int k = 0; k * every < end * (1 - 1e-9); ++k) times.push_back(k * every);
+  times.push_back(end);
+  for (double t : c.output.cad_times)
+    if (t >= 0 && t <= end) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  const double same = 1e-9 * end;
+  times.erase(std::unique(times.begin(), times.end(), [=](double a, double b) { return b - a < same; }),
+              times.end());
+  return times;
+}
+
+}  // namespace
+
+SimulationOptions simulation_options(const CaseFile& c) {
+  SimulationOptions options;
+  const CaseAnalysis& a = c.analysis;
+  options.statics = a.type == CaseAnalysis::Type::statics;
+  options.start_from_equilibrium = a.start_from_equilibrium;
+  options.end_time = a.end_time;
+  options.step = a.step;
+  options.integrator = a.integrator;
+  options.length_control = a.length_control;
+  options.output_times = options.statics ? a.load_factors : output_times(c);
+  return options;
+}
+
+std::vector<ProbePlace> probe_places(const BuiltModel& built) {
+  std::vector<ProbePlace> places;
+  for (const Probe& probe : built.probes) places.push_back({probe.beam, probe.s});
+  return places;
+}
+
+std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run) {
+  const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
+  const bool between_events = run.integration_error > noticed;
+  if (!between_events && !(run.energy_drift > noticed)) return {};
+  std::ostringstream message;
+  message << "the total energy, less the work of loads and motions, changed by "
+          << (between_events ? run.integration_error : run.energy_drift)
+          << " J, where kinetic, strain and gravity energy change by up to " << run.energy_scale()
+          << " J: do not trust the result; ";
+  if (between_events)
+    message << "take a shorter \"step\" or a \"tolerance\"";
+  else
+    message << "nodes were removed where the mesh is too coarse: take more elements or, for a cable that "
+               "hardly resists bending, \"slope\": \"discontinuous\"";
+  return Diagnostic{Severity::warning, file.string() + ": analysis", message.str()};
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "cad_import/report/diagnostic.h"
+#include "fem/motion/simulation.h"
+#include "pipelines/model/build_model.h"
+
+namespace nurbeam {
+
+/// How a case of motion or statics is to be run.
+SimulationOptions simulation_options(const CaseFile& case_file);
+
+/// Where the probes of a model are.
+std::vector<ProbePlace> probe_places(const BuiltModel& built);
+
+/// A warning where energy comes from nowhere or is lost; `file` heads it.
+std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
+
+}  // namespace nurbeam

@@ -1,0 +1,64 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "pipelines/case/case_schema.h"
+#include "pipelines/model/model_summary.h"
+#include "python/bindings.h"
+#include "python/built_case.h"
+
+namespace nurbeam::python {
+
+namespace {
+
+namespace py = pybind11;
+
+// (the case as JSON, findings).
+std::pair<std::string, PlainFindings> case_json(const std::filesystem::path& file,
+                                                const std::vector<std::string>& overrides) {
+  const CaseTextReport report = case_text(file, overrides);
+  return {report.json, plain(report.diagnostics)};
+}
+
+// (the case or nothing, findings).
+std::pair<std::shared_ptr<BuiltCase>, PlainFindings> build(const std::string& text,
+                                                           const std::filesystem::path& file) {
+  const py::gil_scoped_release others_go_on;
+  CaseFileReport read = read_case_text(text, file);
+  PlainFindings findings = plain(read.diagnostics);
+  if (!read.value) return {nullptr, findings};
+  auto made = std::make_shared<BuiltCase>();
+  made->case_file = std::move(*read.value);
+  made->report = build_model(made->case_file);
+  for (auto& finding : plain(made->report.diagnostics)) findings.push_back(std::move(finding));
+  return {made->report.value ? made : nullptr, findings};
+}
+
+std::string analysis_type(const BuiltCase& c) {
+  switch (c.case_file.analysis.type) {
+    case CaseAnalysis::Type::dynamic:
+      return "dynamic";
+    case CaseAnalysis::Type::statics:
+      return "static";
+    case CaseAnalysis::Type::modes:
+      return "modes";
+    case CaseAnalysis::Type::buckling:
+      return "buckling";
+  }
+  return {};
+}
+
+}  // namespace
+
+void bind_cases(py::module_& module) {
+  module.def("case_json", &case_json, py::arg("file"), py::arg("overrides"));
+  module.def("build", &build, py::arg("text"), py::arg("file"));
+  module.def("schema", &case_file_schema);
+  py::class_<BuiltCase, std::shared_ptr<BuiltCase>>(module, "BuiltCase", "A case and its model.")
+      .def_property_readonly("name", [](const BuiltCase& c) { return c.case_file.name; })
+      .def_property_readonly("analysis", &analysis_type)
+      .def_property_readonly("end_time", [](const BuiltCase& c) { return c.case_file.analysis.end_time; })
+      .def("summary", [](const BuiltCase& c) { return model_summary(c.case_file, c.built()); });
+}
+
+}  // namespace nurbeam::python

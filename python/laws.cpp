@@ -1,0 +1,148 @@
+#include "python/laws.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "nurbs/number_text.h"
+
+namespace nurbeam::python {
+
+namespace {
+
+namespace py = pybind11;
+
+// A function that may be copied and dropped without the interpreter's lock.
+std::shared_ptr<const py::function> shared_function(const py::function& function) {
+  return {new py::function(function),
+          [](const py::function* held) {
+            const py::gil_scoped_acquire lock;
+            delete held;
+          }};
+}
+
+class PythonLaw {
+ public:
+  PythonLaw(const py::function& function, std::size_t points, const ModelFrame& frame, std::size_t number)
+      : function_(shared_function(function)),
+        points_(static_cast<Eigen::Index>(points)),
+        frame_(frame),
+        number_(number) {}
+
+  CustomForce::Response operator()(double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v) const {
+    const py::gil_scoped_acquire lock;
+    const py::object arguments[] = {py::float_(t), to_array(r, true), to_array(v, false)};
+    PyObject* const pointers[] = {arguments[0].ptr(), arguments[1].ptr(), arguments[2].ptr()};
+    const auto answer =
+        py::reinterpret_steal<py::object>(PyObject_Vectorcall(function_->ptr(), pointers, 3, nullptr));
+    if (!answer) throw py::error_already_set();
+    CustomForce::Response response;
+    if (has_derivatives(answer)) {
+      const py::tuple parts(answer);
+      response.force = to_forces(parts[0], t);
+      response.by_position = to_derivative(parts[1], "positions");
+      response.by_velocity = to_derivative(parts[2], "velocities");
+    } else {
+      response.force = to_forces(answer, t);
+    }
+    return response;
+  }
+
+ private:
+  std::string name() const { return "laws[" + std::to_string(number_) + "]"; }
+
+  py::array_t<double> to_array(const Eigen::Matrix3Xd& local, bool places) const {
+    py::array_t<double> world =
+        points_ == 1 ? py::array_t<double>(3) : py::array_t<double>({points_, Eigen::Index{3}});
+    Eigen::Map<Eigen::Matrix3Xd> columns(world.mutable_data(), 3, points_);
+    columns.noalias() = frame_.rotation.transpose() * local;
+    if (places) columns.colwise() += frame_.origin;
+    return world;
+  }
+
+  // (forces, derivative, derivative), and not the three components of one force.
+  static bool has_derivatives(const py::object& answer) {
+    return PyTuple_CheckExact(answer.ptr()) && PyTuple_GET_SIZE(answer.ptr()) == 3 &&
+           PySequence_Check(PyTuple_GET_ITEM(answer.ptr(), 0));
+  }
+  static bool is_number(PyObject* object) { return PyFloat_Check(object) || PyLong_Check(object); }
+
+  Eigen::Matrix3Xd to_forces(const py::handle& answer, double t) const {
+    Eigen::Matrix3Xd world(3, points_);
+    if (!copy_numbers(answer, world)) {
+      const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(answer);
+      if (!array) PyErr_Clear();
+      if (!array || array.size() != world.size())
+        throw py::type_error(name() + ": returned " + std::string(py::str(py::repr(answer))) + "; expected " +
+                             (points_ == 1 ? "the force, three numbers in newtons"
+                                           : std::to_string(points_) + " forces, three numbers each"));
+      world = Eigen::Map<const Eigen::Matrix3Xd>(array.data(), 3, points_);
+    }
+    if (!world.allFinite())
+      throw py::value_error(name() + ": returned " + std::string(py::str(py::repr(answer))) +
+                            " at t = " + text_of(t) + " s; a force must be finite");
+    const Eigen::Matrix3Xd local = frame_.rotation * world;
+    if (frame_.dimension == 2 && local.row(2).norm() > 1e-9 * local.norm())
+      throw py::value_error(name() + ": returned " + std::string(py::str(py::repr(answer))) +
+                            " at t = " + text_of(t) +
+                            " s, a force out of the plane of the model; add the law with spatial=True");
+    return local;
+  }
+
+  // Of three numbers in a tuple or list, without making an array.
+  bool copy_numbers(const py::handle& answer, Eigen::Matrix3Xd& world) const {
+    if (points_ != 1 || !(PyTuple_CheckExact(answer.ptr()) || PyList_CheckExact(answer.ptr()))) return false;
+    if (PySequence_Fast_GET_SIZE(answer.ptr()) != 3) return false;
+    PyObject** const items = PySequence_Fast_ITEMS(answer.ptr());
+    for (int i = 0; i < 3; ++i) {
+      if (!is_number(items[i])) return false;
+      world(i, 0) = PyFloat_AsDouble(items[i]);
+      if (PyErr_Occurred()) throw py::error_already_set();
+    }
+    return true;
+  }
+
+  // In the model's own frame; empty for None.
+  Eigen::MatrixXd to_derivative(const py::handle& given, const char* by) const {
+    if (given.is_none()) return {};
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+    const Eigen::Index n = 3 * points_;
+    if (!array) PyErr_Clear();
+    if (!array || array.ndim() != 2 || array.shape(0) != n || array.shape(1) != n)
+      throw py::type_error(name() + ": the derivative by " + by + " must have the shape (" +
+                           std::to_string(n) + ", " + std::to_string(n) + "), or be None");
+    Eigen::MatrixXd local =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(array.data(),
+                                                                                                 n, n);
+    for (Eigen::Index i = 0; i < points_; ++i)
+      for (Eigen::Index j = 0; j < points_; ++j) {
+        auto block = local.block<3, 3>(3 * i, 3 * j);
+        block = (frame_.rotation * block * frame_.rotation.transpose()).eval();
+      }
+    return local;
+  }
+
+  std::shared_ptr<const py::function> function_;
+  Eigen::Index points_;
+  ModelFrame frame_;
+  std::size_t number_;  // in the case
+};
+
+}  // namespace
+
+BeamModel with_laws(const BuiltModel& built, const std::vector<py::function>& functions) {
+  if (functions.size() != built.laws.size())
+    throw std::invalid_argument("there are " + std::to_string(functions.size()) + " functions for " +
+                                std::to_string(built.laws.size()) + " laws");
+  BeamModel model = built.model;
+  for (std::size_t i = 0; i < functions.size(); ++i)
+    model.forces.push_back(
+        CustomForce{built.laws[i], PythonLaw(functions[i], built.laws[i].size(), built.frame, i)});
+  return model;
+}
+
+}  // namespace nurbeam::python

@@ -1,0 +1,78 @@
+"""What can go wrong, with the messages of the command line."""
+
+from __future__ import annotations
+
+import difflib
+import warnings
+from typing import TYPE_CHECKING, Iterable, NamedTuple, Sequence
+
+if TYPE_CHECKING:
+    from .results import Results
+
+__all__ = ["Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding"]
+
+
+class Finding(NamedTuple):
+    """One thing that is to be said of a case or a file."""
+
+    severity: str
+    """"error", "warning" or "note"."""
+    where: str
+    """The case or file, and the path in it: `"zip line: beams[0].section.radius"`."""
+    message: str
+    """What was found, the rule, and the nearest valid alternative."""
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.message}"
+
+
+class Error(Exception):
+    """What all errors of nurbeam are."""
+
+
+class CaseError(Error, ValueError):
+    """A model that cannot be one. `findings` is the list of all that is wrong, each with its place in the case."""
+
+    def __init__(self, findings: Sequence[Finding]):
+        self.findings = list(findings)
+        super().__init__("\n".join(str(f) for f in self.findings if f.severity == "error"))
+
+
+class CadError(Error, OSError):
+    """A CAD file that cannot be read or written. `findings` says why."""
+
+    def __init__(self, findings: Sequence[Finding]):
+        self.findings = list(findings)
+        super().__init__("\n".join(str(f) for f in self.findings if f.severity == "error"))
+
+
+class RunError(Error, RuntimeError):
+    """A run that has ended before its end. `results` are the results until then, None where there are none."""
+
+    def __init__(self, message: str, results: Results | None = None):
+        self.results = results
+        super().__init__(message)
+
+
+class CaseWarning(UserWarning):
+    """Something about a model or a run that its user must know."""
+
+
+def findings_of(plain: Iterable[tuple[str, str, str]]) -> list[Finding]:
+    return [Finding(*each) for each in plain]
+
+
+def tell(findings: Iterable[Finding], stacklevel: int = 3) -> None:
+    """Gives the warnings among the findings to Python's."""
+    for finding in findings:
+        if finding.severity == "warning":
+            warnings.warn(CaseWarning(str(finding)), stacklevel=stacklevel + 1)
+
+
+def unknown(what: str, name: object, known: Iterable[str]) -> str:
+    """The message of a name that there is none of."""
+    names = sorted(known)
+    near = difflib.get_close_matches(str(name), names, 1)
+    question = f'; did you mean "{near[0]}"?' if near else ""
+    some = ", ".join(f'"{each}"' for each in names[:30])
+    return f'there is no {what} "{name}"{question} Known: {some or "none"}'

@@ -1,0 +1,467 @@
+"""Models: the words of the case file, in memory."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .curves import Curve
+from .errors import CaseError, Error, Finding, RunError, findings_of, tell, unknown
+from .progress import progress_bar
+from .results import Results
+from .simulation import Checkpoint, Simulation
+
+if TYPE_CHECKING:
+    from .system import System
+
+__all__ = ["Model", "load", "Circle", "Section", "Material", "Beam", "Body", "Load", "schema"]
+
+Quantity = Union[float, str]
+"""A number in SI units, or a text with a unit: "5 mm"."""
+Place = Union[float, str, Mapping[str, Any], npt.ArrayLike]
+"""A place on a beam: "start", "end", a reference arc length from the start ([m] or a text with a unit), a point nearby
+(three numbers [m]), or as in the case file {"length": ...}, {"fraction": ...}, {"near": [...], "within": ...}."""
+Force = Callable[[float, npt.NDArray[np.float64], npt.NDArray[np.float64]], Any]
+
+
+class Section(dict[str, Any]):
+    """A cross-section by the keys of the case file: `Section(area="2 cm^2", second_moment=3e-9)`."""
+
+
+class Circle(Section):
+    """A round solid section: `Circle(radius="6 mm")`."""
+
+    def __init__(self, radius: Quantity, **keys: Any):
+        super().__init__(radius=radius, **keys)
+
+
+class Material(dict[str, Any]):
+    """A material by the keys of the case file: `Material(density=7850, youngs_modulus="210 GPa")`; `damping` [s],
+    `thermal_expansion` [1/K], `shear_modulus` [Pa], `poissons_ratio`."""
+
+    def __init__(self, density: Quantity, youngs_modulus: Quantity, **keys: Any):
+        super().__init__(density=density, youngs_modulus=youngs_modulus, **keys)
+
+
+class _Named:
+    def __init__(self, name: str):
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f'<{type(self).__name__} "{self.name}">'
+
+
+class Beam(_Named):
+    """A beam of a model, as `model.add_beam` returns it; wherever a beam is asked for its name does too."""
+
+
+class Body(_Named):
+    """A body of a model, as `model.add_body` returns it; wherever a body is asked for its name does too."""
+
+
+class Load:
+    """A load of a model; `number` is its place among the loads of the case."""
+
+    def __init__(self, number: int):
+        self.number = number
+
+    def __repr__(self) -> str:
+        return f"<Load {self.number}>"
+
+
+def _json(value: Any) -> Any:
+    """As JSON can hold it."""
+    if isinstance(value, _Named):
+        return value.name
+    if isinstance(value, Mapping):
+        return {str(key): _json(item) for key, item in value.items() if item is not None}
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return [_json(item) for item in value]
+    return value
+
+
+def _place(at: Any) -> Any:
+    """As the case file has it."""
+    if at is None or isinstance(at, Mapping):
+        return at
+    if isinstance(at, str):
+        return {"length": at} if re.match(r"\s*[-+.\d]", at) else at
+    return {"length": at} if np.ndim(at) == 0 else {"near": at}
+
+
+def _axis(axis: Any) -> Any:
+    if isinstance(axis, Curve):
+        return axis._axis()
+    if isinstance(axis, Mapping):
+        return axis
+    if isinstance(axis, (str, os.PathLike)):
+        return {"file": os.fspath(axis)}
+    return {"polyline": axis}
+
+
+class Model:
+    """A model: beams, bodies, what holds and loads them, and what is asked of them.
+
+    It is a case as the case file has it, built part by part: the methods take the keys of the case file by their names
+    (docs/case-reference.md), quantities are numbers in SI units or texts with a unit ("5 mm"). What is wrong is found
+    when the model is checked or run: CaseError lists all of it with its place.
+
+    Parameters
+    ----------
+    gravity
+        (3,) [m/s^2]; [0, 0, -9.81] when omitted.
+    name
+        Title; heads messages and pictures.
+    """
+
+    def __init__(self, gravity: npt.ArrayLike | None = None, name: str = "model", **keys: Any):
+        self.case: dict[str, Any] = {"nurbeam": 1, "name": name, "beams": [], "analysis": {}}
+        """The case as JSON has it, to read and to change."""
+        if gravity is not None:
+            self.case["gravity"] = _json(np.asarray(gravity, dtype=float) if not _has_text(gravity) else gravity)
+        self.case.update(_json(keys))
+        self._file = name
+        self._laws: list[tuple[dict[str, Any], Force]] = []
+
+    @property
+    def name(self) -> str:
+        """Its title."""
+        return str(self.case.get("name", self._file))
+
+    # --- Parts
+
+    def add(self, kind: str, **keys: Any) -> dict[str, Any]:
+        """Adds an item to a list of the case: `model.add("loads", beam="cable", at="end", force=[0, 0, -100])`. All other
+        `add_...` do this. Returns the item, which may be changed."""
+        item: dict[str, Any] = _json({k: _place(v) if k == "at" else v for k, v in keys.items()})
+        self.case.setdefault(kind, []).append(item)
+        return item
+
+    def _next_name(self, kind: str, name: str | None, otherwise: str) -> str:
+        return name if name is not None else f"{otherwise} {len(self.case.get(kind, [])) + 1}"
+
+    def add_beam(
+        self,
+        axis: Curve | npt.ArrayLike | Mapping[str, Any] | str | os.PathLike[str],
+        section: Mapping[str, Any],
+        material: Mapping[str, Any],
+        elements: int | Mapping[str, Any] | None = None,
+        name: str | None = None,
+        **keys: Any,
+    ) -> Beam:
+        """A beam along a curve, through points (n, 3) [m], or along what an `axis` of the case file says (a text is a CAD
+        file). `elements`: their number, or {"max_length": ...}, {"per_segment": ...}, {"tolerance": ...}. Other keys as
+        in the case file: `torsion`, `stress_free`, `temperature`, `initial`, `corners`, ..."""
+        if name is None and isinstance(axis, Curve) and axis.name:
+            name = axis.name
+        named = self._next_name("beams", name, "beam")
+        count = {"count": elements} if isinstance(elements, (int, np.integer)) else elements
+        self.add("beams", name=named, axis=_axis(axis), section=section, material=material, elements=count, **keys)
+        return Beam(named)
+
+    def add_body(self, name: str, mass: Quantity, roll_inertia: Quantity | None = None, **keys: Any) -> Body:
+        """A point mass, which needs a sliding joint."""
+        self.add("bodies", name=name, mass=mass, roll_inertia=roll_inertia, **keys)
+        return Body(name)
+
+    def add_support(
+        self,
+        beam: Beam | str,
+        at: Place,
+        type: str = "pinned",
+        name: str | None = None,
+        motion: Any = None,
+        axis: npt.ArrayLike | None = None,
+        **keys: Any,
+    ) -> None:
+        """Holds a place of a beam: "pinned", "clamped" or "fork". `motion` moves it: rows [time, dx, dy, dz]."""
+        self.add("supports", beam=beam, at=at, type=type, name=name, motion=motion, axis=axis, **keys)
+
+    def add_sliding_joint(
+        self,
+        body: Body | str,
+        beam: Beam | str,
+        at: Place,
+        speed: Quantity | None = None,
+        motion: Mapping[str, Any] | None = None,
+        slope: str | None = None,
+        at_beam_end: str | None = None,
+        **keys: Any,
+    ) -> None:
+        """Puts a body on a beam, to slide along it. `motion` prescribes how: {"speed": ...} or {"table": rows [time, s]};
+        `slope`: "continuous" or "discontinuous"; `at_beam_end`: "leave" or "stop"."""
+        self.add(
+            "sliding_joints",
+            body=body, beam=beam, at=at, speed=speed, motion=motion, slope=slope, at_beam_end=at_beam_end, **keys,
+        )  # fmt: skip
+
+    def add_joint(
+        self,
+        beams: Sequence[Beam | str],
+        type: str,
+        at: npt.ArrayLike | Mapping[str, Any] | None = None,
+        name: str | None = None,
+        axis: npt.ArrayLike | None = None,
+        **keys: Any,
+    ) -> None:
+        """Joins beams where an end of one meets the other, or near a point [m]: "hinged" or "rigid"."""
+        self.add("joints", beams=beams, type=type, at=at, name=name, axis=axis, **keys)
+
+    def add_load(
+        self,
+        beam: Beam | str,
+        at: Place | None = None,
+        force: Any = None,
+        moment: Any = None,
+        force_per_length: Any = None,
+        torque_per_length: Quantity | None = None,
+        follower: bool | None = None,
+        time: Any = None,
+        **keys: Any,
+    ) -> Load:
+        """A force [N] or moment [N m] at a place, or a force [N/m] or torque [N m/m] per length. `time`: rows
+        [time, factor]; `follower`: it turns with the section; `moves`: {"speed": ...}; `offset`: [x, y] from the axis."""
+        self.add(
+            "loads",
+            beam=beam, at=at, force=force, moment=moment, force_per_length=force_per_length,
+            torque_per_length=torque_per_length, follower=follower, time=time, **keys,
+        )  # fmt: skip
+        return Load(len(self.case["loads"]) - 1)
+
+    def add_probe(self, name: str, beam: Beam | str, at: Place, **keys: Any) -> None:
+        """A point of a beam whose motion and section forces are recorded under the name."""
+        output = self.case.setdefault("output", {})
+        output.setdefault("probes", []).append(_json({"name": name, "beam": beam, "at": _place(at), **keys}))
+
+    def add_force(
+        self,
+        law: Force,
+        body: Body | str | None = None,
+        beam: Beam | str | None = None,
+        at: Place | None = None,
+        points: Sequence[Mapping[str, Any]] | None = None,
+        spatial: bool | None = None,
+    ) -> None:
+        """A force by a function of yours, on a body, on a place of a beam, or on several `points`: each {"body": ...} or
+        {"beam": ..., "at": ...}.
+
+        law(t, position, velocity) takes the time [s] and the point's position [m] and velocity [m/s] in world
+        coordinates, (3,) arrays, of several points (points, 3); it returns the force [N] in the same shape. Where it
+        knows them it may return (force, by_position, by_velocity): derivatives of all components by all others,
+        (3 points, 3 points); else, or where they are None, they are taken by differences, which calls it 6 times for
+        each point. It must have no memory: a step may be tried several times. What it raises ends the run and comes
+        out unchanged. `spatial`: it may act out of the plane in which a model lies by itself; the model is then one in
+        space."""
+        if not callable(law):
+            raise TypeError(f"a law is a function law(t, position, velocity), not {law!r}")
+        if points is None:
+            points = [{"body": body, "beam": beam, "at": at}]
+        elif body is not None or beam is not None or at is not None:
+            raise TypeError("give either points, or body or beam and at")
+        places = [{k: _place(v) if k == "at" else v for k, v in point.items()} for point in points]
+        self._laws.append((_json({"points": places, "spatial": spatial}), law))
+
+    def set(self, path: str, value: Any) -> None:
+        """Sets one value of the case by its path, as `--set` does: `model.set("beams[0].section.radius", "7 mm")`, also
+        by name, `"beams.cable.elements.count"`; None removes the key. KeyError for a path that leads nowhere."""
+        parts = [part for part in re.split(r"[.\[\]]+", path) if part]
+        holder: Any = self.case
+        for i, part in enumerate(parts):
+            last = i + 1 == len(parts)
+            if isinstance(holder, list):
+                key: Any = _item_number(holder, part, ".".join(parts[:i]))
+            else:
+                key = part
+                if not last and not isinstance(holder.get(part), (dict, list)):
+                    holder[part] = {}
+            if not last:
+                holder = holder[key]
+            elif value is None:
+                del holder[key]
+            else:
+                holder[key] = _json(value)
+
+    def copy(self) -> Model:
+        """Another model like this, which may be changed by itself."""
+        other = Model.__new__(Model)
+        other.case = copy.deepcopy(self.case)
+        other._file = self._file
+        other._laws = list(self._laws)
+        return other
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes the case to a file, for the command line. Error where it has forces by functions, which no file holds."""
+        if self._laws:
+            raise Error("the model has forces by functions (add_force), which a case file cannot hold")
+        with open(file, "w", encoding="utf-8") as stream:
+            json.dump(self.case, stream, indent=2)
+            stream.write("\n")
+
+    # --- Asking
+
+    def _text(self, analysis: Mapping[str, Any], every: Quantity | None) -> str:
+        case = dict(self.case)
+        own, asked = case.get("analysis", {}), _json(analysis)
+        if isinstance(own, dict):  # else it is said what is wrong with it
+            if asked.get("type", own.get("type", "dynamic")) != own.get("type", "dynamic"):
+                own = {key: own[key] for key in ("length_control",) if key in own}
+            case["analysis"] = {**own, **asked}
+        if every is not None:
+            case["output"] = {**case.get("output", {}), "every": _json(every)}
+        if self._laws:
+            case["laws"] = [law for law, _ in self._laws]
+        return json.dumps(case)
+
+    def _built(self, analysis: Mapping[str, Any], every: Quantity | None = None) -> tuple[_core.BuiltCase, list[Finding]]:
+        built, plain = _core.build(self._text(analysis, every), self._file)
+        findings = findings_of(plain)
+        if built is None:
+            raise CaseError(findings)
+        return built, findings
+
+    def _functions(self) -> list[Force]:
+        return [function for _, function in self._laws]
+
+    def check(self, **analysis: Any) -> list[Finding]:
+        """What is to be said of the model, warnings and notes; CaseError where it cannot be one. The keywords are those
+        of `run`."""
+        return self._built(analysis, analysis.pop("every", None))[1]
+
+    def summary(self, **analysis: Any) -> dict[str, Any]:
+        """The model as it is understood: dimension, beams with their lengths and stiffnesses, bodies, supports, loads."""
+        summary: dict[str, Any] = json.loads(self._built(analysis, analysis.pop("every", None))[0].summary())
+        return summary
+
+    def run(
+        self,
+        end_time: Quantity | None = None,
+        step: Quantity | None = None,
+        *,
+        every: Quantity | None = None,
+        out: str | os.PathLike[str] | None = None,
+        resume: bool = False,
+        progress: bool | None = None,
+        **analysis: Any,
+    ) -> Results:
+        """Runs the model to its end.
+
+        Keywords are the keys of `analysis` in the case file (`type`, `end_time`, `step`, `tolerance`, `initial`,
+        `load_steps`, `integrator`, ...) and go before those of the case, which do not count for another `type`; `every`
+        is the time between snapshots. With
+        `out` the run writes a results directory, as the command line does; `resume` goes on from the restart point
+        there. Else the results are in memory alone. `progress` shows a bar, by tqdm; when omitted on a terminal.
+
+        CaseError for a model that cannot be one, RunError (with the `results` until then) where the run ends before its
+        end; Ctrl-C ends it with KeyboardInterrupt. Other threads go on meanwhile."""
+        keys = {"end_time": end_time, "step": step, **analysis}
+        built, findings = self._built(keys, every)
+        tell(findings)
+        if out is not None:
+            return self._run_into(built, out, resume, progress)
+        if resume:
+            raise ValueError('resume goes on from the restart point of a results directory; name it with "out"')
+        if built.analysis in ("modes", "buckling"):
+            recording, report = _core.modes(built, self._functions())
+            results = Results._of(recording, report)
+            if not report["done"]:
+                raise RunError(report["status"], results)
+            return results
+        with progress_bar(built, progress) as told:
+            return Simulation(_core.LiveRun(built, self._functions(), None), built).run(told)
+
+    def _run_into(
+        self, built: _core.BuiltCase, out: str | os.PathLike[str], resume: bool, progress: bool | None
+    ) -> Results:
+        with progress_bar(built, progress) as told:
+            code, messages = _core.run_into(built, self._functions(), os.fspath(out), resume, told)
+        lines = [line.split("error: ", 1)[-1] for line in messages.splitlines() if "error: " in line]
+        if code in (2, 4):
+            raise Error("\n".join(lines) or messages)
+        results = Results(out)
+        if code != 0:
+            raise RunError("\n".join(lines) or messages, results)
+        return results
+
+    def modes(self, count: int = 10, **modes: Any) -> Results:
+        """The lowest natural frequencies and their shapes, about the equilibrium unless `about="drawn"`: `results.modes`."""
+        return self.run(type="modes", modes={"count": count, **modes})
+
+    def simulate(
+        self,
+        end_time: Quantity | None = None,
+        step: Quantity | None = None,
+        *,
+        every: Quantity | None = None,
+        start: Checkpoint | None = None,
+        **analysis: Any,
+    ) -> Simulation:
+        """The same as a run that is taken step by step: `for snapshot in model.simulate(...)`. `start` is a checkpoint to go
+        on from. CaseError as with `run`."""
+        built, findings = self._built({"end_time": end_time, "step": step, **analysis}, every)
+        tell(findings)
+        if built.analysis in ("modes", "buckling"):
+            raise ValueError(f'there are no steps to take in an analysis of the type "{built.analysis}"; use run')
+        return Simulation(_core.LiveRun(built, self._functions(), start._core if start else None), built)
+
+    def system(self, **analysis: Any) -> System:
+        """The equations of motion of the model as drawn; those of other states are `simulation.system`."""
+        from .system import System
+
+        keys = analysis or ({} if self.case.get("analysis") else {"type": "static"})
+        return System(_core.Equations.drawn(self._built(keys)[0], self._functions()))
+
+    def __repr__(self) -> str:
+        parts = [f"{len(v)} {k}" for k, v in self.case.items() if isinstance(v, list) and v]
+        return f'<Model "{self.name}": {", ".join(parts) or "empty"}>'
+
+
+def _has_text(value: Any) -> bool:
+    return isinstance(value, str) or (isinstance(value, Sequence) and any(isinstance(item, str) for item in value))
+
+
+def _item_number(items: list[Any], part: str, path: str) -> int:
+    """The item of a list that a path names by its number or by its name."""
+    if part.isdigit():
+        if int(part) < len(items):
+            return int(part)
+        raise KeyError(f"{path} has {len(items)} item(s), counted from 0; there is no [{part}]")
+    names = [item.get("name") for item in items if isinstance(item, dict)]
+    if part in names:
+        return names.index(part)
+    raise KeyError(unknown(f"item of {path}", part, [name for name in names if name]))
+
+
+def load(file: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Model:
+    """The model of a case file, with values changed as by `--set`: `load("zipline.json", set={"analysis.end_time": 1})`.
+    Files that it names are relative to its folder. CaseError where it is no JSON; the rest is checked when it is run."""
+    overrides = [f"{path}={json.dumps(_json(value))}" for path, value in (set or {}).items()]
+    text, plain = _core.case_json(os.fspath(file), overrides)
+    findings = findings_of(plain)
+    if not text:
+        raise CaseError(findings)
+    case = json.loads(text)
+    model = Model.__new__(Model)
+    model.case = case if isinstance(case, dict) else {"": case}
+    model._file = os.fspath(file)
+    model._laws = []
+    return model
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of the case file: all keys with what they mean."""
+    found: dict[str, Any] = json.loads(_core.schema())
+    return found

@@ -1,0 +1,385 @@
+"""What a run has left: histories, and the beams at its output times."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .curves import Curve, write
+from .errors import Error, unknown
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+    import xarray
+
+__all__ = ["Results", "Histories", "Snapshot", "BeamShape", "Motion", "Mode"]
+
+Array = npt.NDArray[np.float64]
+
+# Vectors that stand in three columns: what stands behind the object's name.
+_VECTORS = {
+    "position": ("x", "y", "z"),
+    "velocity": ("vx", "vy", "vz"),
+    "displacement": ("ux", "uy", "uz"),
+    "joint_force": ("joint_force.x", "joint_force.y", "joint_force.z"),
+    "force": ("fx", "fy", "fz"),
+    "couple": ("mx", "my", "mz"),
+}
+
+
+class Histories(Mapping[str, Array]):
+    """Values over the output times, by the names of the columns of `histories.csv` without their units:
+    `"trolley.x"`, `"energy.total"`, `"time"`. `"trolley.position"`, `.velocity`, `.displacement`, `.joint_force`, and of
+    supports and joints `.force` and `.couple` are the vectors, (times, 3); `"trolley.speed"` is that of the velocity.
+
+    Numbers that there are none of, as the place of a body that has left its beam, are NaN.
+    """
+
+    def __init__(self, times: Array, columns: Sequence[tuple[str, str, str]], values: Array):
+        self._columns = {"time": times}
+        self._columns.update({f"{name}.{quantity}": values[:, i] for i, (name, quantity, _) in enumerate(columns)})
+        self.units: dict[str, str] = {"time": "s"}
+        """Of each column: "m", "N m", ..."""
+        self.units.update({f"{name}.{quantity}": unit for name, quantity, unit in columns})
+
+    def __getitem__(self, name: str) -> Array:
+        if name in self._columns:
+            return self._columns[name]
+        of, _, quantity = name.rpartition(".")
+        parts = [f"{of}.{part}" for part in _VECTORS.get(quantity, ())]
+        if parts and all(part in self._columns for part in parts):
+            return np.stack([self._columns[part] for part in parts], axis=1)
+        if quantity == "speed" and f"{of}.vx" in self._columns:
+            return np.asarray(np.linalg.norm(self[f"{of}.velocity"], axis=1))
+        raise KeyError(unknown("history", name, self._columns))
+
+    def unit(self, name: str) -> str:
+        """Of a column, or of a vector of them."""
+        if name in self.units:
+            return self.units[name]
+        of, _, quantity = name.rpartition(".")
+        first = {"speed": "vx"}.get(quantity) or _VECTORS.get(quantity, ("",))[0]
+        self[name]
+        return self.units[f"{of}.{first}"]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        return f"<Histories at {len(self._columns['time'])} times: {', '.join(self._columns)}>"
+
+
+class Motion(NamedTuple):
+    """Of a body or a probe at a time."""
+
+    position: Array
+    """(3,) [m]"""
+    velocity: Array
+    """(3,) [m/s]"""
+
+
+class Mode(NamedTuple):
+    """One mode of vibration, or of buckling."""
+
+    frequency: float
+    """[Hz]; NaN for buckling"""
+    factor: float
+    """On the loads that are not gravity, for buckling; NaN for vibrations. Below 0 for reversed loads."""
+    effective_mass: Array
+    """(3,) along x, y and z [kg]"""
+    shape: Snapshot
+    """Moved by an amplitude that makes it visible."""
+
+
+class BeamShape:
+    """A beam at a moment, in world coordinates. `name` is the beam's."""
+
+    def __init__(self, frame: _core.Frame, index: int, name: str):
+        self._frame = frame
+        self._index = index
+        self.name = name
+
+    @property
+    def length(self) -> float:
+        """Deformed [m]."""
+        return self._frame.length(self._index)
+
+    @property
+    def curve(self) -> Curve:
+        """The deformed axis as one exact NURBS curve with few control points."""
+        return Curve._of(self._frame.curve(self._index, False), self.name)
+
+    @property
+    def material_curve(self) -> Curve:
+        """The same, whose parameter at the elements' ends is the reference arc length [m]."""
+        return Curve._of(self._frame.curve(self._index, True), self.name)
+
+    @property
+    def nodes(self) -> Array:
+        """(nodes, 3) positions [m]."""
+        return self._frame.nodes(self._index)[1]
+
+    @property
+    def node_slopes(self) -> Array:
+        """(nodes, 3) dr/ds [-]; on the left of a kink."""
+        return self._frame.nodes(self._index)[2]
+
+    @property
+    def node_s(self) -> Array:
+        """(nodes,) reference arc lengths [m]."""
+        return self._frame.nodes(self._index)[0]
+
+    @property
+    def control_points(self) -> Array:
+        """(elements, 4, 4): homogeneous control points (w x, w y, w z, w) of each element's rational cubic [m]."""
+        return self._frame.control_points(self._index)
+
+    @property
+    def s(self) -> Array:
+        """(4 elements,) reference arc lengths of the places where `field` has its values [m]."""
+        ends = self._frame.element_ends(self._index)
+        return np.asarray(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * np.array([0, 1, 2, 3]) / 3).ravel()
+
+    @property
+    def fields(self) -> list[str]:
+        """The names that `field` knows."""
+        return list(self._frame.sampled(self._index))
+
+    def field(self, name: str) -> Array:
+        """What the sections carry along the beam, at `s`: "axial_force", "bending_moment", "shear_force", "torque",
+        "stress", "strain", "curvature", ... (4 elements,) in SI units; "velocity" (4 elements, 3). At a node there are
+        two values, one of each element. NaN where there is none."""
+        sampled = self._frame.sampled(self._index)
+        if name not in sampled:
+            raise KeyError(unknown("field", name, sampled))
+        values: Array = sampled[name]
+        return values.reshape((-1,) + values.shape[2:])
+
+    def points(self, per_element: int = 8) -> Array:
+        """(n, 3) points along the deformed beam [m], so many for each element, and its end."""
+        u = np.linspace(0, 1, per_element, endpoint=False)
+        basis = np.stack([(1 - u) ** 3, 3 * u * (1 - u) ** 2, 3 * u**2 * (1 - u), u**3])
+        cubics = self.control_points
+        rows = np.einsum("ku,ekh->euh", basis, cubics).reshape(-1, 4)
+        rows = np.concatenate([rows, cubics[-1, -1:]])
+        return np.asarray(rows[:, :3] / rows[:, 3:])
+
+    def __repr__(self) -> str:
+        return f'<BeamShape "{self.name}", length {self.length:.6g} m>'
+
+    def _repr_svg_(self) -> str:
+        from .drawing import svg
+
+        return svg([self.points()])
+
+
+class Snapshot:
+    """A moment of a run, in world coordinates."""
+
+    def __init__(self, frame: _core.Frame):
+        self._frame = frame
+
+    @property
+    def time(self) -> float:
+        """[s]; of a static analysis the load factor, of modes the number of the mode."""
+        return self._frame.time
+
+    @property
+    def beams(self) -> dict[str, BeamShape]:
+        """By name."""
+        names = self._frame.recording.beams
+        return {name: BeamShape(self._frame, i, name) for i, name in enumerate(names)}
+
+    @property
+    def bodies(self) -> dict[str, Motion]:
+        """By name."""
+        return {name: Motion(*motion) for name, motion in self._frame.bodies().items()}
+
+    @property
+    def probes(self) -> dict[str, Motion]:
+        """By name."""
+        return {name: Motion(*motion) for name, motion in self._frame.probes().items()}
+
+    def __getitem__(self, name: str) -> float:
+        """One value of the histories: `snapshot["energy.total"]`."""
+        columns = self._frame.recording.columns()
+        values = dict(zip((f"{of}.{quantity}" for of, quantity, _ in columns), self._frame.values()))
+        if name not in values:
+            raise KeyError(unknown("history", name, values))
+        return values[name]
+
+    def export(self, file: str | os.PathLike[str], unit: str = "mm", schema: str = "ap214") -> None:
+        """Writes the deformed axes to a CAD file, as `nurbeam.write` does."""
+        write(file, [beam.curve for beam in self.beams.values()], unit, schema)
+
+    def __repr__(self) -> str:
+        return f"<Snapshot at {self.time:.6g} s of {', '.join(self.beams)}>"
+
+    def _repr_svg_(self) -> str:
+        from .drawing import svg
+
+        return svg([beam.points() for beam in self.beams.values()])
+
+
+class Results(Sequence[Snapshot]):
+    """The results of a run: a sequence of its snapshots, in memory.
+
+    `Results("directory")` reads those that a run has left there, also while it goes on; `model.run(...)` returns its own.
+    Error where there are none.
+    """
+
+    def __init__(self, directory: str | os.PathLike[str]):
+        self.directory: Path | None = Path(directory)
+        """Where they stand; None of a run that has written nothing."""
+        try:
+            self._recording = _core.read_results(os.fspath(directory))
+        except RuntimeError as problem:
+            raise Error(str(problem)) from None
+        summary = self.directory / "run.json"
+        self.report: dict[str, Any] = json.loads(summary.read_text()) if summary.exists() else {}
+        """How the run ended, and what it took; of a directory what its run.json holds."""
+        self._histories: Histories | None = None
+
+    @classmethod
+    def _of(cls, recording: _core.Recording, report: Mapping[str, Any]) -> Results:
+        results = cls.__new__(cls)
+        results.directory = None
+        results._recording = recording
+        results.report = dict(report)
+        results._histories = None
+        return results
+
+    @property
+    def name(self) -> str:
+        """Of the case."""
+        return self._recording.title
+
+    @property
+    def times(self) -> Array:
+        """The output times [s]; load factors of a static analysis, numbers of modes."""
+        return self._recording.times()
+
+    @property
+    def histories(self) -> Histories:
+        """Values over the output times."""
+        recording = self._recording
+        if self._histories is None or len(self._histories["time"]) != len(recording):
+            self._histories = Histories(recording.times(), recording.columns(), recording.histories())
+        return self._histories
+
+    @property
+    def steps(self) -> Array:
+        """(steps, 4): each step's end [s], length [s], Newton iterations and attempts thrown away."""
+        return self._recording.steps()
+
+    @property
+    def beams(self) -> list[str]:
+        """Names."""
+        return self._recording.beams
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names."""
+        return self._recording.bodies
+
+    @property
+    def modes(self) -> list[Mode]:
+        """Of an analysis of modes or buckling in memory, the lowest first."""
+        table = self._recording.modes()
+        if table is None:
+            raise Error('there are no modes; run with type="modes" or type="buckling", and without "out"')
+        buckling, _, rows = table
+        return [
+            Mode(
+                float("nan") if buckling else omega / (2 * np.pi),
+                factor if buckling else float("nan"),
+                participation**2,
+                self[i],
+            )
+            for i, (omega, factor, participation) in enumerate(rows, 1)
+        ]
+
+    def __len__(self) -> int:
+        return len(self._recording)
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, slice):
+            return [self[i] for i in range(*key.indices(len(self)))]
+        i = key + len(self) if key < 0 else key
+        if not 0 <= i < len(self):
+            raise IndexError(f"there is no snapshot {key}; there are {len(self)}, counted from 0")
+        return Snapshot(self._recording.frame(i))
+
+    def at(self, time: float) -> Snapshot:
+        """The snapshot nearest to a time [s]. ValueError outside the times of the run."""
+        times = self.times
+        if len(times) == 0 or not times[0] * (1 - 1e-9) <= time <= times[-1] * (1 + 1e-9):
+            span = f"from {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else "none"
+            raise ValueError(f"time {time} s is not among those of the run, {span}")
+        return self[int(np.argmin(np.abs(times - time)))]  # type: ignore[no-any-return]
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The histories as a pandas DataFrame over time; `.attrs["units"]` holds the units."""
+        import pandas
+
+        frame = pandas.DataFrame({k: v for k, v in self.histories.items() if k != "time"}, index=self.times)
+        frame.index.name = "time"
+        frame.attrs["units"] = dict(self.histories.units)
+        return frame
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The histories as an xarray Dataset over time, each with its unit."""
+        import xarray
+
+        variables = {k: ("time", v, {"units": self.histories.units[k]}) for k, v in self.histories.items() if k != "time"}
+        times = ("time", self.times, {"units": "s"})
+        return xarray.Dataset(variables, coords={"time": times}, attrs={"title": self.name})
+
+    def plot(self, *names: str, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Histories over time, by their names: `results.plot("trolley.speed")`; of a vector its components."""
+        from . import plots
+
+        return plots.histories(self, names, ax)
+
+    def plot_shape(
+        self, times: Sequence[float] | None = None, ax: matplotlib.axes.Axes | None = None
+    ) -> matplotlib.axes.Axes:
+        """The beams and bodies at some times [s], six when omitted, seen along the axis in which they extend least."""
+        from . import plots
+
+        return plots.shapes(self, times, ax)
+
+    def plot_along(
+        self,
+        field: str,
+        beam: str | None = None,
+        time: float | None = None,
+        ax: matplotlib.axes.Axes | None = None,
+    ) -> matplotlib.axes.Axes:
+        """What the sections of a beam carry along it at a time [s]: `results.plot_along("bending_moment")`; of the first
+        beam and at the last time when omitted. The names are those of `BeamShape.field`."""
+        from . import plots
+
+        return plots.along(self, field, beam, time, ax)
+
+    def export(
+        self, file: str | os.PathLike[str], time: float | None = None, unit: str = "mm", schema: str = "ap214"
+    ) -> None:
+        """Writes the deformed axes at a time [s], the last when omitted, to a CAD file, as `nurbeam.write` does."""
+        (self[-1] if time is None else self.at(time)).export(file, unit, schema)
+
+    def __repr__(self) -> str:
+        times = self.times
+        span = f"{len(times)} snapshots" + (f", {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else "")
+        return f'<Results of "{self.name}": {span}>'

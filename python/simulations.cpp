@@ -1,0 +1,135 @@
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <atomic>
+#include <chrono>
+#include <sstream>
+#include <stdexcept>
+
+#include "fem/motion/simulation.h"
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/results/restart_file.h"
+#include "pipelines/run/mode_run.h"
+#include "pipelines/run/run.h"
+#include "pipelines/run/simulation_plan.h"
+#include "python/bindings.h"
+#include "python/interrupts.h"
+#include "python/laws.h"
+#include "python/live_run.h"
+
+namespace nurbeam::python {
+
+namespace {
+
+namespace py = pybind11;
+using namespace py::literals;
+
+py::dict event_facts(const RunEvent& event, const BuiltCase& c) {
+  const BuiltModel& built = c.built();
+  py::object beam = py::none(), body = py::none();
+  if (event.beam >= 0) beam = py::str(built.model.beams[event.beam].name);
+  if (event.body >= 0) body = py::str(built.model.bodies[event.body].name);
+  return py::dict("time"_a = event.time, "kind"_a = name_of(event.kind), "beam"_a = beam, "body"_a = body,
+                  "s"_a = event.s);
+}
+
+// What a run came to.
+py::dict report_facts(const SimulationReport& report, const BuiltCase& c) {
+  py::list events;
+  for (const RunEvent& event : report.events) events.append(event_facts(event, c));
+  PlainFindings warnings;
+  if (const auto warning = energy_warning(c.case_file.path, report)) warnings = plain({*warning});
+  return py::dict("status"_a = outcome_text(report, c.built().model),
+                  "done"_a = report.status == SimulationStatus::done, "time"_a = report.time,
+                  "steps"_a = report.steps, "rejected_steps"_a = report.rejected_steps,
+                  "newton_iterations"_a = report.newton_iterations, "seconds"_a = report.motion_seconds,
+                  "energy_drift"_a = report.energy_drift, "events"_a = events, "warnings"_a = warnings);
+}
+
+// (recording, report) of modes or buckling.
+py::tuple modes(const std::shared_ptr<BuiltCase>& c, const std::vector<py::function>& functions) {
+  auto recording = std::make_shared<Recording>();
+  BuiltModel built = c->built();
+  built.model = with_laws(built, functions);
+  recording->title = c->case_file.name;
+  recording->names = snapshot_names(built);
+  Interrupts interrupts;
+  SimulationReport report;
+  {
+    const py::gil_scoped_release others_go_on;
+    const auto keep = [&](const Snapshot& local) {
+      recording->frames.push_back(to_world(built.frame, local));
+    };
+    ModeTable table;
+    report = run_modes(
+        c->case_file, built, [&] { return interrupts.pending(); },
+        {.state = keep, .shape = keep, .turn = [](const auto&, const auto&) {}}, table);
+    recording->modes = std::move(table);
+  }
+  interrupts.rethrow();
+  return py::make_tuple(recording, report_facts(report, *c));
+}
+
+// Runs into a results directory: (exit code, messages). `progress` is told the time ten times a second.
+py::tuple run_into(const std::shared_ptr<BuiltCase>& c, const std::vector<py::function>& functions,
+                   const std::filesystem::path& out, bool resume,
+                   const std::optional<std::function<void(double)>>& progress) {
+  using Clock = std::chrono::steady_clock;
+  BuildReport report = c->report;
+  report.value->model = with_laws(c->built(), functions);
+  std::ostringstream messages;
+  Interrupts interrupts;
+  Clock::time_point told = Clock::now();
+  RunOptions options{.out = out, .quiet = true, .resume = resume, .messages = &messages};
+  options.interrupted = [&] { return interrupts.pending(); };
+  options.progress = [&](const StepRecord& step) {
+    const bool last = step.time >= c->case_file.analysis.end_time;
+    if (!progress || (!last && Clock::now() - told < std::chrono::milliseconds(100))) return;
+    told = Clock::now();
+    const py::gil_scoped_acquire lock;
+    (*progress)(step.time);
+  };
+  int code = 0;
+  {
+    const py::gil_scoped_release others_go_on;
+    code = run_model(c->case_file, report, options);
+  }
+  interrupts.rethrow();
+  return py::make_tuple(code, messages.str());
+}
+
+}  // namespace
+
+void bind_simulations(py::module_& module) {
+  module.def("modes", &modes, py::arg("case"), py::arg("laws"));
+  module.def("run_into", &run_into, py::arg("case"), py::arg("laws"), py::arg("out"), py::arg("resume"),
+             py::arg("progress"));
+  py::class_<Checkpoint, std::shared_ptr<Checkpoint>>(module, "Checkpoint",
+                                                      "A moment that a motion can go on from.")
+      .def_property_readonly(
+          "time", [](const Checkpoint& c) { return c.state.t; })
+      .def(
+          "save", [](const Checkpoint& c, const std::filesystem::path& file) { write_checkpoint(file, c); },
+          py::arg("file"), py::call_guard<py::gil_scoped_release>())
+      .def_static(
+          "load", [](const std::filesystem::path& file) { return read_checkpoint(file); }, py::arg("file"),
+          py::call_guard<py::gil_scoped_release>());
+  py::class_<LiveRun, std::shared_ptr<LiveRun>>(module, "LiveRun", "A run that is taken step by step.")
+      .def(py::init<std::shared_ptr<BuiltCase>, const std::vector<py::function>&, const Checkpoint*>(),
+           py::arg("case"), py::arg("laws"), py::arg("start"))
+      .def("step", &LiveRun::step)
+      .def("next", &LiveRun::next)
+      .def_property_readonly("time", &LiveRun::time)
+      .def_property_readonly("begun", &LiveRun::begun)
+      .def_property_readonly("ended", &LiveRun::ended)
+      .def_property_readonly("recording", &LiveRun::recording)
+      .def("now", &LiveRun::now)
+      .def("checkpoint", &LiveRun::checkpoint)
+      .def("change_load", &LiveRun::change_load, py::arg("number"), py::arg("value"))
+      .def("report", [](const LiveRun& run) { return report_facts(run.report(), *run.of()); });
+}
+
+}  // namespace nurbeam::python

@@ -1,0 +1,98 @@
+#include "fem/motion/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include "fem/model/build.h"
+#include "nurbs/primitives.h"
+
+namespace nurbeam {
+namespace {
+
+// A cantilever that a force at its end sets swinging.
+std::shared_ptr<const BeamModel> swinging_cantilever() {
+  ModelBuilder builder(2);
+  const ReferenceCurve line({line_cubic({0, 0, 0}, {1, 0, 0})}, 2);
+  builder.add_beam(line, BeamProperties(1e5, 2, 1), {.elements = 4});
+  builder.clamp(0, 0).force(0, 1, {0, -0.5, 0});
+  return std::make_shared<const BeamModel>(builder.build());
+}
+
+SimulationOptions twenty_steps() {
+  SimulationOptions options;
+  options.end_time = 0.2;
+  options.step = 0.01;
+  options.output_times = {0, 0.1, 0.2};
+  return options;
+}
+
+TEST(SimulationTest, StepByStepItIsTheRunAtOnce) {
+  std::vector<Snapshot> at_once, by_steps;
+  SimulationObserver first, second;
+  first.snapshot = [&](const Snapshot& s) { at_once.push_back(s); };
+  second.snapshot = [&](const Snapshot& s) { by_steps.push_back(s); };
+  const SimulationReport whole = simulate(swinging_cantilever(), {}, twenty_steps(), first);
+  Simulation simulation(swinging_cantilever(), {}, twenty_steps(), second);
+  int calls = 1;
+  while (simulation.advance()) ++calls;
+  EXPECT_EQ(calls, 21);  // the start and every step
+  EXPECT_FALSE(simulation.advance());
+  EXPECT_EQ(whole.steps, simulation.report().steps);
+  ASSERT_EQ(at_once.size(), by_steps.size());
+  for (std::size_t i = 0; i < at_once.size(); ++i) {
+    EXPECT_EQ(at_once[i].time, by_steps[i].time);
+    EXPECT_EQ(at_once[i].beams[0].node_positions, by_steps[i].beams[0].node_positions);
+    EXPECT_EQ(at_once[i].energy.total, by_steps[i].energy.total);
+  }
+}
+
+TEST(SimulationTest, ACheckpointGoesOnAsIfThereHadBeenNone) {
+  Simulation whole(swinging_cantilever(), {}, twenty_steps());
+  EXPECT_THROW(whole.checkpoint(), std::invalid_argument);
+  while (whole.state().t < 0.1) whole.advance();
+  const Checkpoint point = whole.checkpoint();
+  Simulation rest(swinging_cantilever(), {}, twenty_steps(), {}, &point);
+  while (whole.advance()) {
+  }
+  while (rest.advance()) {
+  }
+  EXPECT_EQ(whole.state().q, rest.state().q);
+  EXPECT_EQ(whole.state().v, rest.state().v);
+}
+
+TEST(SimulationTest, ChangedForcesActFromThenOnAndNoEnergyComesOfIt) {
+  Simulation simulation(swinging_cantilever(), {}, twenty_steps());
+  while (simulation.state().t < 0.1) simulation.advance();
+  const double before = simulation.state().q.norm();
+  EXPECT_TRUE(simulation.change_forces([](std::vector<Force>& forces) { forces.clear(); }));
+  EXPECT_EQ(simulation.state().q.norm(), before);
+  while (simulation.advance()) {
+  }
+  EXPECT_TRUE(simulation.system().model().forces.empty());
+  EXPECT_LT(simulation.report().energy_drift, 1e-3 * simulation.report().energy_scale());
+}
+
+TEST(SimulationTest, WhatAForceThrowsArrivesAndTheMotionGoesOnFromItsLastStep) {
+  struct Refusal {};
+  auto model = std::make_shared<BeamModel>(*swinging_cantilever());
+  auto refuses = std::make_shared<bool>(false);
+  model->forces.push_back(
+      CustomForce{{CustomForce::Attachment::to_beam(0, 1)},
+                  [refuses](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
+                    if (*refuses) throw Refusal{};
+                    return CustomForce::Response{Eigen::Matrix3Xd::Zero(3, r.cols()), {}, {}};
+                  }});
+  Simulation simulation(model, {}, twenty_steps());
+  while (simulation.state().t < 0.1) simulation.advance();
+  *refuses = true;
+  const State before = simulation.state();
+  EXPECT_THROW(simulation.advance(), Refusal);
+  EXPECT_EQ(simulation.state().t, before.t);
+  EXPECT_EQ(simulation.state().q, before.q);
+  *refuses = false;
+  while (simulation.advance()) {
+  }
+  EXPECT_EQ(simulation.report().status, SimulationStatus::done);
+}
+
+}  // namespace
+}  // namespace nurbeam

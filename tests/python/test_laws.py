@@ -1,0 +1,152 @@
+"""Forces by functions."""
+
+import numpy as np
+import pytest
+from models import bead_on_a_wire, bending_stiffness, straight_cantilever
+
+import nurbeam as nb
+
+
+def spring(t, position, velocity):
+    return [-50 * (position[0] - 2), 0, 0]
+
+
+def oscillation(t, mass=2.0, stiffness=50.0):
+    return 2 - np.cos(np.sqrt(stiffness / mass) * t)
+
+
+def test_a_spring_by_a_function_swings_as_springs_do():
+    model = bead_on_a_wire()
+    model.add_force(spring, body="bead")
+    results = model.run(end_time=1, step=1e-3)
+    assert np.abs(results.histories["bead.x"] - oscillation(results.times)).max() < 2e-5
+    work = results.histories["energy.input"]
+    assert results.histories["energy.total"] == pytest.approx(results.histories["energy.total"][0], abs=1e-4)
+    assert np.abs(work).max() > 10
+
+
+def test_given_derivatives_are_those_taken_by_differences():
+    K = np.diag([-50.0, 0, 0])
+    model = bead_on_a_wire()
+    model.add_force(lambda t, r, v: (spring(t, r, v), K, np.zeros((3, 3))), body="bead")
+    exact = model.run(end_time=0.2, step=1e-3).histories["bead.x"]
+    model = bead_on_a_wire()
+    model.add_force(spring, body="bead")
+    assert exact == pytest.approx(model.run(end_time=0.2, step=1e-3).histories["bead.x"], abs=1e-9)
+
+
+def test_a_force_on_a_place_is_the_load_of_the_case():
+    force = [0, -1.0, 0]
+    expected = straight_cantilever(tip=force).run(type="static")[-1].beams["rod"].nodes
+    model = straight_cantilever()
+    model.add_force(lambda t, r, v: force, beam="rod", at="end")
+    assert np.abs(model.run(type="static")[-1].beams["rod"].nodes - expected).max() < 1e-10
+    assert abs(expected[-1, 1]) > 1 / (4 * bending_stiffness())
+
+
+def test_laws_see_world_coordinates_wherever_the_model_lies():
+    seen = []
+
+    def law(t, position, velocity):
+        seen.append((position.copy(), velocity.copy()))
+        return np.zeros(3)
+
+    model = nb.Model(gravity=[0, 0, 0])
+    model.add_beam(nb.Curve.line([5, 6, 7], [5, 6, 9]), section=nb.Circle(0.005), material=nb.Material(7850, 2e11),
+                   elements=4, name="rod", initial={"velocity": {"translation": [0, 3, 0]}})
+    model.add_force(law, beam="rod", at={"fraction": 0.5})
+    model.run(end_time=0.01, step=1e-3)
+    assert seen[0][0] == pytest.approx([5, 6, 8]) and seen[0][1] == pytest.approx([0, 3, 0])
+    assert seen[-1][0] == pytest.approx([5, 6.03, 8], abs=1e-2)
+
+
+def test_one_law_may_tie_several_points_together():
+    shapes = []
+
+    def between(t, r, v):
+        shapes.append(r.shape)
+        pull = 10 * (r[1] - r[0])
+        return np.stack([pull, -pull])
+
+    model = bead_on_a_wire(at=1.0)
+    other = model.add_body("other", mass=2)
+    model.add_sliding_joint(other, "wire", at=3.0)
+    model.add_force(between, points=[{"body": "bead"}, {"body": other}])
+    results = model.run(end_time=0.3, step=1e-3)
+    assert set(shapes) == {(2, 3)}
+    # Two masses m on a spring c: their distance swings with the frequency sqrt(2 c / m).
+    expected = 2 - np.cos(np.sqrt(2 * 10 / 2) * results.times)
+    assert results.histories["bead.x"] == pytest.approx(expected, abs=2e-4)
+    assert results.histories["bead.x"] + results.histories["other.x"] == pytest.approx(4, abs=1e-7)
+
+
+class Stop(Exception):
+    pass
+
+
+@pytest.mark.parametrize(
+    "analysis", [{"end_time": 1, "step": 1e-2}, {"end_time": 1, "integrator": {"type": "ida"}}, {"type": "static"}]
+)
+def test_what_a_law_raises_comes_out_unchanged(analysis, tmp_path):
+    raised = Stop("enough")
+
+    def law(t, position, velocity):
+        raise raised
+
+    model = straight_cantilever()
+    model.add_force(law, beam="rod", at="end")
+    for where in ({}, {"out": tmp_path / "out"}):
+        with pytest.raises(Stop) as caught:
+            model.run(**analysis, **where)
+        assert caught.value is raised
+
+
+@pytest.mark.parametrize(
+    ("answer", "error", "message"),
+    [
+        (None, TypeError, r"laws\[0\]: returned None; expected the force, three numbers in newtons"),
+        ([1, 2], TypeError, "expected the force"),
+        ("push", TypeError, "expected the force"),
+        ([0, np.nan, 0], ValueError, "a force must be finite"),
+        ([0, 0, 1.0], ValueError, "out of the plane of the model; add the law with spatial=True"),
+        (([0, 0, 0], [1, 2], None), TypeError, r"derivative by positions must have the shape \(3, 3\)"),
+    ],
+)
+def test_wrong_answers_say_what_to_do(answer, error, message):
+    model = straight_cantilever()
+    model.add_force(lambda t, r, v: answer, beam="rod", at="end")
+    with pytest.raises(error, match=message):
+        model.run(end_time=0.1, step=1e-2)
+
+
+def test_a_spatial_law_makes_the_model_one_in_space():
+    model = straight_cantilever()
+    model.add_force(lambda t, r, v: (0, 0, -1.0), beam="rod", at="end", spatial=True)
+    assert model.summary(type="static")["dimension"] == 3
+    assert model.run(type="static")[-1].beams["rod"].nodes[-1, 2] < 0
+
+
+def test_laws_of_nothing_are_findings():
+    model = straight_cantilever()
+    model.add_force(lambda t, r, v: (0, 0, 0), beam="rood", at="end")
+    model.add_force(lambda t, r, v: (0, 0, 0), body="rod")
+    model.add_force(lambda t, r, v: (0, 0, 0), beam="rod")
+    with pytest.raises(nb.CaseError) as caught:
+        model.run(type="static")
+    assert "laws[2].points[0]" in str(caught.value)
+    model = straight_cantilever()
+    model.add_force(lambda t, r, v: (0, 0, 0), beam="rood", at="end")
+    with pytest.raises(nb.CaseError, match='there is no beam "rood"; did you mean "rod"'):
+        model.run(type="static")
+    with pytest.raises(TypeError, match="a law is a function"):
+        model.add_force(3.0, beam="rod", at="end")
+    with pytest.raises(nb.Error, match="cannot hold"):
+        model.save("case.json")
+
+
+def test_case_files_have_no_laws(tmp_path, command):
+    model = straight_cantilever()
+    model.case["laws"] = [{"points": [{"beam": "rod", "at": "end"}]}]
+    model.set("analysis.type", "static")
+    model.save(tmp_path / "case.json")
+    assert 'unknown key "laws"' in command("check", tmp_path / "case.json", expect=2)

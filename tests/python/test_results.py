@@ -1,0 +1,124 @@
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from models import bead_on_a_wire, straight_cantilever
+
+import nurbeam as nb
+
+
+@pytest.fixture(scope="module")
+def results():
+    model = bead_on_a_wire(speed=0.5)
+    model.case["gravity"] = [0, 0, -9.81]
+    model.add_probe("middle", "wire", {"fraction": 0.5})
+    return model.run(end_time=0.2, step=1e-3, every=0.05)
+
+
+def test_histories_have_names_units_and_vectors(results):
+    h = results.histories
+    assert h["bead.position"].shape == (5, 3)
+    assert np.array_equal(h["bead.position"][:, 0], h["bead.x"])
+    assert h.unit("bead.velocity") == "m/s" and h.unit("energy.total") == "J" and h.unit("bead.speed") == "m/s"
+    assert h["bead.speed"] == pytest.approx(np.linalg.norm(h["bead.velocity"], axis=1))
+    assert h["reaction.wire.start.force"].shape == (5, 3)
+    assert np.array_equal(h["time"], results.times)
+    assert "middle.moment" in h and len(h) == len(list(h))
+    with pytest.raises(KeyError, match='did you mean \\\\?"bead.x'):
+        h["beed.x"]
+
+
+def test_snapshots_are_a_sequence(results):
+    assert len(results) == 5 and results[-1].time == pytest.approx(0.2)
+    assert [snapshot.time for snapshot in results[1:3]] == pytest.approx([0.05, 0.1])
+    with pytest.raises(IndexError, match="there is no snapshot 5; there are 5"):
+        results[5]
+    with pytest.raises(ValueError, match="not among those of the run, from 0 to 0.2 s"):
+        results.at(0.3)
+    assert results.at(0.06).time == pytest.approx(0.05)
+
+
+def test_beams_hold_their_shape_and_what_they_carry(results):
+    beam = results[-1].beams["wire"]
+    points = beam.points(per_element=5)
+    assert points.shape == (5 * len(beam.control_points) + 1, 3)
+    assert beam.curve(beam.curve.start) == pytest.approx(points[0], abs=1e-12)
+    assert beam.curve.length == pytest.approx(beam.length, rel=1e-9)
+    assert beam.material_curve.end == pytest.approx(4, rel=1e-9)
+    assert beam.field("velocity").shape == (len(beam.s), 3)
+    assert np.all(np.diff(beam.node_s) > 0) and beam.nodes.shape == (len(beam.node_s), 3)
+    assert set(beam.fields) >= {"axial_force", "bending_moment", "stress", "velocity"}
+    with pytest.raises(KeyError, match="did you mean"):
+        beam.field("bending_momnet")
+
+
+def test_snapshots_know_single_values(results):
+    assert results[2]["energy.total"] == results.histories["energy.total"][2]
+    assert results[2].probes["middle"].position[2] == results.histories["middle.z"][2]
+
+
+def test_steps_are_those_of_the_run(results):
+    steps = results.steps
+    assert steps.shape == (200, 4)
+    assert np.all(np.diff(steps[:, 0]) > 0) and steps[-1, 0] == pytest.approx(0.2)
+
+
+def test_pandas_and_xarray_get_the_histories(results):
+    frame = results.to_dataframe()
+    assert frame.index.name == "time" and frame["bead.x"].iloc[-1] == results.histories["bead.x"][-1]
+    assert frame.attrs["units"]["bead.x"] == "m"
+    data = results.to_xarray()
+    assert data["bead.x"].attrs["units"] == "m"
+    assert float(data["bead.x"].sel(time=0.1, method="nearest")) == results.histories["bead.x"][2]
+
+
+def test_plots_show_what_they_are_asked_for(results):
+    ax = results.plot("bead.x")
+    assert ax.get_ylabel() == "bead.x [m]" and np.array_equal(ax.lines[0].get_ydata(), results.histories["bead.x"])
+    assert len(results.plot("bead.velocity").lines) == 3
+    assert len(results.plot().lines) == 7  # energies
+    assert len(results.plot_shape(times=[0, 0.1, 0.2]).lines) == 6  # beams and bodies
+    along = results.plot_along("bending_moment", time=0.1)
+    assert np.array_equal(along.lines[0].get_ydata(), results[2].beams["wire"].field("bending_moment"))
+    with pytest.raises(KeyError, match='there is no beam \\\\?"rope'):
+        results.plot_along("bending_moment", beam="rope")
+
+
+def test_directories_without_results_say_so(tmp_path):
+    with pytest.raises(nb.Error, match="does not exist"):
+        nb.Results(tmp_path / "absent")
+    with pytest.raises(nb.Error, match="expected a directory that `nurbeam run` has written"):
+        nb.Results(tmp_path)
+
+
+def test_stored_results_are_those_in_memory(tmp_path):
+    model = straight_cantilever(tip=[0, -1, 0])
+    stored = model.run(end_time=0.02, step=1e-3, out=tmp_path / "out")
+    memory = model.run(end_time=0.02, step=1e-3)
+    for a, b in zip(stored, memory):
+        assert np.array_equal(a.beams["rod"].control_points, b.beams["rod"].control_points)
+        for name in a.beams["rod"].fields:
+            assert np.array_equal(a.beams["rod"].field(name), b.beams["rod"].field(name), equal_nan=True), name
+    assert (tmp_path / "out/report.html").exists()
+
+
+def test_results_read_while_a_run_goes_on(tmp_path):
+    code = f"""
+import sys; sys.path.insert(0, {str(__file__.rsplit('/', 1)[0])!r})
+import nurbeam as nb
+from models import straight_cantilever
+try:
+    model = straight_cantilever(tip=[0, -1, 0])
+    model.add_force(lambda t, r, v: (_ for _ in ()).throw(RuntimeError) if t > 0.5 else (0, 0, 0), beam="rod", at="end")
+    model.run(end_time=1, step=1e-3, out={str(tmp_path / "out")!r})
+except RuntimeError:
+    pass
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert not (tmp_path / "out/results.nc").exists()
+
+
+def test_progress_shows_a_bar(capsys):
+    straight_cantilever(tip=[0, -1, 0]).run(end_time=0.05, step=1e-3, progress=True)
+    assert "0.05 of 0.05 s" in capsys.readouterr().err

@@ -1,0 +1,231 @@
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+from models import bead_on_a_wire, straight_cantilever
+
+import nurbeam as nb
+
+RUN = {"end_time": 0.05, "step": 1e-3, "every": 5e-3}
+
+
+def swinging():
+    model = straight_cantilever(tip=[0, -1, 0])
+    model.add_probe("tip", "rod", "end")
+    return model
+
+
+def same(a, b):
+    return all(np.array_equal(values, b[name], equal_nan=True) for name, values in a.items())
+
+
+def test_step_by_step_is_the_same_run():
+    whole = swinging().run(**RUN)
+    simulation = swinging().simulate(**RUN)
+    count = 0
+    while simulation.step():
+        count += 1
+    assert count >= 50 and simulation.ended and not simulation.step()
+    assert same(whole.histories, simulation.results.histories)
+    assert simulation.report["status"] == "done" and simulation.report["steps"] == 50
+
+
+def test_iterating_stops_at_output_times_and_goes_on():
+    simulation = swinging().simulate(**RUN)
+    times = []
+    for snapshot in simulation:
+        times.append(snapshot.time)
+        if len(times) == 4:
+            break
+    assert simulation.time == pytest.approx(0.015)
+    times += [snapshot.time for snapshot in simulation]
+    assert times == pytest.approx(np.arange(11) * 5e-3)
+    assert same(swinging().run(**RUN).histories, simulation.results.histories)
+
+
+def test_a_checkpoint_goes_on_bit_by_bit(tmp_path):
+    simulation = swinging().simulate(**RUN)
+    simulation.run_until(0.0235)
+    simulation.checkpoint.save(tmp_path / "point.nc")
+    point = nb.Checkpoint.load(tmp_path / "point.nc")
+    assert point.time == simulation.time
+    rest = swinging().simulate(**RUN, start=point).run()
+    whole = swinging().run(**RUN)
+    count = len(rest)
+    assert 0 < count < len(whole)
+    for name, values in whole.histories.items():
+        assert np.array_equal(values[-count:], rest.histories[name], equal_nan=True), name
+
+
+def test_there_is_no_checkpoint_before_the_first_step():
+    with pytest.raises(ValueError, match="motion that has begun"):
+        swinging().simulate(**RUN).checkpoint
+
+
+def test_a_load_changed_between_steps_acts_from_then_on():
+    # A bead on a wire, pushed through a law-free load on the wire itself would shake it: a rod's tip force instead.
+    # The load taken away at once is the model that never had it, but for the accelerations of the first moment.
+    model = straight_cantilever()
+    load = model.add_load("rod", at="end", force=[0, -1, 0])
+    simulation = model.simulate(**RUN)
+    simulation.step()
+    simulation.set_load(load, [0, 0, 0])
+    results = simulation.run()
+    assert np.abs(results[-1].beams["rod"].nodes[:, 1]).max() < 1e-12
+
+    # Doubled at 25 ms: until then the same motion, afterwards another one; and the energy is kept.
+    simulation = model.simulate(**RUN)
+    simulation.run_until(0.025)
+    simulation.set_load(load, [0, -2, 0])
+    changed = simulation.run()
+    plain = model.run(**RUN)
+    assert np.array_equal(changed.histories["rod.length"][:6], plain.histories["rod.length"][:6])
+    assert changed.histories["rod.displacement.max"][-1] != plain.histories["rod.displacement.max"][-1]
+    energy = changed.histories["energy.total"]
+    assert np.ptp(energy) < 0.02 * changed.histories["energy.bending"].max()
+
+
+def test_loads_that_there_are_none_of_say_so():
+    simulation = swinging().simulate(**RUN)
+    with pytest.raises(ValueError, match="there is no load 1; the model has 1"):
+        simulation.set_load(1, [0, 0, 0])
+    with pytest.raises(ValueError, match="plane of the model"):
+        simulation.set_load(0, [0, 0, 1])
+    with pytest.raises(ValueError, match="expected"):
+        simulation.set_load(0, [1, 2])
+    with pytest.raises(ValueError, match="finite"):
+        simulation.set_load(0, [np.nan, 0, 0])
+
+
+def test_snapshots_between_output_times_are_the_present_state():
+    simulation = swinging().simulate(**RUN)
+    simulation.run_until(0.007)
+    assert simulation.snapshot.time == pytest.approx(simulation.time) and simulation.time >= 0.007
+    assert simulation.snapshot.beams["rod"].nodes.shape == (9, 3)
+
+
+def test_statics_go_step_by_step_too():
+    simulation = straight_cantilever(tip=[0, -1, 0]).simulate(type="static", load_steps=4)
+    deflections = [snapshot.beams["rod"].nodes[-1, 1] for snapshot in simulation]
+    assert len(deflections) == 4 and all(np.diff(deflections) < 0)
+
+
+def test_a_body_that_leaves_its_beam_is_an_event():
+    model = bead_on_a_wire(speed=3.0, at=3.5)
+    model.case["supports"] = [dict(model.case["supports"][0], type="clamped")]
+    simulation = model.simulate(end_time=0.3, step=2e-3)
+    simulation.run()
+    kinds = [event["kind"] for event in simulation.report["events"]]
+    assert any("left" in kind for kind in kinds)
+    assert np.isnan(simulation.results.histories["bead.s"][-1])
+
+
+def test_two_models_run_in_two_threads(tmp_path):
+    expected = swinging().run(**RUN).histories
+    found = {}
+
+    def work(i):
+        for k in range(3):
+            results = swinging().run(**RUN, out=tmp_path / f"out{i}_{k}")
+            found[i, k] = results.histories
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 6
+    assert all(same(expected, histories) for histories in found.values())
+
+
+def test_python_goes_on_while_a_run_computes():
+    ticks = []
+    done = threading.Event()
+
+    def tick():
+        while not done.wait(1e-3):
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    swinging().run(end_time=0.5, step=1e-3)
+    done.set()
+    thread.join()
+    assert len(ticks) > 10
+
+
+def test_a_simulation_belongs_to_one_thread_at_a_time():
+    simulation = swinging().simulate(end_time=5, step=1e-3)
+    inside = []
+
+    def law(t, position, velocity):
+        if not inside:
+            inside.append(True)
+            with pytest.raises(RuntimeError, match="being advanced already"):
+                nested.step()
+        return 0.0, 0.0, 0.0
+
+    model = swinging()
+    model.add_force(law, beam="rod", at="end")
+    nested = model.simulate(**RUN)
+    nested.step()
+    assert inside
+    assert simulation.step()
+
+
+INTERRUPTED = """
+import sys, threading, time, os, signal
+sys.path.insert(0, {tests!r})
+from models import straight_cantilever
+model = straight_cantilever(tip=[0, -1, 0], elements=40)
+threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+start = time.monotonic()
+try:
+    {what}
+except KeyboardInterrupt:
+    print("interrupted after", time.monotonic() - start)
+"""
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "model.run(end_time=1e4, step=1e-3)",
+        "model.run(end_time=1e4, step=1e-3, out={out!r})",
+        "list(model.simulate(end_time=1e4, step=1e-3))",
+        "model.run(type='static', load_steps=10000)",
+        "[model.modes(count=20) for _ in range(100000)]",
+    ],
+)
+def test_control_c_ends_a_run_at_once(what, tmp_path):
+    code = INTERRUPTED.format(tests=os.path.dirname(__file__), what=what.format(out=str(tmp_path / "out")))
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("interrupted after")
+    assert float(done.stdout.split()[-1]) < 3
+
+
+def test_a_simulation_goes_on_after_control_c():
+    simulation = swinging().simulate(**RUN)
+    signal_sent = []
+
+    class Interrupting:
+        def __call__(self, t, position, velocity):
+            if t > 0.02 and not signal_sent:
+                signal_sent.append(t)
+                os.kill(os.getpid(), signal.SIGINT)
+            return 0.0, 0.0, 0.0
+
+    model = swinging()
+    model.add_force(Interrupting(), beam="rod", at="end")
+    simulation = model.simulate(**RUN)
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run()
+    assert 0.015 < simulation.time < 0.03
+    simulation.run()
+    whole = swinging().run(**RUN)
+    assert np.allclose(simulation.results.histories["tip.y"], whole.histories["tip.y"], atol=1e-9)

@@ -1,0 +1,59 @@
+"""The types that the module says are those that it has, and everything has its help."""
+
+import inspect
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import nurbeam as nb
+
+PACKAGE = Path(nb.__file__).resolve().parent
+
+
+def mypy(*arguments, cwd, **environment):
+    done = subprocess.run([sys.executable, "-m", *arguments], capture_output=True, text=True, cwd=cwd,
+                          env={**os.environ, **environment})
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_package_is_typed(tmp_path):
+    mypy("mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path), "-p", "nurbeam", cwd=tmp_path,
+         MYPYPATH=str(PACKAGE.parent))
+
+
+def test_the_stubs_of_the_compiled_part_are_those_of_the_module(tmp_path):
+    (tmp_path / "allowed").write_text("nurbeam\\._core\\.[A-Za-z]+\n")  # whose metaclass is pybind11's
+    (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")
+    mypy("mypy.stubtest", "nurbeam._core", "--ignore-positional-only", "--allowlist",
+         str(tmp_path / "allowed"), "--mypy-config-file", str(tmp_path / "mypy.ini"),
+         cwd=tmp_path, MYPYPATH=str(PACKAGE.parent))
+
+
+def test_a_users_program_is_checked(tmp_path):
+    (tmp_path / "program.py").write_text(
+        "import nurbeam as nb\n"
+        "curve = nb.Curve.line([0, 0, 0], [1, 0, 0])\n"
+        "reveal_type(curve.length)\n"
+        "nb.Model().run(end_tme=1)\n"
+    )
+    done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "c"),
+                           "program.py"], capture_output=True, text=True, cwd=tmp_path,
+                          env={**os.environ, "MYPYPATH": str(PACKAGE.parent)})
+    assert 'Revealed type is "builtins.float"' in done.stdout, done.stdout
+
+
+def test_everything_has_its_help():
+    missing = []
+    for name in nb.__all__:
+        thing = getattr(nb, name)
+        if not inspect.getdoc(thing):
+            missing.append(name)
+        if not inspect.isclass(thing):
+            continue
+        for part, value in vars(thing).items():
+            public = not part.startswith("_")
+            if public and (callable(value) or isinstance(value, (property, staticmethod, classmethod))):
+                if not inspect.getdoc(value):
+                    missing.append(f"{name}.{part}")
+    assert not missing
