@@ -387,8 +387,9 @@ TEST_F(CaseFileTest, ATextIsReadAsTheFileThatHoldsIt) {
 }
 
 TEST_F(CaseFileTest, OnlyTextsOfProgramsHaveLaws) {
+  const std::string smallest = smallest_case;
   const std::string with_law =
-      smallest_case.substr(0, smallest_case.rfind('}')) +
+      smallest.substr(0, smallest.rfind('}')) +
       R"(, "laws": [{ "points": [{ "beam": "cable", "at": "end" }], "spatial": true }] })";
   check_error(read(with_law), file() + ": laws", {"unknown key"});
   const CaseFileReport read = read_case_text(with_law, "model");
