@@ -117,6 +117,14 @@ void Mismatch::look_at(const Snapshot& frame, const std::vector<std::string>& be
         *this = {e.axial_mismatch, beams.at(b), (e.s_start + e.s_end) / 2, frame.time};
 }
 
+void LeastStrain::look_at(const Snapshot& frame, const std::vector<std::string>& beams) {
+  for (std::size_t b = 0; b < frame.beams.size(); ++b)
+    for (const ElementRecord& e : frame.beams[b].elements)
+      for (int i = 0; i < 4; ++i)
+        if (e.strain[i] < value)
+          *this = {e.strain[i], beams.at(b), e.s_start + (e.s_end - e.s_start) * i / 3, frame.time};
+}
+
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
   // Names from files need not be valid UTF-8: what is not is replaced.
   const std::string text = to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

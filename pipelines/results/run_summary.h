@@ -36,6 +36,15 @@ struct Mismatch {
   void look_at(const Snapshot& frame, const std::vector<std::string>& beams);
 };
 
+/// The least axial strain that elements carry in a run.
+struct LeastStrain {
+  double value = 0;
+  std::string beam;
+  double s = 0, time = 0;  ///< [m], [s]
+
+  void look_at(const Snapshot& frame, const std::vector<std::string>& beams);
+};
+
 /// What run.json says about a run.
 struct RunSummary {
   std::string version;

@@ -198,7 +198,9 @@ class Run {
       event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
-    if (const auto warning = energy_warning(case_.path, simulated)) {
+    for (const auto& warning :
+         {compression_warning(case_.path, outputs.least_strain()), energy_warning(case_.path, simulated)}) {
+      if (!warning) continue;
       print_diagnostics(messages_, {*warning});
       print_diagnostics(*log_, {*warning});
       summary_.diagnostics.push_back(*warning);

@@ -40,6 +40,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
 void RunOutputs::look_at(const Snapshot& frame) {
   const SnapshotNames names = snapshot_names(built_);
   mismatch_.look_at(frame, names.beams);
+  least_strain_.look_at(frame, names.beams);
   extremes_.look_at(frame, names);
 }
 

@@ -37,6 +37,7 @@ class RunOutputs {
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   /// The largest over all frames.
   const Mismatch& axial_mismatch() const { return mismatch_; }
+  const LeastStrain& least_strain() const { return least_strain_; }
   const std::vector<RunExtreme>& extremes() const { return extremes_.list(); }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
@@ -57,6 +58,7 @@ class RunOutputs {
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;
+  LeastStrain least_strain_;
   RunExtremes extremes_;
 };
 

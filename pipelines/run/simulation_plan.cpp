@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "nurbs/number_text.h"
+
 namespace nurbeam {
 
 namespace {
@@ -41,6 +43,16 @@ std::vector<ProbePlace> probe_places(const BuiltModel& built) {
   std::vector<ProbePlace> places;
   for (const Probe& probe : built.probes) places.push_back({probe.beam, probe.s});
   return places;
+}
+
+std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain) {
+  constexpr double nothing_left = -0.5;  // Green's strain of a length of zero
+  if (strain.value > nothing_left) return {};
+  return Diagnostic{
+      Severity::warning, file.string() + ": analysis",
+      "beam \"" + strain.beam + "\" is compressed to nothing at s = " + text_of(strain.s, 6) +
+          " m at t = " + text_of(strain.time, 6) +
+          " s: do not trust the result; take more elements there, and see whether the material is that soft"};
 }
 
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run) {

@@ -6,6 +6,7 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/simulation.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/results/run_summary.h"
 
 namespace nurbeam {
 
@@ -14,6 +15,9 @@ SimulationOptions simulation_options(const CaseFile& case_file);
 
 /// Where the probes of a model are.
 std::vector<ProbePlace> probe_places(const BuiltModel& built);
+
+/// A warning where an element is compressed to nothing; `file` heads it.
+std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain);
 
 /// A warning where energy comes from nowhere or is lost; `file` heads it.
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);

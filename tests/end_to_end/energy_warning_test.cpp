@@ -43,6 +43,14 @@ TEST(EnergyWarning, CountsWhatAStopTakes) {
   EXPECT_LT(drift, 3e-4 * run.last("energy.dissipated [J]"));
 }
 
+TEST(CompressionWarning, NamesThePlaceWhereAnElementIsPressedToNothing) {
+  // Three elements of a beam as soft as a sponge under a body of sixty tonnes.
+  const CaseRun run = run_case("compressed_to_nothing.json");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_TRUE(run.says("beam \"beam 1\" is compressed to nothing at s = ")) << run.messages;
+  EXPECT_TRUE(run.says(warning)) << run.messages;
+}
+
 TEST(EnergyWarning, RingsWithALoadWhoseWorkIsBooked) {
   // Far too long a step under a load that does work.
   const CaseRun coarse = run_file(
