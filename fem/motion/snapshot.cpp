@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/motion/sag.h"
 #include "fem/system/observables.h"
 
 namespace nurbeam {
@@ -59,6 +60,7 @@ BeamRecord record_beam(const BeamSystem& system, const State& state,
     record.node_s.push_back(node.place >= 0 ? curve.wrapped(state.q[node.place]) : node.s);
   }
   record.length = beam_length(system, state, b);
+  record.sag = sag(record.elements, system.model().gravity);
   find_extremes(curve, record);
   return record;
 }

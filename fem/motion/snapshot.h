@@ -20,10 +20,12 @@ struct BeamRecord {
   std::vector<Eigen::Vector3d> node_positions, node_slopes;  ///< [m], [-] (left slope at a kink)
   std::vector<double> node_s;                                ///< [m]
   double length = 0;                                         ///< deformed [m]
-  Extreme axial_force_min, axial_force_max;                  ///< [N]
-  Extreme moment_max, shear_force_max;                       ///< the largest magnitude [N m], [N]
-  Extreme stress_max;        ///< likewise [Pa]; NaN where the section does not say
-  Extreme displacement_max;  ///< of a node from the drawing [m]
+  /// Below the line of its ends [m]; NaN where there is none (sag.h).
+  double sag = std::numeric_limits<double>::quiet_NaN();
+  Extreme axial_force_min, axial_force_max;  ///< [N]
+  Extreme moment_max, shear_force_max;       ///< the largest magnitude [N m], [N]
+  Extreme stress_max;                        ///< likewise [Pa]; NaN where the section does not say
+  Extreme displacement_max;                  ///< of a node from the drawing [m]
   /// Of a beam with torsion, the largest magnitude, else NaN [N m], [rad], [Pa].
   Extreme torque_max, twist_max, von_mises_max;
 };

@@ -117,6 +117,8 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
   numbers(
       "body_holding_force", names_.bodies.size(),
       [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].holding_force; });
+  numbers(
+      "beam_sag", names_.beams.size(), [](Snapshot & f, std::size_t j) -> auto& { return f.beams[j].sag; });
   for (const BeamExtreme& extreme : with_own_axes(beam_extremes, own_axes_extremes, names_.sections)) {
     const std::string variable = std::string("beam_") + extreme.name;
     numbers(

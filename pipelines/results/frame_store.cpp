@@ -75,6 +75,7 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   file_.define_dimension("sample", sample_count);
   file_.define_texts("beam_name", "beam", names);
   define_of_time("beam_length", {"beam"}, "m", "deformed length of the beam");
+  define_of_time("beam_sag", {"beam"}, "m", "how far the beam hangs below the line of its ends");
   for (const BeamExtreme& extreme : beam_extremes_) {
     const std::string variable = std::string("beam_") + extreme.name;
     define_of_time(variable, {"beam"}, extreme.unit, extreme.long_name);
@@ -233,8 +234,13 @@ void FrameStore::write_bodies(const PerFrame& each) {
 }
 
 void FrameStore::write_beams(const PerFrame& each) {
-  each.write("beam_length", {beam_count_}, [](const Snapshot& f, Doubles& x) {
-    for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
+  each.write(
+      "beam_length", {beam_count_},
+      [](const Snapshot& f, Doubles& x) {
+        for (const BeamRecord& beam : f.beams) x.push_back(beam.length);
+      });
+  each.write("beam_sag", {beam_count_}, [](const Snapshot& f, Doubles& x) {
+    for (const BeamRecord& beam : f.beams) x.push_back(filled(beam.sag));
   });
   for (const BeamExtreme& extreme : beam_extremes_) {
     const std::string variable = std::string("beam_") + extreme.name;

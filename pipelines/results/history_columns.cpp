@@ -107,6 +107,21 @@ void add_own_axes(const SnapshotNames& names, Columns& columns) {
   }
 }
 
+void add_derived(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.probes.size(); ++i) {
+    columns.of("probe", i, names.probes[i]);
+    columns.add("speed", "m/s", [i](const Snapshot& f) { return f.probes[i].velocity.norm(); });
+  }
+  for (std::size_t i = 0; i < names.bodies.size(); ++i) {
+    columns.of("body", i, names.bodies[i]);
+    columns.add("speed", "m/s", [i](const Snapshot& f) { return f.bodies[i].point.velocity.norm(); });
+  }
+  for (std::size_t i = 0; i < names.beams.size(); ++i) {
+    columns.of("beam", i, names.beams[i]);
+    columns.add("sag", "m", [i](const Snapshot& f) { return f.beams[i].sag; });
+  }
+}
+
 }  // namespace
 
 std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
@@ -115,6 +130,7 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   add_motion(names, columns);
   add_forces(names, columns);
   if (names.sections) add_own_axes(names, columns);
+  add_derived(names, columns);
   return all;
 }
 

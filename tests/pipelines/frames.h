@@ -48,6 +48,7 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   for (std::size_t i = 0; i < a.beams.size(); ++i) {
     const BeamRecord &one = a.beams[i], &other = b.beams[i];
     EXPECT_EQ(one.length, other.length);
+    EXPECT_TRUE(same(one.sag, other.sag));
     EXPECT_TRUE(alike(one.axial_force_min, other.axial_force_min));
     EXPECT_TRUE(alike(one.axial_force_max, other.axial_force_max));
     EXPECT_TRUE(alike(one.moment_max, other.moment_max));

@@ -45,6 +45,7 @@ Snapshot make_frame(double time, int elements, bool body_has_left = false) {
       record.node_s.push_back(number());
     }
     record.length = number();
+    record.sag = number();
     for (Extreme* extreme : {&record.axial_force_min, &record.axial_force_max, &record.moment_max,
                              &record.shear_force_max, &record.stress_max, &record.displacement_max})
       *extreme = {number(), number()};
@@ -107,7 +108,8 @@ TEST(Results, HistoriesHaveTheColumnsOfTheContract) {
           "arch.moment.max [N m],arch.shear_force.max [N],arch.stress.max [Pa],arch.displacement.max [m],"
           "mast.fx [N],mast.fy [N],mast.fz [N],mast.mx [N m],mast.my [N m],mast.mz [N m],"
           "reaction.arch.end.fx [N],reaction.arch.end.fy [N],reaction.arch.end.fz [N],"
-          "reaction.arch.end.mx [N m],reaction.arch.end.my [N m],reaction.arch.end.mz [N m]"});
+          "reaction.arch.end.mx [N m],reaction.arch.end.my [N m],reaction.arch.end.mz [N m],"
+          "tip.speed [m/s],trolley.speed [m/s],cable.sag [m],arch.sag [m]"});
 }
 
 TEST(Results, HistoriesGiveEveryNumberBackExactly) {
@@ -132,7 +134,11 @@ TEST(Results, HistoriesGiveEveryNumberBackExactly) {
   EXPECT_EQ(std::stod(first[26]), held.probes[0].section.axial_force);
   EXPECT_EQ(std::stod(first[30]), held.probes[0].section.stress);
   EXPECT_EQ(first[45], "");  // arch.stress.max
-  EXPECT_EQ(std::stod(first.back()), held.reactions[1].couple.z());
+  const auto last_reaction =
+      first.end() - 5;  // speeds of the probe and the body, sags of two beams behind it
+  EXPECT_EQ(std::stod(*last_reaction), held.reactions[1].couple.z());
+  EXPECT_EQ(std::stod(*(last_reaction + 2)), held.bodies[0].point.velocity.norm());
+  EXPECT_EQ(std::stod(first.back()), held.beams[1].sag);
 }
 
 TEST(Results, SectionsOfBeamsWithTorsionComeBackExactlyBehindAllOtherColumns) {
@@ -163,7 +169,8 @@ TEST(Results, SectionsOfBeamsWithTorsionComeBackExactlyBehindAllOtherColumns) {
   const std::string end =
       "reaction.arch.end.mz [N m],tip.moment_1 [N m],tip.moment_2 [N m],tip.twist [rad],tip.von_mises [Pa],"
       "cable.torque.max [N m],cable.twist.max [rad],cable.von_mises.max [Pa],"
-      "arch.torque.max [N m],arch.twist.max [rad],arch.von_mises.max [Pa]";
+      "arch.torque.max [N m],arch.twist.max [rad],arch.von_mises.max [Pa],"
+      "tip.speed [m/s],trolley.speed [m/s],cable.sag [m],arch.sag [m]";
   EXPECT_TRUE(header.ends_with(end)) << header;
 }
 
