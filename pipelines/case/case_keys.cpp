@@ -5,67 +5,23 @@
 #include <sstream>
 
 #include "pipelines/case/case_file.h"
+#include "pipelines/case/shapes.h"
 
 namespace nurbeam {
 
 namespace {
 
-using Kind = Shape::Kind;
-constexpr bool required = true;
+using namespace shapes;
 
-Range positive(std::string reason = {}) { return {.lower = 0, .open = true, .reason = std::move(reason)}; }
-Range not_negative() { return {.lower = 0}; }
-Range from(double lower) { return {.lower = lower}; }
-/// Wide enough for every structure, narrow enough for round-off: what lies outside is a wrong unit.
-Range plausible(double lower, double upper) {
-  return {.lower = lower, .upper = upper, .reason = "what lies outside is most likely in another unit"};
-}
 Range time_step() { return plausible(1e-12, 1e9); }
 Range element_count() {
   return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
-}
-
-Shape object(std::vector<Key> keys, std::vector<Alternatives> alternatives = {}) {
-  return {.kind = Kind::object, .keys = std::move(keys), .alternatives = std::move(alternatives)};
-}
-Shape array(Shape item, int min_items = 0) {
-  return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
-}
-/// What every step goes through: more are most likely a distribution.
-Shape short_array(Shape item) {
-  Shape shape = array(std::move(item));
-  shape.most_items = 10'000;
-  return shape;
 }
 /// Of a point of a section.
 Shape offset() {
   Shape shape = array(Shape{.kind = Kind::quantity, .dimension = Dimension::length}, 2);
   shape.most_items = 2;
   return shape;
-}
-Shape either(Shape a, Shape b) { return {.kind = Kind::either, .items = {std::move(a), std::move(b)}}; }
-Shape choice(std::vector<std::string> choices) {
-  return {.kind = Kind::choice, .choices = std::move(choices)};
-}
-Shape any_text() { return {.kind = Kind::text}; }
-Shape name() { return {.kind = Kind::name}; }
-Shape boolean() { return {.kind = Kind::boolean}; }
-Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(range)}; }
-Shape quantity(Dimension dimension, Range range = {}) {
-  return {.kind = Kind::quantity, .dimension = dimension, .range = std::move(range)};
-}
-Shape vector(Dimension dimension, Range of_components = {}) {
-  return {.kind = Kind::vector, .dimension = dimension, .range = std::move(of_components)};
-}
-Shape table(Dimension dimension, Range range = {}) {
-  return {.kind = Kind::table, .dimension = dimension, .range = std::move(range)};
-}
-/// Rows [time, x, y, z].
-Shape vector_table(Dimension dimension) { return {.kind = Kind::table, .dimension = dimension, .values = 3}; }
-
-/// Rows [s, value].
-Shape table_over_length(Dimension dimension) {
-  return {.kind = Kind::table, .dimension = dimension, .argument = Dimension::length};
 }
 
 Shape place() {

@@ -150,6 +150,39 @@ std::string apply_override(Json& root, const std::string& text) {
 
 }  // namespace
 
+DimensionAtPath dimension_at(const std::string& path) {
+  if (!has_sound_brackets(path))
+    return {{}, "the brackets do not match; write it as in beams[0].section.radius"};
+  const Shape* shape = &case_keys();
+  std::string walked = "the case file";
+  for (const std::string& part : path_parts(path)) {
+    const Shape* holder = shape;
+    if (shape->kind == Kind::either)
+      for (const Shape& item : shape->items)
+        if (item.kind == Kind::object || item.kind == Kind::array) holder = &item;
+    if (holder->kind == Kind::array) {
+      shape = &holder->items[0];
+    } else if (holder->kind == Kind::vector && as_index(part)) {
+      return {holder->dimension, {}};
+    } else if (holder->kind == Kind::object) {
+      const Key* key = find_key(*holder, part);
+      if (!key)
+        return {{},
+                "there is no " + in_quotes(part) + " in " + walked + known_names(part, key_names(*holder))};
+      shape = &key->shape;
+    } else {
+      return {{}, walked + " has no parts that one number could be"};
+    }
+    walked = part;
+  }
+  if (shape->kind == Kind::either)
+    for (const Shape& item : shape->items)
+      if (item.kind == Kind::quantity || item.kind == Kind::integer) shape = &item;
+  if (shape->kind == Kind::integer) return {Dimension::number, {}};
+  if (shape->kind != Kind::quantity) return {{}, "is no single number; name one of its parts"};
+  return {shape->dimension, {}};
+}
+
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong) {
   for (const std::string& text : overrides)
     if (const std::string problem = apply_override(root, text); !problem.empty())

@@ -6,4 +6,12 @@ namespace nurbeam {
 /// Applies --set path=value texts; what is wrong with them goes to `wrong`.
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong);
 
+/// What the number at a path of the case file measures, or why there is none there.
+struct DimensionAtPath {
+  std::optional<Dimension> dimension;
+  std::string problem;  ///< empty when there is one
+};
+/// Of a path as --set has it; items of arrays are not looked up.
+DimensionAtPath dimension_at(const std::string& path);
+
 }  // namespace nurbeam

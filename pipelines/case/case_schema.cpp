@@ -104,10 +104,12 @@ Json schema_of(const Shape& shape) {
 
 }  // namespace
 
-std::string case_file_schema() {
-  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "nurbeam case file"}};
-  schema.update(schema_of(case_keys()));
+std::string schema_text(const Shape& shape, const std::string& title) {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
+  schema.update(schema_of(shape));
   return schema.dump(2) + "\n";
 }
+
+std::string case_file_schema() { return schema_text(case_keys(), "nurbeam case file"); }
 
 }  // namespace nurbeam

@@ -1,0 +1,64 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/case/case_keys.h"
+
+/// What the shapes of JSON files are written with.
+namespace nurbeam::shapes {
+
+using Kind = Shape::Kind;
+inline constexpr bool required = true;
+
+inline Range positive(std::string reason = {}) {
+  return {.lower = 0, .open = true, .reason = std::move(reason)};
+}
+inline Range not_negative() { return {.lower = 0}; }
+inline Range from(double lower) { return {.lower = lower}; }
+/// Wide enough for every structure, narrow enough for round-off: what lies outside is a wrong unit.
+inline Range plausible(double lower, double upper) {
+  return {.lower = lower, .upper = upper, .reason = "what lies outside is most likely in another unit"};
+}
+
+inline Shape object(std::vector<Key> keys, std::vector<Alternatives> alternatives = {}) {
+  return {.kind = Kind::object, .keys = std::move(keys), .alternatives = std::move(alternatives)};
+}
+inline Shape array(Shape item, int min_items = 0) {
+  return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
+}
+/// What every step goes through: more are most likely a distribution.
+inline Shape short_array(Shape item) {
+  Shape shape = array(std::move(item));
+  shape.most_items = 10'000;
+  return shape;
+}
+inline Shape either(Shape a, Shape b) {
+  return {.kind = Kind::either, .items = {std::move(a), std::move(b)}};
+}
+inline Shape choice(std::vector<std::string> choices) {
+  return {.kind = Kind::choice, .choices = std::move(choices)};
+}
+inline Shape any_text() { return {.kind = Kind::text}; }
+inline Shape name() { return {.kind = Kind::name}; }
+inline Shape boolean() { return {.kind = Kind::boolean}; }
+inline Shape integer(Range range) { return {.kind = Kind::integer, .range = std::move(range)}; }
+inline Shape quantity(Dimension dimension, Range range = {}) {
+  return {.kind = Kind::quantity, .dimension = dimension, .range = std::move(range)};
+}
+inline Shape vector(Dimension dimension, Range of_components = {}) {
+  return {.kind = Kind::vector, .dimension = dimension, .range = std::move(of_components)};
+}
+inline Shape table(Dimension dimension, Range range = {}) {
+  return {.kind = Kind::table, .dimension = dimension, .range = std::move(range)};
+}
+/// Rows [time, x, y, z].
+inline Shape vector_table(Dimension dimension) {
+  return {.kind = Kind::table, .dimension = dimension, .values = 3};
+}
+/// Rows [s, value].
+inline Shape table_over_length(Dimension dimension) {
+  return {.kind = Kind::table, .dimension = dimension, .argument = Dimension::length};
+}
+
+}  // namespace nurbeam::shapes
