@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "cad_import/files/cad_program.h"
+#include "cad_import/files/companion_program.h"
 
 namespace nurbeam {
 

@@ -11,6 +11,7 @@
 #include "pipelines/command/compare.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/manual.h"
+#include "pipelines/command/study.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/papers/papers.h"
@@ -126,7 +127,9 @@ int compare_command(const Arguments& arguments, Streams streams) {
 
 int schema_command(const Arguments& arguments, Streams streams) {
   const std::string what = arguments.positional.empty() ? "case" : arguments.positional[0];
-  if (what != "case") throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case"}));
+  if (what == "study") return study_schema_command();
+  if (what != "case")
+    throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case", "study"}));
   streams.out << case_file_schema();
   return exit_done;
 }
@@ -221,8 +224,9 @@ const Command compare_entry{
     {{"--tolerance", "LENGTH", "above which they differ [m]; otherwise 1e-6 of their size"}},
     compare_command};
 
-const Command schema_entry{"schema", "[case]",      "prints the JSON schema of the case file", 0, 1,
-                           {},       schema_command};
+const Command schema_entry{
+    "schema", "[case | study]", "prints the JSON schema of the case file, or of the study file", 0, 1,
+    {},       schema_command};
 
 const Command report_entry{"report",
                            "RESULTS_DIR",
@@ -244,6 +248,19 @@ const Command verify_entry{
     verify_command,
     exit_not_written};
 
+const Command study_entry{
+    "study",
+    "[check] STUDY.json",
+    "runs the variants of a study and answers its question; with check: says what it would run",
+    1,
+    2,
+    {{"--out", "DIR", "the directory for the results; otherwise STUDY_study"},
+     {"--jobs", "N", "variants that run at a time; otherwise one for each core"},
+     {"--resume", "", "goes on with the variants that are not there yet"},
+     {"--quiet", "", "no progress"}},
+    study_command_line,
+    exit_not_written};
+
 const Command completion_entry{
     "completion", "[bash]",          "prints a script that completes commands and options in the shell", 0, 1,
     {},           completion_command};
@@ -253,9 +270,9 @@ const Command manual_entry{"manual", "", "prints the manual page (roff)", 0, 0, 
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> table = {inspect_entry,    check_entry,  run_entry,    export_entry,
-                                             compare_entry,    schema_entry, report_entry, verify_entry,
-                                             completion_entry, manual_entry};
+  static const std::vector<Command> table = {inspect_entry, check_entry,      run_entry,    export_entry,
+                                             compare_entry, schema_entry,     report_entry, verify_entry,
+                                             study_entry,   completion_entry, manual_entry};
   return table;
 }
 

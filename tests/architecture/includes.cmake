@@ -20,7 +20,7 @@ set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion)
 set(python_floors .)
-set(pipelines_floors diagnostics case section model results report run verification papers command)
+set(pipelines_floors diagnostics case section model results report run verification papers study command)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
@@ -32,7 +32,9 @@ set(homes
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
   "Spectra/.*"                                                                    "solver/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
-  "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp)"
+  "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp)"
+  "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
+  "mpi\\.h"                                                                       "pipelines/study/mpi_engine\\.cpp"
   "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
   "CLI/.*"                                                                        "pipelines/command/command_line\\.cpp"

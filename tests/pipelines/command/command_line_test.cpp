@@ -81,11 +81,11 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
 }
 
 TEST(CommandLine, ACommandThatIsNotThereIsNeitherOfferedNorRun) {
-  const CommandOutcome outcome = run_line({"study", "s.json"});
+  const CommandOutcome outcome = run_line({"draw", "s.json"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(text_holds(outcome.err, "study")) << outcome.err;
-  EXPECT_FALSE(text_holds(run_line({"--help"}).out, "study"));
-  EXPECT_TRUE(text_holds(run_line({"schema", "study"}).err, "there is no schema \"study\""));
+  EXPECT_TRUE(text_holds(outcome.err, "draw")) << outcome.err;
+  EXPECT_FALSE(text_holds(run_line({"--help"}).out, "draw "));
+  EXPECT_TRUE(text_holds(run_line({"schema", "run"}).err, "there is no schema \"run\""));
 }
 
 TEST(CommandLine, ABadCaseFileEndsWithTwoAndItsPlace) {

@@ -1,4 +1,4 @@
-#include "cad_import/files/cad_program.h"
+#include "cad_import/files/companion_program.h"
 
 #include <dlfcn.h>
 
@@ -21,24 +21,32 @@ std::filesystem::path this_library() {
 
 }  // namespace
 
-std::filesystem::path cad_program() {
+std::filesystem::path CompanionProgram::find() const {
   namespace fs = std::filesystem;
-  constexpr const char* name = "nurbeam-cad";
   std::vector<fs::path> places;
-  if (const char* named = std::getenv("NURBEAM_CAD")) places.emplace_back(named);
+  if (const char* named = std::getenv(variable.c_str())) places.emplace_back(named);
   std::error_code error;
   for (const fs::path& own : {fs::read_symlink("/proc/self/exe", error).parent_path(), this_library()})
     if (!own.empty())
-      for (const char* folder : {".", "../libexec/nurbeam", "../cad_import", "../../cad_import"})
-        places.push_back(own / folder / name);
+      for (const std::string& beside :
+           {std::string("."), std::string("../libexec/nurbeam"), "../" + folder, "../../" + folder})
+        places.push_back(own / beside / name);
   places.push_back(fs::path(NURBEAM_LIBEXEC) / name);
   for (const fs::path& place : places)
     if (fs::is_regular_file(place, error)) return place;
   std::string tried;
   for (const fs::path& place : places)
     tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
-  throw std::runtime_error("the program nurbeam-cad, which reads and writes CAD files, is in none of " +
-                           tried + "; install it, or name it by the environment variable NURBEAM_CAD");
+  throw std::runtime_error("the program " + name + ", which " + purpose + ", is in none of " + tried +
+                           "; install it, or name it by the environment variable " + variable);
+}
+
+std::filesystem::path cad_program() {
+  return CompanionProgram{"nurbeam-cad", "reads and writes CAD files", "NURBEAM_CAD", "cad_import"}.find();
+}
+
+std::filesystem::path study_program() {
+  return CompanionProgram{"nurbeam-study", "runs studies", "NURBEAM_STUDY", "pipelines"}.find();
 }
 
 }  // namespace nurbeam

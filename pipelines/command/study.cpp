@@ -1,0 +1,58 @@
+#include "pipelines/command/study.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <ostream>
+#include <thread>
+
+#include "cad_import/files/companion_program.h"
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+std::string jobs_of(const Arguments& arguments) {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::string text = arguments.value("--jobs", std::to_string(cores));
+  int jobs = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), jobs);
+  constexpr int most_jobs = 1024;
+  if (error != std::errc{} || end != text.data() + text.size() || jobs < 1 || jobs > most_jobs)
+    throw UsageError("--jobs: " + in_quotes(text) + " is not a number from 1 to " +
+                     std::to_string(most_jobs));
+  return text;
+}
+
+[[noreturn]] void become_study_program(std::vector<std::string> words) {
+  words.insert(words.begin(), study_program().string());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv(pointers[0], pointers.data());
+  throw std::runtime_error(words[0] + " cannot be started: " + std::strerror(errno));
+}
+
+}  // namespace
+
+int study_schema_command() { become_study_program({"schema"}); }
+
+int study_command_line(const Arguments& arguments, Streams streams) {
+  const bool check = arguments.positional.size() == 2;
+  if (check && arguments.positional[0] != "check")
+    throw UsageError("takes one study; before it " + in_quotes("check") + " may stand, not " +
+                     in_quotes(arguments.positional[0]));
+  const std::filesystem::path file = arguments.positional.back();
+  const std::string out = arguments.value("--out", file.stem().string() + "_study");
+  if (out.empty()) throw UsageError("--out: the name of the directory is empty");
+  streams.out.flush();
+  become_study_program({check ? "check" : "run", file.string(), out, jobs_of(arguments),
+                        arguments.has("--resume") ? "resume" : "new",
+                        arguments.has("--quiet") ? "quiet" : "loud"});
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,75 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/study/study_file.h"
+
+/// What OpenTURNS makes of a study; its only home. Points are values of the free variables, in their order.
+namespace nurbeam {
+
+using StudyPoints = std::vector<std::vector<double>>;
+
+/// The quantities of the variants at these points, in their order; empty for a variant that is not done.
+/// Throws StudyInterrupted.
+using StudyEvaluation = std::function<StudyPoints(const StudyPoints& points)>;
+
+struct StudyInterrupted {};
+
+/// The points of a plan.
+StudyPoints plan_points(const StudyFile& study, const StudyPlan& plan);
+
+/// Sobol indices of one quantity: by variable, with the ends of their confidence intervals.
+struct SobolIndices {
+  struct Index {
+    double value = 0, lower = 0, upper = 0;
+  };
+  std::string quantity;
+  std::vector<Index> first_order, total_order;
+};
+struct SensitivityResult {
+  std::vector<SobolIndices> indices;
+  int rows_left_out = 0;  ///< of the base sample, because a variant of theirs is not done
+};
+/// By Saltelli's estimators. Throws std::runtime_error where fewer than half of the variants are done.
+SensitivityResult sobol_indices(const StudyFile& study, const StudySensitivity& sensitivity,
+                                const StudyEvaluation& evaluate);
+
+struct ReliabilityResult {
+  double probability = 0;
+  /// The standard deviation of the estimate over it; nothing where it is no estimate.
+  std::optional<double> coefficient_of_variation = {};
+  std::optional<double> reliability_index = {};  ///< Hasofer and Lind's
+  std::vector<double> design_point = {};         ///< of the free variables, where FORM finds one
+  std::vector<double> importance = {};           ///< of each free variable there, their sum is 1
+  int not_done = 0;  ///< variants that are not done: a simulation counts them as ones that do not fail
+};
+/// Throws std::runtime_error where the method does not end.
+ReliabilityResult failure_probability(const StudyFile& study, const StudyReliability& reliability,
+                                      const StudyEvaluation& evaluate);
+
+struct OptimumResult {
+  /// One point, or those of the Pareto front.
+  StudyPoints points;
+  StudyPoints quantities;  ///< of each
+  std::vector<double>
+      history;  ///< the best objective so far that holds the constraints, after each variant; NaN before
+};
+/// Throws std::runtime_error where no variant holds the constraints.
+OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
+                           const StudyEvaluation& evaluate);
+
+/// A function of the variables that stands for one quantity.
+struct SurrogateResult {
+  std::string quantity;
+  double q2 = 0;             ///< part of the variance of the rows held back that it explains
+  double largest_error = 0;  ///< at them
+  /// Of polynomial chaos: the Sobol indices that its coefficients are.
+  std::vector<double> first_order = {}, total_order = {};
+};
+/// Made of rows (`inputs` with `outputs`, all done). Throws std::runtime_error where there are too few.
+std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const StudySurrogate& surrogate,
+                                             const StudyPoints& inputs, const StudyPoints& outputs);
+
+}  // namespace nurbeam

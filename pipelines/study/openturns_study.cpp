@@ -1,0 +1,117 @@
+#include "pipelines/study/openturns_study.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nurbeam {
+
+namespace {
+
+using Family = StudyDistribution::Kind;
+
+OT::Distribution whole_distribution(const StudyDistribution& d) {
+  const std::vector<double>& p = d.parameters;
+  switch (d.kind) {
+    case Family::uniform:
+      return OT::Uniform(p[0], p[1]);
+    case Family::normal:
+      return OT::Normal(p[0], p[1]);
+    case Family::lognormal:
+      return OT::ParametrizedDistribution(OT::LogNormalMuSigma(p[0], p[1], 0));
+    case Family::triangular:
+      return OT::Triangular(p[0], p[1], p[2]);
+    case Family::gumbel:
+      return OT::ParametrizedDistribution(OT::GumbelMuSigma(p[0], p[1]));
+    case Family::weibull:
+      return OT::ParametrizedDistribution(OT::WeibullMinMuSigma(p[0], p[1], 0));
+  }
+  return {};
+}
+
+OT::Distribution distribution_of(const StudyDistribution& d) {
+  const OT::Distribution whole = whole_distribution(d);
+  if (d.lower && d.upper) return OT::TruncatedDistribution(whole, *d.lower, *d.upper);
+  if (d.lower) return OT::TruncatedDistribution(whole, *d.lower, OT::TruncatedDistribution::LOWER);
+  if (d.upper) return OT::TruncatedDistribution(whole, *d.upper, OT::TruncatedDistribution::UPPER);
+  return whole;
+}
+
+class VariantsFunction : public OT::EvaluationImplementation {
+ public:
+  using Transform =
+      std::function<std::vector<double>(const std::vector<double>&, const std::vector<double>&)>;
+
+  VariantsFunction(std::size_t inputs, std::size_t outputs, StudyEvaluation evaluate, Transform f,
+                   std::vector<double> otherwise)
+      : inputs_(inputs),
+        outputs_(outputs),
+        evaluate_(std::move(evaluate)),
+        f_(std::move(f)),
+        otherwise_(std::move(otherwise)) {
+    setInputDescription(OT::Description::BuildDefault(inputs, "x"));
+    setOutputDescription(OT::Description::BuildDefault(outputs, "y"));
+  }
+
+  VariantsFunction* clone() const override { return new VariantsFunction(*this); }
+  OT::UnsignedInteger getInputDimension() const override { return inputs_; }
+  OT::UnsignedInteger getOutputDimension() const override { return outputs_; }
+
+  OT::Point operator()(const OT::Point& x) const override { return operator()(OT::Sample(1, x))[0]; }
+  OT::Sample operator()(const OT::Sample& x) const override {
+    const StudyPoints points = from_sample(x);
+    const StudyPoints quantities = evaluate_(points);
+    OT::Sample result(x.getSize(), outputs_);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      result[i] = to_point(quantities[i].empty() ? otherwise_ : f_(quantities[i], points[i]));
+    callsNumber_.fetchAndAdd(static_cast<int>(x.getSize()));
+    return result;
+  }
+
+ private:
+  std::size_t inputs_, outputs_;
+  StudyEvaluation evaluate_;
+  Transform f_;
+  std::vector<double> otherwise_;
+};
+
+}  // namespace
+
+OT::Distribution joint_distribution(const StudyFile& study) {
+  OT::ComposedDistribution::DistributionCollection marginals;
+  for (const std::size_t i : study.free_variables()) {
+    OT::Distribution marginal = distribution_of(study.variables[i].distribution);
+    marginal.setDescription({study.variables[i].name});
+    marginals.add(marginal);
+  }
+  return OT::ComposedDistribution(marginals);
+}
+
+OT::Point to_point(const std::vector<double>& values) { return OT::Point(values.begin(), values.end()); }
+
+OT::Sample to_sample(const StudyPoints& points) {
+  OT::Sample sample(points.size(), points.empty() ? 0 : points.front().size());
+  for (std::size_t i = 0; i < points.size(); ++i) sample[i] = to_point(points[i]);
+  return sample;
+}
+
+std::vector<double> from_point(const OT::Point& point) { return {point.begin(), point.end()}; }
+
+StudyPoints from_sample(const OT::Sample& sample) {
+  StudyPoints points;
+  for (std::size_t i = 0; i < sample.getSize(); ++i) points.push_back(from_point(sample[i]));
+  return points;
+}
+
+OT::Function study_function(const StudyFile& study, const StudyEvaluation& evaluate, std::size_t outputs,
+                            VariantsFunction::Transform f, std::vector<double> otherwise) {
+  return OT::Function(
+      VariantsFunction(study.free_variables().size(), outputs, evaluate, std::move(f), std::move(otherwise)));
+}
+
+std::size_t quantity_index(const StudyFile& study, const std::string& name) {
+  const auto found = std::find_if(study.quantities.begin(), study.quantities.end(),
+                                  [&](const StudyQuantity& quantity) { return quantity.name == name; });
+  return static_cast<std::size_t>(found - study.quantities.begin());
+}
+
+}  // namespace nurbeam

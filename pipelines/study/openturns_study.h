@@ -1,0 +1,28 @@
+#pragma once
+#include <openturns/OT.hxx>
+
+#include "pipelines/study/analysis.h"
+
+/// Private to what uses OpenTURNS.
+namespace nurbeam {
+
+/// The free variables together, independent of each other.
+OT::Distribution joint_distribution(const StudyFile& study);
+
+OT::Point to_point(const std::vector<double>& values);
+OT::Sample to_sample(const StudyPoints& points);
+std::vector<double> from_point(const OT::Point& point);
+StudyPoints from_sample(const OT::Sample& sample);
+
+/// `f` of the quantities and the values of all variables, as a function of the free ones: variants run in
+/// batches, as they are asked for. What is not done is `otherwise`.
+OT::Function study_function(const StudyFile& study, const StudyEvaluation& evaluate, std::size_t outputs,
+                            std::function<std::vector<double>(const std::vector<double>& quantities,
+                                                              const std::vector<double>& point)>
+                                f,
+                            std::vector<double> otherwise);
+
+/// The place of a quantity in the rows.
+std::size_t quantity_index(const StudyFile& study, const std::string& name);
+
+}  // namespace nurbeam

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "pipelines/study/openturns_study.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr std::size_t block = 32;  // variants of a simulation that run together
+
+OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
+                             const StudyEvaluation& evaluate) {
+  const std::size_t k = quantity_index(study, reliability.quantity);
+  const OT::Function f =
+      study_function(study, evaluate, 1,
+                     [k](const std::vector<double>& quantities, const std::vector<double>&) {
+                       return std::vector<double>{quantities[k]};
+                     },
+                     {std::numeric_limits<double>::quiet_NaN()});
+  const OT::CompositeRandomVector output(f, OT::RandomVector(joint_distribution(study)));
+  return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), reliability.threshold)
+                                 : OT::ThresholdEvent(output, OT::Less(), reliability.threshold);
+}
+
+OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliability,
+                       const OT::RandomVector& event) {
+  OT::AbdoRackwitz search;
+  search.setMaximumEvaluationNumber(static_cast<std::size_t>(reliability.count));
+  search.setMaximumIterationNumber(static_cast<std::size_t>(reliability.count));
+  search.setMaximumAbsoluteError(1e-8);
+  search.setMaximumRelativeError(1e-8);
+  search.setMaximumResidualError(1e-8);
+  search.setMaximumConstraintError(1e-8);
+  std::vector<double> start;
+  for (const std::size_t i : study.free_variables()) start.push_back(study.variables[i].nominal);
+  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(start));
+  form.run();
+  return form.getResult();
+}
+
+ReliabilityResult simulated(const StudyReliability& reliability, const OT::RandomVector& event,
+                            const OT::WeightedExperiment& experiment) {
+  OT::ProbabilitySimulationAlgorithm algorithm(event, experiment);
+  algorithm.setBlockSize(std::min<std::size_t>(block, static_cast<std::size_t>(reliability.count)));
+  algorithm.setMaximumOuterSampling(
+      std::max<std::size_t>(1, static_cast<std::size_t>(reliability.count) / algorithm.getBlockSize()));
+  algorithm.setMaximumCoefficientOfVariation(reliability.coefficient_of_variation);
+  algorithm.run();
+  const OT::ProbabilitySimulationResult result = algorithm.getResult();
+  return {.probability = result.getProbabilityEstimate(),
+          .coefficient_of_variation = result.getCoefficientOfVariation()};
+}
+
+}  // namespace
+
+ReliabilityResult failure_probability(const StudyFile& study, const StudyReliability& reliability,
+                                      const StudyEvaluation& evaluate) {
+  using Method = StudyReliability::Method;
+  OT::RandomGenerator::SetSeed(study.seed);
+  int not_done = 0;
+  const StudyEvaluation counted = [&](const StudyPoints& points) {
+    StudyPoints quantities = evaluate(points);
+    not_done += static_cast<int>(
+        std::count_if(quantities.begin(), quantities.end(), [](const auto& row) { return row.empty(); }));
+    return quantities;
+  };
+  const OT::RandomVector event = limit_event(study, reliability, counted);
+  if (reliability.method == Method::monte_carlo) {
+    ReliabilityResult result = simulated(reliability, event, OT::MonteCarloExperiment());
+    result.not_done = not_done;
+    return result;
+  }
+  const OT::FORMResult form = form_of(study, reliability, event);
+  ReliabilityResult result{.probability = form.getEventProbability(),
+                           .reliability_index = form.getHasoferReliabilityIndex(),
+                           .design_point = from_point(form.getPhysicalSpaceDesignPoint()),
+                           .importance = from_point(form.getImportanceFactors())};
+  if (!std::isfinite(*result.reliability_index))
+    throw std::runtime_error(
+        "FORM found no design point: variants near it are not done; take \"monte_carlo\"");
+  if (reliability.method == Method::form) return result;
+  const OT::ImportanceSamplingExperiment around(
+      OT::Normal(form.getStandardSpaceDesignPoint(), OT::CovarianceMatrix(result.design_point.size())));
+  const OT::StandardEvent standard(event);
+  const ReliabilityResult estimate = simulated(reliability, standard, around);
+  result.probability = estimate.probability;
+  result.coefficient_of_variation = estimate.coefficient_of_variation;
+  result.not_done = not_done;
+  return result;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,127 @@
+#include "pipelines/study/rows.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace nurbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// JSON has no number for what is none.
+std::vector<double> numbers_of(const Json& list) {
+  std::vector<double> numbers;
+  for (const Json& each : list)
+    numbers.push_back(each.is_null() ? std::numeric_limits<double>::quiet_NaN() : each.get<double>());
+  return numbers;
+}
+
+}  // namespace
+
+std::string line_of(const Variant& variant) {
+  return Json{{"number", variant.number},          {"values", variant.values},
+              {"status", name_of(variant.status)}, {"reason", variant.reason},
+              {"quantities", variant.quantities},  {"seconds", variant.seconds}}
+             .dump(-1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+Variant variant_of(const std::string& line) {
+  try {
+    const Json json = Json::parse(line);
+    const auto status = variant_status(json.at("status").get<std::string>());
+    if (!status) throw std::runtime_error("has an unknown status");
+    return {.number = json.at("number").get<std::size_t>(),
+            .values = numbers_of(json.at("values")),
+            .status = *status,
+            .reason = json.at("reason").get<std::string>(),
+            .quantities = numbers_of(json.at("quantities")),
+            .seconds = json.at("seconds").get<double>()};
+  } catch (const Json::exception& problem) {
+    throw std::runtime_error(std::string("is no variant: ") + problem.what());
+  }
+}
+
+StudyRows::StudyRows(std::filesystem::path file, const std::string& digest, bool resume)
+    : file_(std::move(file)) {
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is found by the write's failure
+  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (resume ? 0 : O_TRUNC), 0666);
+  if (descriptor_ < 0) fail(std::strerror(errno));
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("another nurbeam study writes to it");
+  if (resume) read_back(digest);
+  if (size_ == 0) write(Json{{"nurbeam_study_rows", 1}, {"digest", digest}}.dump() + "\n");
+}
+
+StudyRows::~StudyRows() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void StudyRows::read_back(const std::string& digest) {
+  std::ifstream in(file_, std::ios::binary);
+  std::string line;
+  while (std::getline(in, line) && !in.eof()) {  // a last line without an end is not whole
+    if (size_ == 0) {
+      const Json head = Json::parse(line, nullptr, false);
+      if (!head.is_object() || head.value("digest", "") != digest)
+        fail(
+            "belongs to another study: the study, its case, a CAD file or nurbeam have changed since; run without "
+            "--resume");
+    } else {
+      try {
+        Variant variant = variant_of(line);
+        stored_.insert_or_assign(variant.number, std::move(variant));
+      } catch (const std::runtime_error& problem) {
+        fail(std::string("a line ") + problem.what());
+      }
+    }
+    size_ += static_cast<long long>(line.size()) + 1;
+  }
+  if (ftruncate(descriptor_, size_) != 0) fail(std::strerror(errno));
+}
+
+void StudyRows::append(const Variant& variant) {
+  write(line_of(variant));
+  constexpr double longest_unsynchronised = 1;  // [s]
+  if (seconds_now() - last_synchronised_ > longest_unsynchronised) synchronise();
+}
+
+void StudyRows::synchronise() {
+  if (fdatasync(descriptor_) != 0) fail(std::strerror(errno));
+  last_synchronised_ = seconds_now();
+}
+
+// A line is whole or not there.
+void StudyRows::write(const std::string& line) {
+  std::size_t written = 0;
+  while (written < line.size()) {
+    const ssize_t n = ::write(descriptor_, line.data() + written, line.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const std::string reason = std::strerror(errno);
+      [[maybe_unused]] const int ignored = ftruncate(descriptor_, size_);
+      fail(reason + "; what was finished before is kept: go on with --resume");
+    }
+    written += static_cast<std::size_t>(n);
+  }
+  size_ += static_cast<long long>(line.size());
+}
+
+void StudyRows::fail(const std::string& what) const { throw StudyRowsError(file_.string() + ": " + what); }
+
+}  // namespace nurbeam

@@ -1,0 +1,48 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "pipelines/study/variant.h"
+
+namespace nurbeam {
+
+/// A variant as one line of text, and back. Throws std::runtime_error where the line is none.
+std::string line_of(const Variant& variant);
+Variant variant_of(const std::string& line);
+
+/// What keeps rows from being written or read: the file and the reason.
+struct StudyRowsError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The finished variants of a study in a file, one line each, appended as they come: what was written stays
+/// whatever ends the program. Everything that fails throws StudyRowsError.
+class StudyRows {
+ public:
+  /// Begins anew, or goes on where `resume`: then the file must belong to the same study, by its digest; a
+  /// last line that is not whole is cut off.
+  StudyRows(std::filesystem::path file, const std::string& digest, bool resume);
+  StudyRows(const StudyRows&) = delete;
+  ~StudyRows();
+
+  /// What is already there, by number.
+  const std::map<std::size_t, Variant>& stored() const { return stored_; }
+  void append(const Variant& variant);
+  /// Waits until all that was appended is on the disk.
+  void synchronise();
+
+ private:
+  void read_back(const std::string& digest);
+  void write(const std::string& line);
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  long long size_ = 0;  ///< of whole lines [bytes]
+  double last_synchronised_ = 0;
+  std::map<std::size_t, Variant> stored_;
+};
+
+}  // namespace nurbeam

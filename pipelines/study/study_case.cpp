@@ -1,0 +1,253 @@
+#include "pipelines/study/study_case.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "nurbs/number_text.h"
+#include "nurbs/primitives.h"
+#include "pipelines/case/case_json.h"
+#include "pipelines/case/case_overrides.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/model/cad_files.h"
+#include "pipelines/model/resolved_case.h"
+
+namespace nurbeam {
+
+namespace {
+
+// ---- The curves that are drawn ----
+
+NurbsCurve curve_of_file(const AxisFile& axis, const Chain& chain, double tolerance, CadFiles& files,
+                         Findings& findings) {
+  const ImportReport& report = files.read(axis.path, findings);
+  if (chain.curves.size() == 1) {
+    const NurbsCurve& curve = report.curves[chain.curves[0]].curve;
+    return chain.reversed[0] ? curve.reversed() : curve;
+  }
+  std::vector<NurbsCurve> curves;
+  for (const ImportedCurve& curve : report.curves) curves.push_back(curve.curve);
+  return join(curves, chain, tolerance).to_nurbs();
+}
+
+NurbsCurve curve_of_cubics(std::vector<RationalCubic> cubics) {
+  BezierPath path{.segments = std::move(cubics), .breaks = {}};
+  path.breaks.resize(path.segments.size() + 1);
+  std::iota(path.breaks.begin(), path.breaks.end(), 0.0);
+  return path.to_nurbs();
+}
+
+NurbsCurve curve_through(const CaseAxis::Polyline& points) {
+  std::vector<double> knots{0};
+  for (std::size_t i = 0; i < points.size(); ++i) knots.push_back(static_cast<double>(i));
+  knots.push_back(knots.back());
+  Eigen::Matrix3Xd columns(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = points[i];
+  return make_nurbs_curve(KnotVector(1, knots), columns, Eigen::VectorXd::Ones(columns.cols()));
+}
+
+NurbsCurve drawn_curve(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
+  return std::visit(
+      [&](const auto& source) -> NurbsCurve {
+        using Source = std::decay_t<decltype(source)>;
+        if constexpr (std::is_same_v<Source, AxisFile>)
+          return curve_of_file(source, chain, beam.approximation_tolerance, files, findings);
+        if constexpr (std::is_same_v<Source, NurbsCurve>) return source;
+        if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) return curve_through(source);
+        if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
+          return curve_of_cubics(arc_cubics(source.center, source.start, source.end, source.normal));
+      },
+      beam.axis.source);
+}
+
+// ---- What variables name ----
+
+const std::string* beam_of(const StudyTarget& target) {
+  return std::visit(
+      [](const auto& t) -> const std::string* {
+        if constexpr (
+            requires { t.beam; })
+          return &t.beam;
+        else
+          return nullptr;
+      },
+      target);
+}
+
+std::vector<int> indices_of(const StudyTarget& target) {
+  if (const auto* point = std::get_if<ControlPointCoordinate>(&target)) return {point->index};
+  if (const auto* weight = std::get_if<ControlPointWeight>(&target)) return {weight->index};
+  if (const auto* transform = std::get_if<CurveTransform>(&target)) return transform->points;
+  return {};
+}
+
+// The curves that the variables name, by the names of their beams.
+std::map<std::string, StudyCurve> curves_to_move(const StudyFile& study, const CaseFile& case_file,
+                                                 CadFiles& files, Findings& findings) {
+  std::map<std::string, StudyCurve> curves;
+  std::optional<ResolvedCase> resolved;
+  for (const StudyVariable& variable : study.variables) {
+    const std::string* name = variable.target ? beam_of(*variable.target) : nullptr;
+    if (!name) continue;
+    const auto beam = std::find_if(case_file.beams.begin(), case_file.beams.end(),
+                                   [&](const CaseBeam& each) { return each.name == *name; });
+    if (beam == case_file.beams.end()) {
+      findings.error(variable.path, "the case has no beam " + in_quotes(*name) +
+                                        known_names(*name, names_of(case_file.beams)));
+      continue;
+    }
+    if (!curves.contains(*name)) {
+      if (beam->section.from_cad) {
+        findings.error(variable.path,
+                       "the section of beam " + in_quotes(*name) +
+                           " comes \"from\" its CAD file, which a moved curve has left; give its radius");
+        continue;
+      }
+      if (!resolved) resolved = resolve_case(case_file, files, findings);
+      if (findings.has_errors()) return curves;
+      const auto found = std::find_if(resolved->beams.begin(), resolved->beams.end(),
+                                      [&](const CaseBeam& each) { return each.name == *name; });
+      if (found == resolved->beams.end()) {
+        findings.error(variable.path,
+                       "beam " + in_quotes(*name) +
+                           " is several curves (\"chains\": \"all\"); name one of them by \"curve\"");
+        continue;
+      }
+      const Chain& chain = resolved->chains[static_cast<std::size_t>(found - resolved->beams.begin())];
+      curves.emplace(*name, StudyCurve{static_cast<std::size_t>(beam - case_file.beams.begin()),
+                                       drawn_curve(*found, chain, files, findings)});
+    }
+    const auto count = static_cast<int>(curves.at(*name).drawn.control_points().cols());
+    for (const int index : indices_of(*variable.target))
+      if (index >= count)
+        findings.error(variable.path,
+                       "the curve of beam " + in_quotes(*name) + " has " + std::to_string(count) +
+                           " control points, counted from 0; there is no " + std::to_string(index));
+  }
+  return curves;
+}
+
+// ---- A variant ----
+
+/// The control points of a curve, plain, and its weights, while variables move them.
+struct MovedCurve {
+  Eigen::Matrix3Xd points;
+  Eigen::VectorXd weights;
+
+  explicit MovedCurve(const NurbsCurve& curve)
+      : points(curve.control_points().topRows<3>()), weights(curve.control_points().row(3)) {
+    for (Eigen::Index i = 0; i < points.cols(); ++i) points.col(i) /= weights[i];
+  }
+
+  void apply(const ControlPointCoordinate& at, double value) { points(at.axis, at.index) = value; }
+  void apply(const ControlPointWeight& at, double value) {
+    if (!(value > 0))
+      throw std::invalid_argument("a weight of " + text_of(value) + "; weights must be greater than 0");
+    weights[at.index] = value;
+  }
+  void apply(const CurveTransform& transform, double value) {
+    std::vector<int> indices = transform.points;
+    if (indices.empty()) {
+      indices.resize(static_cast<std::size_t>(points.cols()));
+      std::iota(indices.begin(), indices.end(), 0);
+    }
+    for (const int i : indices) points.col(i) = moved(transform, value, points.col(i));
+  }
+
+ private:
+  static Eigen::Vector3d moved(const CurveTransform& transform, double value, const Eigen::Vector3d& p) {
+    switch (transform.kind) {
+      case CurveTransform::Kind::translate:
+        return p + value * transform.direction;
+      case CurveTransform::Kind::rotate:
+        return transform.about +
+               Eigen::AngleAxisd(value * std::numbers::pi / 180, transform.direction) * (p - transform.about);
+      case CurveTransform::Kind::scale:
+        return transform.about + value * (p - transform.about);
+    }
+    return p;
+  }
+};
+
+NurbsCurve curve_of(const NurbsCurve& drawn, const MovedCurve& moved) {
+  return make_nurbs_curve(drawn.knots(), moved.points, moved.weights);
+}
+
+Json inline_axis(const NurbsCurve& curve) {
+  Json nurbs = {{"degree", curve.degree()}, {"knots", curve.knots().knots()}};
+  const Eigen::Matrix4Xd& points = curve.control_points();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d p = points.col(i).head<3>() / points(3, i);
+    nurbs["control_points"].push_back({p.x(), p.y(), p.z()});
+    nurbs["weights"].push_back(points(3, i));
+  }
+  return {{"nurbs", nurbs}};
+}
+
+/// Calls apply(target) for the target of a variable, if it has one; what is wrong then names the variable.
+template <class Apply>
+void with_target(const StudyVariable& variable, Apply apply) {
+  if (!variable.target) return;
+  try {
+    std::visit(apply, *variable.target);
+  } catch (const std::invalid_argument& problem) {
+    throw std::invalid_argument("variable " + in_quotes(variable.name) + ": " + problem.what());
+  }
+}
+
+}  // namespace
+
+std::map<std::string, NurbsCurve> StudyCase::moved(const std::vector<StudyVariable>& variables,
+                                                   const std::vector<double>& values) const {
+  std::map<std::string, MovedCurve> moved;
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    with_target(variables[i], [&](const auto& target) {
+      if constexpr (requires { target.beam; })
+        moved.try_emplace(target.beam, curves_.at(target.beam).drawn).first->second.apply(target, values[i]);
+    });
+  std::map<std::string, NurbsCurve> curves;
+  for (const auto& [name, curve] : moved) curves.emplace(name, curve_of(curves_.at(name).drawn, curve));
+  return curves;
+}
+
+std::string StudyCase::variant(const std::vector<StudyVariable>& variables,
+                               const std::vector<double>& values) const {
+  Json json = Json::parse(json_);
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    with_target(variables[i], [&](const auto& target) {
+      if constexpr (requires { target.paths; }) {
+        std::vector<Diagnostic> wrong;
+        for (const std::string& path : target.paths)
+          apply_overrides(json, {path + "=" + Json(values[i]).dump()}, wrong);
+        if (!wrong.empty()) throw std::invalid_argument(wrong.front().message);
+      }
+    });
+  for (const auto& [name, curve] : moved(variables, values))
+    json["beams"][curves_.at(name).beam]["axis"] = inline_axis(curve);
+  return json.dump();
+}
+
+StudyCaseReport read_study_case(const StudyFile& study) {
+  StudyCaseReport report;
+  CaseFileReport read = read_case_file(*study.case_file, study.overrides);
+  report.diagnostics = read.diagnostics;
+  if (!read.value) return report;
+  const CaseTextReport text = case_text(*study.case_file, study.overrides);
+  Findings findings(study.path.string());
+  std::map<std::string, StudyCurve> curves;
+  CadFiles files;
+  try {
+    curves = curves_to_move(study, *read.value, files, findings);
+  } catch (const std::invalid_argument& problem) {
+    findings.error("variables", problem.what());
+  }
+  const bool usable = !findings.has_errors();
+  const std::vector<Diagnostic> found = findings.take();
+  report.diagnostics.insert(report.diagnostics.end(), found.begin(), found.end());
+  if (usable) report.value.emplace(text.json, *study.case_file, std::move(curves), files.inputs());
+  return report;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,210 @@
+#include "pipelines/study/study_command.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/exit_code.h"
+#include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/model/cad_files.h"
+#include "pipelines/results/file_hash.h"
+#include "pipelines/run/signals.h"
+#include "pipelines/study/best_variant.h"
+#include "pipelines/study/mpi_engine.h"
+#include "pipelines/study/study_output.h"
+#include "pipelines/study/study_report.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// A study that can run.
+struct ReadyStudy {
+  StudyFile study;
+  std::optional<StudyCase> study_case;
+};
+
+/// Nothing, with its errors printed, where it cannot run.
+std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ostream& err) {
+  StudyFileReport read = read_study_file(file);
+  print_diagnostics(err, read.diagnostics);
+  if (!read.value) return {};
+  ReadyStudy ready{.study = std::move(*read.value)};
+  if (ready.study.case_file) {
+    StudyCaseReport of_case = read_study_case(ready.study);
+    print_diagnostics(err, of_case.diagnostics);
+    if (!of_case.value) return {};
+    ready.study_case = std::move(of_case.value);
+  }
+  const std::vector<Diagnostic> wrong =
+      check_quantities(ready.study, ready.study_case ? &*ready.study_case : nullptr);
+  print_diagnostics(err, wrong);
+  if (has_errors(wrong)) return {};
+  return ready;
+}
+
+/// What rows belong to: the program, the study, its case with what both change, the curves.
+std::string digest_of(const ReadyStudy& ready) {
+  std::string text = std::string(NURBEAM_VERSION) + "\n" + ready.study.json + "\n";
+  if (ready.study_case) {
+    std::vector<double> nominal;
+    for (const std::size_t i : ready.study.free_variables())
+      nominal.push_back(ready.study.variables[i].nominal);
+    text += ready.study_case->variant(ready.study.variables, all_values(ready.study, nominal));
+    for (const auto& input : ready.study_case->inputs()) text += sha256_of_file(input) + "\n";
+  }
+  return sha256_of_text(text);
+}
+
+/// One line that is rewritten on a terminal; elsewhere one at every tenth of the way.
+class StudyLine {
+ public:
+  StudyLine(std::ostream& err, bool quiet)
+      : err_(err), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  void show(const StudyProgress& p) {
+    if (quiet_) return;
+    const std::size_t ended = p.done + p.failed;
+    const std::size_t tenth = p.total > 0 ? 10 * ended / p.total : 0;
+    const auto now = std::chrono::steady_clock::now();
+    if (terminal_ ? now - last_ < std::chrono::milliseconds(100) && ended < p.total
+                  : tenth == tenth_ && total_ == p.total)
+      return;
+    last_ = now;
+    tenth_ = tenth;
+    total_ = p.total;
+    err_ << (terminal_ ? "\r\033[K" : "") << ended << " of " << p.total << " variants, " << p.failed
+         << " not done, " << p.running << " running, " << text_of(std::ceil(p.seconds_to_go)) << " s to go"
+         << (terminal_ ? "" : "\n") << std::flush;
+    open_ = terminal_;
+  }
+  ~StudyLine() {
+    if (open_) err_ << "\n";
+  }
+
+ private:
+  std::ostream& err_;
+  bool quiet_, terminal_, open_ = false;
+  std::size_t tenth_ = 11, total_ = 0;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+WorkerCommand worker_command(const StudyOptions& options) {
+  return {options.program.string(), "worker", options.file.string()};
+}
+
+void write_results(const ReadyStudy& ready, const StudyOptions& options, const StudyResult& result) {
+  write_study_table(options.out / "study.csv", ready.study, result);
+  write_study_netcdf(options.out / "study.nc", ready.study, result);
+  write_study_summary(options.out / "study.json", ready.study, result);
+  const StudyCase* study_case = ready.study_case ? &*ready.study_case : nullptr;
+  write_study_report(options.out / "study.html", ready.study, study_case, result);
+  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer); optimum && study_case)
+    write_best_variant(options.out, ready.study, *study_case, optimum->points.front());
+}
+
+int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
+                  std::ostream& out, std::ostream& err) {
+  const InterruptGuard guard;
+  StudyRows rows(options.out / "study.rows", digest_of(ready), options.resume);
+  StudyResult result;
+  {
+    StudyLine line(err, options.quiet);
+    const StudyObserver observer{.interrupted = [&] { return guard.interrupted(); },
+                                 .progress = [&](const StudyProgress& p) { line.show(p); }};
+    result = run_study(ready.study, engine, rows, observer);
+  }
+  write_results(ready, options, result);
+  out << answer_text(ready.study, result) << "results in " << options.out.string() << "\n";
+  if (result.interrupted) {
+    err << "interrupted after " << result.variants.size() << " variants; go on with --resume\n";
+    return exit_interrupted;
+  }
+  if (result.failure.empty()) return exit_done;
+  err << options.file.string() << ": error: " << result.failure << "\n";
+  return exit_not_converged;
+}
+
+int run_at_one_rank(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
+                    std::ostream& out, std::ostream& err) {
+  try {
+    return run_and_write(ready, options, engine, out, err);
+  } catch (const std::runtime_error& problem) {
+    err << "error: " << problem.what() << "\n";
+    return exit_not_written;
+  }
+}
+
+int run_under_mpi(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const MpiSession session;
+  const bool first = session.rank() == 0;
+  std::ofstream silent;
+  const std::optional<ReadyStudy> ready = read_study(options.file, first ? err : silent);
+  if (!session.agreed(ready.has_value())) return exit_bad_input;
+  if (!first) {
+    serve_mpi(session, worker_command(options), ready->study.time_limit);
+    return exit_done;
+  }
+  const std::unique_ptr<StudyEngine> engine = make_mpi_engine(session);
+  return run_at_one_rank(*ready, options, *engine, out, err);
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (!std::filesystem::is_directory(options.out)) {
+    err << "error: " << options.out.string() << ": cannot be made a directory\n";
+    return exit_not_written;
+  }
+  if (options.resume && !std::filesystem::exists(options.out / "study.rows")) {
+    err << "error: " << (options.out / "study.rows").string()
+        << ": does not exist: there is no study to resume; run without --resume\n";
+    return exit_bad_input;
+  }
+  if (started_by_mpi()) return run_under_mpi(options, out, err);
+  const std::optional<ReadyStudy> ready = read_study(options.file, err);
+  if (!ready) return exit_bad_input;
+  const std::unique_ptr<StudyEngine> engine =
+      make_process_pool(worker_command(options), options.jobs, ready->study.time_limit);
+  return run_at_one_rank(*ready, options, *engine, out, err);
+}
+
+int study_check_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const std::optional<ReadyStudy> ready = read_study(options.file, err);
+  if (!ready) return exit_bad_input;
+  const StudyFile& study = ready->study;
+  const StudyCase* study_case = ready->study_case ? &*ready->study_case : nullptr;
+  out << study_plan_text(study);
+  for (const auto& [beam, curve] : study_case ? study_case->curves() : std::map<std::string, StudyCurve>{}) {
+    out << "control points of " << beam << "\n";
+    const Eigen::Matrix4Xd& points = curve.drawn.control_points();
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      out << "  " << i << "  " << text_of(Eigen::Vector3d(points.col(i).head<3>() / points(3, i)), 6)
+          << "  weight " << text_of(points(3, i), 6) << "\n";
+  }
+  std::vector<double> nominal;
+  for (const std::size_t i : study.free_variables()) nominal.push_back(study.variables[i].nominal);
+  const Variant variant = run_variant(study, study_case, 0, all_values(study, nominal));
+  out << "the nominal variant: " << name_of(variant.status) << ", in " << text_of(variant.seconds, 3)
+      << " s\n";
+  for (std::size_t k = 0; k < variant.quantities.size(); ++k)
+    out << "  " << study.quantities[k].name << " = " << text_of(variant.quantities[k], 8) << " "
+        << study.quantities[k].unit << "\n";
+  if (!variant.reason.empty()) out << "  " << variant.reason << "\n";
+  return exit_done;
+}
+
+int study_worker_command(const std::filesystem::path& file, std::ostream& err) {
+  const std::optional<ReadyStudy> ready = read_study(file, err);
+  if (!ready) return exit_bad_input;
+  return serve_variants(ready->study, ready->study_case ? &*ready->study_case : nullptr);
+}
+
+}  // namespace nurbeam

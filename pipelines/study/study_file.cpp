@@ -1,0 +1,233 @@
+#include "pipelines/study/study_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "nurbs/number_text.h"
+#include "pipelines/case/case_check.h"
+#include "pipelines/case/case_overrides.h"
+#include "pipelines/case/case_schema.h"
+#include "pipelines/case/case_values.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/study_keys.h"
+#include "pipelines/study/study_parts.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// Reads what has been checked against the shape; what is wrong besides goes to the findings.
+class StudyReader : StudyPartReader {
+ public:
+  using StudyPartReader::StudyPartReader;
+
+  void read() {
+    study_.name = text(json_, "name", study_.path.stem().string());
+    const std::filesystem::path directory = std::filesystem::absolute(study_.path).parent_path();
+    if (has(json_, "case")) study_.case_file = (directory / text(json_, "case")).lexically_normal();
+    for_each_item(
+        json_, "set", "",
+        [&](const Json& change, const std::string&) {
+          study_.overrides.push_back(change.get<std::string>());
+        });
+    for_each_item(json_, "variables", "",
+                  [&](const Json& item, const std::string& path) { read_variable(item, path); });
+    check_names();
+    for_each_item(
+        json_, "constraints", "",
+        [&](const Json& item, const std::string& path) {
+          if (auto expression = parsed(item.get<std::string>(), path)) {
+            check_variables(*expression, path);
+            study_.constraints.push_back(std::move(*expression));
+          }
+        });
+    for_each_item(json_, "quantities", "",
+                  [&](const Json& item, const std::string& path) { read_quantity(item, path); });
+    check_derived();
+    read_study_task(json_, study_, findings_);
+    study_.seed = static_cast<unsigned>(number(json_, "seed", 1));
+    study_.time_limit = optional_number(json_, "time_limit");
+  }
+
+ private:
+  void read_variable(const Json& json, const std::string& path) {
+    StudyVariable variable{.name = text(json, "name"), .path = path};
+    variable.target = read_target(json, path);
+    const Dimension dimension = dimension_of(variable, path);
+    if (has(json, "value")) variable.derived = parsed(text(json, "value"), child(path, "value"));
+    if (has(json, "range")) {
+      variable.distribution.parameters = all_measured(json["range"], dimension, child(path, "range"));
+      check_increasing(variable.distribution.parameters, child(path, "range"));
+    }
+    if (has(json, "distribution"))
+      read_distribution(json["distribution"], dimension, child(path, "distribution"), variable);
+    if (has(json, "nominal"))
+      variable.nominal = measured(json["nominal"], dimension, child(path, "nominal")).value_or(0);
+    else if (!variable.derived)
+      variable.nominal = middle_of(variable.distribution);
+    study_.variables.push_back(std::move(variable));
+  }
+
+  static double middle_of(const StudyDistribution& d) {
+    using Law = StudyDistribution::Kind;
+    if (d.parameters.size() < 2) return 0;
+    if (d.kind == Law::uniform) return (d.parameters[0] + d.parameters[1]) / 2;
+    return d.kind == Law::triangular ? d.parameters[1] : d.parameters[0];
+  }
+
+  std::optional<StudyTarget> read_target(const Json& json, const std::string& path) {
+    if (has(json, "path")) {
+      CasePaths paths;
+      if (json["path"].is_string())
+        paths.paths.push_back(text(json, "path"));
+      else
+        for (const Json& each : json["path"]) paths.paths.push_back(each.get<std::string>());
+      return paths;
+    }
+    if (has(json, "control_point")) {
+      const Json& at = json["control_point"];
+      return ControlPointCoordinate{text(at, "beam"), static_cast<int>(number(at, "index", 0)),
+                                    static_cast<int>(std::string("xyz").find(text(at, "axis", "x")))};
+    }
+    if (has(json, "weight"))
+      return ControlPointWeight{text(json["weight"], "beam"),
+                                static_cast<int>(number(json["weight"], "index", 0))};
+    if (has(json, "transform")) return read_transform(json["transform"], child(path, "transform"));
+    return {};
+  }
+
+  CurveTransform read_transform(const Json& json, const std::string& path) {
+    CurveTransform transform{.beam = text(json, "beam")};
+    for (const double index : numbers(json, "points")) transform.points.push_back(static_cast<int>(index));
+    std::string where;
+    if (has(json, "translate")) {
+      transform.direction = vector(json, "translate");
+      where = child(path, "translate");
+    } else if (has(json, "rotate")) {
+      transform.kind = CurveTransform::Kind::rotate;
+      transform.direction = vector(json["rotate"], "axis");
+      transform.about = vector(json["rotate"], "about", Eigen::Vector3d::Zero());
+      where = child(path, "rotate.axis");
+    } else {
+      transform.kind = CurveTransform::Kind::scale;
+      transform.about = vector(part(json, "scale"), "about", Eigen::Vector3d::Zero());
+      return transform;
+    }
+    if (transform.direction.norm() > 0)
+      transform.direction.normalize();
+    else
+      findings_.error(where, "is [0, 0, 0]; give a direction");
+    return transform;
+  }
+
+  void read_distribution(const Json& json, Dimension dimension, const std::string& path,
+                         StudyVariable& variable) {
+    using Law = StudyDistribution::Kind;
+    StudyDistribution& d = variable.distribution;
+    for (const auto& [name, kind] : {std::pair{"uniform", Law::uniform},
+                                     {"normal", Law::normal},
+                                     {"lognormal", Law::lognormal},
+                                     {"triangular", Law::triangular},
+                                     {"gumbel", Law::gumbel},
+                                     {"weibull", Law::weibull}}) {
+      if (!has(json, name)) continue;
+      d.kind = kind;
+      const std::string where = child(path, name);
+      if (json[name].is_array()) {
+        d.parameters = all_measured(json[name], dimension, where);
+        check_increasing(d.parameters, where);
+        continue;
+      }
+      const double mean = measured(json[name]["mean"], dimension, child(where, "mean")).value_or(0);
+      const double sd = measured(json[name]["sd"], dimension, child(where, "sd")).value_or(0);
+      d.parameters = {mean, sd};
+      if (!(sd > 0))
+        findings_.error(child(where, "sd"), "is " + text_of(sd, all_digits) + "; must be greater than 0");
+      if ((kind == Law::lognormal || kind == Law::weibull) && !(mean > 0))
+        findings_.error(child(where, "mean"), "is " + text_of(mean, all_digits) + "; must be greater than 0");
+    }
+    if (has(json, "lower")) d.lower = measured(json["lower"], dimension, child(path, "lower"));
+    if (has(json, "upper")) d.upper = measured(json["upper"], dimension, child(path, "upper"));
+    if (d.lower && d.upper) check_increasing({*d.lower, *d.upper}, child(path, "upper"));
+  }
+
+  void check_names() {
+    std::set<std::string> seen;
+    for (const StudyVariable& variable : study_.variables)
+      if (!variable.name.empty() && !seen.insert(variable.name).second)
+        findings_.error(child(variable.path, "name"),
+                        in_quotes(variable.name) + " is the name of two variables; names must differ");
+  }
+
+  void check_variables(const Expression& expression, const std::string& path) {
+    const std::vector<std::string> known = names_of(study_.variables);
+    for (const std::string& name : expression.names())
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        findings_.error(path, "there is no variable " + in_quotes(name) + known_names(name, known));
+  }
+
+  // A derived variable is made of those that stand before it.
+  void check_derived() {
+    std::vector<std::string> before;
+    for (const StudyVariable& variable : study_.variables) {
+      if (variable.derived)
+        for (const std::string& name : variable.derived->names())
+          if (std::find(before.begin(), before.end(), name) == before.end())
+            findings_.error(
+                child(variable.path, "value"),
+                "there is no variable " + in_quotes(name) + " before this one" + known_names(name, before));
+      before.push_back(variable.name);
+    }
+    if (!study_.variables.empty() && study_.free_variables().empty())
+      findings_.error("variables",
+                      "all have a \"value\"; one at least needs a \"range\" or a \"distribution\"");
+  }
+
+  void read_quantity(const Json& json, const std::string& path) {
+    const std::string name = text(json, "name");
+    for (const StudyVariable& variable : study_.variables)
+      if (variable.name == name && !name.empty())
+        findings_.error(child(path, "name"),
+                        in_quotes(name) + " is the name of a variable; names must differ");
+    for (const StudyQuantity& other : study_.quantities)
+      if (other.name == name && !name.empty())
+        findings_.error(child(path, "name"),
+                        in_quotes(name) + " is the name of two quantities; names must differ");
+    auto value = parsed(text(json, "value"), child(path, "value"));
+    if (!value) return;
+    if (!study_.case_file) check_variables(*value, child(path, "value"));
+    study_.quantities.push_back({name, text(json, "unit"), path, std::move(*value)});
+  }
+};
+
+}  // namespace
+
+std::vector<std::size_t> StudyFile::free_variables() const {
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    if (!variables[i].derived) free.push_back(i);
+  return free;
+}
+
+StudyFileReport read_study_file(const std::filesystem::path& file) {
+  Findings findings(file.string());
+  auto json = read_json(file, findings);
+  if (!json) return {{}, findings.take()};
+  StudyFile study;
+  study.path = file;
+  if (check_shape(study_keys(), *json, findings)) {
+    study.json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
+    StudyReader(*json, study, findings).read();
+  }
+  StudyFileReport report;
+  if (!findings.has_errors()) report.value = std::move(study);
+  report.diagnostics = findings.take();
+  return report;
+}
+
+std::string study_file_schema() { return schema_text(study_keys(), "nurbeam study file"); }
+
+}  // namespace nurbeam

@@ -1,0 +1,147 @@
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cad_import/report/diagnostic.h"
+#include "pipelines/study/expression.h"
+
+namespace nurbeam {
+
+/// How the values of a variable are scattered; lengths and the like in SI units.
+struct StudyDistribution {
+  enum class Kind { uniform, normal, lognormal, triangular, gumbel, weibull } kind = Kind::uniform;
+  /// uniform: lower, upper; triangular: lower, mode, upper; else mean and standard deviation.
+  std::vector<double> parameters;
+  std::optional<double> lower = {}, upper = {};  ///< where it is cut off
+};
+
+/// Numbers of the case file, all of which get the variable's value.
+struct CasePaths {
+  std::vector<std::string> paths;  ///< as --set has them
+};
+
+/// A coordinate of a control point of a beam's curve [m], in the coordinates of the case. Counted from 0.
+struct ControlPointCoordinate {
+  std::string beam;
+  int index = 0, axis = 0;
+};
+
+/// The weight of a control point.
+struct ControlPointWeight {
+  std::string beam;
+  int index = 0;
+};
+
+/// Moves control points of a beam's curve, all where none are listed: by the value [m] along `direction`;
+/// turned by the value [rad] about the axis `direction` through `about`; or scaled by the value from `about`.
+struct CurveTransform {
+  enum class Kind { translate, rotate, scale } kind = Kind::translate;
+  std::string beam;
+  std::vector<int> points = {};
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of unit length
+  Eigen::Vector3d about = Eigen::Vector3d::Zero();      ///< [m]
+};
+
+using StudyTarget = std::variant<CasePaths, ControlPointCoordinate, ControlPointWeight, CurveTransform>;
+
+/// What a study varies.
+struct StudyVariable {
+  std::string name;
+  std::string path;                        ///< JSON path of this object, for messages
+  std::optional<StudyTarget> target = {};  ///< none: it only stands in expressions
+  StudyDistribution distribution = {};
+  double nominal = 0;                      ///< where a search begins
+  std::optional<Expression> derived = {};  ///< of other variables, instead of a distribution
+};
+
+/// What a study asks of a variant.
+struct StudyQuantity {
+  std::string name, unit;
+  std::string path;
+  Expression value;
+};
+
+/// Which variants a study runs.
+struct StudyPlan {
+  enum class Kind { list, grid, latin_hypercube, sobol, monte_carlo } kind = Kind::list;
+  std::vector<std::vector<double>> rows = {};  ///< of a list: values of the free variables
+  std::vector<int> levels = {};                ///< of a grid, per free variable
+  int count = 0;                               ///< of the others
+};
+
+/// Sobol indices of a quantity.
+struct StudySensitivity {
+  std::vector<std::string> quantities;
+  int count = 0;             ///< base sample: (free variables + 2) times as many runs
+  double confidence = 0.95;  ///< of the intervals
+};
+
+/// The probability of `quantity` above or below a threshold.
+struct StudyReliability {
+  enum class Method { form, importance_sampling, monte_carlo } method = Method::form;
+  std::string quantity;
+  bool fails_above = true;
+  double threshold = 0;
+  int count = 1000;                     ///< of simulated points at most
+  double coefficient_of_variation = 0;  ///< simulation ends below this; 0: never before the count
+};
+
+/// The best values of the variables within their ranges.
+struct StudyOptimum {
+  enum class Method { cobyla, nelder_mead, gradient, genetic } method = Method::cobyla;
+  struct Objective {
+    std::string quantity;
+    bool minimise = true;
+  };
+  std::vector<Objective> objectives;         ///< several: a Pareto front, by the genetic method
+  std::vector<Expression> constraints = {};  ///< over quantities and variables, each >= 0 where it holds
+  std::vector<std::string> constraint_texts = {};
+  int evaluations = 100;    ///< at most
+  double tolerance = 1e-4;  ///< of the variables, as a part of their ranges
+};
+
+/// Surrogates of the quantities, made of the rows of a plan.
+struct StudySurrogate {
+  enum class Kind { chaos, kriging } kind = Kind::chaos;
+  int degree = 3;          ///< of the polynomials
+  double held_back = 0.2;  ///< part of the rows that validates
+};
+
+using StudyTask = std::variant<StudyPlan, StudySensitivity, StudyReliability, StudyOptimum>;
+
+/// A study file, resolved, valid as far as the file and its case can tell.
+struct StudyFile {
+  std::filesystem::path path;
+  std::string json;  ///< as read, without comments
+  std::string name;
+  std::optional<std::filesystem::path> case_file = {};  ///< absolute; none where all quantities are formulas
+  std::vector<std::string> overrides = {};              ///< of the case, as --set has them
+  std::vector<StudyVariable> variables;
+  std::vector<Expression> constraints = {};  ///< a variant for which one is 0 does not run
+  std::vector<StudyQuantity> quantities;
+  StudyTask task;
+  std::optional<StudySurrogate> surrogate = {};
+  unsigned seed = 1;
+  std::optional<double> time_limit = {};  ///< of one variant, in wall time [s]
+
+  /// Indices of the variables that are not derived.
+  std::vector<std::size_t> free_variables() const;
+};
+
+/// A study file and everything that is wrong with it; `value` is empty when any diagnostic is an error.
+struct StudyFileReport {
+  std::optional<StudyFile> value;
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Reads and checks a study file, all errors at once, each with its JSON path; the case is not read.
+StudyFileReport read_study_file(const std::filesystem::path& file);
+
+/// The JSON schema of the study file.
+std::string study_file_schema();
+
+}  // namespace nurbeam

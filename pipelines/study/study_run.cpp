@@ -1,0 +1,142 @@
+#include "pipelines/study/study_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+namespace nurbeam {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Numbers variants in the order in which they are asked for, and runs those that are not there yet.
+class VariantSource {
+ public:
+  VariantSource(const StudyFile& study, StudyEngine& engine, StudyRows& rows, const StudyObserver& observer)
+      : study_(study), engine_(engine), rows_(rows), observer_(observer) {}
+
+  /// The quantities at these points of the free variables.
+  StudyPoints evaluate(const StudyPoints& points) {
+    const std::size_t first = variants_.size();
+    std::vector<VariantTask> tasks;
+    for (const std::vector<double>& point : points) {
+      const std::size_t number = variants_.size();
+      std::vector<double> values = all_values(study_, point);
+      const auto stored = rows_.stored().find(number);
+      if (stored != rows_.stored().end() && stored->second.values == values) {
+        count(stored->second);
+        variants_.push_back(stored->second);
+      } else {
+        variants_.push_back({.number = number, .values = values});
+        tasks.push_back({number, std::move(values)});
+      }
+    }
+    run(tasks);
+    StudyPoints quantities;
+    for (std::size_t i = first; i < variants_.size(); ++i) quantities.push_back(variants_[i].quantities);
+    return quantities;
+  }
+
+  const std::vector<Variant>& variants() const { return variants_; }
+  /// Those that have ended, of a study that was interrupted.
+  std::vector<Variant> ended() const {
+    std::vector<Variant> ended;
+    for (const Variant& variant : variants_)
+      if (!unfinished_.contains(variant.number)) ended.push_back(variant);
+    return ended;
+  }
+
+ private:
+  void count(const Variant& variant) {
+    ++(variant.status == VariantStatus::done ? progress_.done : progress_.failed);
+  }
+
+  void run(const std::vector<VariantTask>& tasks) {
+    if (tasks.empty()) return;
+    for (const VariantTask& task : tasks) unfinished_.insert(task.number);
+    progress_.total = variants_.size();
+    const auto start = Clock::now();
+    std::size_t ended = 0;
+    const auto tell = [&] {
+      const double taken = std::chrono::duration<double>(Clock::now() - start).count();
+      const std::size_t left = tasks.size() - ended;
+      progress_.running = std::min<std::size_t>(static_cast<std::size_t>(engine_.workers()), left);
+      progress_.seconds_to_go =
+          ended > 0 ? taken / static_cast<double>(ended) * static_cast<double>(left) : 0;
+      observer_.progress(progress_);
+    };
+    tell();
+    engine_.run(
+        tasks,
+        [&](Variant variant) {
+          rows_.append(variant);
+          count(variant);
+          ++ended;
+          unfinished_.erase(variant.number);
+          const std::size_t number = variant.number;
+          variants_[number] = std::move(variant);
+          tell();
+        },
+        observer_.interrupted);
+    rows_.synchronise();
+    if (ended < tasks.size()) throw StudyInterrupted{};
+  }
+
+  const StudyFile& study_;
+  StudyEngine& engine_;
+  StudyRows& rows_;
+  const StudyObserver& observer_;
+  std::vector<Variant> variants_;
+  std::set<std::size_t> unfinished_;
+  StudyProgress progress_;
+};
+
+/// The rows that are done, for functions that are fitted to them.
+std::vector<SurrogateResult> surrogates_of(const StudyFile& study, const std::vector<Variant>& variants) {
+  StudyPoints inputs, outputs;
+  const std::vector<std::size_t> free = study.free_variables();
+  for (const Variant& variant : variants) {
+    if (variant.status != VariantStatus::done) continue;
+    inputs.emplace_back();
+    for (const std::size_t i : free) inputs.back().push_back(variant.values[i]);
+    outputs.push_back(variant.quantities);
+  }
+  return make_surrogates(study, *study.surrogate, inputs, outputs);
+}
+
+}  // namespace
+
+StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& rows,
+                      const StudyObserver& observer) {
+  VariantSource source(study, engine, rows, observer);
+  const StudyEvaluation evaluate = [&](const StudyPoints& points) { return source.evaluate(points); };
+  StudyResult result;
+  try {
+    std::visit(
+        [&](const auto& task) {
+          using Task = std::decay_t<decltype(task)>;
+          if constexpr (std::is_same_v<Task, StudyPlan>) {
+            evaluate(plan_points(study, task));
+            if (study.surrogate) result.surrogates = surrogates_of(study, source.variants());
+          }
+          if constexpr (std::is_same_v<Task, StudySensitivity>)
+            result.answer = sobol_indices(study, task, evaluate);
+          if constexpr (std::is_same_v<Task, StudyReliability>)
+            result.answer = failure_probability(study, task, evaluate);
+          if constexpr (std::is_same_v<Task, StudyOptimum>)
+            result.answer = find_optimum(study, task, evaluate);
+        },
+        study.task);
+  } catch (const StudyInterrupted&) {
+    result.interrupted = true;
+  } catch (const StudyRowsError&) {
+    throw;
+  } catch (const std::exception& problem) {  // of the method: its variants stand
+    result.failure = problem.what();
+  }
+  result.variants = source.ended();
+  return result;
+}
+
+}  // namespace nurbeam

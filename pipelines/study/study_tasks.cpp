@@ -1,0 +1,190 @@
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/study_parts.h"
+
+namespace nurbeam {
+
+namespace {
+
+class StudyTaskReader : StudyPartReader {
+ public:
+  using StudyPartReader::StudyPartReader;
+
+  void read_task() {
+    if (has(json_, "plan")) study_.task = read_plan(json_["plan"]);
+    if (has(json_, "sensitivity")) study_.task = read_sensitivity(json_["sensitivity"]);
+    if (has(json_, "reliability")) study_.task = read_reliability(json_["reliability"]);
+    if (has(json_, "optimise")) study_.task = read_optimum(json_["optimise"]);
+    if (has(json_, "surrogate")) {
+      const Json& json = json_["surrogate"];
+      study_.surrogate =
+          StudySurrogate{.kind = text(json, "type") == "kriging" ? StudySurrogate::Kind::kriging
+                                                                 : StudySurrogate::Kind::chaos,
+                         .degree = static_cast<int>(number(json, "degree", 3)),
+                         .held_back = number(json, "held_back", 0.2)};
+    }
+  }
+
+ private:
+  StudyPlan read_plan(const Json& json) {
+    using Way = StudyPlan::Kind;
+    StudyPlan plan;
+    const std::size_t free = study_.free_variables().size();
+    if (has(json, "list")) read_list(json["list"], plan);
+    if (has(json, "grid")) {
+      plan.kind = Way::grid;
+      if (json["grid"].is_array())
+        for (const double levels : numbers(json, "grid")) plan.levels.push_back(static_cast<int>(levels));
+      else
+        plan.levels.assign(free, json["grid"].get<int>());
+      if (plan.levels.size() != free)
+        findings_.error("plan.grid", "has " + std::to_string(plan.levels.size()) + " numbers for " +
+                                         std::to_string(free) +
+                                         " variables; give one for each, or one for all");
+      const double variants =
+          std::accumulate(plan.levels.begin(), plan.levels.end(), 1.0, std::multiplies<>());
+      if (variants > 1e7)
+        findings_.error("plan.grid", "makes " + text_of(variants) +
+                                         " variants; at most 1e7: take fewer levels, or "
+                                         "\"latin_hypercube\"");
+      check_bounded("plan.grid");
+    }
+    for (const auto& [name, kind] : {std::pair{"latin_hypercube", Way::latin_hypercube},
+                                     {"sobol", Way::sobol},
+                                     {"monte_carlo", Way::monte_carlo}})
+      if (has(json, name)) {
+        plan.kind = kind;
+        plan.count = static_cast<int>(number(json[name], "count", 1));
+      }
+    return plan;
+  }
+
+  void read_list(const Json& rows, StudyPlan& plan) {
+    const std::vector<std::size_t> free = study_.free_variables();
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const std::string path = child("plan.list", r);
+      if (rows[r].is_null()) continue;
+      if (rows[r].size() != free.size()) {
+        findings_.error(path, "has " + std::to_string(rows[r].size()) + " values for " +
+                                  std::to_string(free.size()) + " variables");
+        continue;
+      }
+      plan.rows.emplace_back();
+      for (std::size_t k = 0; k < free.size(); ++k) {
+        const StudyVariable& variable = study_.variables[free[k]];
+        plan.rows.back().push_back(
+            measured(rows[r][k], dimension_of(variable, variable.path), child(path, k)).value_or(0));
+      }
+    }
+  }
+
+  // A search and a grid need ends.
+  void check_bounded(const std::string& path) {
+    for (const std::size_t i : study_.free_variables()) {
+      const StudyDistribution& d = study_.variables[i].distribution;
+      const bool has_ends = d.kind == StudyDistribution::Kind::uniform ||
+                            d.kind == StudyDistribution::Kind::triangular || (d.lower && d.upper);
+      if (!has_ends)
+        findings_.error(
+            path, "needs a \"range\" of each variable, or a distribution with \"lower\" and \"upper\"; " +
+                      in_quotes(study_.variables[i].name) + " has none");
+    }
+  }
+
+  StudySensitivity read_sensitivity(const Json& json) {
+    StudySensitivity sensitivity{.count = static_cast<int>(number(json, "count", 8)),
+                                 .confidence = number(json, "confidence", 0.95)};
+    for_each_item(json, "quantities", "sensitivity", [&](const Json& name, const std::string& path) {
+      sensitivity.quantities.push_back(name.get<std::string>());
+      check_quantity(sensitivity.quantities.back(), path);
+    });
+    if (!has(json, "quantities")) sensitivity.quantities = names_of(study_.quantities);
+    return sensitivity;
+  }
+
+  StudyReliability read_reliability(const Json& json) {
+    using Method = StudyReliability::Method;
+    StudyReliability r{.quantity = text(json, "quantity"), .fails_above = has(json, "above")};
+    check_quantity(r.quantity, "reliability.quantity");
+    const char* key = r.fails_above ? "above" : "below";
+    if (has(json, key) && json[key].is_number())
+      r.threshold = number(json, key);
+    else if (has(json, key))
+      findings_.error(child("reliability", key), "is a text; give the number in the unit of the quantity");
+    r.method = chosen<Method>(json, "method",
+                              {{"form", Method::form},
+                               {"importance_sampling", Method::importance_sampling},
+                               {"monte_carlo", Method::monte_carlo}});
+    r.count = static_cast<int>(number(json, "count", 1000));
+    r.coefficient_of_variation = number(json, "coefficient_of_variation", 0);
+    return r;
+  }
+
+  StudyOptimum read_optimum(const Json& json) {
+    using Method = StudyOptimum::Method;
+    StudyOptimum optimum;
+    for (const auto& [key, minimise] : {std::pair{"minimise", true}, {"maximise", false}}) {
+      if (!has(json, key)) continue;
+      std::vector<std::string> names;
+      if (json[key].is_string())
+        names.push_back(text(json, key));
+      else
+        for (const Json& each : json[key]) names.push_back(each.get<std::string>());
+      for (const std::string& name : names) {
+        check_quantity(name, child("optimise", key));
+        optimum.objectives.push_back({name, minimise});
+      }
+    }
+    if (optimum.objectives.empty()) findings_.error("optimise", "needs \"minimise\" or \"maximise\"");
+    for_each_item(json, "subject_to", "optimise", [&](const Json& item, const std::string& path) {
+      read_inequality(item.get<std::string>(), path, optimum);
+    });
+    optimum.method = chosen<Method>(json, "method",
+                                    {{"cobyla", Method::cobyla},
+                                     {"nelder_mead", Method::nelder_mead},
+                                     {"gradient", Method::gradient},
+                                     {"genetic", Method::genetic}});
+    if (optimum.objectives.size() > 1) {
+      if (has(json, "method") && optimum.method != Method::genetic)
+        findings_.error("optimise.method", "with several objectives it must be \"genetic\"");
+      optimum.method = Method::genetic;
+    }
+    optimum.evaluations = static_cast<int>(number(json, "evaluations", 100));
+    optimum.tolerance = number(json, "tolerance", 1e-4);
+    check_bounded("optimise");
+    return optimum;
+  }
+
+  // "a <= b" as b - a, which is 0 or more where it holds.
+  void read_inequality(const std::string& source, const std::string& path, StudyOptimum& optimum) {
+    const std::size_t sign = source.find_first_of("<>");
+    if (sign == std::string::npos || source.find_first_of("<>", sign + 1) != std::string::npos)
+      return findings_.error(path, in_quotes(source) + " is no inequality; write it as \"speed <= 10\"");
+    const bool less = source[sign] == '<';
+    const std::size_t behind = sign + (sign + 1 < source.size() && source[sign + 1] == '=' ? 2 : 1);
+    const std::string left = source.substr(0, sign), right = source.substr(behind);
+    const std::string margin = less ? "(" + right + ") - (" + left + ")" : "(" + left + ") - (" + right + ")";
+    if (!parsed(left, path) || !parsed(right, path)) return;
+    std::vector<std::string> known = names_of(study_.variables);
+    for (const StudyQuantity& quantity : study_.quantities) known.push_back(quantity.name);
+    Expression expression = Expression::parse(margin);
+    for (const std::string& name : expression.names())
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        findings_.error(path,
+                        "there is no quantity or variable " + in_quotes(name) + known_names(name, known));
+    optimum.constraints.push_back(std::move(expression));
+    optimum.constraint_texts.push_back(source);
+  }
+};
+
+}  // namespace
+
+void read_study_task(const Json& json, StudyFile& study, Findings& findings) {
+  StudyTaskReader(json, study, findings).read_task();
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "pipelines/study/openturns_study.h"
+
+namespace nurbeam {
+
+namespace {
+
+struct Fitted {
+  OT::Function function;
+  std::vector<double> first_order = {}, total_order = {};
+};
+
+Fitted chaos_of(const StudyFile& study, int degree, const OT::Sample& x, const OT::Sample& y) {
+  const OT::Distribution joint = joint_distribution(study);
+  const std::size_t inputs = joint.getDimension();
+  OT::OrthogonalProductPolynomialFactory::PolynomialFamilyCollection families;
+  for (std::size_t i = 0; i < inputs; ++i)
+    families.add(OT::OrthogonalUniVariatePolynomialFamily(
+        OT::StandardDistributionPolynomialFactory(joint.getMarginal(i))));
+  const OT::LinearEnumerateFunction enumerate(inputs);
+  const OT::OrthogonalBasis basis = OT::OrthogonalProductPolynomialFactory(families, enumerate);
+  const std::size_t terms = enumerate.getBasisSizeFromTotalDegree(static_cast<std::size_t>(degree));
+  if (terms > x.getSize())
+    throw std::runtime_error("polynomials of degree " + std::to_string(degree) + " have " +
+                             std::to_string(terms) + " terms, more than the " + std::to_string(x.getSize()) +
+                             " rows to fit them to; take a lower degree or more variants");
+  OT::FunctionalChaosAlgorithm algorithm(x, y, joint, OT::FixedStrategy(basis, terms),
+                                         OT::LeastSquaresStrategy());
+  algorithm.run();
+  const OT::FunctionalChaosResult result = algorithm.getResult();
+  Fitted fitted{result.getMetaModel()};
+  const OT::FunctionalChaosSobolIndices indices(result);
+  for (std::size_t i = 0; i < inputs; ++i) {
+    fitted.first_order.push_back(indices.getSobolIndex(i));
+    fitted.total_order.push_back(indices.getSobolTotalIndex(i));
+  }
+  return fitted;
+}
+
+Fitted kriging_of(const OT::Sample& x, const OT::Sample& y) {
+  const std::size_t inputs = x.getDimension();
+  OT::MaternModel covariance(inputs);
+  covariance.setNu(2.5);
+  OT::KrigingAlgorithm algorithm(x, y, covariance, OT::ConstantBasisFactory(inputs).build());
+  const OT::Point extent = x.getMax() - x.getMin();
+  OT::Point lower(inputs), upper(inputs);
+  for (std::size_t i = 0; i < inputs; ++i) {
+    lower[i] = 0.02 * extent[i];
+    upper[i] = 20 * extent[i];
+  }
+  algorithm.setOptimizationBounds(OT::Interval(lower, upper));
+  algorithm.run();
+  return {algorithm.getResult().getMetaModel()};
+}
+
+}  // namespace
+
+std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const StudySurrogate& surrogate,
+                                             const StudyPoints& inputs, const StudyPoints& outputs) {
+  OT::RandomGenerator::SetSeed(study.seed);
+  const auto held =
+      static_cast<std::size_t>(std::round(surrogate.held_back * static_cast<double>(inputs.size())));
+  if (held < 2 || inputs.size() < held + 3)
+    throw std::runtime_error("a surrogate needs more than " + std::to_string(inputs.size()) +
+                             " variants that are done");
+  // Plans are in order of space or time: what is held back is spread over them.
+  StudyPoints fit_x, fit_y, test_x, test_y;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const bool back = (i + 1) * held / inputs.size() > i * held / inputs.size();
+    (back ? test_x : fit_x).push_back(inputs[i]);
+    (back ? test_y : fit_y).push_back(outputs[i]);
+  }
+  std::vector<SurrogateResult> results;
+  for (std::size_t k = 0; k < study.quantities.size(); ++k) {
+    const OT::Sample x = to_sample(fit_x), y = to_sample(fit_y).getMarginal(k);
+    const Fitted fitted = surrogate.kind == StudySurrogate::Kind::chaos
+                              ? chaos_of(study, surrogate.degree, x, y)
+                              : kriging_of(x, y);
+    SurrogateResult result{.quantity = study.quantities[k].name,
+                           .first_order = fitted.first_order,
+                           .total_order = fitted.total_order};
+    double mean = 0, squares = 0, errors = 0;
+    for (const auto& row : test_y) mean += row[k] / static_cast<double>(test_y.size());
+    for (std::size_t i = 0; i < test_y.size(); ++i) {
+      const double error = fitted.function(to_point(test_x[i]))[0] - test_y[i][k];
+      errors += error * error;
+      squares += (test_y[i][k] - mean) * (test_y[i][k] - mean);
+      result.largest_error = std::max(result.largest_error, std::abs(error));
+    }
+    result.q2 = squares > 0 ? 1 - errors / squares : 1;
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,270 @@
+#include "pipelines/study/variant.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "fem/motion/simulation.h"
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/model/build_model.h"
+#include "pipelines/model/model_snapshot.h"
+#include "pipelines/results/history_columns.h"
+#include "pipelines/run/simulation_plan.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr std::pair<VariantStatus, const char*> status_names[] = {
+    {VariantStatus::done, "done"},           {VariantStatus::rejected, "rejected"},
+    {VariantStatus::refused, "refused"},     {VariantStatus::failed, "failed"},
+    {VariantStatus::timed_out, "timed out"}, {VariantStatus::crashed, "crashed"}};
+
+std::string column_name(const HistoryColumn& column) { return column.name + "." + column.quantity; }
+
+/// The histories that a study asks for, of one run.
+class Histories {
+ public:
+  Histories(const StudyFile& study, const BuiltModel& built) : frame_(built.frame) {
+    std::vector<std::string> wanted;
+    for (const StudyQuantity& quantity : study.quantities)
+      for (const std::string& name : quantity.value.names()) wanted.push_back(name);
+    for (HistoryColumn& column : history_columns(snapshot_names(built)))
+      if (std::find(wanted.begin(), wanted.end(), column_name(column)) != wanted.end())
+        columns_.push_back(std::move(column));
+    values_.resize(columns_.size());
+  }
+
+  void add(const Snapshot& local) {
+    const Snapshot snapshot = to_world(frame_, local);
+    times_.push_back(snapshot.time);
+    for (std::size_t i = 0; i < columns_.size(); ++i) values_[i].push_back(columns_[i].value(snapshot));
+  }
+
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<double>* find(const std::string& name) const {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (column_name(columns_[i]) == name) return &values_[i];
+    return nullptr;
+  }
+
+ private:
+  const ModelFrame& frame_;
+  std::vector<HistoryColumn> columns_;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> values_;
+};
+
+/// The kinds of events by the words of run.json, and shorter ones.
+std::optional<EventKind> event_kind(const std::string& name) {
+  static const std::map<std::string, EventKind> kinds = [] {
+    std::map<std::string, EventKind> all = {{"leaves", EventKind::left_beam},
+                                            {"stops", EventKind::stopped_at_end}};
+    for (const EventKind kind :
+         {EventKind::split, EventKind::merge, EventKind::becomes_point, EventKind::becomes_node,
+          EventKind::left_beam, EventKind::stopped_at_end, EventKind::released})
+      all.emplace(name_of(kind), kind);
+    return all;
+  }();
+  const auto found = kinds.find(name);
+  return found == kinds.end() ? std::nullopt : std::optional(found->second);
+}
+
+double first_event(const std::vector<RunEvent>& events, const BeamModel& model, const std::string& kind,
+                   const std::string& of) {
+  const std::optional<EventKind> wanted = event_kind(kind);
+  if (!wanted)
+    throw std::invalid_argument("there is no event " + in_quotes(kind) +
+                                "; leaves, stops, released, split, merge are");
+  for (const RunEvent& event : events) {
+    const bool body = event.body >= 0 && model.bodies[static_cast<std::size_t>(event.body)].name == of;
+    const bool beam = event.beam >= 0 && model.beams[static_cast<std::size_t>(event.beam)].name == of;
+    if (event.kind == *wanted && (body || beam)) return event.time;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<double> value_of(const StudyFile& study, const std::vector<double>& values,
+                               const std::string& name) {
+  for (std::size_t i = 0; i < study.variables.size(); ++i)
+    if (study.variables[i].name == name) return values[i];
+  return {};
+}
+
+ExpressionScope scope_of_variables(const StudyFile& study, const std::vector<double>& values) {
+  return {.value = [&](const std::string& name) -> ExpressionValue {
+    if (const auto value = value_of(study, values, name)) return *value;
+    throw std::invalid_argument("there is no variable " + in_quotes(name));
+  }};
+}
+
+void fill_quantities(const StudyFile& study, const ExpressionScope& scope, Variant& variant) {
+  for (const StudyQuantity& quantity : study.quantities) {
+    try {
+      const double value = quantity.value.number(scope);
+      if (!std::isfinite(value) && variant.reason.empty())
+        variant.reason = "the quantity " + in_quotes(quantity.name) +
+                         " is no number: what it asks for did not happen, or "
+                         "is not known at that time";
+      variant.quantities.push_back(value);
+    } catch (const std::invalid_argument& problem) {
+      variant.reason = "the quantity " + in_quotes(quantity.name) + ": " + problem.what();
+      break;
+    }
+  }
+  if (variant.reason.empty()) return;
+  variant.status = VariantStatus::failed;
+  variant.quantities.clear();
+}
+
+std::string first_error(const std::vector<Diagnostic>& diagnostics) {
+  for (const Diagnostic& d : diagnostics)
+    if (d.severity == Severity::error) return d.where + ": " + d.message;
+  return "no model can be made";
+}
+
+/// Ends a variant that did not run or did not reach its end.
+void end(Variant& variant, VariantStatus status, std::string reason) {
+  variant.status = status;
+  variant.reason = std::move(reason);
+}
+
+void simulate_variant(const StudyFile& study, const StudyCase& study_case, Variant& variant) {
+  const CaseFileReport read =
+      read_case_text(study_case.variant(study.variables, variant.values), study_case.file());
+  if (!read.value) return end(variant, VariantStatus::refused, first_error(read.diagnostics));
+  if (read.value->analysis.has_modes())
+    return end(variant, VariantStatus::refused,
+               "the analysis finds modes; a study needs a motion or statics");
+  const BuildReport built = build_model(*read.value);
+  if (!built.value) return end(variant, VariantStatus::refused, first_error(built.diagnostics));
+  Histories histories(study, *built.value);
+  const auto start = std::chrono::steady_clock::now();
+  bool too_long = false;
+  SimulationObserver observer;
+  observer.snapshot = [&](const Snapshot& snapshot) { histories.add(snapshot); };
+  observer.interrupted = [&] {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    too_long = study.time_limit && taken.count() > *study.time_limit;
+    return too_long;
+  };
+  const SimulationReport run =
+      simulate(built.value->model, probe_places(*built.value), simulation_options(*read.value), observer);
+  if (too_long)
+    return end(variant, VariantStatus::timed_out, "took longer than " + text_of(*study.time_limit) + " s");
+  if (run.status != SimulationStatus::done)
+    return end(variant, VariantStatus::failed, outcome_text(run, built.value->model));
+  const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
+                                if (const auto value = value_of(study, variant.values, name)) return *value;
+                                if (const auto* history = histories.find(name)) return *history;
+                                throw std::invalid_argument("there is no column " + in_quotes(name));
+                              },
+                              .event_time =
+                                  [&](const std::string& kind, const std::string& of) {
+                                    return first_event(run.events, built.value->model, kind, of);
+                                  },
+                              .times = histories.times()};
+  fill_quantities(study, scope, variant);
+}
+
+// With histories of two times: a quantity must be one number.
+void check_kinds(const StudyFile& study, Findings& findings) {
+  const std::vector<std::string> variables = names_of(study.variables);
+  const ExpressionScope scope{
+      .value = [&](const std::string& name) -> ExpressionValue {
+        const bool variable = std::find(variables.begin(), variables.end(), name) != variables.end();
+        return variable ? ExpressionValue(1.0) : ExpressionValue(std::vector<double>{1, 2});
+      },
+      .event_time = [](const std::string& kind,
+                       const std::string& of) { return first_event({}, {}, kind, of); },
+      .times = {0, 1}};
+  for (const StudyQuantity& quantity : study.quantities) {
+    try {
+      quantity.value.number(scope);
+    } catch (const std::invalid_argument& problem) {
+      findings.error(quantity.path + ".value", in_quotes(quantity.value.text()) + ": " + problem.what());
+    }
+  }
+}
+
+}  // namespace
+
+std::string name_of(VariantStatus status) {
+  for (const auto& [each, name] : status_names)
+    if (each == status) return name;
+  return {};
+}
+
+std::optional<VariantStatus> variant_status(const std::string& name) {
+  for (const auto& [status, each] : status_names)
+    if (each == name) return status;
+  return {};
+}
+
+std::vector<double> all_values(const StudyFile& study, const std::vector<double>& free) {
+  std::vector<double> values(study.variables.size(), 0.0);
+  const std::vector<std::size_t> at = study.free_variables();
+  for (std::size_t i = 0; i < at.size(); ++i) values[at[i]] = free[i];
+  for (std::size_t i = 0; i < study.variables.size(); ++i)
+    if (const auto& derived = study.variables[i].derived)
+      values[i] = derived->number(scope_of_variables(study, values));
+  return values;
+}
+
+Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
+                    std::vector<double> values) {
+  const auto start = std::chrono::steady_clock::now();
+  Variant variant{.number = number, .values = std::move(values)};
+  try {
+    const ExpressionScope scope = scope_of_variables(study, variant.values);
+    for (const Expression& constraint : study.constraints)
+      if (constraint.number(scope) == 0)
+        end(variant, VariantStatus::rejected, in_quotes(constraint.text()) + " does not hold");
+    if (variant.status == VariantStatus::done) {
+      if (study_case)
+        simulate_variant(study, *study_case, variant);
+      else
+        fill_quantities(study, scope, variant);
+    }
+  } catch (const std::invalid_argument& problem) {
+    end(variant, VariantStatus::refused, problem.what());
+  } catch (const std::exception& problem) {
+    end(variant, VariantStatus::failed, problem.what());
+  }
+  variant.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return variant;
+}
+
+std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase* study_case) {
+  if (!study_case) return {};
+  std::vector<double> nominal;
+  for (const std::size_t i : study.free_variables()) nominal.push_back(study.variables[i].nominal);
+  Findings findings(study.path.string());
+  try {
+    const CaseFileReport read =
+        read_case_text(study_case->variant(study.variables, all_values(study, nominal)), study_case->file());
+    if (!read.value) return read.diagnostics;
+    const BuildReport built = build_model(*read.value);
+    if (!built.value) return built.diagnostics;
+    std::vector<std::string> known = names_of(study.variables);
+    for (const HistoryColumn& column : history_columns(snapshot_names(*built.value)))
+      known.push_back(column_name(column));
+    for (const StudyQuantity& quantity : study.quantities)
+      for (const std::string& name : quantity.value.names())
+        if (std::find(known.begin(), known.end(), name) == known.end())
+          findings.error(quantity.path + ".value",
+                         "a run of this case has no column " + in_quotes(name) + known_names(name, known));
+    if (!findings.has_errors()) check_kinds(study, findings);
+  } catch (const std::invalid_argument& problem) {
+    findings.error("variables", std::string("with their nominal values: ") + problem.what());
+  }
+  return findings.take();
+}
+
+}  // namespace nurbeam

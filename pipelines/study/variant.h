@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/study/study_case.h"
+
+namespace nurbeam {
+
+/// How a variant ended.
+enum class VariantStatus {
+  done,
+  rejected,   ///< a constraint of the study does not hold: it did not run
+  refused,    ///< no model can be made of it
+  failed,     ///< the run did not reach its end, or a quantity is no number
+  timed_out,  ///< it took longer than the study allows
+  crashed     ///< the process that ran it ended
+};
+
+/// "done", "timed out", ...
+std::string name_of(VariantStatus status);
+/// The inverse; nothing for another text.
+std::optional<VariantStatus> variant_status(const std::string& name);
+
+/// One row of a study.
+struct Variant {
+  std::size_t number = 0;      ///< from 0
+  std::vector<double> values;  ///< of the variables, in their order
+  VariantStatus status = VariantStatus::done;
+  std::string reason = {};              ///< empty where it is done
+  std::vector<double> quantities = {};  ///< in their order; empty where it is not done
+  double seconds = 0;                   ///< wall time
+};
+
+/// The values of all variables, of those of the free ones.
+std::vector<double> all_values(const StudyFile& study, const std::vector<double>& free);
+
+/// Runs the variant in which the variables have these values: never throws for what is wrong with it.
+/// `study_case` is null where the study has no case.
+Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
+                    std::vector<double> values);
+
+/// What is wrong with the quantities of a study, found by building the nominal variant: columns that the run
+/// does not have. Nothing is run.
+std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase* study_case);
+
+}  // namespace nurbeam

@@ -1,0 +1,153 @@
+#include "pipelines/study/analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "pipelines/study/variant.h"
+#include "tests/study/study_text.h"
+
+namespace nurbeam {
+namespace {
+
+using test::study_of;
+
+/// Runs variants of a study without a case in this process.
+StudyPoints evaluated(const StudyFile& study, const StudyPoints& points) {
+  StudyPoints quantities;
+  for (const std::vector<double>& point : points)
+    quantities.push_back(run_variant(study, nullptr, quantities.size(), all_values(study, point)).quantities);
+  return quantities;
+}
+StudyEvaluation evaluation_of(const StudyFile& study) {
+  return [&study](const StudyPoints& points) { return evaluated(study, points); };
+}
+
+const std::string ishigami_head = R"json({"nurbeam_study": 1,
+  "variables": [{"name": "x1", "range": [-3.141592653589793, 3.141592653589793]},
+                {"name": "x2", "range": [-3.141592653589793, 3.141592653589793]},
+                {"name": "x3", "range": [-3.141592653589793, 3.141592653589793]}],
+  "quantities": [{"name": "y", "value": "sin(x1) + 7 * sin(x2)^2 + 0.1 * x3^4 * sin(x1)"}], )json";
+
+// Ishigami and Homma's function, a = 7, b = 0.1: variances in closed form.
+TEST(SobolIndices, OfIshigamisFunctionAreWithinTheirIntervals) {
+  constexpr double a = 7, b = 0.1, p4 = 97.40909103400244, p8 = 9488.531016070574;  // pi^4, pi^8
+  const double v1 = 0.5 * std::pow(1 + b * p4 / 5, 2), v2 = a * a / 8,
+               v13 = b * b * p8 * (1.0 / 18 - 1.0 / 50);
+  const double v = v1 + v2 + v13;
+  const StudyFile study = study_of(ishigami_head + R"json("sensitivity": {"count": 4096}})json");
+  const SensitivityResult result =
+      sobol_indices(study, std::get<StudySensitivity>(study.task), evaluation_of(study));
+  const double first[] = {v1 / v, v2 / v, 0}, total[] = {(v1 + v13) / v, v2 / v, v13 / v};
+  ASSERT_EQ(result.indices.size(), 1U);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GE(first[i], result.indices[0].first_order[i].lower - 0.01) << i;
+    EXPECT_LE(first[i], result.indices[0].first_order[i].upper + 0.01) << i;
+    EXPECT_GE(total[i], result.indices[0].total_order[i].lower - 0.01) << i;
+    EXPECT_LE(total[i], result.indices[0].total_order[i].upper + 0.01) << i;
+    EXPECT_LE(result.indices[0].first_order[i].upper - result.indices[0].first_order[i].lower, 0.2);
+  }
+}
+
+TEST(Surrogate, OfIshigamisFunctionHasItsSobolIndices) {
+  const StudyFile study = study_of(
+      ishigami_head + R"json("plan": {"latin_hypercube": {"count": 600}}, "surrogate": {"degree": 9}})json");
+  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  const SurrogateResult chaos = make_surrogates(study, *study.surrogate, points, evaluated(study, points))[0];
+  EXPECT_GE(chaos.q2, 0.99);
+  EXPECT_NEAR(chaos.first_order[0], 0.3139, 0.01);
+  EXPECT_NEAR(chaos.total_order[2], 0.2437, 0.01);
+}
+
+TEST(Surrogate, ThatHasMoreTermsThanRowsIsRefused) {
+  const StudyFile study = study_of(
+      ishigami_head + R"json("plan": {"latin_hypercube": {"count": 50}}, "surrogate": {"degree": 9}})json");
+  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  EXPECT_THROW(make_surrogates(study, *study.surrogate, points, evaluated(study, points)),
+               std::runtime_error);
+}
+
+TEST(Plan, OfALatinHypercubeHasOneValueInEachLayer) {
+  const StudyFile study =
+      study_of(ishigami_head + R"json("plan": {"latin_hypercube": {"count": 40}}, "seed": 3})json");
+  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  ASSERT_EQ(points.size(), 40U);
+  for (int k = 0; k < 3; ++k) {
+    std::set<int> layers;
+    for (const auto& point : points) layers.insert(static_cast<int>((point[k] + M_PI) / (2 * M_PI) * 40));
+    EXPECT_EQ(layers.size(), 40U);
+  }
+  EXPECT_EQ(points, plan_points(study, std::get<StudyPlan>(study.task))) << "the seed decides";
+}
+
+TEST(Plan, OfAGridHasAllCombinationsAndItsEnds) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "a", "range": [0, 1]}, {"name": "b", "range": [10, 20]}],
+    "quantities": [{"name": "y", "value": "a + b"}], "plan": {"grid": [2, 3]}})json");
+  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  EXPECT_EQ(points, (StudyPoints{{0, 10}, {0, 15}, {0, 20}, {1, 10}, {1, 15}, {1, 20}}));
+}
+
+const std::string linear_head = R"json({"nurbeam_study": 1,
+  "variables": [{"name": "R", "distribution": {"normal": {"mean": 10, "sd": 1.5}}},
+                {"name": "S", "distribution": {"normal": {"mean": 5, "sd": 2}}}],
+  "quantities": [{"name": "margin", "value": "R - S"}], )json";
+
+TEST(Reliability, OfALinearLimitIsExactByForm) {
+  const StudyFile study =
+      study_of(linear_head + R"json("reliability": {"quantity": "margin", "below": 0}})json");
+  const ReliabilityResult result =
+      failure_probability(study, std::get<StudyReliability>(study.task), evaluation_of(study));
+  const double beta = 5 / 2.5;  // (10 - 5) / hypot(1.5, 2)
+  EXPECT_NEAR(*result.reliability_index, beta, 1e-6);
+  EXPECT_NEAR(result.probability, 0.5 * std::erfc(beta / std::sqrt(2.0)), 1e-7);
+  EXPECT_NEAR(result.importance[1], 0.64, 1e-6);
+  EXPECT_NEAR(result.design_point[0], 10 - 1.5 * 0.6 * beta, 1e-5);
+}
+
+TEST(Reliability, BySimulationIsWithinItsDeviation) {
+  const double exact = 0.5 * std::erfc(2 / std::sqrt(2.0));
+  for (const char* method : {"importance_sampling", "monte_carlo"}) {
+    const StudyFile study = study_of(linear_head +
+                                     R"json("reliability": {"quantity": "margin", "below": 0, "count": 6000,
+      "method": ")json" + method + "\"}}");
+    const ReliabilityResult result =
+        failure_probability(study, std::get<StudyReliability>(study.task), evaluation_of(study));
+    EXPECT_NEAR(result.probability, exact, 4 * *result.coefficient_of_variation * exact) << method;
+    EXPECT_LE(*result.coefficient_of_variation, 0.12) << method;
+  }
+}
+
+TEST(Optimum, HoldsItsConstraints) {
+  for (const char* method : {"cobyla", "gradient"}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [-5, 5]}, {"name": "y", "range": [-5, 5]}],
+      "quantities": [{"name": "f", "value": "(x - 2)^2 + (y - 1)^2"}, {"name": "g", "value": "x + y"}],
+      "optimise": {"minimise": "f", "subject_to": ["g <= 2", "y >= 0"], "evaluations": 300, "tolerance": 1e-6,
+                   "method": ")json" +
+                                     std::string(method) + "\"}}");
+    const OptimumResult result =
+        find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+    EXPECT_NEAR(result.points[0][0], 1.5, 1e-3) << method;
+    EXPECT_NEAR(result.points[0][1], 0.5, 1e-3) << method;
+    EXPECT_NEAR(result.history.back(), 0.5, 1e-3);
+  }
+}
+
+TEST(Optimum, OfTwoObjectivesIsAFrontThatNoVariantBeats) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [-1, 3]}],
+    "quantities": [{"name": "f", "value": "x^2"}, {"name": "g", "value": "(x - 2)^2"}],
+    "optimise": {"minimise": ["f", "g"], "evaluations": 400}})json");
+  const OptimumResult result = find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+  EXPECT_GE(result.points.size(), 10U);
+  for (const auto& point : result.points) {
+    EXPECT_GE(point[0], -0.05);  // the front is x in [0, 2]
+    EXPECT_LE(point[0], 2.05);
+  }
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,57 @@
+#include "pipelines/study/rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/study/study_text.h"
+
+namespace nurbeam {
+namespace {
+
+Variant variant_number(std::size_t n) {
+  return {
+      .number = n, .values = {0.1 * static_cast<double>(n), 1.0 / 3}, .quantities = {1e-300}, .seconds = 0.5};
+}
+
+TEST(StudyRows, GoOnWhereTheyEnded) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.path() / "study.rows";
+  {
+    StudyRows rows(file, "digest", false);
+    for (const std::size_t n : {0, 2, 1}) rows.append(variant_number(n));
+  }
+  std::ofstream(file, std::ios::app) << R"({"number":3,"values":[0.3)";  // killed in the middle of a line
+  StudyRows rows(file, "digest", true);
+  ASSERT_EQ(rows.stored().size(), 3U);
+  EXPECT_EQ(rows.stored().at(2).values, variant_number(2).values) << "to the last bit";
+  EXPECT_EQ(rows.stored().at(2).quantities, (std::vector<double>{1e-300}));
+  rows.append(variant_number(3));
+  rows.synchronise();
+  EXPECT_THROW(StudyRows(file, "digest", true), StudyRowsError) << "another one holds them";
+}
+
+TEST(StudyRows, OfAnotherStudyAreRefused) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.path() / "study.rows";
+  { StudyRows rows(file, "digest", false); }
+  EXPECT_THROW(StudyRows(file, "other", true), StudyRowsError);
+}
+
+TEST(StudyRows, AVariantSurvivesItsLine) {
+  Variant failed{.number = 7,
+                 .values = {std::nextafter(1.0, 2.0)},
+                 .status = VariantStatus::timed_out,
+                 .reason = "took \"long\"\nand longer",
+                 .seconds = 3};
+  const Variant back = variant_of(line_of(failed));
+  EXPECT_EQ(back.number, failed.number);
+  EXPECT_EQ(back.values, failed.values);
+  EXPECT_EQ(back.status, failed.status);
+  EXPECT_EQ(back.reason, failed.reason);
+  EXPECT_THROW(variant_of("{}"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,81 @@
+#include "pipelines/study/study_file.h"
+
+#include <gtest/gtest.h>
+
+#include "pipelines/study/analysis.h"
+#include "tests/study/study_text.h"
+
+namespace nurbeam {
+namespace {
+
+using test::study_of;
+using test::wrong_with;
+
+TEST(StudyFile, ReadsUnitsByWhatTheVariableIs) {
+  const StudyFile study = study_of(R"json({
+    "nurbeam_study": 1, "case": "c.json", "seed": 7, "time_limit": "2 min",
+    "variables": [
+      {"name": "radius", "path": "beams[0].section.radius", "range": ["4 mm", 0.008]},
+      {"name": "E", "path": ["beams[0].material.youngs_modulus", "beams[cable].material.youngs_modulus"],
+       "distribution": {"normal": {"mean": "200 GPa", "sd": "10 GPa"}, "lower": "150 GPa"}},
+      {"name": "sag", "transform": {"beam": "cable", "points": [1, 2], "translate": [0, 0, -2]}, "range": ["10 cm", "1 m"]},
+      {"name": "top", "control_point": {"beam": "cable", "index": 3, "axis": "z"}, "range": [0, "200 mm"]},
+      {"name": "area", "value": "pi * radius ^ 2"}],
+    "constraints": ["radius < 0.007"],
+    "quantities": [{"name": "v", "value": "max(trolley.speed)", "unit": "m/s"}],
+    "plan": {"list": [["5 mm", 2e11, "0.5 m", "1 cm"]]}})json");
+  EXPECT_EQ(study.variables[0].distribution.parameters, (std::vector<double>{0.004, 0.008}));
+  EXPECT_EQ(study.variables[0].nominal, 0.006);
+  EXPECT_EQ(study.variables[1].distribution.parameters, (std::vector<double>{2e11, 1e10}));
+  EXPECT_EQ(study.variables[1].distribution.lower, 1.5e11);
+  EXPECT_EQ(study.variables[2].distribution.parameters, (std::vector<double>{0.1, 1}));
+  EXPECT_EQ(std::get<CurveTransform>(*study.variables[2].target).direction, -Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(study.free_variables(), (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(std::get<StudyPlan>(study.task).rows, (StudyPoints{{0.005, 2e11, 0.5, 0.01}}));
+  EXPECT_EQ(study.seed, 7U);
+  EXPECT_EQ(study.time_limit, 120);
+}
+
+TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
+  const std::string wrong = wrong_with(R"json({
+    "nurbeam_study": 1, "case": "c.json",
+    "variables": [
+      {"name": "a", "path": "beams[0].section.radios", "range": [1, 2]},
+      {"name": "b", "path": "beams[0].section.radius", "range": ["4 kg", "5 mm"]},
+      {"name": "b", "path": "gravity[2]", "range": [2, 1]},
+      {"name": "c", "distribution": {"lognormal": {"mean": -1, "sd": 0}}},
+      {"name": "d", "value": "2 * e"},
+      {"name": "f", "path": "beams[0].section", "range": [0, 1]}],
+    "constraints": ["a <"],
+    "quantities": [{"name": "q", "value": "maxi(x.y)"}],
+    "optimise": {"minimise": "speed", "subject_to": ["q"]}})json");
+  for (
+      const char* text :
+      {"study.json: variables[0].path: \"beams[0].section.radios\": there is no \"radios\" in section; did you mean \"radius\"?",
+       "study.json: variables[1].range[0]:", "study.json: variables[2].range: 2 is not below 1",
+       "study.json: variables[2].name: \"b\" is the name of two variables",
+       "study.json: variables[3].distribution.lognormal.mean: is -1; must be greater than 0",
+       "study.json: variables[3].distribution.lognormal.sd: is 0; must be greater than 0",
+       "study.json: variables[4].value: there is no variable \"e\" before this one",
+       "study.json: variables[5].path: \"beams[0].section\": is no single number",
+       "study.json: constraints[0]: \"a <\", character 4: the expression ends",
+       "study.json: quantities[0].value: \"maxi(x.y)\", character 1: there is no function \"maxi\"",
+       "study.json: optimise.minimise: there is no quantity \"speed\"",
+       "study.json: optimise.subject_to[0]: \"q\" is no inequality"})
+    EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
+}
+
+TEST(StudyFile, NeedsOneTask) {
+  const std::string head = R"json({"nurbeam_study": 1, "variables": [{"name": "x", "range": [0, 1]}],
+                               "quantities": [{"name": "y", "value": "x"}])json";
+  EXPECT_NE(wrong_with(head + "}").find("plan"), std::string::npos);
+  EXPECT_NE(wrong_with(head + R"json(, "plan": {"grid": 3}, "sensitivity": {"count": 10}})json")
+                .find("sensitivity"),
+            std::string::npos);
+  EXPECT_EQ(wrong_with(head + R"json(, "plan": {"grid": 3}})json"), "");
+  EXPECT_NE(wrong_with(head + R"json(, "plan": {"grid": [3, 4]}})json").find("has 2 numbers for 1 variables"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace nurbeam

@@ -1,0 +1,200 @@
+"""Runs studies as a user does: with one and with several processes, under MPI, killed and resumed, with bad files.
+
+study_runs.py NURBEAM DIRECTORY
+"""
+import csv
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+nurbeam, scratch = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+
+CASE = {
+    "nurbeam": 1,
+    "beams": [{"name": "beam", "axis": {"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 1],
+                                                  "control_points": [[0, 0, 0], [0.5, 0, 0.2], [1, 0, 0]]}},
+               "section": {"radius": 0.01}, "material": {"density": 1000, "youngs_modulus": 1e8},
+               "elements": {"count": 6}}],
+    "supports": [{"name": "foot", "beam": "beam", "at": "start", "type": "clamped"}],
+    "analysis": {"end_time": 0.05, "step": 1e-3},
+    "output": {"probes": [{"name": "tip", "beam": "beam", "at": "end"}]},
+}
+STUDY = {
+    "nurbeam_study": 1, "case": "case.json", "seed": 5,
+    "variables": [
+        {"name": "E", "path": "beams[0].material.youngs_modulus",
+         "distribution": {"lognormal": {"mean": "100 MPa", "sd": "20 MPa"}}},
+        {"name": "rise", "control_point": {"beam": "beam", "index": 1, "axis": "z"}, "range": ["-20 cm", "20 cm"]},
+        {"name": "steps", "value": "1e-3 * (1 + (rise > 0.19))"}],
+    "constraints": ["rise < 0.195"],
+    "quantities": [{"name": "drop", "value": "min(tip.uz)", "unit": "m"},
+                   {"name": "force", "value": "at(end, foot.fz)", "unit": "N"}],
+    "plan": {"latin_hypercube": {"count": 60}},
+}
+
+
+def write(directory, study=STUDY, case=CASE):
+    directory.mkdir(parents=True, exist_ok=True)
+    (directory / "case.json").write_text(json.dumps(case))
+    (directory / "study.json").write_text(json.dumps(study))
+    return directory / "study.json"
+
+
+def run(*words, expected=0, prefix=()):
+    done = subprocess.run([*prefix, nurbeam, "study", *words, "--quiet"], capture_output=True, text=True)
+    assert done.returncode == expected, (words, done.returncode, done.stdout, done.stderr)
+    return done
+
+
+def table(out):
+    """Rows without wall times."""
+    with open(out / "study.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    time_column = rows[0].index("wall time [s]")
+    return [row[:time_column] + row[time_column + 1:] for row in rows]
+
+
+def engines_agree():
+    study = write(scratch / "engines")
+    one, two = scratch / "engines/one", scratch / "engines/two"
+    run(study, "--out", one, "--jobs", "1")
+    run(study, "--out", two, "--jobs", "3")
+    expected = table(one)
+    assert len(expected) == 61
+    statuses = [row[expected[0].index("status")] for row in expected[1:]]
+    assert set(statuses) == {"done", "rejected"}, statuses
+    assert table(two) == expected
+    mpirun = shutil.which("mpirun")
+    if mpirun:
+        three = scratch / "engines/mpi"
+        run(study, "--out", three, prefix=[mpirun, "--allow-run-as-root", "--oversubscribe", "-n", "4"])
+        assert table(three) == expected
+    return expected
+
+
+def survives_kills(expected):
+    study = write(scratch / "kills")
+    out = scratch / "kills/out"
+    generator = random.Random(3)
+    known = 0
+    for attempt in range(12):
+        words = [nurbeam, "study", study, "--out", out, "--jobs", "2", "--quiet"] + (["--resume"] if (out / "study.rows").exists() else [])
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        time.sleep(generator.uniform(0.15, 0.6))
+        whole = attempt % 2 == 0  # the coordinator alone, or the workers too
+        if whole:
+            process.kill()
+        else:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        rows = (out / "study.rows").read_bytes().splitlines(keepends=True) if (out / "study.rows").exists() else []
+        finished = max(sum(row.endswith(b"\n") for row in rows) - 1, 0)
+        assert finished >= known, (attempt, finished, known)
+        known = finished
+    run(study, "--out", out, "--jobs", "2", "--resume")
+    assert table(out) == expected
+
+
+def a_killed_worker_costs_its_variant():
+    slow = json.loads(json.dumps(CASE))
+    slow["analysis"].update(end_time=10, step=1e-4)
+    study = write(scratch / "worker", {**STUDY, "plan": {"list": [["100 MPa", 0.1], ["100 MPa", 0.0]]}}, slow)
+    out = scratch / "worker/out"
+    process = subprocess.Popen([nurbeam, "study", study, "--out", out, "--jobs", "2", "--quiet"])
+    deadline = time.time() + 60
+    workers = []
+    while len(workers) < 2 and time.time() < deadline:
+        time.sleep(0.05)
+        found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True)
+        workers = found.stdout.split()
+    time.sleep(0.5)
+    os.kill(int(workers[0]), signal.SIGKILL)
+    assert process.wait() == 0
+    rows = table(out)
+    status = rows[0].index("status")
+    assert sorted(row[status] for row in rows[1:]) == ["crashed", "done"], rows
+    assert any("Killed" in row[-1] for row in rows)
+
+
+def time_limits_end_variants():
+    slow = json.loads(json.dumps(CASE))
+    slow["analysis"].update(end_time=500, step=1e-4)
+    study = write(scratch / "limit", {**STUDY, "plan": {"list": [["100 MPa", 0.1]]}, "time_limit": "300 ms"}, slow)
+    run(study, "--out", scratch / "limit/out")
+    rows = table(scratch / "limit/out")
+    assert rows[1][rows[0].index("status")] == "timed out", rows
+
+
+def bad_files_are_refused():
+    study = write(scratch / "bad", {**STUDY, "quantities": [{"name": "q", "value": "max(tipp.x)"}]})
+    done = run(study, "--out", scratch / "bad/out", expected=2)
+    assert "no column \"tipp.x\"; did you mean \"tip.x\"?" in done.stderr, done.stderr
+    study = write(scratch / "bad", {**STUDY, "quantities": [{"name": "q", "value": "tip.x"}]})
+    done = run(study, "--out", scratch / "bad/out", expected=2)
+    assert "quantities[0].value: \"tip.x\": the expression is a history" in done.stderr, done.stderr
+    broken = {**STUDY, "variables": [{"name": "i", "control_point": {"beam": "baem", "index": 1, "axis": "z"},
+                                      "range": [0, 1]}], "constraints": [], "plan": {"grid": 2}}
+    done = run(write(scratch / "bad", broken), "--out", scratch / "bad/out", expected=2)
+    assert "variables[0]: the case has no beam \"baem\"; did you mean \"beam\"?" in done.stderr, done.stderr
+    run(scratch / "bad/nothing.json", expected=2)
+    run(study, "--out", scratch / "bad/none", "--resume", expected=2)
+    changed = write(scratch / "bad", {**STUDY, "plan": {"grid": 2}})
+    run(changed, "--out", scratch / "bad/changed")
+    changed = write(scratch / "bad", {**STUDY, "plan": {"grid": 3}})
+    done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=4)
+    assert "belongs to another study" in done.stderr
+
+
+def a_full_disk_costs_nothing(expected):
+    study = write(scratch / "full")
+    out = scratch / "full/out"
+    limited = ["bash", "-c", 'ulimit -f 4; exec "$@"', "bash"]
+    done = run(study, "--out", out, expected=4, prefix=limited)
+    assert "go on with --resume" in done.stderr, done.stderr
+    kept = (out / "study.rows").read_bytes()
+    assert kept.endswith(b"\n") and kept.count(b"\n") > 2
+    run(study, "--out", out, "--resume")
+    assert (out / "study.rows").read_bytes().startswith(kept)
+    assert table(out) == expected
+
+
+def a_variant_that_cannot_be_built_says_why():
+    study = {**STUDY, "variables": [{"name": "r", "path": "beams[0].section.radius", "range": [-0.01, 0.01]}],
+             "constraints": [], "plan": {"list": [[-0.01], [0.01]]}}
+    run(write(scratch / "refused", study), "--out", scratch / "refused/out")
+    rows = table(scratch / "refused/out")
+    status = rows[0].index("status")
+    assert [row[status] for row in rows[1:]] == ["refused", "done"], rows
+    assert "beams[0].section.radius" in rows[1][-1]
+
+
+def the_best_variant_runs():
+    study = {**STUDY, "variables": [STUDY["variables"][1]], "constraints": [],
+             "quantities": [{"name": "height", "value": "max(tip.z)"}],
+             "optimise": {"maximise": "height", "evaluations": 12}}
+    del study["plan"]
+    out = scratch / "best/out"
+    run(write(scratch / "best", study), "--out", out)
+    assert (out / "best.step").exists()
+    done = subprocess.run([nurbeam, "run", out / "best.json", "--out", scratch / "best/results", "--quiet"])
+    assert done.returncode == 0
+    page = (out / "study.html").read_text()
+    assert "http" not in page.replace("http://www.w3.org", ""), "the page needs no network"
+
+
+shutil.rmtree(scratch, ignore_errors=True)
+rows = engines_agree()
+survives_kills(rows)
+a_full_disk_costs_nothing(rows)
+a_killed_worker_costs_its_variant()
+time_limits_end_variants()
+bad_files_are_refused()
+a_variant_that_cannot_be_built_says_why()
+the_best_variant_runs()
+print("all studies ran as they should")
