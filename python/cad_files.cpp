@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "cad_import/export_curves.h"
+#include "cad_import/files/companion_program.h"
 #include "cad_import/import_curves.h"
 #include "python/bindings.h"
 
@@ -48,6 +49,7 @@ void bind_cad_files(py::module_& module) {
   module.def("read_curves", &read_curves, py::arg("file"));
   module.def("write_curves", &write_curves, py::arg("file"), py::arg("curves"), py::arg("unit"),
              py::arg("schema"));
+  module.def("study_program", &study_program);
 }
 
 }  // namespace nurbeam::python

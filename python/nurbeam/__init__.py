@@ -22,12 +22,13 @@ from .errors import CadError, CaseError, CaseWarning, Error, Finding, RunError
 from .model import Beam, Body, Circle, Load, Material, Model, Section, load, schema
 from .results import BeamShape, Histories, Mode, Motion, Results, Snapshot
 from .simulation import Checkpoint, Simulation
+from .study import Study, study
 from .system import System
 
 __all__ = [
     "Model", "load", "Circle", "Section", "Material", "Beam", "Body", "Load", "schema",
     "Curve", "Curves", "ClosestPoint", "read", "write",
     "Results", "Histories", "Snapshot", "BeamShape", "Motion", "Mode",
-    "Simulation", "Checkpoint", "System",
+    "Simulation", "Checkpoint", "System", "study", "Study",
     "Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding",
 ]  # fmt: skip

@@ -1,0 +1,110 @@
+"""Many variants of a case, and what they answer."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import os
+import subprocess
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .errors import CaseError, Finding, RunError, unknown
+
+if TYPE_CHECKING:
+    import pandas
+
+__all__ = ["study", "Study"]
+
+Array = npt.NDArray[np.float64]
+
+
+class Study(Mapping[str, Array]):
+    """What a study has left in its directory: columns over its variants, by the names of variables and quantities;
+    NaN where a variant is not done.
+
+    `statuses` and `reasons` say how each variant ended; `answer` is what the study found: Sobol indices, a probability, the
+    best variants; None for a plan.
+    """
+
+    def __init__(self, directory: str | os.PathLike[str]):
+        self.directory = Path(directory)
+        with open(self.directory / "study.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        heading, rows = rows[0], rows[1:]
+        last = heading.index("status")
+        self.statuses: list[str] = [row[last] for row in rows]
+        """"done", "rejected", "refused", "failed", "timed out" or "crashed"."""
+        self.reasons: list[str] = [row[last + 2] for row in rows]
+        """Why a variant is not done; empty where it is."""
+        self._columns: dict[str, Array] = {}
+        self.units: dict[str, str] = {}
+        """Of the quantities that have one."""
+        for i, title in enumerate(heading[1:last], start=1):
+            name, _, unit = title.partition(" [")
+            if unit:
+                self.units[name] = unit.rstrip("]")
+            self._columns[name] = np.array([float(row[i]) if row[i] else math.nan for row in rows])
+        summary = json.loads((self.directory / "study.json").read_text(encoding="utf-8"))
+        self.answer: dict[str, Any] | None = summary["answer"]
+        self.surrogates: list[dict[str, Any]] = summary["surrogates"]
+        """Of each quantity, where the study asks for surrogates: q2, largest_error, sobol_indices."""
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self._columns:
+            raise KeyError(unknown("column", name, self._columns))
+        return self._columns[name]
+
+    def __iter__(self) -> Any:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        done = self.statuses.count("done")
+        return f"<Study of {len(self.statuses)} variants, {done} done: {', '.join(self._columns)}>"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The columns and the statuses, a row for each variant."""
+        import pandas
+
+        return pandas.DataFrame({**self._columns, "status": self.statuses})
+
+
+def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
+          jobs: int | None = None, resume: bool = False) -> Study:
+    """Runs a study: a study file, or what it would hold (docs/studies.md); its case is relative to the file, or to
+    the working directory.
+
+    `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
+    variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
+    run again. Raises CaseError where the study is wrong, and RunError where it has no answer or cannot be written.
+    """
+    if isinstance(what, Mapping):
+        directory = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
+        directory.mkdir(parents=True, exist_ok=True)
+        described = dict(what)
+        if "case" in described:
+            described["case"] = os.path.abspath(described["case"])
+        file = directory / "study_file.json"
+        file.write_text(json.dumps(described, indent=1), encoding="utf-8")
+    else:
+        file = Path(what)
+        directory = Path(out) if out is not None else Path(f"{file.stem}_study")
+    words = [str(_core.study_program()), "run", str(file), str(directory), str(jobs or os.cpu_count() or 1),
+             "resume" if resume else "new", "quiet"]  # fmt: skip
+    ended = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    messages = [line.removeprefix("error: ") for line in ended.stderr.splitlines()]
+    if ended.returncode == 2:
+        raise CaseError([Finding("error", *(m.split(": ", 1) if ": " in m else (str(file), m))) for m in messages])
+    if ended.returncode != 0:
+        raise RunError("\n".join(messages) or f"nurbeam-study ended with exit code {ended.returncode}")
+    return Study(directory)
