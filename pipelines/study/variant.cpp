@@ -173,6 +173,12 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
   fill_quantities(study, scope, variant);
 }
 
+// Of a study whose nominal variant cannot be: the others may.
+Diagnostic unchecked(const StudyFile& study, const std::string& why) {
+  return {Severity::warning, study.path.string() + ": variables",
+          "the nominal variant cannot be built, so the quantities are not checked beforehand: " + why};
+}
+
 // With histories of two times: a quantity must be one number.
 void check_kinds(const StudyFile& study, Findings& findings) {
   const std::vector<std::string> variables = names_of(study.variables);
@@ -249,9 +255,9 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
   try {
     const CaseFileReport read =
         read_case_text(study_case->variant(study.variables, all_values(study, nominal)), study_case->file());
-    if (!read.value) return read.diagnostics;
+    if (!read.value) return {unchecked(study, first_error(read.diagnostics))};
     const BuildReport built = build_model(*read.value);
-    if (!built.value) return built.diagnostics;
+    if (!built.value) return {unchecked(study, first_error(built.diagnostics))};
     std::vector<std::string> known = names_of(study.variables);
     for (const HistoryColumn& column : history_columns(snapshot_names(*built.value)))
       known.push_back(column_name(column));
@@ -262,7 +268,7 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
                          "a run of this case has no column " + in_quotes(name) + known_names(name, known));
     if (!findings.has_errors()) check_kinds(study, findings);
   } catch (const std::invalid_argument& problem) {
-    findings.error("variables", std::string("with their nominal values: ") + problem.what());
+    return {unchecked(study, problem.what())};
   }
   return findings.take();
 }

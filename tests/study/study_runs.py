@@ -144,9 +144,9 @@ def bad_files_are_refused():
     assert "variables[0]: the case has no beam \"baem\"; did you mean \"beam\"?" in done.stderr, done.stderr
     run(scratch / "bad/nothing.json", expected=2)
     run(study, "--out", scratch / "bad/none", "--resume", expected=2)
-    changed = write(scratch / "bad", {**STUDY, "plan": {"grid": 2}})
+    changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
     run(changed, "--out", scratch / "bad/changed")
-    changed = write(scratch / "bad", {**STUDY, "plan": {"grid": 3}})
+    changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 3}}})
     done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=4)
     assert "belongs to another study" in done.stderr
 
