@@ -1,5 +1,8 @@
 #include "solver/consistent.h"
 
+#include <limits>
+#include <utility>
+
 #include "solver/kkt_solver.h"
 #include "solver/mass_scale.h"
 
@@ -25,6 +28,13 @@ class FactorisedKkt {
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(n_ + m_);
     padded.head(n_) = x;
     return (kkt_ * padded).tail(m_);
+  }
+
+  /// (n) [M + (h/2) D + (h^2/4) K] x.
+  Eigen::VectorXd coordinate_product(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd padded = Eigen::VectorXd::Zero(n_ + m_);
+    padded.head(n_) = x;
+    return scale_ * (kkt_ * padded).head(n_);
   }
 
   /// (n+m) [x; y] with M x + G'y = top (n), G x = bottom (m). Precondition: regular().
@@ -61,6 +71,34 @@ Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
   return -dynamics;
 }
 
+/// Newton's iteration for accelerations and multipliers of which the forces depend on the multipliers;
+/// whether it has converged.
+bool correct_accelerations(const SecondOrderSystem& system, double h, State& state) {
+  constexpr int most_corrections = 30;
+  constexpr double tolerance = 1e-13;
+  const Eigen::Index n = state.q.size(), m = state.lambda.size();
+  Eigen::VectorXd dynamics(n), constraints(m);
+  for (int i = 0; i < most_corrections; ++i) {
+    State still = state;
+    still.a.setZero();
+    const FactorisedKkt kkt(system, still, h);
+    if (!kkt.regular()) return false;
+    system.residual(still, dynamics, constraints);
+    // The matrix is [M + (h/2) D + (h^2/4) K, dF/dlambda; G, 0].
+    const Eigen::VectorXd correction =
+        kkt.solve(-dynamics - kkt.coordinate_product(state.a),
+                  -system.constraint_curvature(state) - kkt.constraint_product(state.a));
+    if (!correction.allFinite()) return false;
+    state.a += correction.head(n);
+    state.lambda += correction.tail(m);
+    const double left = correction.tail(m).lpNorm<Eigen::Infinity>();
+    if (left <= tolerance * state.lambda.lpNorm<Eigen::Infinity>() ||
+        left <= std::numeric_limits<double>::min())
+      return true;
+  }
+  return true;  // round-off is above the tolerance
+}
+
 }  // namespace
 
 ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
@@ -68,8 +106,12 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   if (!kkt.regular()) return ConsistencyStatus::singular;
   const Eigen::VectorXd solution = kkt.solve(force(system, state), -system.constraint_curvature(state));
   if (!solution.allFinite()) return ConsistencyStatus::singular;
-  state.a = solution.head(system.coordinate_count());
-  state.lambda = solution.tail(system.constraint_count());
+  State found = state;
+  found.a = solution.head(system.coordinate_count());
+  found.lambda = solution.tail(system.constraint_count());
+  if (system.forces_depend_on_multipliers() && !correct_accelerations(system, h, found))
+    return ConsistencyStatus::singular;
+  state = std::move(found);
   return ConsistencyStatus::done;
 }
 

@@ -8,7 +8,8 @@ enum class ConsistencyStatus {
   singular  ///< the matrix is, and the state unchanged
 };
 
-/// Accelerations and multipliers that belong to (t, q, v): [M G'; G 0][a; lambda] = [f; -curvature].
+/// Accelerations and multipliers that belong to (t, q, v): [M G'; G 0][a; lambda] = [f; -curvature], where f
+/// may depend on lambda.
 [[nodiscard]] ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state);
 
 /// The same, averaged over a step h: [M + (h/2) D + (h^2/4) K, G'; G 0][a; lambda] = [f; -curvature]. Motions

@@ -17,7 +17,8 @@ struct StepTaken {
 /// -`near` there, or as near as steps come that differ by 1e-7. `g` is negative before the event and positive
 /// at `taken.after`. Where a repeated step fails, as Newton's iteration may at the event, it counts as
 /// beyond. The integrator is left at some state of the search.
+/// With `leaves` a step may begin at the event, which counts when the state comes back to it.
 State land_before(Integrator& integrator, const StepTaken& taken,
-                  const std::function<double(const State&)>& g, double near);
+                  const std::function<double(const State&)>& g, double near, bool leaves = false);
 
 }  // namespace nurbeam

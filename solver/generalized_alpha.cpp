@@ -222,6 +222,7 @@ void GeneralizedAlphaIntegrator::predict(double step) {
   trial_.v = state_.v + h * ((1 - gamma) * alg + gamma * trial_algorithmic_);
   trial_.a = state_.a;
   trial_.lambda = state_.lambda;
+  trial_.memory = state_.memory;
 }
 
 void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
@@ -303,6 +304,7 @@ void GeneralizedAlphaIntegrator::accept(double step) {
   std::swap(state_, trial_);
   std::swap(algorithmic_acceleration_, trial_algorithmic_);
   last_step_ = step;
+  state_.memory = system_->committed(state_);
 }
 
 }  // namespace nurbeam

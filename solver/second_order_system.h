@@ -32,8 +32,9 @@ class SecondOrderSystem {
   /// included as explicit zeros), values zero.
   virtual Eigen::SparseMatrix<double> tangent_pattern() const = 0;
 
-  /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, G'], [G, 0]], F = dynamics at `state`
-  /// (lambda included), into a matrix made by tangent_pattern().
+  /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, dF/dlambda], [G, 0]], F = dynamics at
+  /// `state` (lambda included), into a matrix made by tangent_pattern(). dF/dlambda is G' where all weights
+  /// are 0.
   virtual void tangent(const State& state, const TangentWeights& w,
                        Eigen::SparseMatrix<double>& kkt) const = 0;
 
@@ -41,6 +42,11 @@ class SecondOrderSystem {
   virtual Eigen::VectorXd constraint_rate(const State& state) const = 0;
   /// (m) everything in d2g/dt2 but G a: a consistent acceleration satisfies G a + curvature = 0.
   virtual Eigen::VectorXd constraint_curvature(const State& state) const = 0;
+
+  /// The memory that forces have of a step that ends in `state`, whose own is that of the step's start.
+  virtual Eigen::VectorXd committed(const State& state) const { return state.memory; }
+  /// Whether forces depend on the multipliers other than by G'lambda: the tangent has them in its columns.
+  virtual bool forces_depend_on_multipliers() const { return false; }
 
   /// Longest step allowed from this state [s].
   virtual double step_limit(const State&) const { return std::numeric_limits<double>::infinity(); }

@@ -1,4 +1,6 @@
 #pragma once
+#include "fem/constraints/body_on_guide.h"
+#include "fem/constraints/body_on_node.h"
 #include "fem/constraints/body_on_point.h"
 #include "fem/constraints/body_on_section.h"
 #include "fem/constraints/held_place.h"
@@ -6,9 +8,10 @@
 
 namespace nurbeam {
 
-/// Where the body of a sliding joint is.
+/// Where the body of a sliding joint is: one constraint, or none where it has no coordinates of its own.
 template <int D, class Add>
 void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  if (at.structure.beam_of(at.structure.joints[j]).rigid) return add(BodyOnGuide<D>(at, j));
   const bool is_node = at.mesh.plan.modes[j] == JointMode::node;
   if constexpr (D == 3) {
     if (at.structure.joints[j].is_offset()) {
@@ -16,7 +19,8 @@ void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Ad
       return add(BodyOnSection<FollowedPoint>(at, drawn, j));
     }
   }
-  if (!is_node) add(BodyOnPoint<D>(at, drawn, j));
+  if (!is_node) return add(BodyOnPoint<D>(at, drawn, j));
+  if (at.structure.joints[j].stands_apart()) add(BodyOnNode<D>(at, j));
 }
 
 /// What a sliding joint asks for as it is carried in this mesh. `held`: its place is held where the plan has

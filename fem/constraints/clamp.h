@@ -1,7 +1,6 @@
 #pragma once
-#include <Eigen/Geometry>
-
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/directions_across.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
@@ -14,7 +13,7 @@ class HeldDirection {
   HeldDirection(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s)
       : point_(at, drawn, beam, s),
         dofs_(point_.dofs(at)),
-        across_(directions_across(at.structure.beams[beam].curve.tangent(s))) {}
+        across_(directions_across<D>(at.structure.beams[beam].curve.tangent(s))) {}
 
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
@@ -39,20 +38,6 @@ class HeldDirection {
   }
 
  private:
-  static Eigen::Matrix<double, D - 1, D> directions_across(const Eigen::Vector3d& t) {
-    Eigen::Matrix<double, D - 1, D> n;
-    if constexpr (D == 2) {
-      n << -t.y(), t.x();
-    } else {
-      int smallest;
-      t.cwiseAbs().minCoeff(&smallest);
-      const Eigen::Vector3d first = t.cross(Eigen::Vector3d::Unit(smallest)).normalized();
-      n.row(0) = first;
-      n.row(1) = t.cross(first);
-    }
-    return n;
-  }
-
   PointOnBeam<D> point_;
   std::vector<int> dofs_;
   Eigen::Matrix<double, D - 1, D> across_;

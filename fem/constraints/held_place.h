@@ -12,7 +12,7 @@ class HeldPlace {
  public:
   HeldPlace(int dof, double s) : dofs_{dof}, s_(s) {}
   /// `motion` must outlive the constraint.
-  HeldPlace(int dof, const TimeTable& motion) : dofs_{dof}, motion_(&motion) {}
+  HeldPlace(int dof, const PlaceMotion& motion) : dofs_{dof}, motion_(&motion) {}
 
   static constexpr int rows = 1;
   static constexpr bool linear = true;  ///< no Hessian
@@ -21,19 +21,22 @@ class HeldPlace {
   ConstraintTerms<D> terms(const MeshedBeams<D>&, const State& state,
                            const typename ConstraintTerms<D>::Multipliers*) const {
     ConstraintTerms<D> terms(rows, false);
-    terms.value[0] = state.q[dofs_[0]] - (motion_ ? value_and_slope(*motion_, state.t).first : s_);
+    terms.value[0] = state.q[dofs_[0]] - (motion_ ? motion_->at(state.t).s : s_);
     terms.gradient(0, 0) = 1;
     return terms;
   }
-  /// dg/dt at fixed q [m/s].
+  /// dg/dt [m/s] and d2g/dt2 [m/s^2] at fixed q.
   Eigen::Matrix<double, 1, 1> rate(double t) const {
-    return Eigen::Matrix<double, 1, 1>(motion_ ? -value_and_slope(*motion_, t).second : 0.0);
+    return Eigen::Matrix<double, 1, 1>(motion_ ? -motion_->at(t).speed : 0.0);
+  }
+  Eigen::Matrix<double, 1, 1> acceleration(double t) const {
+    return Eigen::Matrix<double, 1, 1>(motion_ ? -motion_->at(t).acceleration : 0.0);
   }
 
  private:
   std::vector<int> dofs_;
   double s_ = 0;
-  const TimeTable* motion_ = nullptr;
+  const PlaceMotion* motion_ = nullptr;
 };
 
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #pragma once
 #include "fem/constraints/clamp.h"
 #include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/guided_place.h"
 #include "fem/constraints/held_axis.h"
 #include "fem/constraints/held_roll.h"
 #include "fem/mesh/point_on_beam.h"
@@ -54,6 +55,7 @@ class HeldPosition {
 
 template <int D, class Add>
 void bind(const Support& support, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  if (support.guide) return add(GuidedPlace<D>(at, drawn, support));
   add(HeldPosition<D>(at, drawn, support.beam, support.s, support.motion ? &*support.motion : nullptr));
   if (support.clamped) add(HeldDirection<D>(at, drawn, support.beam, support.s));
   if constexpr (D == 3) {

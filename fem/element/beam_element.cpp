@@ -77,6 +77,20 @@ AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
 }
 
 template <int D>
+typename BeamElement<D>::TautViscosity BeamElement<D>::taut_viscosity(const ElementState<D>& x) const {
+  TautViscosity taut;
+  if (!(properties_->tension_damping > 0)) return taut;
+  AxialSums<D> sums = axial_sums(x.q);
+  sums.take_out(x.free_strain);
+  const double I = sums.y[0], l = sums.y[3];
+  const double factor = properties_->tension_damping * properties_->axial_stiffness / l;
+  if (!(I > 0)) return taut;
+  taut.value = factor * I;
+  taut.gradient = factor * (sums.y_q.row(0) - I / l * sums.y_q.row(3)).transpose();
+  return taut;
+}
+
+template <int D>
 double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
   const Eigen::Vector4d y = axial_sums(q).y;
   const AssumedStrain assumed(y[0], y[1], y[2], y[3]);
@@ -119,6 +133,7 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
   const std::array<double, 2>& w = motion.w;
   AxialSums<D> axial(x.q);
   AxialRates<D> axial_rates(motion);
+  const double eta = taut_viscosity(x).value;
   for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
     const PointField<D> r(shape.value, e), rs(shape.d1, e), rss(shape.d2, e), rsss(shape.d3, e);
     const double s_rate = s.d(0) * w[0] + s.d(1) * w[1], omega = weight.value();
@@ -133,8 +148,9 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
     sum.bending += omega * density.bending;
     sum.external -= omega * load.dot(r.value);
     axial.y[0] += omega * (rs.value.squaredNorm() - 1) / 2;
-    if (!(properties_->damping > 0)) return;
-    sum.dissipation += omega * damping_response<D>(*properties_, rs.value, rss.value, rate).power;
+    sum.dissipation += omega * mass_viscosity() * v.squaredNorm();
+    if (!(properties_->damping > 0 || eta > 0)) return;
+    sum.dissipation += omega * damping_response<D>(*properties_, rs.value, rss.value, rate, eta).power;
     if (assumes_strain()) axial_rates.add(0, rs, rss, s, weight);
   });
   if (!assumes_strain()) return sum;

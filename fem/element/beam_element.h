@@ -30,6 +30,10 @@ enum class Ends { fixed, moving };
 /// ElementBasis, summed over Gauss points that sit at fixed fractions of the element's reference arc length
 /// (of each part, where the element spans breaks of the drawing). With moving ends this is form V of
 /// docs/theory.md.
+///
+/// Damping: c of the strains; alpha rho A v against the material velocity v; and what beta makes of the
+/// stiffness S of tension, beta S dr_s/dt on r_s at fixed material, S = EA times the mean strain (0 where
+/// that is compression).
 template <int D>
 class BeamElement {
  public:
@@ -109,6 +113,12 @@ class BeamElement {
   void add_ends(const ElementVector<D>& q, const ElementNodes<D>& e, AxialRates<D>& rates) const;
   bool assumes_strain() const;
   double axial_viscosity() const { return properties_->damping * properties_->axial_stiffness; }
+  double mass_viscosity() const { return properties_->mass_damping * properties_->mass_per_length; }
+  struct TautViscosity {
+    double value = 0;                                      ///< eta = beta S [N s]
+    ElementVector<D> gradient = ElementVector<D>::Zero();  ///< in q
+  };
+  TautViscosity taut_viscosity(const ElementState<D>& x) const;
 
   const ReferenceCurve* curve_;
   const BeamProperties* properties_;

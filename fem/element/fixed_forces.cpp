@@ -85,6 +85,8 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
   const ElementNodes<D> e = x.nodes();
   ElementVector<D> f = ElementVector<D>::Zero();
   ElementNodes<D> force = ElementLayout<D>::nodes(x.a) * mass_ - load * load_factor_.transpose();
+  if (properties_->mass_damping > 0) force += properties_->mass_damping * x.node_rates() * mass_;
+  if (const double eta = taut_viscosity(x).value; eta > 0) force += eta * x.node_rates() * stretch_;
   if (strains_at_points(*properties_)) add_point_forces(x, force);
   f.template head<4 * D>() = force.reshaped();
   if (!assumes_strain()) return f;
@@ -126,9 +128,15 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
     }
   }
   if (assumes_strain() && !mass_alone) add_fixed_axial_tangent(x, w, K);
+  const TautViscosity eta = mass_alone ? TautViscosity{} : taut_viscosity(x);
+  const Eigen::Matrix4d nodal =
+      (w.mass + w.damping * properties_->mass_damping) * mass_ + w.damping * eta.value * stretch_;
   for (int k = 0; k < 4; ++k)
-    for (int l = 0; l < 4; ++l)
-      K.template block<D, D>(k * D, l * D).diagonal().array() += w.mass * mass_(k, l);
+    for (int l = 0; l < 4; ++l) K.template block<D, D>(k * D, l * D).diagonal().array() += nodal(k, l);
+  if (eta.value > 0) {
+    const ElementNodes<D> by_eta = w.stiffness * e_rate * stretch_;
+    K.template topRows<4 * D>() += by_eta.reshaped() * eta.gradient.transpose();
+  }
   return K;
 }
 
@@ -189,6 +197,9 @@ ElementEnergy BeamElement<D>::fixed_energy(const ElementState<D>& x, const Vecto
   ElementEnergy sum;
   const ElementNodes<D> e_rate = x.node_rates();
   sum.kinetic = e_rate.cwiseProduct(e_rate * mass_).sum() / 2;
+  sum.dissipation = 2 * properties_->mass_damping * sum.kinetic;
+  if (const double eta = taut_viscosity(x).value; eta > 0)
+    sum.dissipation += eta * e_rate.cwiseProduct(e_rate * stretch_).sum();
   sum.external = -load.dot(x.nodes() * load_factor_);
   if (strains_at_points(*properties_)) add_point_energies(x, sum);
   if (!assumes_strain()) return sum;

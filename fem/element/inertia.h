@@ -185,6 +185,18 @@ class PointInertia {
               velocity_.squaredNorm() / 2 * weight_q_);
   }
 
+  /// Of a force -m v on the material velocity: m w N'v and its tangent.
+  void add_damping(double m, Coordinates& f) const { f += m * weight_ * N_.transpose() * velocity_; }
+  void add_damping_tangent(double m, const TangentWeights& t, Matrix& K) const {
+    if (t.damping != 0) K += (m * t.damping * weight_) * N_.transpose() * N_;
+    if (t.stiffness == 0) return;
+    const double k = m * t.stiffness;
+    const Gradient v_q = r_.rate_gradient(x_.e, x_.e_rate, x_.w) - s_rate_ * rs_.gradient;
+    K += k * (N_.transpose() * velocity_ * weight_q_.transpose() +
+              weight_ * (N_.transpose() * v_q - s_q_ * (rs_.gradient.transpose() * velocity_).transpose()));
+    r_.add_hessian(velocity_, k * weight_, x_.e, K);
+  }
+
   void add_tangent(double m, const TangentWeights& t, Matrix& K) const {
     const Vector& v = velocity_;
     const Gradient R_rate = r_.rate_gradient(x_.e, x_.e_rate, x_.w);

@@ -54,10 +54,16 @@ class Potential {
 template <int D>
 class Damping {
  public:
-  Damping(const BeamProperties& properties, const ShapeFunctions<Jet>& shape, const MovingPoint<D>& p)
+  Damping(const BeamProperties& properties, const ShapeFunctions<Jet>& shape, const MovingPoint<D>& p,
+          double eta)
       : p_(p),
         rates_(p.rates(shape)),
-        damping_(damping_response<D>(properties, p.rs.value, p.rss.value, rates_.zeta)) {}
+        damping_(damping_response<D>(properties, p.rs.value, p.rss.value, rates_.zeta, eta)) {}
+
+  /// The derivative of the force by eta.
+  ElementVector<D> by_eta() const {
+    return p_.weight * rates_.Z.template topRows<D>().transpose() * rates_.zeta.template head<D>();
+  }
 
   void add_force(ElementVector<D>& f) const { f += p_.weight * rates_.Z.transpose() * damping_.stress; }
 
@@ -178,9 +184,10 @@ ElementVector<D> BeamElement<D>::undamped_force(const ElementState<D>& x, const 
 template <int D>
 ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load) const {
   if (fixed()) return fixed_force(x, load);
-  if (properties_->damping == 0) return undamped_force(x, load);
+  if (!properties_->is_damped()) return undamped_force(x, load);
   const auto motion = MovingPoint<D>::motion(x);
-  const bool damped = properties_->damping > 0, assumed = assumes_strain();
+  const double eta = taut_viscosity(x).value;
+  const bool damped = properties_->damping > 0 || eta > 0, assumed = assumes_strain();
   ElementVector<D> f = ElementVector<D>::Zero();
   AxialSums<D> axial(x.q);
   std::optional<AxialRates<D>> axial_rates;
@@ -188,9 +195,10 @@ ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& l
   for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
     const MovingPoint<D> p(shape, s, weight, motion);
     p.inertia.add_force(properties_->mass_per_length, f);
+    if (mass_viscosity() > 0) p.inertia.add_damping(mass_viscosity(), f);
     Potential<D>(*properties_, p, load).add_force(f);
     if (assumed) axial.add_point(p.rs, p.weight, p.weight_gradient());
-    if (damped) Damping<D>(*properties_, shape, p).add_force(f);
+    if (damped) Damping<D>(*properties_, shape, p, eta).add_force(f);
     if (axial_rates) axial_rates->add(0, p.rs, p.rss, s, weight);
   });
   axial.take_out(x.free_strain);
@@ -206,7 +214,8 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
                                          const TangentWeights& t) const {
   if (fixed()) return fixed_tangent(x, t);
   const auto motion = MovingPoint<D>::motion(x);
-  const bool damped = properties_->damping > 0, assumed = assumes_strain();
+  const TautViscosity eta = taut_viscosity(x);
+  const bool damped = properties_->damping > 0 || eta.value > 0, assumed = assumes_strain();
   ElementMatrix<D> K = ElementMatrix<D>::Zero(), I_qq = ElementMatrix<D>::Zero();
   AxialSums<D> axial(x.q);
   std::optional<AxialRates<D>> axial_rates;
@@ -214,12 +223,17 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
   for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
     const MovingPoint<D> p(shape, s, weight, motion);
     p.inertia.add_tangent(properties_->mass_per_length, t, K);
+    if (mass_viscosity() > 0) p.inertia.add_damping_tangent(mass_viscosity(), t, K);
     if (t.stiffness != 0) Potential<D>(*properties_, p, load).add_tangent(motion.e, t.stiffness, K);
     if (t.stiffness != 0 && assumed) {
       axial.add_point(p.rs, p.weight, p.weight_gradient());
       AxialSums<D>::add_hessian(p.rs, p.weight, p.weight_gradient(), motion.e, I_qq);
     }
-    if (damped) Damping<D>(*properties_, shape, p).add_tangent(motion.e, t, K);
+    if (damped) {
+      const Damping<D> damping(*properties_, shape, p, eta.value);
+      damping.add_tangent(motion.e, t, K);
+      K += t.stiffness * damping.by_eta() * eta.gradient.transpose();
+    }
     if (axial_rates) axial_rates->add(0, p.rs, p.rss, s, weight);
   });
   axial.take_out(x.free_strain);

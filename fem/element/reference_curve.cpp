@@ -121,6 +121,12 @@ Eigen::Vector3d ReferenceCurve::tangent(double s, bool from_left) const {
   return metric_ == Metric::label ? Eigen::Vector3d(r_u / segment_length(j)) : r_u.normalized();
 }
 
+CurvePoint ReferenceCurve::point_in(int j, double s) const {
+  const Eigen::Matrix<double, 3, 6> r = segments_[j].derivatives(parameter(j, s));
+  const Eigen::Vector3d t = r.col(1).normalized(), r_uu = r.col(2);
+  return {r.col(0), t, (r_uu - t * t.dot(r_uu)) / r.col(1).squaredNorm()};
+}
+
 double ReferenceCurve::strain(double s, bool from_left) const {
   return metric_ == Metric::label ? (tangent(s, from_left).squaredNorm() - 1) / 2 : 0;
 }

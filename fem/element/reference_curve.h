@@ -26,6 +26,11 @@ enum class Metric {
          ///< only; strongly uneven parametrisations then converge to wrong results (theory.md section 3)
 };
 
+/// A place of a curve with its derivatives by arc length: the unit tangent and the curvature vector.
+struct CurvePoint {
+  Eigen::Vector3d position, tangent, curvature;  ///< [m], [-], [1/m]
+};
+
 /// The drawn, undeformed curve as a function of reference arc length s in [0, length]; immutable.
 ///
 /// It is a chain of segments (rational cubics); segment j covers [breaks()[j], breaks()[j+1]] and has its own
@@ -103,6 +108,8 @@ class ReferenceCurve {
   /// dr/ds at s, 3 [-], the unit tangent (its direction with Metric::label); at a break that of the segment
   /// after it, or before it when `from_left`.
   Eigen::Vector3d tangent(double s, bool from_left = false) const;
+  /// Place, tangent and curvature at s as segment j goes on; of a curve with its metric.
+  CurvePoint point_in(int j, double s) const;
   /// Green's strain (|dr/ds|^2 - 1)/2 of the drawing: 0 but with Metric::label.
   double strain(double s, bool from_left = false) const;
   /// Largest curvature of the drawing, sampled [1/m].

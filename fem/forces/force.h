@@ -2,31 +2,39 @@
 #include <type_traits>
 #include <variant>
 
+#include "fem/forces/body_drag.h"
+#include "fem/forces/buffer_force.h"
 #include "fem/forces/custom_force.h"
 #include "fem/forces/line_load.h"
 #include "fem/forces/line_torque.h"
 #include "fem/forces/moment.h"
+#include "fem/forces/place_mass.h"
 #include "fem/forces/point_load.h"
 #include "fem/forces/point_mass.h"
 #include "fem/forces/roll_inertia.h"
+#include "fem/forces/sliding_friction.h"
+#include "fem/forces/spring.h"
 
 /// The lists of forces: all that has to be said of a new one outside its own file.
 ///
 /// A force in a mesh may offer: add_force(at, state, dynamics) (dynamics is inertia less forces) with
 /// add_tangent(at, state, weights, sink), which hands matrices to sink.element(index, K) or, in its own
 /// dofs(), to sink.own(K); per_length(beam, t), which the elements carry; add_energy(at, state, sum);
-/// momentum(state); spin(at, state), of the roll of the body of a joint(), with add_momentum; work(at, from,
-/// to), but for weight, between two states on one mesh [J]; add_actions(at,
-/// state, actions), what it does to points of beams. State::load scales all forces. A description that is not
-/// itself such a force needs bind_force.
+/// momentum(state); add_momentum_of(velocity, p), where it is at a place s() of a beam(); spin(at, state), of
+/// the roll of the body of a joint(), with add_momentum; work(at, from, to), but for weight, between two
+/// states on one mesh [J]; loss(at, from, to), of energy between them [J], where it is no rate in add_energy;
+/// commit(at, state, memory), its part of State::memory after a step; add_actions(at, state, actions), what
+/// it does to points of beams. State::load scales all loads. A description that is not itself such a force
+/// needs bind_force.
 namespace nurbeam {
 
-using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, CustomForce>;
+using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;
 
 /// In either dimension, and `Others` besides.
 template <int D, class... Others>
 using ForceList =
-    std::variant<PointMass<D>, PointLoad, Moment, LineLoad, LineTorque, BoundCustomForce<D>, Others...>;
+    std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>, SlidingFriction<D>,
+                 PointLoad, Moment, LineLoad, LineTorque, BoundCustomForce<D>, Others...>;
 template <int D>
 using BoundForce =
     std::conditional_t<D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll>,
@@ -35,6 +43,10 @@ using BoundForce =
 template <int D, class Description>
 BoundForce<D> bind_force(const Description& force, const MeshedBeams<D>&, const Eigen::VectorXd&) {
   return force;
+}
+template <int D>
+BoundForce<D> bind_force(const PlaceMass& mass, const MeshedBeams<D>& at, const Eigen::VectorXd&) {
+  return BoundPlaceMass<D>(mass, at);
 }
 template <int D>
 BoundForce<D> bind_force(const CustomForce& force, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn) {

@@ -70,8 +70,8 @@ SectionForces section_forces(const BeamProperties& beam, double eps, const Eigen
           beam.axis_bending_stiffness() * (K - kappa0)};
 }
 
-/// Kelvin-Voigt stress y = c (EA eps' eps_z + EI K' K_z), with z' the rate at fixed material, and its
-/// derivatives; EA as above.
+/// Kelvin-Voigt stress y = c (EA eps' eps_z + EI K' K_z), with z' the rate at fixed material, plus eta r_s'
+/// on r_s, and its derivatives at fixed eta [N s]; EA as above.
 template <int D>
 struct DampingResponse {
   Eigen::Matrix<double, 2 * D, 1> stress;       ///< y
@@ -83,7 +83,7 @@ struct DampingResponse {
 template <int D>
 DampingResponse<D> damping_response(const BeamProperties& beam, const Eigen::Matrix<double, D, 1>& rs,
                                     const Eigen::Matrix<double, D, 1>& rss,
-                                    const Eigen::Matrix<double, 2 * D, 1>& rate) {
+                                    const Eigen::Matrix<double, 2 * D, 1>& rate, double eta = 0) {
   DampingResponse<D> d;
   d.stress.setZero();
   d.by_z.setZero();
@@ -98,6 +98,9 @@ DampingResponse<D> damping_response(const BeamProperties& beam, const Eigen::Mat
   };
   add(axial_strain<D>(rs), beam.pointwise_axial_stiffness());
   add(curvature(rs, rss, beam.curvature), beam.axis_bending_stiffness());
+  d.stress.template head<D>() += eta * rate.template head<D>();
+  d.by_rate.diagonal().template head<D>().array() += eta;
+  d.power += eta * rate.template head<D>().squaredNorm();
   return d;
 }
 

@@ -8,11 +8,14 @@ namespace nurbeam {
 struct FreeStrain {
   double constant = 0;     ///< (lambda^2 - 1)/2 of the unstressed length over the drawn one, lambda
   TimeTable thermal = {};  ///< of expansion, over time; empty: none
+  /// -S_0/EA of a beam that carries the axial force S_0 as drawn: the energy S_0 eps + EA eps^2/2, plus a
+  /// constant. It is no load: State::load does not scale it.
+  double of_tension = 0;
 
   double at(double t) const {
     return thermal.empty() ? constant : constant + value_and_slope(thermal, t).first;
   }
-  bool is_none() const { return constant == 0 && thermal.empty(); }
+  bool is_none() const { return constant == 0 && thermal.empty() && of_tension == 0; }
 };
 
 }  // namespace nurbeam

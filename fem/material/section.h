@@ -30,6 +30,8 @@ struct Material {
   double density = 0;                        ///< rho [kg/m^3]
   double damping = 0;                        ///< c [s]: stress = E (strain + c d(strain)/dt)
   std::optional<double> shear_modulus = {};  ///< G [Pa], where it is known
+  double mass_damping = 0;                   ///< alpha [1/s]: force -alpha rho A v on the material velocity
+  double stiffness_damping = 0;              ///< beta [s]: as c, and beta times the stiffness of tension
 };
 
 /// What the sections of a beam with torsion have besides: stiffness about their own axes d1, d2, and inertia.
@@ -49,6 +51,8 @@ struct BeamProperties {
   double bending_stiffness = 0;  ///< EI [N m^2]
   double mass_per_length = 0;    ///< rho A [kg/m]
   double damping = 0;            ///< c [s]
+  double mass_damping = 0;       ///< alpha [1/s]
+  double tension_damping = 0;    ///< beta [s] of the stiffness that tension gives (BeamElement)
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
   std::optional<SectionStiffness> sections = {};  ///< of a beam with torsion, in space
@@ -58,6 +62,7 @@ struct BeamProperties {
   double pointwise_axial_stiffness() const {
     return axial_strain == AxialStrain::pointwise ? axial_stiffness : 0;
   }
+  bool is_damped() const { return damping > 0 || mass_damping > 0 || tension_damping > 0; }
   /// EI where the axis alone bends: in the plane, and round in space; 0 for a beam with torsion, whose
   /// sections bend about their own axes.
   double axis_bending_stiffness() const { return sections ? 0 : bending_stiffness; }
@@ -87,7 +92,10 @@ struct BeamProperties {
                  CurvatureMeasure measure = CurvatureMeasure::material)
       : BeamProperties(material.youngs_modulus * section.area,
                        material.youngs_modulus * section.second_moment, material.density * section.area,
-                       material.damping, measure) {}
+                       material.damping + material.stiffness_damping, measure) {
+    mass_damping = material.mass_damping;
+    tension_damping = material.stiffness_damping;
+  }
 };
 
 }  // namespace nurbeam

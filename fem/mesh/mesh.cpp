@@ -46,6 +46,7 @@ class Numbering {
   std::vector<MeshNode> nodes_of(int b) const {
     const Beam& beam = structure_.beams[b];
     std::vector<MeshNode> nodes;
+    if (beam.rigid) return nodes;
     for (int h = 0; h < beam.home_intervals() + (beam.is_ring() ? 0 : 1); ++h)
       if (plan_.beams[b].present[h]) nodes.push_back({beam.home[h].s, h, -1, 0, 0, 0, -1});
     for (int j = 0; j < static_cast<int>(structure_.joints.size()); ++j)
@@ -57,7 +58,7 @@ class Numbering {
 
   void number(MeshNode& node, int b, int i) {
     const int D = structure_.dimension;
-    const bool is_body = node.joint >= 0 && !structure_.joints[node.joint].is_offset();
+    const bool is_body = node.joint >= 0 && !structure_.joints[node.joint].stands_apart();
     node.r = is_body ? body_position(structure_.joints[node.joint].body) : take(D);
     node.slope_left = node.slope_right = take(D);
     const bool two_slopes = node.joint < 0 ? structure_.beams[b].home[node.home].kind != NodeKind::smooth

@@ -12,7 +12,7 @@ struct MeshNode {
   int home;         ///< index of the home node, -1 for a moving node
   int joint;        ///< index of the sliding joint, -1 for a home node
   int r;            ///< first of D position coordinates; of a moving node those of the joint's body, where
-                    ///< that has no offset
+                    ///< that does not stand apart
   int slope_left;   ///< first of D gradient coordinates r_s, towards the beam's start
   int slope_right;  ///< the same as slope_left unless the node is a hinge or a corner
   int place;        ///< coordinate s of a moving node, else -1
@@ -42,7 +42,8 @@ struct MeshJoint {
 struct Mesh {
   int dimension = 3;
   MeshPlan plan;
-  std::vector<std::vector<MeshNode>> nodes;  ///< per beam, in order; on a ring the first follows the last
+  std::vector<std::vector<MeshNode>> nodes;  ///< per beam, in order; on a ring the first follows the last;
+                                             ///< of a rigid guide none
   std::vector<MeshSpan> spans;               ///< in order along the beams
   std::vector<int> first_span;               ///< per beam, plus the end
   std::vector<MeshJoint> joints;
@@ -56,7 +57,7 @@ struct Mesh {
 Mesh make_mesh(const Structure& structure, MeshPlan plan);
 
 /// Index into mesh.spans of the span of a beam that holds s for the coordinates q; at a node the one after it
-/// (the last one at the end of a beam that is no ring).
+/// (the last one at the end of a beam that is no ring). A rigid guide has no spans to find.
 int find_span(const Structure& structure, const Mesh& mesh, const Eigen::VectorXd& q, int beam, double s);
 
 /// Whether a break of the drawing lies inside the span, or inside one that shares a moving node with it: then

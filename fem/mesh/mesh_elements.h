@@ -43,7 +43,7 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
 template <int D>
 double free_strain(const MeshElement<D>& e, const State& state) {
   const FreeStrain& strain = e.element.properties().free_strain;
-  return strain.is_none() ? 0 : state.load * strain.at(state.t);
+  return strain.is_none() ? 0 : strain.of_tension + state.load * strain.at(state.t);
 }
 
 /// Coordinates and rates of one element.

@@ -38,12 +38,13 @@ bool too_light_for_node(const Structure& structure, const SlidingJoint& joint) {
 
 Passing passing(const SlidingJoint& joint, const HomeNode& node) {
   if (!node.permanent) return Passing::as_node;
-  return joint.continuous_slope || node.hold != Hold::nothing ? Passing::as_point : Passing::gives_way;
+  const bool stays = joint.continuous_slope || node.hold != Hold::nothing || node.kept;
+  return stays ? Passing::as_point : Passing::gives_way;
 }
 
 bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach) {
-  if (too_light_for_node(structure, joint)) return true;
   const Beam& beam = structure.beam_of(joint);
+  if (beam.rigid || too_light_for_node(structure, joint)) return true;
   const int before = beam.home_interval(s);
   const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));
   const auto near = [&](int h) {

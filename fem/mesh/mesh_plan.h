@@ -44,7 +44,10 @@ struct MeshPlan {
   std::vector<SectionCharts> section_charts;
   /// Per sliding joint: with which a body that followed a section has left it [rad/s]; empty: none.
   std::vector<double> spins = {};
+  /// Per stop of the model: a body rests against it; empty: none.
+  std::vector<bool> closed = {};
 
+  bool is_closed(int stop) const { return stop < static_cast<int>(closed.size()) && closed[stop]; }
   bool holds(int joint) const { return joint < static_cast<int>(held.size()) && held[joint]; }
   double spin(int joint) const { return joint < static_cast<int>(spins.size()) ? spins[joint] : 0; }
 };
@@ -63,12 +66,14 @@ Passing passing(const SlidingJoint& joint, const HomeNode& node);
 inline constexpr double end_zone = 0.2;
 /// Distance of two joints on a beam, in home element lengths, at which they count as having met.
 inline constexpr double meeting_distance = 0.05;
+/// The same on a rigid guide, where there are no elements between them.
+inline constexpr double touching_distance = 3e-6;
 /// Nearness to a permanent node at which a joint becomes a point (or that node gives way) and, larger, a node
 /// again, in home element lengths.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
-/// Whether a joint at s is carried as a point: its body is too light for a node, or a node that it passes as
-/// a point is within `reach` home element lengths.
+/// Whether a joint at s is carried as a point: its beam is a rigid guide, its body is too light for a node,
+/// or a node that it passes as a point is within `reach` home element lengths.
 bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach);
 
 /// The drawn mesh with every sliding joint at its start: the home node nearest to it gives way to the moving

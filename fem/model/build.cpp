@@ -1,6 +1,7 @@
 #include "fem/model/build.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
@@ -11,23 +12,32 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
 
-// Calls visit(beam, s, hold) for every place of a beam that a constraint holds or joins.
+// Calls visit(beam, s, mark) for every place of a beam that keeps a node: mark(home node) says why.
 template <class Visit>
-void for_each_held_place(const BeamModel& model, Visit&& visit) {
+void for_each_kept_place(const BeamModel& model, Visit&& visit) {
+  const auto join = [](HomeNode& node) { node.joined = true; };
+  const auto keep = [](HomeNode& node) { node.kept = true; };
   for (const Constraint& constraint : model.constraints) {
-    if (const auto* support = std::get_if<Support>(&constraint))
-      visit(support->beam, support->s, support->clamped ? Hold::clamp : Hold::position);
+    if (const auto* support = std::get_if<Support>(&constraint)) {
+      const Hold hold = support->clamped ? Hold::clamp : Hold::position;
+      visit(support->beam, support->s, [hold](HomeNode& node) { node.hold = std::max(node.hold, hold); });
+    }
     if (const auto* joint = std::get_if<BeamJoint>(&constraint)) {
-      visit(joint->beam_a, joint->s_a, Hold::nothing);
-      visit(joint->beam_b, joint->s_b, Hold::nothing);
+      visit(joint->beam_a, joint->s_a, join);
+      visit(joint->beam_b, joint->s_b, join);
     }
   }
+  for (const Force& force : model.forces)
+    if (const auto* mass = std::get_if<PlaceMass>(&force)) visit(mass->beam, mass->s, keep);
+  for (const Connector& connector : model.connectors)
+    for (const ConnectorEnd& end : connector.ends)
+      if (end.beam >= 0) visit(end.beam, end.s, keep);
 }
 
 std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& division) {
   const ReferenceCurve& curve = model.beams[b].curve;
   std::vector<double> held;
-  for_each_held_place(model, [&](int beam, double s, Hold) {
+  for_each_kept_place(model, [&](int beam, double s, const auto&) {
     if (beam == b) held.push_back(s);
   });
   const std::vector<double> fixed = fixed_places(curve, held);
@@ -37,23 +47,34 @@ std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& div
   return home;
 }
 
+// What pulls a taut string aslant gives it a kink, within the reach sqrt(EI/S) of its bending: where elements
+// are much longer than that, a slope without a kink would be the coarser picture. No body slides over a kink.
+void allow_kinks(BeamModel& model, int b) {
+  constexpr double short_reach = 0.02;  // of an element
+  Beam& beam = model.beams[b];
+  const double tension = -beam.properties.free_strain.of_tension * beam.properties.axial_stiffness;
+  const bool slides = std::any_of(model.joints.begin(), model.joints.end(),
+                                  [b](const SlidingJoint& joint) { return joint.beam == b; });
+  if (!(tension > 0) || slides || beam.has_torsion()) return;
+  for (int h = 1; h < beam.home_intervals(); ++h) {
+    const double l = std::min(beam.home[h].s - beam.home[h - 1].s, beam.home[h + 1].s - beam.home[h].s);
+    const bool is_string = beam.properties.bending_stiffness < std::pow(short_reach * l, 2) * tension;
+    if (beam.home[h].kept && is_string) beam.home[h].kind = NodeKind::hinge;
+  }
+}
+
 }  // namespace
 
 void mark_held_nodes(BeamModel& model) {
-  for_each_held_place(
-      model,
-      [&](int b, double s, Hold hold) {
-        Beam& beam = model.beams[b];
-        const int h = beam.home_at(s);
-        if (h < 0)
-          refuse("a constraint at s = " + text_of(s) + " m of beam \"" + beam.name + "\" needs a node there");
-        const auto mark = [&](HomeNode& node) {
-          if (hold == Hold::nothing) node.joined = true;
-          node.hold = std::max(node.hold, hold);
-        };
-        mark(beam.home[h]);
-        if (beam.is_ring() && h == 0) mark(beam.home.back());  // the seam
-      });
+  for_each_kept_place(model, [&](int b, double s, const auto& mark) {
+    Beam& beam = model.beams[b];
+    const int h = beam.home_at(s);
+    if (h < 0)
+      refuse("what is held at s = " + text_of(s) + " m of beam \"" + beam.name + "\" needs a node there");
+    mark(beam.home[h]);
+    if (beam.is_ring() && h == 0) mark(beam.home.back());  // the seam
+  });
+  for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) allow_kinks(model, b);
 }
 
 ModelBuilder::ModelBuilder(int dimension, const Eigen::Vector3d& gravity) {
@@ -67,7 +88,7 @@ int ModelBuilder::add_beam(Beam beam, Part part) {
   if (beam.curve.dimension() != model_.dimension)
     refuse("a curve of dimension " + std::to_string(beam.curve.dimension()) + " in a model of dimension " +
            std::to_string(model_.dimension));
-  if (!(beam.properties.mass_per_length > 0))
+  if (!beam.rigid && !(beam.properties.mass_per_length > 0))
     refuse("mass_per_length " + text_of(beam.properties.mass_per_length) + " kg/m is not positive");
   if (beam.has_torsion() && model_.dimension != 3) refuse("a beam in the plane has no torsion");
   if (beam.has_torsion() && !beam.curve.has_sections()) beam.curve = beam.curve.oriented({});
@@ -98,6 +119,13 @@ int ModelBuilder::add_beam(Beam beam) {
   return add_beam(std::move(beam), Part{true, {}});
 }
 
+int ModelBuilder::add_guide(ReferenceCurve curve) {
+  std::vector<HomeNode> home = guide_nodes(curve);
+  return add_beam(
+      Beam{.name = {}, .curve = std::move(curve), .properties = {}, .rigid = true, .home = std::move(home)},
+      Part{true, {}});
+}
+
 const Beam& ModelBuilder::checked_beam(int i) const {
   if (i < 0 || i >= static_cast<int>(model_.beams.size()))
     refuse("there is no beam " + std::to_string(i) + "; the model has " +
@@ -115,16 +143,31 @@ double ModelBuilder::place(int b, double s) const {
   return std::min(s, checked_beam(b).curve.length());
 }
 
-ModelBuilder& ModelBuilder::pin(int beam, double s) { return add(Support{beam, place(beam, s), false}); }
-ModelBuilder& ModelBuilder::clamp(int beam, double s) { return add(Support{beam, place(beam, s), true}); }
+// One that can be held and loaded.
+double ModelBuilder::elastic_place(int b, double s) const {
+  if (checked_beam(b).rigid)
+    refuse("beam \"" + model_.beams[b].name + "\" is a rigid guide: it is neither held nor loaded");
+  return place(b, s);
+}
+
+ModelBuilder& ModelBuilder::pin(int beam, double s) {
+  return add(Support{beam, elastic_place(beam, s), false});
+}
+ModelBuilder& ModelBuilder::clamp(int beam, double s) {
+  return add(Support{beam, elastic_place(beam, s), true});
+}
+ModelBuilder& ModelBuilder::guide(int beam, double s, const Eigen::Vector3d& along) {
+  if (!(along.norm() > 0)) refuse("a guided support needs the direction that it is free in");
+  return add(Support{.beam = beam, .s = elastic_place(beam, s), .guide = along});
+}
 ModelBuilder& ModelBuilder::fork(int beam, double s) {
   if (!checked_beam(beam).has_torsion())
     refuse("a fork holds the roll of a section: it needs a beam with torsion");
-  return add(Support{beam, place(beam, s), false, true});
+  return add(Support{beam, elastic_place(beam, s), false, true});
 }
 
 ModelBuilder& ModelBuilder::join(int beam_a, double s_a, int beam_b, double s_b, bool rigid) {
-  return add(BeamJoint{beam_a, place(beam_a, s_a), beam_b, place(beam_b, s_b), rigid});
+  return add(BeamJoint{beam_a, elastic_place(beam_a, s_a), beam_b, elastic_place(beam_b, s_b), rigid});
 }
 
 int ModelBuilder::add_body(std::string name, double mass) {
@@ -149,11 +192,35 @@ SlidingJoint& ModelBuilder::slide(int body, int beam, double s, double speed) {
 }
 
 ModelBuilder& ModelBuilder::force(int beam, double s, const Eigen::Vector3d& value) {
-  return add(PointLoad{{.beam = beam, .s = place(beam, s), .value = value}});
+  return add(PointLoad{{.beam = beam, .s = elastic_place(beam, s), .value = value}});
 }
 
 ModelBuilder& ModelBuilder::moment(int beam, double s, const Eigen::Vector3d& value) {
-  return add(Moment{{.beam = beam, .s = place(beam, s), .value = value}});
+  return add(Moment{{.beam = beam, .s = elastic_place(beam, s), .value = value}});
+}
+
+Eigen::Vector3d ModelBuilder::drawn_place(const ConnectorEnd& end) const {
+  if (end.beam >= 0) return checked_beam(end.beam).curve.position(end.s);
+  if (end.body < 0) return end.point;
+  for (const SlidingJoint& joint : model_.joints)
+    if (joint.body == end.body) return model_.beam_of(joint).curve.position(joint.s);
+  return model_.bodies.at(end.body).position;
+}
+
+Connector& ModelBuilder::connect(const ConnectorEnd& from, const ConnectorEnd& to, ConnectorType type,
+                                 double stiffness) {
+  if (type != ConnectorType::rod && !(stiffness >= 0))
+    refuse("a connector with a stiffness of " + text_of(stiffness) + " N/m; it must not be negative");
+  if (from.is_point() && to.is_point()) refuse("a connector between two points moves nothing");
+  Connector connector{.name = "connector " + std::to_string(model_.connectors.size() + 1),
+                      .ends = {from, to},
+                      .type = type,
+                      .stiffness = stiffness};
+  for (ConnectorEnd& end : connector.ends)
+    if (end.beam >= 0) end.s = place(end.beam, end.s);
+  connector.length = (drawn_place(connector.ends[1]) - drawn_place(connector.ends[0])).norm();
+  model_.connectors.push_back(std::move(connector));
+  return model_.connectors.back();
 }
 
 ModelBuilder& ModelBuilder::add(Force force) {

@@ -28,6 +28,8 @@ class ModelBuilder {
   int add_beam(ReferenceCurve curve, const BeamProperties& properties, Division division = {});
   /// As it is, with its home nodes.
   int add_beam(Beam beam);
+  /// A rigid guide: bodies slide along the drawn curve itself.
+  int add_guide(ReferenceCurve curve);
   /// To change a beam's name and rules before build().
   Beam& beam(int i);
 
@@ -35,6 +37,8 @@ class ModelBuilder {
   ModelBuilder& pin(int beam, double s);
   /// Holds position and direction.
   ModelBuilder& clamp(int beam, double s);
+  /// Holds the position across a direction, along which it is free.
+  ModelBuilder& guide(int beam, double s, const Eigen::Vector3d& along);
   /// Holds position and roll of a beam with torsion.
   ModelBuilder& fork(int beam, double s);
   /// Joins two beams; a rigid joint keeps their angle, and with torsion the orientation of their sections.
@@ -47,6 +51,11 @@ class ModelBuilder {
                const Eigen::Vector3d& velocity = {0, 0, 0});
   /// Puts a body on a beam, to slide along it; returns the joint, to change how.
   SlidingJoint& slide(int body, int beam, double s, double speed = 0);
+
+  /// Fastens something between two ends, as long as drawn; bodies must have their joints before. Returns it,
+  /// to change how.
+  Connector& connect(const ConnectorEnd& from, const ConnectorEnd& to, ConnectorType type,
+                     double stiffness = 0);
 
   /// A dead force [N] or moment [N m] at a place.
   ModelBuilder& force(int beam, double s, const Eigen::Vector3d& value);
@@ -63,14 +72,17 @@ class ModelBuilder {
     Division division;
   };
   double place(int beam, double s) const;
+  double elastic_place(int beam, double s) const;
   const Beam& checked_beam(int i) const;
+  Eigen::Vector3d drawn_place(const ConnectorEnd& end) const;
   int add_beam(Beam beam, Part part);
 
   BeamModel model_;
   std::vector<Part> parts_;
 };
 
-/// Says at the home nodes of a model what its supports and joints hold there, as build() does. Throws
+/// Says at the home nodes of a model what its supports, joints, connectors and masses hold there, as build()
+/// does; a string may have a kink where connectors or masses are. Throws
 /// std::invalid_argument where one has no node.
 void mark_held_nodes(BeamModel& model);
 

@@ -60,10 +60,12 @@ std::optional<Crossing> end_passed(const BeamSystem& system, const State& state)
   const BeamModel& model = system.model();
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
-    if (curve.closed() || model.joints[j].motion || system.mesh().plan.modes[j] != JointMode::point) continue;
-    const double s = *place(system, state, j);
-    if (s < 0) return Crossing{j, 0, false};
-    if (s > curve.length()) return Crossing{j, curve.length(), true};
+    const std::optional<PlaceMotion>& motion = model.joints[j].motion;
+    const bool by_table = motion && !motion->rows().empty();  // which is known to stay on the beam
+    if (curve.closed() || by_table || system.mesh().plan.modes[j] != JointMode::point) continue;
+    const double s = *place(system, state, j), beyond = motion ? landing_tolerance(model, j) : 0;
+    if (s < -beyond) return Crossing{j, 0, false};
+    if (s > curve.length() + beyond) return Crossing{j, curve.length(), true};
   }
   return std::nullopt;
 }

@@ -24,7 +24,7 @@ std::vector<double> kink_times(const BeamModel& model) {
     for (const auto& [time, value] : table) times.push_back(time);
   };
   for (const SlidingJoint& joint : model.joints) {
-    if (joint.motion) add(*joint.motion);
+    if (joint.motion) add(joint.motion->rows());
     if (joint.release) times.push_back(*joint.release);
   }
   for (const Force& force : model.forces)
@@ -47,7 +47,7 @@ std::vector<MotionKink> motion_kinks(const BeamModel& model, double time) {
   std::vector<MotionKink> kinks;
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     if (!model.joints[j].motion) continue;
-    const TimeTable& table = *model.joints[j].motion;
+    const TimeTable& table = model.joints[j].motion->rows();
     for (std::size_t row = 0; row < table.size(); ++row) {
       if (table[row].first != time) continue;
       const auto [before, after] = slopes_at(table, row);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "fem/motion/free_lengths.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/observables.h"
 #include "solver/eigenpairs.h"
@@ -35,6 +36,10 @@ Failure failure_of(Failure::Kind kind, double growth = 0) { return {.kind = kind
 MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
                           const std::function<bool()>& interrupted, RestReport& report) {
   MeshedState at = MeshedState::drawn(std::move(model));
+  if (options.about_equilibrium && asks_for_lengths(at.system->model())) {
+    report = find_free_lengths(at);
+    if (report.failure) return at;
+  }
   if (options.about_equilibrium) {
     report =
         options.bodies_held ? find_held_equilibrium(at) : find_rest(at, options.length_control, interrupted);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/motion/carried_sections.h"
+#include "fem/motion/friction_modes.h"
 #include "fem/motion/recentring.h"
 #include "fem/motion/sliding_bodies.h"
 #include "fem/system/material_points.h"
@@ -51,6 +52,7 @@ struct Descent {
   double s = 0, force = 0, moved = 0;  // before the last move, that held it there [m], [N], and the move [m]
   bool arrived = false, at_end = false;  // the latter: of the beam
   int balanced = 0;                      // places in a row at which nothing held it
+  int way = 0;                           // that it slides against its friction
 };
 
 // Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
@@ -78,15 +80,43 @@ double step_down(const Descent& body, double s, double force) {
   return slope > 0 ? std::clamp(-force / slope, -body.most, body.most) : downhill;
 }
 
+// The force that holds a body less what its friction holds: one that sticks is held by that alone, one that
+// slides goes on until its friction of sliding holds it.
+double force_beyond_friction(const MeshedState& at, int joint, double force, Descent& body) {
+  if (!at.system->model().joints[joint].friction) return force;
+  if (body.way == 0) {
+    if (std::abs(force) <= holding_capacity(*at.system, at.state, joint, true)) return 0;
+    body.way = force < 0 ? 1 : -1;
+  }
+  return force + body.way * holding_capacity(*at.system, at.state, joint, false);
+}
+
+// A move that ends at a hard stop where it would go beyond [m].
+double before_stops(const MeshedState& at, int joint, double s, double ds) {
+  for (const Stop& stop : at.system->model().stops) {
+    if (stop.joint != joint || stop.other >= 0 || stop.buffer) continue;
+    ds = stop.from_below ? std::min(ds, std::max(0.0, stop.place - s))
+                         : std::max(ds, std::min(0.0, stop.place - s));
+  }
+  return ds;
+}
+
 // The next move of a body [m].
 double next_move(const MeshedState& at, int joint, Descent& body) {
   body.arrived = body.most == 0;
   if (body.arrived) return 0;
-  const double force = holding_force(*at.system, at.state, joint), s = *place(*at.system, at.state, joint);
+  const double force = force_beyond_friction(at, joint, holding_force(*at.system, at.state, joint), body);
+  const double s = *place(*at.system, at.state, joint);
   const double spacing = home_spacing(at.system->model(), joint);
   if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) : 2 * body.most;
   body.most = std::min(body.most, 4 * spacing);
   const bool begins = body.moved == 0 || body.balanced > 0;
+  const bool has_friction = at.system->model().joints[joint].friction.has_value();
+  if (has_friction && body.way == 0 && force == 0 &&
+      holding_capacity(*at.system, at.state, joint, true) > 0) {
+    body.arrived = true;
+    return 0;
+  }
   const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, joint) : 0);
   double ds = nothing_pulls ? push_off(body) : step_down(body, s, force);
   if (!nothing_pulls) body.balanced = 0;
@@ -94,6 +124,7 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   const double room = 0.4 * distance_to_others(at, joint);
   ds = std::clamp(ds, -room, room);
   if (!curve.closed()) ds = std::clamp(ds, -s, curve.length() - s);
+  ds = before_stops(at, joint, s, ds);
   body.at_end = ds == 0 && !nothing_pulls;
   body.arrived = std::abs(ds) < 1e-6 * spacing;
   if (body.arrived) return 0;
@@ -161,13 +192,15 @@ class RestSearch {
     return std::move(report_);
   }
 
-  RestReport rest(const std::function<bool()>& interrupted) {
+  // `slides`: the joints whose bodies look for their place.
+  RestReport rest(const std::vector<bool>& slides, const std::function<bool()>& interrupted) {
+    at_.state.memory.resize(0);  // bodies are held as they are searched for
     if (!goes_on(meeting_bodies(at_)) ||
         !hold_in_equilibrium(equilibrium_ ? held_at(at_, present_places(at_)) : at_.system->mesh().plan))
       return std::move(report_);
     if (!move_driven_bodies()) return std::move(report_);
     std::vector<Descent> bodies;
-    for (int j = 0; j < joints(); ++j) bodies.push_back({model().joints[j].motion ? 0 : spacing(j) / 4});
+    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? spacing(j) / 4 : 0});
     constexpr int most_moves = 2000;
     for (int moves = 0; let_down(bodies); ++moves) {
       report_.interrupted = interrupted();
@@ -175,9 +208,11 @@ class RestSearch {
       if (report_.interrupted || report_.failure) return std::move(report_);
     }
     if (report_.failure) return std::move(report_);
-    std::vector<bool> at_end;
-    for (const Descent& body : bodies) at_end.push_back(body.at_end);
-    free_bodies(at_end);
+    std::vector<bool> stays;
+    for (int j = 0; j < joints(); ++j)
+      stays.push_back(bodies[j].at_end || !(slides[j] || model().joints[j].motion));
+    hold_by_friction(at_, stays);
+    free_bodies(stays);
     return std::move(report_);
   }
 
@@ -196,8 +231,7 @@ class RestSearch {
     std::vector<double> ds(model().joints.size(), 0);
     for (int j = 0; j < joints(); ++j)
       if (const auto& motion = model().joints[j].motion)
-        if (const auto s = place(*at_.system, at_.state, j))
-          ds[j] = value_and_slope(*motion, at_.state.t).first - *s;
+        if (const auto s = place(*at_.system, at_.state, j)) ds[j] = motion->at(at_.state.t).s - *s;
     return move_places(std::move(ds));
   }
 
@@ -305,22 +339,39 @@ class RestSearch {
   RestReport report_;
 };
 
+// The joints whose bodies look for their place; `otherwise`: those that do not say.
+std::vector<bool> sliding_at_rest(const BeamModel& model, StaticPlace otherwise) {
+  std::vector<bool> slides;
+  for (const SlidingJoint& joint : model.joints) {
+    const StaticPlace rest = joint.rest == StaticPlace::automatic ? otherwise : joint.rest;
+    slides.push_back(!joint.motion && rest == StaticPlace::free);
+  }
+  return slides;
+}
+
 }  // namespace
 
 RestReport find_held_equilibrium(MeshedState& at) {
   return RestSearch(at, LengthControl{}).held_equilibrium();
 }
 
+RestReport find_start(MeshedState& at, const LengthControl& control,
+                      const std::function<bool()>& interrupted) {
+  const std::vector<bool> slides = sliding_at_rest(at.system->model(), StaticPlace::held);
+  const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
+  return any ? RestSearch(at, control).rest(slides, interrupted) : RestSearch(at, control).held_equilibrium();
+}
+
 RestReport find_rest(MeshedState& at, const LengthControl& control,
                      const std::function<bool()>& interrupted) {
-  return RestSearch(at, control).rest(interrupted);
+  return RestSearch(at, control).rest(sliding_at_rest(at.system->model(), StaticPlace::free), interrupted);
 }
 
 RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
                           const std::function<bool()>& interrupted) {
   RestSearch search(at, control, at.state.t);
   at.state.t = t;
-  return search.rest(interrupted);
+  return search.rest(sliding_at_rest(at.system->model(), StaticPlace::free), interrupted);
 }
 
 }  // namespace nurbeam

@@ -12,8 +12,17 @@ enum class EventKind {
   becomes_node,    ///< a body is carried as a node
   left_beam,       ///< a body has left the beam
   stopped_at_end,  ///< a body has stopped at the end
-  released         ///< a body that was held is free to slide
+  released,        ///< a body that was held is free to slide
+  sticks,          ///< a body with friction comes to rest on its beam
+  slides,          ///< one breaks loose, or has turned round
+  hits_stop,       ///< a body comes to a stop, hard or with a buffer, and is thrown back or pressed in
+  rests_at_stop,   ///< a body comes to rest against a hard stop
+  leaves_stop      ///< one is no longer pressed to its stop
 };
+/// Whether what an event takes from the energy counts as dissipated.
+inline bool is_booked(EventKind kind) {
+  return kind == EventKind::stopped_at_end || kind >= EventKind::sticks;
+}
 
 /// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...
 struct RunEvent {

@@ -7,13 +7,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/forces/memory.h"
 #include "fem/motion/crossing.h"
+#include "fem/motion/free_lengths.h"
 #include "fem/motion/kinks.h"
 #include "fem/motion/meshed_state.h"
 #include "fem/motion/recentring.h"
 #include "fem/motion/resting_place.h"
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
+#include "fem/motion/step_events.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
@@ -39,7 +42,10 @@ struct Simulation::Implementation {
         probes_(std::move(probes)),
         options_(std::move(options)),
         observer_(std::move(observer)),
-        kinks_(kink_times(*model_)) {
+        kinks_(kink_times(*model_)),
+        has_events_(no_memory(*model_).size() > 0 ||
+                    std::any_of(model_->beams.begin(), model_->beams.end(),
+                                [](const Beam& beam) { return beam.rigid; })) {
     if (from) {
       go_on_from(*from);
       next_output_ = from->snapshots;
@@ -79,6 +85,17 @@ struct Simulation::Implementation {
     return report;
   }
 
+  Snapshot present() const {
+    Snapshot snapshot = record_snapshot(*at_.system, recorded_state(), probes_);
+    snapshot.steps = steps_;
+    snapshot.energy.dissipated = dissipated_;
+    snapshot.energy.input = input_;
+    snapshot.energy.total += dissipated_ - input_;
+    snapshot.step = last_step_;
+    snapshot.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
+    return snapshot;
+  }
+
   Checkpoint checkpoint() const {
     if (!integrator_) throw std::invalid_argument("a checkpoint is one of a motion that has begun");
     Checkpoint point;
@@ -91,6 +108,7 @@ struct Simulation::Implementation {
     point.dissipated = dissipated_;
     point.input = input_;
     point.start_energy = start_energy_;
+    for (const Connector& connector : model_->connectors) point.connector_lengths.push_back(connector.length);
     point.iterations_in_snapshots = iterations_written_;
     point.steps = steps_;
     point.report = report_up_to_now();
@@ -124,11 +142,19 @@ struct Simulation::Implementation {
     const std::vector<double>& times = options_.output_times;
     if (phase_ == Phase::start && !times.empty()) at_.state.t = times.front();
     const bool found = phase_ == Phase::start
-                           ? book(find_rest(at_, options_.length_control, asked))
+                           ? find_lengths() && book(find_rest(at_, options_.length_control, asked))
                            : book(find_next_rest(at_, times[next_output_], options_.length_control, asked));
     if (found) take_snapshot();
     ++next_output_;
     phase_ = found && next_output_ < times.size() ? Phase::rest : Phase::ended;
+  }
+
+  // The free lengths of connectors that the equilibrium gives; whether the run goes on.
+  bool find_lengths() {
+    if (!asks_for_lengths(*model_)) return true;
+    const bool found = book(find_free_lengths(at_));
+    model_ = at_.system->shared_model();
+    return found;
   }
 
   // Takes over what a search for rest came to; whether the run goes on.
@@ -153,13 +179,18 @@ struct Simulation::Implementation {
   bool start_motion() {
     if (!goes_on(meeting_bodies(at_))) return false;
     if (options_.start_from_equilibrium) {
-      if (!book(find_held_equilibrium(at_))) return false;
-      at_.system = std::make_unique<BeamSystem>(model_, at_.system->mesh().plan);
+      const auto asked = [this] { return interrupted(); };
+      if (!find_lengths()) return false;
+      if (!book(find_start(at_, options_.length_control, asked))) return false;
+      at_.system = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
       at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
     }
     start_moving(*at_.system, at_.state);
     if (project_velocities(*at_.system, at_.state).status != ConsistencyStatus::done)
       return fail(Failure::Kind::initial_velocities);
+    if (no_memory(*model_).size() > 0 &&
+        !(start_memory(at_, shortest_time()) && start_contacts(at_, shortest_time())))
+      return fail(Failure::Kind::mass_matrix);
     return restart();
   }
 
@@ -170,6 +201,7 @@ struct Simulation::Implementation {
   }
 
   void go_on_from(const Checkpoint& point) {
+    model_ = with_lengths(*model_, point.connector_lengths);
     at_ = {std::make_unique<BeamSystem>(model_, point.plan), point.state};
     integrator_ = start_integrator(options_.integrator, *at_.system, at_.state);
     integrator_->restore(point.state, point.history);
@@ -282,21 +314,25 @@ struct Simulation::Implementation {
     at_.state = integrator_->state();
     restarted_ = false;
     const double end = at_.state.t;
-    const std::optional<Crossing> crossing = first_crossing(*at_.system, before, at_.state);
-    if (crossing) {
-      land({before, history, at_.state, taken.step}, *crossing);
-      at_.state = carried_over(*at_.system, std::move(at_.state), taken.step, *crossing);
-    }
+    std::optional<Crossing> crossing = first_crossing(*at_.system, before, at_.state);
+    if (crossing) land({before, history, at_.state, taken.step}, *crossing);
+    const std::optional<StepEvent> event = land_on_event(before, history);
+    if (event) crossing.reset();
+    if (crossing) at_.state = carried_over(*at_.system, std::move(at_.state), taken.step, *crossing);
     const std::optional<Crossing> ending = end_passed(*at_.system, at_.state);
     if (ending) land({before, history, at_.state, at_.state.t - before.t}, *ending);
-    if (!crossing && !ending && !options_.step) land_on_change({before, history, at_.state, taken.step});
+    if (!crossing && !event && !ending && !options_.step)
+      land_on_change({before, history, at_.state, taken.step});
+    if (event && at_.state.t == before.t) return pass_event(*event, true);
     const double length = at_.state.t == end ? taken.step : at_.state.t - before.t;
     last_record_ = {at_.state.t, length, taken.newton_iterations, taken.rejected};
     steps_.push_back(last_record_);
-    if (damped()) dissipated_ += dissipated_between(before, at_.state);
+    if (at_.state.t > before.t) dissipated_ += lost_between(before, at_.state);
     if (driven()) input_ += input_work(*at_.system, before, at_.state);
     if (ending && !end_sliding(*ending)) return false;
+    note_friction(before, event);
     if (crossing && !ending && !step_over(*crossing)) return false;
+    if (event && !ending && !pass_event(*event, false)) return false;
     if (!goes_on(meeting_bodies(at_))) return false;
     settle_mesh();
     return report_.status == SimulationStatus::done && recentre_sections();
@@ -338,9 +374,9 @@ struct Simulation::Implementation {
     const SystemEnergy now = energy(*at_.system, after);
     known_energy_ = {after.t, now};
     double gained = now.mechanical() - old.mechanical();
-    if (damped()) gained += dissipated_between(before, after);
+    gained += lost_between(before, after);
     if (driven()) gained -= input_work(*at_.system, before, after);
-    const double strain = old.axial + old.bending, fallen = std::abs(now.gravity - old.gravity);
+    const double strain = old.strain(), fallen = std::abs(now.gravity - old.gravity);
     const double scale = std::max({report_.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
     return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report_.strain_noise;
   }
@@ -363,22 +399,24 @@ struct Simulation::Implementation {
     if (project_velocities(*at_.system, at_.state, shortest_time()).status != ConsistencyStatus::done)
       return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = jumping});
     input_ += energy(*at_.system, at_.state).mechanical() - before;
-    return restart();
+    return settle(joints_with_friction(*at_.system), false) && restart();
   }
 
   // Those that are held until now.
   bool release_bodies() {
     MeshPlan plan = present_plan(*at_.system, at_.state);
     std::vector<RunEvent> events;
+    std::vector<int> released;
     for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j)
       if (plan.holds(j) && *model_->joints[j].release <= at_.state.t) {
         plan.held[j] = false;
+        if (model_->joints[j].friction) released.push_back(j);
         events.push_back(event_before(at_, EventKind::released, j));
       }
     if (events.empty()) return true;
     at_.system = std::make_unique<BeamSystem>(model_, std::move(plan));
     at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
-    if (!restart()) return false;
+    if (!settle(released, true) || !restart()) return false;
     for (RunEvent& event : events) {
       finish_event(at_, event);
       report_.events.push_back(std::move(event));
@@ -390,6 +428,62 @@ struct Simulation::Implementation {
   void land(const StepTaken& taken, const Crossing& crossing) {
     State landing = landed(*at_.system, *integrator_, taken, crossing);
     at_.state = std::move(landing);
+  }
+
+  // Repeats a step in which an event happens so that it ends there.
+  std::optional<StepEvent> land_on_event(const State& before, const IntegratorHistory& history) {
+    std::optional<StepEvent> found;
+    if (!has_events_) return found;
+    const std::size_t most =
+        model_->joints.size() + model_->stops.size();  // the first found need not come first
+    for (std::size_t i = 0; i <= most && at_.state.t > before.t; ++i) {
+      const std::optional<StepEvent> event = first_event(*at_.system, before, at_.state);
+      if (!event) break;
+      const State after = at_.state;
+      at_.state = landed(*at_.system, *integrator_, {before, history, after, after.t - before.t}, *event);
+      found = event;
+    }
+    return found;
+  }
+
+  // What the event that a step has ended at does; `at_once`: that the step would begin with. What it takes
+  // from the energy is lost.
+  bool pass_event(const StepEvent& event, bool at_once) {
+    const auto* contact = std::get_if<ContactEvent>(&event);
+    if (contact && contact->kind == ContactEvent::Kind::bodies_meet)
+      return goes_on(
+          Failure{.kind = Failure::Kind::bodies_meet, .time = at_.state.t, .places = places_of(at_)});
+    RunEvent happened = event_before(at_, EventKind::slides, joint_of(*model_, event));
+    const std::optional<EventKind> kind =
+        std::visit([&](const auto& e) { return apply(at_, e, shortest_time(), at_once); }, event);
+    if (!kind) return fail(Failure::Kind::mass_matrix);
+    happened.kind = *kind;
+    dissipated_ += happened.energy_before - energy(*at_.system, at_.state).mechanical();
+    if (!restart()) return false;
+    finish_event(at_, happened);
+    report_.events.push_back(std::move(happened));
+    return true;
+  }
+
+  // Of bodies that stick or slide though their step did not end there.
+  void note_friction(const State& before, const std::optional<StepEvent>& located) {
+    if (before.memory.size() == 0) return;
+    for (const int j : changed_ways(*at_.system, before, at_.state)) {
+      if (located && std::holds_alternative<FrictionChange>(*located) && joint_of(*model_, *located) == j)
+        continue;
+      const bool sticks = sliding_way(*at_.system, at_.state, j) == 0;
+      report_.events.push_back(event_before(at_, sticks ? EventKind::sticks : EventKind::slides, j));
+      finish_event(at_, report_.events.back());
+    }
+  }
+
+  // Bodies with friction stick or slide as forces and velocities now are; what sticks stored is lost.
+  bool settle(const std::vector<int>& joints, bool at_rest) {
+    if (joints.empty()) return true;
+    const double before = energy(*at_.system, at_.state).mechanical();
+    if (!settle_friction(at_, joints, shortest_time(), at_rest)) return fail(Failure::Kind::mass_matrix);
+    dissipated_ += before - energy(*at_.system, at_.state).mechanical();
+    return true;
   }
 
   // Under error control: repeats a step at whose end a change of the mesh is due so that it ends where it
@@ -427,6 +521,10 @@ struct Simulation::Implementation {
     return h * energy(*at_.system, middle).dissipation;
   }
 
+  double lost_between(const State& from, const State& to) const {
+    return (damped() ? dissipated_between(from, to) : 0) + lost_energy(*at_.system, from, to);
+  }
+
   double strain_noise() const {
     double stiffness = 0;
     for (const Beam& beam : model_->beams) stiffness += beam.properties.axial_stiffness * beam.curve.length();
@@ -434,21 +532,25 @@ struct Simulation::Implementation {
   }
 
   bool damped() const {
-    return std::any_of(
-        model_->beams.begin(), model_->beams.end(),
-        [](const Beam& beam) { return beam.properties.damping > 0; });
+    const auto& connectors = model_->connectors;
+    if (std::any_of(connectors.begin(), connectors.end(),
+                    [](const Connector& connector) { return connector.damping > 0; }))
+      return true;
+    return std::any_of(model_->beams.begin(), model_->beams.end(),
+                       [](const Beam& beam) { return beam.properties.is_damped(); });
   }
 
   bool driven() const {
     const auto& m = *model_;
-    return !m.forces.empty() || std::any_of(m.joints.begin(), m.joints.end(), [](const auto& joint) {
-      return joint.motion.has_value();
-    }) || std::any_of(m.beams.begin(), m.beams.end(), [](const Beam& beam) {
-      return !beam.properties.free_strain.thermal.empty();
-    }) || std::any_of(m.constraints.begin(), m.constraints.end(), [](const Constraint& constraint) {
-      const auto* support = std::get_if<Support>(&constraint);
-      return support && support->motion;
-    });
+    return !m.forces.empty() || !m.air.wind.isZero() ||
+           std::any_of(m.joints.begin(), m.joints.end(),
+                       [](const auto& joint) { return joint.motion.has_value(); }) ||
+           std::any_of(m.beams.begin(), m.beams.end(),
+                       [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); }) ||
+           std::any_of(m.constraints.begin(), m.constraints.end(), [](const Constraint& constraint) {
+             const auto* support = std::get_if<Support>(&constraint);
+             return support && support->motion;
+           });
   }
 
   // Goes on beyond a place that a joint has landed at: a point in the next element.
@@ -493,7 +595,8 @@ struct Simulation::Implementation {
     at_ = {std::move(next), std::move(moved)};
     if (!restart()) return false;
     finish_event(at_, event);
-    if (!leaves) dissipated_ += event.energy_before - event.energy_after;  // in the impact
+    // In the impact, or what friction stored.
+    if (!leaves || model_->joints[joint].friction) dissipated_ += event.energy_before - event.energy_after;
     report_.events.push_back(std::move(event));
     return true;
   }
@@ -542,7 +645,7 @@ struct Simulation::Implementation {
       return {};
     const SystemEnergy now = energy(*at_.system, at_.state);
     const double jump = event.energy_after - event.energy_before;
-    const double moves = std::max(now.kinetic, now.axial + now.bending);
+    const double moves = std::max(now.kinetic, now.strain());
     if (std::abs(jump) <= most * moves + round_off * (moves + std::abs(now.gravity)) + report_.strain_noise)
       return {};
     return Failure{.kind = Failure::Kind::mesh_energy,
@@ -571,23 +674,18 @@ struct Simulation::Implementation {
   }
 
   void take_snapshot() {
-    Snapshot snapshot = record_snapshot(*at_.system, recorded_state(), probes_);
-    snapshot.steps = std::exchange(steps_, {});
-    snapshot.energy.dissipated = dissipated_;
-    snapshot.energy.input = input_;
-    snapshot.energy.total += dissipated_ - input_;
-    snapshot.step = last_step_;
-    snapshot.newton_iterations = static_cast<int>(report_.newton_iterations - iterations_written_);
+    const Snapshot snapshot = present();
+    steps_.clear();
     iterations_written_ = report_.newton_iterations;
     if (!options_.statics) {
       double drift = snapshot.energy.total - start_energy_;
       report_.energy_drift = std::max(report_.energy_drift, std::abs(drift));
       for (const RunEvent& event : report_.events)
-        if (event.kind != EventKind::stopped_at_end) drift -= event.energy_after - event.energy_before;
+        if (!is_booked(event.kind)) drift -= event.energy_after - event.energy_before;
       report_.integration_error = std::max(report_.integration_error, std::abs(drift));
       created_ = drift;
       report_.peak_kinetic_energy = std::max(report_.peak_kinetic_energy, snapshot.energy.kinetic);
-      report_.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending);
+      report_.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending + snapshot.energy.spring);
       report_.gravity_energy.add(snapshot.energy.gravity);
     }
     last_written_ = at_.state.t;
@@ -603,6 +701,7 @@ struct Simulation::Implementation {
   double seconds_ = 0;                     // of the calls so far, and of the run that was interrupted
   std::optional<Clock::time_point> call_;  // when the present one began
   std::vector<double> kinks_;              // of tables: steps end there
+  const bool has_events_;                  // of bodies with friction or stops, or on guides
   SimulationReport report_;
   MeshedState at_;
   std::unique_ptr<Integrator> integrator_;
@@ -629,6 +728,7 @@ bool Simulation::change_forces(const std::function<void(std::vector<Force>&)>& c
 }
 const BeamSystem& Simulation::system() const { return *implementation_->at().system; }
 const State& Simulation::state() const { return implementation_->at().state; }
+Snapshot Simulation::present() const { return implementation_->present(); }
 SimulationReport Simulation::report() const { return implementation_->report_up_to_now(); }
 Checkpoint Simulation::checkpoint() const { return implementation_->checkpoint(); }
 

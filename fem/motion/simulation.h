@@ -57,6 +57,8 @@ class Simulation {
   const BeamSystem& system() const;
   const State& state() const;
   SimulationReport report() const;
+  /// The state with what is known of the steps since the last snapshot.
+  Snapshot present() const;
   /// Of the present moment. Throws std::invalid_argument before the first call of advance(), and in statics.
   Checkpoint checkpoint() const;
 

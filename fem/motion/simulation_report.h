@@ -34,6 +34,8 @@ struct Failure {
     bodies_meet,         ///< sliding bodies on one beam
     equilibrium,         ///< is not found: `equilibrium`
     resting_place,       ///< of a sliding body is not found
+    free_lengths,        ///< of connectors are not found
+    wrong_sign,          ///< of `force` in the `connector` whose length the equilibrium gives
     unstable_state,      ///< vibrations about it would grow with the rate `growth`
     no_energy,           ///< behind the tangent, which is not symmetric
     not_held,            ///< the tangent is singular
@@ -48,6 +50,8 @@ struct Failure {
   StaticReport equilibrium = {};
   double energy = 0;  ///< [J]
   double growth = 0;  ///< [1/s]
+  int connector = -1;
+  double force = 0;  ///< [N]
 };
 
 /// The least and the greatest of an energy in the frames so far [J].

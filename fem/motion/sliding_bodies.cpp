@@ -13,17 +13,27 @@ double home_spacing(const BeamModel& model, int joint) {
   return beam.curve.length() / beam.home_intervals();
 }
 
-double distance_to_others(const MeshedState& at, int joint) {
+double distance_between(const MeshedState& at, int joint, int other) {
   const BeamModel& model = at.system->model();
+  const auto here = place(*at.system, at.state, joint), there = place(*at.system, at.state, other);
+  if (joint == other || !here || !there || model.joints[other].beam != model.joints[joint].beam)
+    return std::numeric_limits<double>::infinity();
+  return std::abs(model.beam_of(model.joints[joint]).curve.unrolled(*there, *here) - *here);
+}
+
+double distance_to_others(const MeshedState& at, int joint) {
   double distance = std::numeric_limits<double>::infinity();
-  for (int other = 0; other < static_cast<int>(model.joints.size()); ++other) {
-    const auto s = place(*at.system, at.state, other);
-    if (other == joint || !s || model.joints[other].beam != model.joints[joint].beam) continue;
-    const double here = *place(*at.system, at.state, joint);
-    const ReferenceCurve& curve = model.beam_of(model.joints[joint]).curve;
-    distance = std::min(distance, std::abs(curve.unrolled(*s, here) - here));
-  }
+  for (int other = 0; other < static_cast<int>(at.system->model().joints.size()); ++other)
+    distance = std::min(distance, distance_between(at, joint, other));
   return distance;
+}
+
+bool kept_apart(const BeamModel& model, int joint, int other) {
+  return std::any_of(
+      model.stops.begin(), model.stops.end(),
+      [&](const Stop& stop) {
+        return stop.other >= 0 && std::minmax(stop.joint, stop.other) == std::minmax(joint, other);
+      });
 }
 
 std::vector<BodyPlace> places_of(const MeshedState& at) {
@@ -39,9 +49,11 @@ std::vector<BodyPlace> places_of(const MeshedState& at) {
 std::optional<Failure> meeting_bodies(const MeshedState& at) {
   const BeamModel& model = at.system->model();
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
-    const double nearest = meeting_distance * home_spacing(model, j);
-    if (place(*at.system, at.state, j) && distance_to_others(at, j) <= nearest)
-      return Failure{.kind = Failure::Kind::bodies_meet, .time = at.state.t, .places = places_of(at)};
+    const bool rigid = model.beam_of(model.joints[j]).rigid;
+    const double nearest = (rigid ? touching_distance : meeting_distance) * home_spacing(model, j);
+    for (int other = 0; other < j; ++other)
+      if (!kept_apart(model, other, j) && distance_between(at, other, j) <= nearest)
+        return Failure{.kind = Failure::Kind::bodies_meet, .time = at.state.t, .places = places_of(at)};
   }
   return std::nullopt;
 }

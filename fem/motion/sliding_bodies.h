@@ -10,6 +10,11 @@ namespace nurbeam {
 /// Mean length of the standard elements of a joint's beam [m].
 double home_spacing(const BeamModel& model, int joint);
 
+/// From one body to another on the same beam [m], on a ring the short way; else infinity.
+double distance_between(const MeshedState& at, int joint, int other);
+/// Whether a stop keeps two bodies apart.
+bool kept_apart(const BeamModel& model, int joint, int other);
+
 /// From one body to the nearest other one on its beam [m]; infinity where it is alone.
 double distance_to_others(const MeshedState& at, int joint);
 

@@ -43,10 +43,35 @@ void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
 std::pair<int, double> first_place(const Support& support) { return {support.beam, support.s}; }
 std::pair<int, double> first_place(const BeamJoint& joint) { return {joint.beam_a, joint.s_a}; }
 
+// A guide, which is as it is drawn: its segments, with the strains and forces of none.
+BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& gravity) {
+  BeamRecord record;
+  for (int j = 0; j < curve.segment_count(); ++j) {
+    ElementRecord& element = record.elements.emplace_back();
+    element.control_points = curve.segment(j).points();
+    element.s_start = curve.breaks()[j];
+    element.s_end = curve.breaks()[j + 1];
+    element.strain = element.axial_force = element.bending_moment = Eigen::Vector4d::Zero();
+    element.stress = Eigen::Vector4d::Constant(SectionRecord::no_number);
+    element.velocity.setZero();
+    for (int i = 0; i < 4; ++i) element.curvature[i] = curve.geometry(j, i / 3.0).curvature[0];
+  }
+  for (int j = 0; j < curve.segment_count() + (curve.closed() ? 0 : 1); ++j) {
+    record.node_s.push_back(curve.breaks()[j]);
+    record.node_positions.push_back(curve.position(curve.breaks()[j]));
+    record.node_slopes.push_back(curve.tangent(curve.breaks()[j], true));
+  }
+  record.length = curve.length();
+  record.sag = sag(record.elements, gravity);
+  find_extremes(curve, record);
+  return record;
+}
+
 BeamRecord record_beam(const BeamSystem& system, const State& state,
                        const std::vector<SpanResultants>& carried, int b) {
   const Mesh& mesh = system.mesh();
   const ReferenceCurve& curve = system.model().beams[b].curve;
+  if (system.model().beams[b].rigid) return record_guide(curve, system.model().gravity);
   BeamRecord record;
   double twisted = 0;  // since the start of the beam
   for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i) {
@@ -77,10 +102,15 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state,
                          const std::vector<SpanResultants>& carried, const std::vector<BeamRecord>& beams,
                          const ProbePlace& probe) {
   const MaterialPoint<3> p = material_point(system, state, probe.beam, probe.s);
-  const int span = find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
   ProbeRecord record;
   record.position = p.r;
   record.velocity = p.velocity;
+  if (system.model().beams[probe.beam].rigid) {
+    record.section.curvature = p.rss.norm();
+    record.section.stress = SectionRecord::no_number;
+    return record;
+  }
+  const int span = find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
   record.displacement = p.r - system.model().beams[probe.beam].curve.position(probe.s);
   record.section = section_at(system, state, span, carried[span], probe.s);
   record.section.twist += beams[probe.beam].elements[span - system.mesh().first_span[probe.beam]].twist[0];
@@ -121,15 +151,25 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
     if (const auto s = place(system, state, j)) body.s = model.beam_of(model.joints[j]).curve.wrapped(*s);
     body.joint_force = joint_force(system, state, j);
     body.holding_force = holding_force(system, state, j);
+    if (const std::optional<FrictionForce> friction = sliding_friction(system, state, j)) {
+      body.friction_force = friction->along;
+      body.stuck = friction->memory.slides == 0 ? 1 : 0;
+    }
+    if (model.joints[j].motion && body.s) body.drive_force = body.holding_force;
   }
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i)
     snapshot.reactions.push_back(record_reaction(system, state, i));
+  for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
+    const auto [length, force] = length_and_force(system, state, i);
+    snapshot.connectors.push_back({length, force});
+  }
   const SystemEnergy e = energy(system, state);
   snapshot.energy = {.kinetic = e.kinetic,
                      .gravity = e.gravity,
                      .axial = e.axial,
                      .bending = e.bending + e.torsion,
-                     .total = e.mechanical()};
+                     .total = e.mechanical(),
+                     .spring = e.spring};
   return snapshot;
 }
 

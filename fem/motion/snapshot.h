@@ -46,6 +46,10 @@ struct BodyRecord {
   std::optional<double> s;      ///< empty after it has left its beam [m]
   Eigen::Vector3d joint_force;  ///< of the beam on the body [N]
   double holding_force = 0;     ///< along the beam, where its place is prescribed or it has stopped [N]
+  /// Of its friction along the beam, positive towards the beam's end, and whether it sticks (1) or slides
+  /// (0); of the drive that prescribes its place; NaN without [N], [-], [N].
+  double friction_force = SectionRecord::no_number, stuck = SectionRecord::no_number,
+         drive_force = SectionRecord::no_number;
 };
 
 /// What a support gives to its beam, or the second of two joined beams to the first.
@@ -54,11 +58,17 @@ struct ReactionRecord {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = Eigen::Vector3d::Zero();  ///< [N], [N m]
 };
 
+struct ConnectorRecord {
+  double length = 0;  ///< or its part along the connector's direction [m]
+  double force = 0;   ///< that pulls the ends together [N]
+};
+
 struct EnergyRecord {
   double kinetic = 0, gravity = 0, axial = 0, bending = 0;  ///< [J]; bending: and torsion
   double dissipated = 0;                                    ///< by damping and impacts, since the start [J]
-  double input = 0;  ///< work of loads but weight and of prescribed motions, since the start [J]
-  double total = 0;  ///< what should not change: the sum, less the input [J]
+  double input = 0;   ///< work of loads but weight and of prescribed motions, since the start [J]
+  double total = 0;   ///< what should not change: the sum, less the input [J]
+  double spring = 0;  ///< of what is elastic beside the beams [J]
 };
 
 /// One accepted step of the integrator.
@@ -76,6 +86,7 @@ struct Snapshot {
   std::vector<BodyRecord> bodies;
   std::vector<BeamRecord> beams;
   std::vector<ReactionRecord> reactions;  ///< of the model's constraints, in order
+  std::vector<ConnectorRecord> connectors;
   EnergyRecord energy;
   std::vector<StepRecord> steps;  ///< since the previous frame
   double step = 0;                ///< last step size [s]
@@ -90,9 +101,11 @@ struct ProbePlace {
 
 /// Names in the order of the vectors of a Snapshot.
 struct SnapshotNames {
-  std::vector<std::string> probes, bodies, beams, reactions;
+  std::vector<std::string> probes, bodies, beams, reactions, connectors;
   /// Beams have torsion: what is known of their sections' own axes belongs to the results.
   bool sections = false;
+  /// Bodies have friction; something is elastic beside the beams.
+  bool friction = false, springs = false;
 };
 
 /// The beams of a state.

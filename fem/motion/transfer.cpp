@@ -264,6 +264,7 @@ void set_bubbles(const BeamSystem& from, const State& state, const BeamSystem& t
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to) {
   State next = drawn_state(to);
   next.t = state.t;
+  next.memory = state.memory;
   const int D = to.dimension();
   const Mesh &old = from.mesh(), &mesh = to.mesh();
   std::vector<std::pair<int, int>> added;  // beam, node

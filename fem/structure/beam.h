@@ -46,6 +46,8 @@ struct Beam {
   MergeRule merge = MergeRule::standard;
   Form form = Form::variational;
   std::optional<BeamVelocity> velocity = {};  ///< at t = 0; else at rest
+  /// A guide: the axis stays as drawn, without elements, mass or strain. Its home nodes are the breaks.
+  bool rigid = false;
   std::vector<HomeNode> home;  ///< s increasing, from 0 to the length; of a ring the last is the first again
 
   bool has_torsion() const { return properties.sections.has_value(); }

@@ -25,6 +25,7 @@ DisplacementTable::DisplacementTable(std::vector<Row> rows)
 }
 
 DisplacementTable::Motion DisplacementTable::at(double t) const {
+  if (law_) return law_(t);
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   const auto next =
       std::upper_bound(rows_.begin(), rows_.end(), t, [](double x, const Row& row) { return x < row.first; });

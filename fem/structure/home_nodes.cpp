@@ -19,6 +19,12 @@ std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<
   return places;
 }
 
+std::vector<HomeNode> guide_nodes(const ReferenceCurve& curve) {
+  std::vector<HomeNode> nodes;
+  for (const double s : curve.breaks()) nodes.push_back({.s = s, .permanent = true});
+  return nodes;
+}
+
 std::vector<int> spread_elements(const std::vector<double>& places, int count) {
   const int intervals = static_cast<int>(places.size()) - 1;
   if (count < intervals)

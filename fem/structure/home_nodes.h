@@ -26,6 +26,7 @@ struct HomeNode {
   NodeKind kind = NodeKind::smooth;  ///< a hinge or a corner is never removed: no body slides over it
   Hold hold = Hold::nothing;
   bool joined = false;  ///< another beam is joined here
+  bool kept = false;    ///< a mass or a connector is here: the node never gives way
 };
 
 /// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and
@@ -39,5 +40,8 @@ std::vector<int> spread_elements(const std::vector<double>& places, int count);
 /// std::invalid_argument, naming the range of the increment in the interval that bounds it most.
 std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::vector<int>& parts,
                                  double grading = 0);
+
+/// The breaks of a rigid guide, all permanent.
+std::vector<HomeNode> guide_nodes(const ReferenceCurve& curve);
 
 }  // namespace nurbeam

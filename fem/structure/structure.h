@@ -4,7 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "fem/structure/air.h"
 #include "fem/structure/beam.h"
+#include "fem/structure/connector.h"
+#include "fem/structure/friction.h"
+#include "fem/structure/place_motion.h"
+#include "fem/structure/stop.h"
 #include "fem/time_table.h"
 
 namespace nurbeam {
@@ -16,6 +21,14 @@ struct Body {
   /// Where it starts and how fast, when no sliding joint says so [m], [m/s].
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   double roll_inertia = 0;  ///< about the tangent of a section that it follows [kg m^2]
+  double drag_area = 0;     ///< C_d A, of the drag of the air [m^2]
+};
+
+/// What a search for rest does with a sliding body.
+enum class StaticPlace {
+  automatic,  ///< a static analysis lets it slide to where it rests, a motion begins with it held where it is
+  held,
+  free
 };
 
 /// Ties a body to a moving place on a beam.
@@ -24,7 +37,7 @@ struct SlidingJoint {
   int beam;
   double s;                            ///< at t = 0 [m]
   double speed = 0;                    ///< at t = 0 [m/s]
-  std::optional<TimeTable> motion;     ///< prescribed s(t) [m]
+  std::optional<PlaceMotion> motion;   ///< prescribed s(t)
   std::optional<double> release = {};  ///< held at s until then [s]
   bool continuous_slope = true;
   bool leave_at_end = true;  ///< else it stops there
@@ -33,18 +46,28 @@ struct SlidingJoint {
   bool follows_section = false;
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 
+  StaticPlace rest = StaticPlace::automatic;
+  std::optional<Friction> friction = {};
+
   bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }
+  /// Whether the body has coordinates of its own where it is a node: a constraint ties it to the node then,
+  /// whose multipliers are the force between them.
+  bool stands_apart() const { return is_offset() || friction.has_value(); }
 };
 
-/// All that has coordinates: beams, bodies, and the joints that make nodes of the beams move.
+/// All that has coordinates: beams, bodies, the joints that make nodes of the beams move, and what connects
+/// bodies, places of beams and points.
 ///
 /// Coordinates are the model's own frame: for dimension 2 the plane of the model (third components zero).
 struct Structure {
   int dimension = 3;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  Air air = {};
   std::vector<Beam> beams;
   std::vector<Body> bodies;
   std::vector<SlidingJoint> joints;
+  std::vector<Connector> connectors;
+  std::vector<Stop> stops;
 
   const Beam& beam_of(const SlidingJoint& joint) const { return beams[joint.beam]; }
   const Body& body_of(const SlidingJoint& joint) const { return bodies[joint.body]; }

@@ -17,6 +17,8 @@ struct Support {
   std::optional<DisplacementTable> motion = {};  ///< from the drawn position, scaled as loads by State::load
   /// Of a hinge: position, and the section of a beam with torsion, which turns about this axis alone.
   std::optional<Eigen::Vector3d> axis = {};
+  /// Held across this direction alone, along which the place is free.
+  std::optional<Eigen::Vector3d> guide = {};
 };
 
 }  // namespace nurbeam

@@ -96,26 +96,57 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
   place_rows_.resize(model_->joints.size());
   for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
     const bool is_held = j < static_cast<int>(held.size()) && held[j];
+    body_rows_.push_back(constraint_count_);
     bind_joint<D>(j, is_held, at, drawn, [&](auto&& constraint) {
       if constexpr (std::is_same_v<std::decay_t<decltype(constraint)>, HeldPlace<D>>)
         place_rows_[j] = {constraint_count_, constraint.rows};
       add(std::move(constraint));
     });
   }
+  for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i) {
+    const bool rests = mesh_.plan.is_closed(i) && is_in_place(mesh_, model_->stops[i]);
+    contact_rows_.push_back(rests ? constraint_count_ : -1);
+    if (rests) add(KeptContact<D>(at, model_->stops[i]));
+  }
   bind_corners<D>(at, add);
+  rod_rows_.resize(model_->connectors.size());
+  for (std::size_t i = 0; i < model_->connectors.size(); ++i) {
+    if (model_->connectors[i].type != ConnectorType::rod) continue;
+    rod_rows_[i] = {constraint_count_, 1};
+    add(KeptLength<D>(model_->connectors[i], at));
+  }
 }
 
 template <int D>
 void Assembly<D>::bind_forces() {
   const MeshedBeams<D> at = beams();
   const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
-  for (int body = 0; body < static_cast<int>(model_->bodies.size()); ++body)
+  for (int body = 0; body < static_cast<int>(model_->bodies.size()); ++body) {
     forces_.emplace_back(PointMass<D>(at, body));
-  for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) bind_roll(j, drawn);
+    if (model_->air.density * model_->bodies[body].drag_area > 0) forces_.emplace_back(BodyDrag<D>(at, body));
+  }
+  for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
+    bind_roll(j, drawn);
+    bind_friction(j, drawn);
+  }
+  for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i)
+    if (model_->stops[i].buffer && is_in_place(mesh_, model_->stops[i]))
+      forces_.emplace_back(BufferForce<D>(at, i));
+  for (const Connector& connector : model_->connectors)
+    if (connector.type != ConnectorType::rod) forces_.emplace_back(Spring<D>(connector, at));
   for (const Force& force : model_->forces)
     forces_.push_back(std::visit(
         [&](const auto& description) -> BoundForce<D> { return bind_force<D>(description, at, drawn); },
         force));
+}
+
+// Of a body that is on its beam and not held there.
+template <int D>
+void Assembly<D>::bind_friction(int j, const Eigen::VectorXd& drawn) {
+  const JointMode mode = mesh_.plan.modes[j];
+  const bool slides = mode == JointMode::node || mode == JointMode::point;
+  if (model_->joints[j].friction && slides && !mesh_.plan.holds(j))
+    forces_.emplace_back(SlidingFriction<D>(beams(), drawn, j, body_rows_[j]));
 }
 
 // The inertia of the roll of a joint's body with its section.
@@ -260,12 +291,37 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const S
           const auto y = multipliers.segment(row, constraint.rows);
           if constexpr (requires { constraint.couple(at, state, y); })
             couple += constraint.couple(at, state, y);
+          else if constexpr (requires { constraint.force(y); })
+            force += constraint.force(y);
           else
             force.head(constraint.rows) -= y;
         },
         constraints_[c]);
   }
   return {force, couple};
+}
+
+template <int D>
+typename Assembly<D>::Vector Assembly<D>::pull_on_body(int body, const State& state) const {
+  Vector sum = Vector::Zero();
+  for (const BoundForce<D>& force : forces_)
+    if (const auto* spring = std::get_if<Spring<D>>(&force)) sum += spring->on_body(body, state);
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (const auto* rod = std::get_if<KeptLength<D>>(&constraints_[i]))
+      sum += rod->on_body(body, state.lambda[constraint_blocks_[i].row], state);
+  return sum;
+}
+
+template <int D>
+std::pair<double, double> Assembly<D>::length_and_force(int i, const State& state) const {
+  const Connector* asked = &model_->connectors[i];
+  for (const BoundForce<D>& force : forces_)
+    if (const auto* spring = std::get_if<Spring<D>>(&force); spring && &spring->connector() == asked)
+      return spring->length_and_force(state);
+  for (const BoundConstraint<D>& constraint : constraints_)
+    if (const auto* rod = std::get_if<KeptLength<D>>(&constraint); rod && &rod->connector() == asked)
+      return {rod->length(state), state.lambda[rod_rows_[i].first]};
+  return {};
 }
 
 template <int D>
@@ -457,6 +513,26 @@ Eigen::VectorXd Assembly<D>::coordinate_scale() const {
     if (mesh_.joints[j].place >= 0) scale[mesh_.joints[j].place] = length;
   }
   return scale;
+}
+
+template <int D>
+Eigen::VectorXd Assembly<D>::committed(const State& state) const {
+  const MeshedBeams<D> at = beams();
+  Eigen::VectorXd memory = state.memory;
+  for (const BoundForce<D>& force : forces_)
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.commit(at, state, memory); }) f.commit(at, state, memory);
+        },
+        force);
+  return memory;
+}
+
+template <int D>
+bool Assembly<D>::forces_depend_on_multipliers() const {
+  return std::any_of(
+      forces_.begin(), forces_.end(),
+      [](const BoundForce<D>& force) { return std::holds_alternative<SlidingFriction<D>>(force); });
 }
 
 template class Assembly<2>;

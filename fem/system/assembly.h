@@ -13,7 +13,8 @@ namespace nurbeam {
 /// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
 /// elements.
 ///
-/// Multipliers: of the model's constraints in order, then of its sliding joints, then of its rigid corners.
+/// Multipliers: of the model's constraints in order, then of its sliding joints, of its stops, of its rigid
+/// corners, of its rods.
 template <int D>
 class Assembly final : public SecondOrderSystem {
  public:
@@ -38,17 +39,25 @@ class Assembly final : public SecondOrderSystem {
   };
   Rows rows_of_constraint(int i) const { return constraint_rows_[i]; }
   Rows rows_of_place(int j) const { return place_rows_[j]; }
+  /// Of connector i, where it is a rod.
+  Rows rows_of_rod(int i) const { return rod_rows_[i]; }
+  /// That of a stop which a body rests against, -1 else.
+  int row_of_contact(int stop) const { return contact_rows_[stop]; }
 
   /// The multipliers' force and couple on the beam that constraint i of the model holds, on the first of two
   /// [N], [N m]; impulses where `multipliers` are.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
                                                        const Eigen::VectorXd& multipliers) const;
+  /// What connectors give to a body [N].
+  Vector pull_on_body(int body, const State& state) const;
+  /// The length of connector i and its pull.
+  std::pair<double, double> length_and_force(int i, const State& state) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
-  /// Puts bodies with an offset where the sections that they follow carry them, and gives them the velocity
-  /// of these.
+  /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
+  /// and gives them the velocity of these.
   void carry_bodies(State& state) const;
   /// Whether the forces of an element are those of form P, for comparison.
   bool is_form_p(const MeshElement<D>& e) const {
@@ -66,6 +75,8 @@ class Assembly final : public SecondOrderSystem {
   double step_limit(const State& state) const override;
   bool admissible(const State& state) const override;
   Eigen::VectorXd coordinate_scale() const override;
+  Eigen::VectorXd committed(const State& state) const override;
+  bool forces_depend_on_multipliers() const override;
 
  private:
   // Row and column blocks of one contribution in the value array of the iteration matrix.
@@ -82,6 +93,7 @@ class Assembly final : public SecondOrderSystem {
 
   void bind_constraints(const std::vector<bool>& held);
   void bind_forces();
+  void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
   Vector line_load(int beam, const State& state) const;
@@ -94,7 +106,9 @@ class Assembly final : public SecondOrderSystem {
   std::vector<BoundForce<D>> forces_;
 
   int constraint_count_ = 0;
-  std::vector<Rows> constraint_rows_, place_rows_;
+  std::vector<Rows> constraint_rows_, place_rows_, rod_rows_;
+  std::vector<int> contact_rows_;
+  std::vector<int> body_rows_;  // first of those that tie a joint's body to its beam, where there are such
   std::vector<Block> element_blocks_, force_blocks_;
   std::vector<Block> twist_blocks_;  // of the elements of beams with torsion, empty for others
   std::vector<ConstraintBlock> constraint_blocks_;

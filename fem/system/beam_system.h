@@ -46,6 +46,8 @@ class BeamSystem final : public SecondOrderSystem {
   double step_limit(const State& state) const override;
   bool admissible(const State& state) const override;
   Eigen::VectorXd coordinate_scale() const override;
+  Eigen::VectorXd committed(const State& state) const override;
+  bool forces_depend_on_multipliers() const override;
 
   /// The system of its dimension; null for the other one.
   template <int D>

@@ -132,14 +132,15 @@ void start_moving(const BeamSystem& system, State& state) {
     const MeshJoint& at = mesh.joints[j];
     if (mesh.plan.modes[j] == JointMode::free) continue;
     const SlidingJoint& joint = model.joints[j];
-    const double speed = joint.motion ? value_and_slope(*joint.motion, state.t).second : joint.speed;
+    const double speed = joint.motion ? joint.motion->at(state.t).speed : joint.speed;
     const double s = state.q[at.place];
     const int first = mesh.first_span[joint.beam], end = mesh.first_span[joint.beam + 1];
-    const int index = at.node >= 0 ? first + at.node : find_span(model, mesh, state.q, joint.beam, s);
-    const MaterialPoint<3> right = material_point_in(system, state, index, s);
-    state.v.segment(mesh.bodies[joint.body], D) = speed * right.rs.head(D);
+    state.v.segment(mesh.bodies[joint.body], D) =
+        speed * material_point(system, state, joint.beam, s).rs.head(D);
     state.v[at.place] = speed;
     if (at.node < 0) continue;
+    const int index = first + at.node;
+    const MaterialPoint<3> right = material_point_in(system, state, index, s);
     // The material is at rest, so the slopes at the moving node change by what the node meets.
     const MaterialPoint<3> left = material_point_in(system, state, (index > first ? index : end) - 1, s);
     const MeshNode& node = mesh.nodes[joint.beam][at.node];
@@ -159,7 +160,8 @@ void start_moving(const BeamSystem& system, State& state) {
 }
 
 void carry_bodies(const BeamSystem& system, State& state) {
-  if (const Assembly<3>* assembly = system.assembly<3>()) assembly->carry_bodies(state);
+  with_assembly(
+      system, [&](const auto& assembly) { assembly.carry_bodies(state); });
 }
 
 }  // namespace nurbeam

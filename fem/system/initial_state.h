@@ -9,7 +9,8 @@ State drawn_state(const BeamSystem& system);
 /// with its initial speed, bodies without a joint with theirs.
 void start_moving(const BeamSystem& system, State& state);
 
-/// Puts bodies with an offset where the sections that they follow carry them, and gives them their velocity.
+/// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them, and
+/// gives them their velocity.
 void carry_bodies(const BeamSystem& system, State& state);
 
 }  // namespace nurbeam

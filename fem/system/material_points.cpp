@@ -234,6 +234,12 @@ MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state,
 }
 
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s) {
+  const Beam& of = system.model().beams[beam];
+  if (of.rigid) {
+    const CurvePoint p = of.curve.point_in(of.curve.segment_at(s), s);
+    const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+    return {p.position, p.tangent, p.curvature, none, none, 0};
+  }
   return material_point_in(system, state, find_span(system.model(), system.mesh(), state.q, beam, s), s);
 }
 
@@ -355,6 +361,18 @@ Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& stat
   for (std::size_t body = 0; body < bodies.velocities.size(); ++body)
     p.segment(system.mesh().bodies[body], D) +=
         system.model().bodies[body].mass * bodies.velocities[body].head(D);
+  with_assembly(
+      system,
+      [&]<int N>(const Assembly<N>& assembly) {
+        for (const BoundForce<N>& force : assembly.forces())
+          std::visit(
+              [&](const auto& f) {
+                if constexpr (
+                    requires { f.beam(); })
+                  f.add_momentum_of(material_point(from, motion, f.beam(), f.s()).velocity, p);
+              },
+              force);
+      });
   for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
     roll.add_momentum(at, state, bodies.spins[roll.joint()], p);
   });

@@ -10,7 +10,8 @@
 
 namespace nurbeam {
 
-/// Position and velocity fields at material point s [m] of a beam; on a ring s may be any full turns away.
+/// Position and velocity fields at material point s [m] of a beam; on a ring s may be any full turns away. A
+/// rigid guide is where it is drawn.
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s);
 /// The same, as the element in span `span` has it: at a node, from its side.
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s);

@@ -133,6 +133,38 @@ double input_work(const BeamSystem& system, const State& from, const State& to) 
       system, [&](const auto& a) { return input_work_of(a, from, to); });
 }
 
+double lost_energy(const BeamSystem& system, const State& from, const State& to) {
+  return with_assembly(
+      system,
+      [&](const auto& a) {
+        double sum = 0;
+        for (const auto& force : a.forces())
+          std::visit(
+              [&](const auto& f) {
+                if constexpr (
+                    requires { f.loss(a.beams(), from, to); })
+                  sum += f.loss(a.beams(), from, to);
+              },
+              force);
+        return sum;
+      });
+}
+
+std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int joint) {
+  std::optional<FrictionForce> found;
+  if (state.memory.size() == 0) return found;
+  with_assembly(system, [&](const auto& a) {
+    for (const auto& force : a.forces())
+      std::visit(
+          [&](const auto& f) {
+            if constexpr (requires { f.sliding_joint(); })
+              if (f.sliding_joint() == joint) found = f.friction(a.beams(), state);
+          },
+          force);
+  });
+  return found;
+}
+
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state) {
   return with_assembly(
       system, [&](const auto& a) { return momentum_of(a, state); });
@@ -148,9 +180,22 @@ double beam_length(const BeamSystem& system, const State& state, int beam) {
   return with_assembly(
       system,
       [&]<int D>(const Assembly<D>& a) {
-        double sum = 0;
+        const Beam& of = a.model()->beams[beam];
+        double sum = of.rigid ? of.curve.length() : 0;
         for (int i = a.mesh().first_span[beam]; i < a.mesh().first_span[beam + 1]; ++i)
           sum += a.elements()[i].element.length(gather<D>(a.elements()[i], state.q));
+        return sum;
+      });
+}
+
+Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const BoundForce<D>& force : a.forces())
+          if (const auto* drag = std::get_if<BodyDrag<D>>(&force); drag && drag->dragged_body() == body)
+            sum += widened<D>(drag->force(a.beams(), state));
         return sum;
       });
 }
@@ -161,7 +206,11 @@ Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int jo
   const int body = system.model().joints[joint].body, D = system.dimension();
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
   acceleration.head(D) = state.a.segment(mesh.bodies[body], D);
-  return system.model().bodies[body].mass * (acceleration - system.model().gravity);
+  Eigen::Vector3d connected = Eigen::Vector3d::Zero();
+  connected.head(D) =
+      with_assembly(system, [&](const auto& a) { return Eigen::VectorXd(a.pull_on_body(body, state)); });
+  return system.model().bodies[body].mass * (acceleration - system.model().gravity) - connected -
+         air_drag(system, state, body);
 }
 
 double holding_force(const BeamSystem& system, const State& state, int joint) {
@@ -170,6 +219,20 @@ double holding_force(const BeamSystem& system, const State& state, int joint) {
       [&](const auto& a) {
         const auto rows = a.rows_of_place(joint);
         return rows.count > 0 ? -state.lambda[rows.first] : 0;
+      });
+}
+
+std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector) {
+  return with_assembly(
+      system, [&](const auto& a) { return a.length_and_force(connector, state); });
+}
+
+double contact_force(const BeamSystem& system, const State& state, int stop) {
+  return with_assembly(
+      system,
+      [&](const auto& a) {
+        const int row = a.row_of_contact(stop);
+        return row < 0 ? 0 : -state.lambda[row];
       });
 }
 

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/friction_law.h"
 #include "fem/system/beam_system.h"
 
 namespace nurbeam {
@@ -10,6 +11,8 @@ SystemEnergy energy(const BeamSystem& system, const State& state);
 /// Work of all forces but weight, and of all prescribed motions, between two states of the system [J]: by the
 /// mean force, of second order in the time between them, exact for dead forces that stay at their place.
 double input_work(const BeamSystem& system, const State& from, const State& to);
+/// Energy that friction and the air take between two states of the system [J]: by the mean force.
+double lost_energy(const BeamSystem& system, const State& from, const State& to);
 /// Linear momentum [N s] of beams and bodies.
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state);
 /// y(first), ... as a vector in space, z = 0 in the plane.
@@ -17,10 +20,20 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, in
 /// Deformed length of a beam [m].
 double beam_length(const BeamSystem& system, const State& state, int beam);
 
-/// Force of the beam on the body of a joint, m (a - g) [N].
+/// Of the air on a body [N].
+Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body);
+/// Force of the beams on the body of a joint, m (a - g) less the drag of the air and what connectors give to
+/// it [N].
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint);
 /// Multiplier of a held or prescribed joint: the force along the beam [N] that keeps it there.
 double holding_force(const BeamSystem& system, const State& state, int joint);
+/// The force of a hard stop on the body that rests against it, or between two that rest against each other
+/// [N]; 0 where none does.
+double contact_force(const BeamSystem& system, const State& state, int stop);
+/// What the friction of a joint's body does; empty where it has none, has left or is held.
+std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int joint);
+/// Length of a connector [m], or its part along its direction, and its pull [N].
+std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector);
 /// s of a joint's body [m], on a ring with the turns since the start; empty when it flies free.
 std::optional<double> place(const BeamSystem& system, const State& state, int joint);
 double place_rate(const BeamSystem& system, const State& state, int joint);

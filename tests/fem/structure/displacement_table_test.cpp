@@ -44,8 +44,9 @@ TEST(DisplacementTable, OvershootsNothingAndNoSpeedJumps) {
 }
 
 TEST(DisplacementTable, RefusesTimesThatDoNotIncrease) {
-  EXPECT_THROW(DisplacementTable({{1, {0, 0, 0}}, {1, {1, 0, 0}}}), std::invalid_argument);
-  EXPECT_THROW(DisplacementTable({}), std::invalid_argument);
+  using Row = DisplacementTable::Row;
+  EXPECT_THROW(DisplacementTable(std::vector<Row>{{1, {0, 0, 0}}, {1, {1, 0, 0}}}), std::invalid_argument);
+  EXPECT_THROW(DisplacementTable(std::vector<Row>{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 namespace nurbeam {
 namespace {
 
+using testing::add_slider;
 using testing::cornered_model;
 using testing::disturbed_state;
 using testing::joined_model;
@@ -120,6 +121,60 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithABodyThatRollsOnAPoin
   State state = disturbed_state(system, random);
   for (const MeshJoint& joint : system.mesh().joints) state.v[joint.place] = 0;
   expect_tangent(system, state, random);
+}
+
+// Bodies with friction on a kink, on a smooth node, on a point and on a guide, in a wind.
+BeamModel rubbing_model(std::mt19937& random, int dimension, Friction::Law law) {
+  BeamModel model = model_with_everything(random, dimension);
+  const ReferenceCurve guide(uneven_axis(random, dimension), dimension);
+  model.beams.push_back(
+      {.name = "guide", .curve = guide, .properties = {}, .rigid = true, .home = guide_nodes(guide)});
+  model.joints[2].motion.reset();
+  add_slider(model, 0.7, 0.6 * guide.length()).beam = 1;
+  for (SlidingJoint& joint : model.joints)
+    joint.friction = Friction{
+        .coefficient = 0.4, .law = law, .force = {{0, 40}, {1, 80}}, .viscous = 2, .stick_stiffness = 100};
+  model.air = {1.2, {3, -1, dimension == 3 ? 2.0 : 0.0}};
+  for (Body& body : model.bodies) body.drag_area = 0.5;
+  return model;
+}
+
+template <int D>
+void check_rubbing_tangent(int seed, Friction::Law law) {
+  std::mt19937 random(seed);
+  const BeamModel model = rubbing_model(random, D, law);
+  const BeamSystem system(model);
+  ASSERT_TRUE(system.forces_depend_on_multipliers());
+  for (const int way : {0, 1, -1}) {
+    State state = disturbed_state(system, random);
+    state.t = 0.3;
+    state.lambda *= 10;
+    state.memory = Eigen::VectorXd::Zero(12);
+    for (int j = 0; j < 4; ++j) {
+      const double s = state.q[system.mesh().joints[j].place];
+      state.memory.segment<3>(3 * j) << 0.02 * (j - 1), s - 0.01, way;
+      const FrictionForce friction = *sliding_friction(system, state, j);
+      EXPECT_EQ(std::abs(friction.trial) < friction.bound, true) << "one that sticks holds";
+    }
+    expect_tangent(system, state, random);
+  }
+}
+
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithFrictionAndDrag) {
+  for (const auto law : {Friction::Law::coulomb, Friction::Law::capstan}) {
+    check_rubbing_tangent<2>(31, law);
+    check_rubbing_tangent<3>(32, law);
+  }
+}
+
+TEST(BeamSystem, WithoutItsMemoryFrictionDoesNothing) {
+  std::mt19937 random(33);
+  BeamModel model = rubbing_model(random, 2, Friction::Law::coulomb);
+  const BeamSystem rubbing(model);
+  const State state = disturbed_state(rubbing, random);
+  for (SlidingJoint& joint : model.joints) joint.friction = Friction{};
+  const BeamSystem smooth(model);
+  EXPECT_EQ(residual(rubbing, state), residual(smooth, state));
 }
 
 template <int D>

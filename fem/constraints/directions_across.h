@@ -1,0 +1,23 @@
+#pragma once
+#include <Eigen/Geometry>
+
+namespace nurbeam {
+
+/// D - 1 directions across t, of unit length and at right angles to each other in space; in the plane as long
+/// as t.
+template <int D>
+Eigen::Matrix<double, D - 1, D> directions_across(const Eigen::Vector3d& t) {
+  Eigen::Matrix<double, D - 1, D> n;
+  if constexpr (D == 2) {
+    n << -t.y(), t.x();
+  } else {
+    int smallest;
+    t.cwiseAbs().minCoeff(&smallest);
+    const Eigen::Vector3d first = t.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+    n.row(0) = first;
+    n.row(1) = t.cross(first);
+  }
+  return n;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,61 @@
+#pragma once
+#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/directions_across.h"
+#include "fem/mesh/point_on_beam.h"
+#include "fem/structure/support.h"
+
+namespace nurbeam {
+
+/// A place of a beam moves along a line alone: n . (r(s) - r_0(s) - d(t)) = 0 for the D - 1 directions n
+/// across it.
+template <int D>
+class GuidedPlace {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  /// `support` must outlive the constraint.
+  GuidedPlace(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, const Support& support)
+      : point_(at, drawn, support.beam, support.s),
+        dofs_(point_.dofs(at)),
+        across_(directions_across<D>(support.guide->normalized())),
+        drawn_(at.structure.beams[support.beam].curve.position(support.s).template head<D>()),
+        motion_(support.motion ? &*support.motion : nullptr) {}
+
+  static constexpr int rows = D - 1;
+  static constexpr bool linear = true;  ///< at a node
+  const std::vector<int>& dofs() const { return dofs_; }
+  /// On the beam [N], for its multipliers.
+  Eigen::Vector3d force(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return widened<D>(Vector(-across_.transpose() * y));
+  }
+
+  ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers*) const {
+    ConstraintTerms<D> terms(rows, false);
+    const PointField<D> r = point_.shape(at, state.q).position();
+    Vector moved = r.value - drawn_;
+    if (motion_) moved -= state.load * motion_->at(state.t).value.template head<D>();
+    terms.value = across_ * moved;
+    terms.gradient.template leftCols<element_size<D>>() = across_ * r.gradient;
+    return terms;
+  }
+
+  /// dg/dt and d2g/dt2 at fixed q [m/s], [m/s^2].
+  Eigen::Matrix<double, D - 1, 1> rate(double t) const {
+    if (!motion_) return Eigen::Matrix<double, D - 1, 1>::Zero();
+    return -across_ * motion_->at(t).rate.template head<D>();
+  }
+  Eigen::Matrix<double, D - 1, 1> acceleration(double t) const {
+    if (!motion_) return Eigen::Matrix<double, D - 1, 1>::Zero();
+    return -across_ * motion_->at(t).acceleration.template head<D>();
+  }
+
+ private:
+  PointOnBeam<D> point_;
+  std::vector<int> dofs_;
+  Eigen::Matrix<double, D - 1, D> across_;
+  Vector drawn_;  // [m]
+  const DisplacementTable* motion_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,44 @@
+#pragma once
+#include <vector>
+
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// The drag of the air on a body, rho/2 C_d A |w| w with w = wind - velocity. What it takes in still air is
+/// lost; of a wind's work that part is input which it does on a body at the wind's own speed.
+template <int D>
+class BodyDrag {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  BodyDrag(const MeshedBeams<D>& at, int body);
+
+  int dragged_body() const { return body_; }
+  const std::vector<int>& dofs() const { return dofs_; }
+  /// On the body [N].
+  Vector force(const MeshedBeams<D>& at, const State& state) const;
+
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  template <class Sink>
+  void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    if (w.damping != 0) sink.own(tangent(at, state, w));
+  }
+  double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
+
+ private:
+  Vector relative_velocity(const MeshedBeams<D>& at, const State& state) const;
+  Eigen::Matrix<double, D, D> tangent(const MeshedBeams<D>& at, const State& state,
+                                      const TangentWeights& w) const;
+  Vector mean_force(const MeshedBeams<D>& at, const State& from, const State& to) const;
+
+  int body_;
+  double factor_;  // rho/2 C_d A [kg/m]
+  std::vector<int> dofs_;
+};
+
+extern template class BodyDrag<2>;
+extern template class BodyDrag<3>;
+
+}  // namespace nurbeam

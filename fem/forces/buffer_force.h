@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+#include "fem/forces/energy.h"
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// The force of a stop with a buffer along the beam, on the places of one body or two: max(0, k x + c dx/dt)
+/// for x = -d > 0. A body that has come to it presses from the first moment, which State::memory says.
+template <int D>
+class BufferForce {
+ public:
+  BufferForce(const MeshedBeams<D>& at, int stop);
+
+  const std::vector<int>& dofs() const { return dofs_; }
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  template <class Sink>
+  void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    sink.own(tangent(at, state, w));
+  }
+  void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
+  double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
+
+ private:
+  const Stop& stop(const MeshedBeams<D>& at) const { return at.structure.stops[stop_]; }
+  double pressed_in(const MeshedBeams<D>& at, const State& state) const;
+  double force(const MeshedBeams<D>& at, const State& state) const;
+  double stored(const MeshedBeams<D>& at, const State& state) const;
+  Eigen::Matrix2d tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
+
+  int stop_;
+  std::vector<int> dofs_;      // the places of both, -1 where there is none
+  Eigen::Vector2d by_places_;  // of d
+};
+
+extern template class BufferForce<2>;
+extern template class BufferForce<3>;
+
+}  // namespace nurbeam

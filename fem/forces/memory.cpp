@@ -1,0 +1,45 @@
+#include "fem/forces/memory.h"
+
+#include <algorithm>
+
+namespace nurbeam {
+
+namespace {
+
+constexpr int of_friction = 3;
+
+int first_of_joint(const Structure& structure, std::size_t joint) {
+  return of_friction * static_cast<int>(std::count_if(
+                           structure.joints.begin(), structure.joints.begin() + static_cast<long>(joint),
+                           [](const SlidingJoint& j) { return j.friction.has_value(); }));
+}
+
+int of_stop(const Structure& structure, int stop) {
+  return first_of_joint(structure, structure.joints.size()) + stop;
+}
+
+}  // namespace
+
+Eigen::VectorXd no_memory(const Structure& structure) {
+  return Eigen::VectorXd::Zero(of_stop(structure, static_cast<int>(structure.stops.size())));
+}
+
+FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint) {
+  const int first = first_of_joint(structure, joint);
+  return {memory[first], memory[first + 1], static_cast<int>(memory[first + 2])};
+}
+
+void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int joint,
+                         const FrictionMemory& of_joint) {
+  memory.segment<of_friction>(first_of_joint(structure, joint)) << of_joint.z, of_joint.s, of_joint.slides;
+}
+
+bool presses(const Structure& structure, const Eigen::VectorXd& memory, int stop) {
+  return memory.size() > 0 && memory[of_stop(structure, stop)] != 0;
+}
+
+void set_presses(const Structure& structure, Eigen::VectorXd& memory, int stop, bool pressed) {
+  memory[of_stop(structure, stop)] = pressed ? 1 : 0;
+}
+
+}  // namespace nurbeam

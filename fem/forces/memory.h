@@ -1,0 +1,19 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "fem/forces/friction_law.h"
+#include "fem/structure/structure.h"
+
+/// State::memory: three numbers of each joint with friction in turn, then one of each stop: 1 where a body
+/// presses on its buffer.
+namespace nurbeam {
+
+/// All zero, of a model.
+Eigen::VectorXd no_memory(const Structure& structure);
+FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint);
+void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int joint,
+                         const FrictionMemory& of_joint);
+bool presses(const Structure& structure, const Eigen::VectorXd& memory, int stop);
+void set_presses(const Structure& structure, Eigen::VectorXd& memory, int stop, bool pressed);
+
+}  // namespace nurbeam

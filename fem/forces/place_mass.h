@@ -1,0 +1,55 @@
+#pragma once
+#include <stdexcept>
+#include <vector>
+
+#include "fem/forces/energy.h"
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// A lumped mass at a place of a beam that keeps its node.
+struct PlaceMass {
+  int beam;
+  double s;            ///< [m]
+  double mass;         ///< [kg]
+  bool weighs = true;  ///< else it has inertia alone: what hangs over a pulley pulls as a force
+};
+
+/// A PlaceMass in one mesh.
+template <int D>
+class BoundPlaceMass {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  /// Throws std::invalid_argument where the beam has no node there.
+  BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at);
+
+  const std::vector<int>& dofs() const { return dofs_; }
+  int beam() const { return mass_.beam; }
+  double s() const { return mass_.s; }
+
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  template <class Sink>
+  void add_tangent(const MeshedBeams<D>&, const State&, const TangentWeights& w, Sink&& sink) const {
+    const Eigen::Matrix<double, D, D> K = Vector::Constant(w.mass * mass_.mass).asDiagonal();
+    sink.own(K);
+  }
+  void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
+  /// [kg m/s].
+  Vector momentum(const State& state) const { return mass_.mass * state.v.segment<D>(dofs_[0]); }
+  /// Adds the generalised momentum of that velocity of the place [m/s].
+  void add_momentum_of(const Eigen::Vector3d& velocity, Eigen::Ref<Eigen::VectorXd> p) const {
+    p.segment<D>(dofs_[0]) += mass_.mass * velocity.head<D>();
+  }
+
+ private:
+  Vector weight(const MeshedBeams<D>& at) const;
+
+  PlaceMass mass_;
+  std::vector<int> dofs_;
+};
+
+extern template class BoundPlaceMass<2>;
+extern template class BoundPlaceMass<3>;
+
+}  // namespace nurbeam

@@ -1,0 +1,61 @@
+#pragma once
+#include <vector>
+
+#include "fem/forces/energy.h"
+#include "fem/forces/friction_law.h"
+#include "fem/mesh/mesh_elements.h"
+
+namespace nurbeam {
+
+/// Friction of a body that slides along a beam: one generalised force in the equation of its place. In a
+/// state without memory there is none.
+template <int D>
+class SlidingFriction {
+ public:
+  /// `first_multiplier`: of the constraint that ties the body to the beam, whose multipliers are the beam's
+  /// force on it.
+  SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int joint, int first_multiplier);
+
+  int sliding_joint() const { return joint_; }
+  /// Those that its slopes have, its place, and its multipliers as coordinates behind all others.
+  const std::vector<int>& dofs() const { return dofs_; }
+
+  FrictionForce friction(const MeshedBeams<D>& at, const State& state) const;
+  void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  template <class Sink>
+  void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    if (state.memory.size() > 0) sink.own(tangent(at, state, w));
+  }
+  void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
+  /// What is lost between two states on one mesh [J]: the mean force on the way, less what the stick stores.
+  double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  /// Puts its memory of a step that ends in `state` where it has its place.
+  void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
+
+ private:
+  enum class Carrier { node, point, guide };
+  // At most those of an element, the place and the multipliers.
+  static constexpr int most_dofs = element_size<D> + 1 + D;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_dofs, most_dofs>;
+  // r_s on both sides, and by which coordinates they vary.
+  struct Slopes {
+    Eigen::Vector3d left, right, by_place;  // the last of both, where the place moves over the curve
+    Eigen::Matrix<double, D, element_size<D>> by_element;  // of both, of a point of an element
+  };
+  Slopes slopes(const MeshedBeams<D>& at, const State& state) const;
+  FrictionForce force_of(const MeshedBeams<D>& at, const Slopes& slopes, const State& state) const;
+  Matrix tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
+  double stored(const FrictionMemory& memory) const { return body_.stiffness * memory.z * memory.z / 2; }
+
+  FrictionOfBody body_;
+  int joint_, multiplier_, place_;
+  Carrier carrier_;
+  int element_ = -1, segment_ = -1;         // of a point, of a guide
+  int slope_left_ = -1, slope_right_ = -1;  // of a node
+  std::vector<int> dofs_;
+};
+
+extern template class SlidingFriction<2>;
+extern template class SlidingFriction<3>;
+
+}  // namespace nurbeam

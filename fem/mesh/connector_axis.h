@@ -1,0 +1,54 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "fem/mesh/mesh_elements.h"
+#include "fem/structure/connector.h"
+
+namespace nurbeam {
+
+/// Where a place of a beam that keeps its node has its position among the coordinates. Throws
+/// std::invalid_argument where the mesh has no such node; `what` stands there.
+int kept_position(const Structure& structure, const Mesh& mesh, int beam, double s, const std::string& what);
+
+/// The line between the ends of a connector in one mesh.
+template <int D>
+class ConnectorAxis {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Matrix = Eigen::Matrix<double, D, D>;
+
+  ConnectorAxis(const Connector& connector, const Structure& structure, const Mesh& mesh);
+
+  /// (2 D) of both ends; -1 of a point.
+  const std::vector<int>& dofs() const { return dofs_; }
+  int body(int end) const { return bodies_[end]; }
+
+  /// At a moment: the length |d|, or n . d; its gradient n in d and its rate; and its Hessian in d,
+  /// (1 - n n')/|d|, or 0.
+  struct Line {
+    double length, rate;
+    Vector n;
+    Matrix curvature;
+    Vector rate_gradient;  ///< of the rate in d
+  };
+  Line line(const State& state) const;
+
+  /// Adds a pull N of the ends towards each other to inertia less forces.
+  void add_pull(const Vector& pull, Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  /// The 2 D x 2 D matrix of a D x D one in d.
+  Eigen::Matrix<double, 2 * D, 2 * D> in_ends(const Matrix& in_d) const;
+
+ private:
+  Vector difference(const Eigen::VectorXd& x, bool of_places) const;
+
+  std::vector<int> dofs_;
+  std::array<int, 2> bodies_;
+  std::array<Vector, 2> points_;
+  std::optional<Vector> direction_;
+};
+
+extern template class ConnectorAxis<2>;
+extern template class ConnectorAxis<3>;
+
+}  // namespace nurbeam

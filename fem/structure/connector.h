@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+
+namespace nurbeam {
+
+/// What a connector is fastened to: a body, a place of a beam that keeps its node, or a point in space.
+struct ConnectorEnd {
+  int body = -1;
+  int beam = -1;
+  double s = 0;                                     ///< [m]
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]
+
+  static ConnectorEnd on_body(int body) { return {.body = body}; }
+  static ConnectorEnd on_beam(int beam, double s) { return {.beam = beam, .s = s}; }
+  static ConnectorEnd at_point(const Eigen::Vector3d& point) { return {.point = point}; }
+  bool is_point() const { return body < 0 && beam < 0; }
+};
+
+enum class ConnectorType {
+  spring,
+  tension_only,      ///< a dropper, a rope: slack where it is shorter than its free length
+  compression_only,  ///< a buffer
+  rod                ///< it keeps its length
+};
+
+/// What gives the free length.
+enum class ConnectorLength {
+  given,
+  as_drawn,  ///< that for which the first end stands, in the equilibrium under all loads, where it was drawn
+  force      ///< that for which it carries a force in that equilibrium, or as drawn where the run starts so
+};
+
+/// Joins two ends: with d from the first to the second and its stretch e = |d| - l_0, or n . d - l_0 along a
+/// direction n, it pulls them together with N = k e + c e'.
+///
+/// Of the types that carry one sign alone, N = max(0, k e + c e') where e > 0, else 0; or the same mirrored.
+struct Connector {
+  std::string name;
+  std::array<ConnectorEnd, 2> ends;
+  ConnectorType type = ConnectorType::spring;
+  double stiffness = 0;                           ///< k [N/m]
+  double damping = 0;                             ///< c [N s/m]
+  double length = 0;                              ///< l_0 [m]; where it is to be found, that of the drawing
+  std::optional<Eigen::Vector3d> direction = {};  ///< n, of unit length
+  ConnectorLength length_rule = ConnectorLength::given;
+  double force = 0;  ///< with ConnectorLength::force [N]
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,18 @@
+#include "fem/structure/friction.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace nurbeam {
+
+double Friction::stiffness(double mass) const {
+  constexpr double omega = 2 * std::numbers::pi * 100;  // [rad/s] of the body that sticks
+  return stick_stiffness.value_or(mass * omega * omega);
+}
+
+double Friction::stick_damping(double mass) const {
+  constexpr double ratio = 0.7;
+  return 2 * ratio * std::sqrt(stiffness(mass) * mass);
+}
+
+}  // namespace nurbeam

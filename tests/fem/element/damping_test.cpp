@@ -1,0 +1,115 @@
+// Damping of mass and of stiffness in the element: its tangent is the rate of its force, and its work what is
+// dissipated.
+
+#include <gtest/gtest.h>
+
+#include "fem/element/beam_element.h"
+#include "nurbs/primitives.h"
+
+namespace nurbeam {
+namespace {
+
+template <int D>
+ElementState<D> moving_state(double s_a, double s_b, bool places_move) {
+  ElementState<D> x;
+  x.q.setZero();
+  const double l = s_b - s_a;
+  x.q[D] = 0.9;
+  x.q[D + 1] = 0.3;
+  x.q[2 * D] = 1.2 * l;
+  x.q[2 * D + 1] = 0.2 * l;
+  x.q[3 * D] = 1.3;
+  x.q[3 * D + 1] = -0.2;
+  if constexpr (D == 3) {
+    x.q[D + 2] = 0.2;
+    x.q[3 * D + 2] = 0.1;
+  }
+  x.q[4 * D] = s_a;
+  x.q[4 * D + 1] = s_b;
+  for (int i = 0; i < x.v.size(); ++i) {
+    x.v[i] = 0.3 * std::sin(1.0 + 2.3 * i);
+    x.a[i] = 0.5 * std::cos(0.7 + 1.9 * i);
+  }
+  if (!places_move) x.v.template tail<2>().setZero();
+  x.free_strain = -0.05;
+  return x;
+}
+
+struct DampedCase {
+  double c, alpha, beta;
+  AxialStrain strain;
+};
+
+BeamProperties damped(const DampedCase& with) {
+  BeamProperties p(50, 0.3, 2, with.c + with.beta);
+  p.mass_damping = with.alpha;
+  p.tension_damping = with.beta;
+  p.axial_strain = with.strain;
+  return p;
+}
+
+template <int D>
+void check_damping(Ends ends, const DampedCase& with) {
+  const ReferenceCurve curve({line_cubic({0, 0, 0}, {2, 0, 0})}, D);
+  const BeamProperties properties = damped(with), undamped = damped({0, 0, 0, with.strain});
+  const BeamElement<D> element(curve, properties, Chart{.segment = 0}, 0.4, 1.5, ends);
+  const BeamElement<D> elastic(curve, undamped, Chart{.segment = 0}, 0.4, 1.5, ends);
+  ElementState<D> x = moving_state<D>(0.4, 1.5, ends == Ends::moving);
+  if (with.strain == AxialStrain::pointwise) x.free_strain = 0;
+  const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::Constant(0.3);
+  const ElementVector<D> force = element.force(x, load), lost = force - elastic.force(x, load);
+  const ElementEnergy energy = element.energy(x, load);
+  EXPECT_GT(energy.dissipation, 0.01);
+  EXPECT_NEAR(lost.dot(x.v), energy.dissipation, 1e-12 * force.norm());
+  const ElementMatrix<D> K = element.tangent(x, load, {.stiffness = 1});
+  const ElementMatrix<D> C = element.tangent(x, load, {.damping = 1});
+  const int n = ends == Ends::moving ? element_size<D> : 4 * D;
+  // Central differences with their rate: a hundredth of the error with a tenth of the step.
+  double last = 0;
+  for (const double h : {1e-3, 1e-4}) {
+    double error = 0;
+    for (int i = 0; i < n; ++i) {
+      ElementState<D> up = x, down = x, faster = x, slower = x;
+      up.q[i] += h;
+      down.q[i] -= h;
+      faster.v[i] += h;
+      slower.v[i] -= h;
+      const ElementVector<D> by_q = (element.force(up, load) - element.force(down, load)) / (2 * h);
+      const ElementVector<D> by_v = (element.force(faster, load) - element.force(slower, load)) / (2 * h);
+      error = std::max(error, (by_q - K.col(i)).head(n).template lpNorm<Eigen::Infinity>());
+      EXPECT_LT((by_v - C.col(i)).head(n).template lpNorm<Eigen::Infinity>(), 1e-8 * C.norm()) << i;
+    }
+    if (last > 0) EXPECT_LT(error, 0.012 * last + 1e-8 * K.norm());
+    last = error;
+  }
+}
+
+TEST(Damping, OfMassAndStiffnessHasItsTangentAndItsWork) {
+  for (const AxialStrain strain : {AxialStrain::ends_and_mean, AxialStrain::pointwise})
+    for (const DampedCase& with :
+         {DampedCase{0, 0.7, 0, strain}, DampedCase{0, 0, 0.02, strain}, DampedCase{0.01, 0.4, 0.03, strain}})
+      for (const Ends ends : {Ends::fixed, Ends::moving}) {
+        check_damping<2>(ends, with);
+        check_damping<3>(ends, with);
+      }
+}
+
+// beta times the stiffness of a taut string: of a velocity across it, beta S times its gradient.
+TEST(Damping, OfATautStringIsRayleighs) {
+  const ReferenceCurve curve({line_cubic({0, 0, 0}, {2, 0, 0})}, 2);
+  BeamProperties p(50, 0, 2, 0.02);
+  p.tension_damping = 0.02;
+  const BeamElement<2> element(curve, p, Chart{.segment = 0}, 0, 2, Ends::fixed);
+  ElementState<2> x;
+  x.q << 0, 0, 1, 0, 2, 0, 1, 0, 0, 2;
+  x.a.setZero();
+  x.v << 0, 0, 0, 0.3, 0, 0.6, 0, 0.3, 0, 0;  // turns at 0.3 rad/s
+  const double S = 7;
+  x.free_strain = -S / 50;
+  EXPECT_NEAR(element.energy(x, {0, 0}).dissipation, 0.02 * S * 0.09 * 2, 1e-14);
+  x.free_strain = S / 50;  // no stiffness where it is pressed
+  EXPECT_NEAR(element.energy(x, {0, 0}).dissipation, 0, 1e-14);
+}
+
+}  // namespace
+}  // namespace nurbeam
