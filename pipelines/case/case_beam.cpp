@@ -1,138 +1,119 @@
 #include "pipelines/case/case_beam.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <set>
 
-#include "cad_import/files/cad_format.h"
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_axis.h"
+#include "pipelines/case/standard_materials.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
 
 namespace {
 
-std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
-  static const std::set<std::string> extensions = {".step", ".stp", ".iges", ".igs",
-                                                   ".STEP", ".STP", ".IGES", ".IGS"};
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
-    if (extensions.contains(entry.path().extension().string()))
-      names.push_back(entry.path().filename().string());
-  return names;
+CaseSection pipe(const Json& section, const std::string& path, Findings& findings) {
+  const double outer = number(section, "radius"), inner = number(section, "bore", 0);
+  if (inner >= outer)
+    findings.error(child(path, "bore"), "is " + text_of(inner) + " m, but the radius is " + text_of(outer) +
+                                            " m; the inner radius must be less than the outer one");
+  return {.area = std::numbers::pi * (outer * outer - inner * inner),
+          .second_moment = std::numbers::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
+          .radius = outer,
+          .bore = inner > 0 ? std::optional(inner) : std::nullopt,
+          .torsion_constant = optional_number(section, "torsion_constant")};
 }
 
-/// Reports a CAD file that is not there.
-void check_cad_file(const std::filesystem::path& file, const std::string& path, Findings& findings) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    const bool is_directory = std::filesystem::is_directory(status);
-    findings.error(path, in_quotes(file.string()) + " is a " +
-                             (is_directory ? "directory" : "device or pipe") +
-                             "; expected a STEP or IGES file" +
-                             (is_directory ? known_names("", cad_files_in(file)) : ""));
-  } else if (!std::filesystem::exists(status)) {
-    findings.error(path, "there is no file " + in_quotes(file.string()) +
-                             known_names(file.filename().string(), cad_files_in(file.parent_path())));
-  }
+// St Venant's constant of a rectangle, by his series.
+double torsion_of_rectangle(double a, double b) {
+  const double l = std::max(a, b), t = std::min(a, b);
+  double sum = 0;
+  for (int n = 1; n < 200; n += 2) sum += std::tanh(n * std::numbers::pi * l / (2 * t)) / std::pow(n, 5);
+  return l * std::pow(t, 3) / 3 * (1 - 192 * t / (std::pow(std::numbers::pi, 5) * l) * sum);
 }
 
-CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& directory,
-                              const std::string& path, Findings& findings) {
-  CaseAxis::File file;
-  file.path = (directory / text(axis, "file")).lexically_normal();
-  file.chain = flag(axis, "chain");
-  file.layer = optional_text(axis, "layer");
-  file.part = optional_text(axis, "part");
-  file.colour = optional_text(axis, "colour");
-  if (has(axis, "near")) file.near = vector(axis, "near");
-  file.longest = flag(axis, "longest");
-  file.all_chains = text(axis, "chains") == "all";
-  file.gap = optional_number(axis, "gap");
-  if (has(axis, "curve")) {
-    const Json& curve = axis["curve"];
-    if (curve.is_string())
-      file.curve_name = curve.get<std::string>();
-    else
-      file.curve_index = curve.get<int>();
-  }
-  check_cad_file(file.path, child(path, "file"), findings);
-  return file;
+CaseSection rectangle(const Json& section) {
+  const std::vector<double> sides = numbers(section, "rectangle");
+  if (sides.size() != 2) return {};  // said where the shape was checked
+  const double x = sides[0] / 2, y = sides[1] / 2;
+  const std::optional<double> given = optional_number(section, "torsion_constant");
+  return {.torsion_constant = given ? given : torsion_of_rectangle(sides[0], sides[1]),
+          .profile = CaseProfile{.path = "rectangle", .outline = {{-x, -y}, {x, -y}, {x, y}, {-x, y}}}};
 }
 
-std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path, Findings& findings) {
-  const std::vector<Eigen::Vector3d> points_in = points(nurbs, "control_points");
-  const std::vector<double> knots = numbers(nurbs, "knots");
-  std::vector<double> weights = numbers(nurbs, "weights");
-  const bool complete = has(nurbs, "degree") && points_in.size() == part(nurbs, "control_points").size() &&
-                        knots.size() == part(nurbs, "knots").size() &&
-                        weights.size() == part(nurbs, "weights").size();
-  if (!complete || knots.empty() || points_in.empty()) return {};  // what is missing has been reported
-  if (!has(nurbs, "weights")) weights.assign(points_in.size(), 1.0);
-  if (weights.size() != points_in.size()) {
-    findings.error(path, "has " + std::to_string(weights.size()) + " weights for " +
-                             std::to_string(points_in.size()) +
-                             " control points; give one per control point");
-    return {};
-  }
-  Eigen::Matrix3Xd control_points(3, points_in.size());
-  for (std::size_t i = 0; i < points_in.size(); ++i) control_points.col(i) = points_in[i];
-  try {
-    return make_nurbs_curve(KnotVector(nurbs["degree"].get<int>(), knots), control_points,
-                            Eigen::Map<const Eigen::VectorXd>(weights.data(), weights.size()));
-  } catch (const std::invalid_argument& error) {
-    findings.error(path, error.what());
-    return {};
-  }
+CaseSection i_section(const Json& section, const std::string& path, Findings& findings) {
+  const Json& json = part(section, "i_section");
+  const double x = number(json, "width") / 2, y = number(json, "height") / 2;
+  const double web = number(json, "web") / 2, inner = y - number(json, "flange");
+  if (!(inner > 0))
+    findings.error(child(path, "flange"), "is " + text_of(number(json, "flange")) +
+                                              " m; two flanges must be thinner than the height, " +
+                                              text_of(2 * y) + " m");
+  if (!(web < x))
+    findings.error(child(path, "web"),
+                   "is " + text_of(2 * web) + " m; must be less than the width, " + text_of(2 * x) + " m");
+  return {.torsion_constant = optional_number(section, "torsion_constant"),
+          .profile = CaseProfile{.path = "I section",
+                                 .outline = {{-x, -y},
+                                             {x, -y},
+                                             {x, -inner},
+                                             {web, -inner},
+                                             {web, inner},
+                                             {x, inner},
+                                             {x, y},
+                                             {-x, y},
+                                             {-x, inner},
+                                             {-web, inner},
+                                             {-web, -inner},
+                                             {-x, -inner}}}};
 }
 
-CaseAxis::Polyline read_polyline(const Json& axis, const std::string& path, Findings& findings) {
-  const CaseAxis::Polyline polyline = points(axis, "polyline");
-  for (std::size_t i = 1; i < polyline.size(); ++i)
-    if (polyline[i] == polyline[i - 1])
-      findings.error(child(child(path, "polyline"), i), "is the same point as the one before; remove one");
-  return polyline;
+// Its wires carry together and bend each by itself: n pi r^4/4 with n pi r^2 = A.
+CaseSection rope(const Json& section, const std::string& path, Findings& findings) {
+  const Json& json = part(section, "rope");
+  const double diameter = number(json, "diameter"), area = number(json, "metallic_area");
+  const double full = std::numbers::pi * diameter * diameter / 4;
+  if (area > full)
+    findings.error(child(path, "metallic_area"), "is " + text_of(area) + " m^2, more than the " +
+                                                     text_of(full) + " m^2 of a solid rod of that diameter");
+  constexpr int usual_wires = 6 * 19;
+  const int wires = optional_integer(json, "wires").value_or(usual_wires);
+  const double I = area * area / (4 * std::numbers::pi * wires);
+  return {.area = area,
+          .second_moment = number(json, "second_moment", I),
+          .extreme_fibre = std::sqrt(area / (std::numbers::pi * wires)),
+          .torsion_constant = optional_number(section, "torsion_constant")};
 }
 
-CaseAxis::Arc read_arc(const Json& axis, const std::string& axis_path, Findings& findings) {
-  const Json& json = part(axis, "arc");
-  const std::string path = child(axis_path, "arc");
-  const CaseAxis::Arc arc = {vector(json, "center"), vector(json, "start"), vector(json, "end"),
-                             vector(json, "normal")};
-  const Eigen::Vector3d a = arc.start - arc.center, b = arc.end - arc.center;
-  constexpr double relative = 1e-6;
-  // Comparisons with a missing (NaN) point are false: it has been reported.
-  if (arc.normal.norm() == 0) {
-    findings.error(child(path, "normal"), "is [0, 0, 0]; must have a direction");
-  } else if (a.norm() == 0) {
-    findings.error(child(path, "start"), "is the center; must be apart from it");
-  } else if (std::abs(a.norm() - b.norm()) > relative * a.norm()) {
-    findings.error(path, "start is " + text_of(a.norm(), all_digits) + " m and end " +
-                             text_of(b.norm(), all_digits) + " m from the center; must be the same distance");
-  } else if (std::max(std::abs(a.dot(arc.normal)), std::abs(b.dot(arc.normal))) >
-             relative * a.norm() * arc.normal.norm()) {
-    findings.error(child(path, "normal"), "is not perpendicular to the plane of center, start and end");
-  } else if ((a - b).norm() <= relative * a.norm()) {
-    findings.error(path, "start and end are the same point; a full circle can be given as \"nurbs\"");
-  }
-  return arc;
-}
-
-CaseAxis read_axis(const Json& axis, const std::string& path, const std::filesystem::path& directory,
-                   Findings& findings) {
-  if (has(axis, "file")) return {read_axis_file(axis, directory, path, findings)};
-  if (has(axis, "nurbs")) {
-    const auto curve = read_nurbs(axis["nurbs"], child(path, "nurbs"), findings);
-    return curve ? CaseAxis{*curve} : CaseAxis{};
-  }
-  if (has(axis, "polyline")) return {read_polyline(axis, path, findings)};
-  if (has(axis, "arc")) return {read_arc(axis, path, findings)};
-  return {};
+CaseMaterial read_material(const Json& beam, const std::string& path, Findings& findings) {
+  static const Json nothing = Json::object();
+  const bool by_name = has(beam, "material") && beam["material"].is_string();
+  const Json& json = by_name ? nothing : part(beam, "material");
+  const std::string name = by_name ? text(beam, "material") : text(json, "name");
+  const StandardMaterial* standard = standard_material(name);
+  if (!standard && has(beam, "material"))
+    for (const auto& [key, what] :
+         {std::pair{"density", "mass per volume"}, std::pair{"youngs_modulus", "Young's modulus"}})
+      if (!json.contains(key))
+        findings.error(path, in_quotes(key) + " is missing (" + what +
+                                 "); give it, or the \"name\" of a standard "
+                                 "material");
+  CaseMaterial material{.density = number(json, "density"),
+                        .youngs_modulus = number(json, "youngs_modulus"),
+                        .damping = number(json, "damping", 0),
+                        .shear_modulus = optional_number(json, "shear_modulus"),
+                        .poissons_ratio = optional_number(json, "poissons_ratio"),
+                        .thermal_expansion = optional_number(json, "thermal_expansion"),
+                        .mass_damping = number(json, "mass_damping", 0),
+                        .stiffness_damping = number(json, "stiffness_damping", 0),
+                        .name = name};
+  if (!standard) return material;
+  if (!has(json, "density")) material.density = standard->density;
+  if (!has(json, "youngs_modulus")) material.youngs_modulus = standard->youngs_modulus;
+  if (!material.shear_modulus && !material.poissons_ratio) material.poissons_ratio = standard->poissons_ratio;
+  if (!material.thermal_expansion) material.thermal_expansion = standard->thermal_expansion;
+  return material;
 }
 
 CaseSection read_section(const Json& section, const std::filesystem::path& directory, const std::string& path,
@@ -145,13 +126,10 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
     if (has(profile, "file")) check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
     return drawn;
   }
-  if (has(section, "radius")) {
-    const double r = number(section, "radius");
-    return {.area = std::numbers::pi * r * r,
-            .second_moment = std::numbers::pi * std::pow(r, 4) / 4,
-            .radius = r,
-            .torsion_constant = optional_number(section, "torsion_constant")};
-  }
+  if (has(section, "radius")) return pipe(section, path, findings);
+  if (has(section, "rectangle")) return rectangle(section);
+  if (has(section, "i_section")) return i_section(section, child(path, "i_section"), findings);
+  if (has(section, "rope")) return rope(section, child(path, "rope"), findings);
   if (has(section, "from"))
     return {.torsion_constant = optional_number(section, "torsion_constant"), .from_cad = true};
   CaseSection sizes{.area = number(section, "area"),
@@ -207,8 +185,17 @@ void check_free_length(const CaseBeam& beam, Findings& findings) {
   if (!beam.temperature.empty() && !beam.material.thermal_expansion)
     findings.error(child(beam.path, "temperature"),
                    "needs \"thermal_expansion\" in the beam's \"material\"; of steel it is about 1.2e-5 /K");
+  if (beam.form == Form::virtual_work)
+    for (const auto& [value, key] : {std::pair{beam.material.mass_damping, "mass_damping"},
+                                     std::pair{beam.material.stiffness_damping, "stiffness_damping"}})
+      if (value > 0)
+        findings.error(child(child(beam.path, "material"), key),
+                       "is " + text_of(value) +
+                           ", but \"form\": \"virtual-work\" is the papers' element, which has "
+                           "\"damping\" alone; leave one of them out");
   if (beam.axial_strain != AxialStrain::pointwise) return;
-  for (const auto& [asks, key] : {std::pair{beam.unstressed_length.has_value(), "unstressed_length"},
+  for (const auto& [asks, key] : {std::pair{beam.tension != 0, "tension"},
+                                  std::pair{beam.unstressed_length.has_value(), "unstressed_length"},
                                   std::pair{!beam.temperature.empty(), "temperature"}})
     if (asks)
       findings.error(
@@ -244,6 +231,27 @@ AxialStrain read_axial_strain(const Json& json, const std::string& path, const C
   return strain;
 }
 
+/// Reports what a rigid guide takes no more, and what every other beam needs.
+void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
+  if (!beam.rigid) {
+    for (const char* key : {"section", "material"})
+      if (!json.contains(key))
+        findings.error(beam.path, in_quotes(key) + " is missing; a beam needs it unless it is \"rigid\"");
+    return;
+  }
+  static const std::set<std::string> known = {
+      "name", "axis", "rigid", "closed", "corners", "smooth_up_to", "approximation_tolerance"};
+  for (const auto& [key, value] : json.items())
+    if (!known.contains(key))
+      findings.error(child(beam.path, key),
+                     "is for beams that deform, but \"rigid\" makes this one a guide; "
+                     "leave one of them out");
+  if (beam.corners == Corners::rigid || beam.corners == Corners::hinge)
+    findings.error(child(beam.path, "corners"),
+                   "is " + in_quotes(text(json, "corners")) +
+                       ", but no body slides over a corner of a rigid guide; use \"smooth\" or \"error\"");
+}
+
 }  // namespace
 
 CaseBeam read_beam(const Json& json, const std::string& path, const std::filesystem::path& directory,
@@ -251,15 +259,10 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   CaseBeam beam;
   beam.path = path;
   beam.name = text(json, "name");
-  beam.axis = read_axis(part(json, "axis"), child(path, "axis"), directory, findings);
+  beam.rigid = flag(json, "rigid");
+  beam.axis = read_beam_axis(part(json, "axis"), child(path, "axis"), directory, findings);
   beam.section = read_section(part(json, "section"), directory, child(path, "section"), findings);
-  const Json& material = part(json, "material");
-  beam.material = {.density = number(material, "density"),
-                   .youngs_modulus = number(material, "youngs_modulus"),
-                   .damping = number(material, "damping", 0),
-                   .shear_modulus = optional_number(material, "shear_modulus"),
-                   .poissons_ratio = optional_number(material, "poissons_ratio"),
-                   .thermal_expansion = optional_number(material, "thermal_expansion")};
+  beam.material = read_material(json, child(path, "material"), findings);
   const Json& elements = part(json, "elements");
   beam.elements = {.count = optional_integer(elements, "count"),
                    .max_length = optional_number(elements, "max_length"),
@@ -301,14 +304,16 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
       beam.curvature == CurvatureMeasure::material && beam.metric == Metric::arc_length &&
       beam.form == Form::variational && beam.element == ElementKind::ale_rancf &&
       beam.weights == WeightRule::material;
-  beam.torsion_by_drawing = !has(json, "torsion") && !beam.torsion && may_take_it;
+  beam.torsion_by_drawing = !has(json, "torsion") && !beam.torsion && !beam.rigid && may_take_it;
   check_torsion(json, path, beam, findings);
   beam.unstressed_length = optional_number(json, "unstressed_length");
+  beam.tension = number(json, "tension", 0);
   if (has(json, "temperature"))
     beam.temperature = json["temperature"].is_array() ? time_table(json, "temperature")
                                                       : TimeTable{{0, number(json, "temperature")}};
   check_free_length(beam, findings);
   beam.velocity = read_velocity(part(part(json, "initial"), "velocity"));
+  check_guide(json, beam, findings);
   return beam;
 }
 

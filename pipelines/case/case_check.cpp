@@ -181,6 +181,14 @@ class Checker {
   }
 
   bool check_either(const Shape& shape, Json& value, const std::string& path) {
+    const auto has_it = [&](const Shape& item) {
+      return std::find(item.choices.begin(), item.choices.end(), value.get<std::string>()) !=
+             item.choices.end();
+    };
+    const Shape &first = shape.items[0], &second = shape.items[1];
+    const bool is_text_with_unit =
+        value.is_string() && first.kind == Kind::choice && second.kind == Kind::quantity && !has_it(first);
+    if (is_text_with_unit) return check(second, value, path);
     for (const Shape& item : shape.items)
       if (fits_json_type(item, value)) return check(item, value, path);
     return wrong_type(shape, value, path);

@@ -6,6 +6,7 @@
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_beam.h"
 #include "pipelines/case/case_check.h"
+#include "pipelines/case/case_connector.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_references.h"
 #include "pipelines/case/host_keys.h"
@@ -58,20 +59,62 @@ CaseLoad read_load(const Json& json, const std::string& path) {
   return load;
 }
 
+// Where a guided support is free.
+std::optional<Eigen::Vector3d> read_guide(const Json& json, const std::string& path, Findings& findings) {
+  const bool guided = text(json, "type") == "guided";
+  if (guided && !json.contains("direction"))
+    findings.error(path, "\"guided\" needs the \"direction\" along which the support is free");
+  if (!has(json, "direction")) return {};
+  if (!guided) findings.error(child(path, "direction"), "is for the type \"guided\" only");
+  const Eigen::Vector3d direction = vector(json, "direction");
+  if (direction.norm() == 0)
+    findings.error(child(path, "direction"),
+                   "is [0, 0, 0]; give the direction along which the support is free");
+  return direction;
+}
+
 CaseSupport read_support(const Json& json, const std::string& path, Findings& findings) {
   return {.type = chosen<CaseSupport::Type>(json, "type",
                                             {{"clamped", CaseSupport::Type::clamped},
                                              {"pinned", CaseSupport::Type::pinned},
-                                             {"fork", CaseSupport::Type::fork}}),
+                                             {"fork", CaseSupport::Type::fork},
+                                             {"guided", CaseSupport::Type::guided}}),
           .name = text(json, "name"),
           .path = path,
           .beam = text(json, "beam"),
           .at = read_place(json),
           .motion = vector_table(json, "motion"),
-          .axis = read_axis(json, path, "pinned", findings)};
+          .axis = read_axis(json, path, "pinned", findings),
+          .direction = read_guide(json, path, findings),
+          .force = number(json, "force", 0),
+          .mass = number(json, "mass", 0),
+          .motion_law = optional_integer(json, "motion_law")};
 }
 
-CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
+std::optional<Friction> read_friction(const Json& joint, const std::string& path, Findings& findings) {
+  if (!has(joint, "friction")) return {};
+  const Json& json = joint["friction"];
+  const std::string where = child(path, "friction");
+  Friction friction{.coefficient = number(json, "coefficient", 0),
+                    .static_coefficient = optional_number(json, "static"),
+                    .law = text(json, "law") == "capstan" ? Friction::Law::capstan : Friction::Law::coulomb,
+                    .viscous = number(json, "viscous", 0),
+                    .stick_stiffness = optional_number(json, "stick_stiffness")};
+  if (has(json, "force"))
+    friction.force =
+        json["force"].is_array() ? time_table(json, "force") : TimeTable{{0, number(json, "force")}};
+  if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
+    findings.error(child(where, "static"),
+                   "is " + text_of(*friction.static_coefficient) + ", less than \"coefficient\", " +
+                       text_of(friction.coefficient) + "; a body that sticks is held at least as well");
+  if (friction.law == Friction::Law::capstan && text(joint, "slope") != "discontinuous")
+    findings.error(child(where, "law"),
+                   "is \"capstan\", for the kink of a discontinuous slope, but the slope is continuous: "
+                   "\"slope\": \"discontinuous\", or leave it out");
+  return friction;
+}
+
+CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, Findings& findings) {
   const Json& motion = part(json, "motion");
   return {.path = path,
           .body = text(json, "body"),
@@ -84,7 +127,31 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path) {
           .continuous_slope = text(json, "slope") != "discontinuous",
           .leave_at_end = text(json, "at_beam_end") != "stop",
           .follows_section = flag(json, "follows_section"),
-          .offset = read_offset(json)};
+          .offset = read_offset(json),
+          .rest = chosen<StaticPlace>(
+              json, "equilibrium",
+              {{"", StaticPlace::automatic}, {"held", StaticPlace::held}, {"free", StaticPlace::free}}),
+          .friction = read_friction(json, path, findings),
+          .motion_law = optional_integer(json, "motion_law")};
+}
+
+CaseStop read_stop(const Json& json, const std::string& path, Findings& findings) {
+  CaseStop stop{.path = path,
+                .beam = text(json, "beam"),
+                .at = has(json, "at") ? std::optional(read_place(json)) : std::nullopt,
+                .bodies = {},
+                .side = chosen<CaseStop::Side>(json, "side",
+                                               {{"both", CaseStop::Side::both},
+                                                {"before", CaseStop::Side::before},
+                                                {"after", CaseStop::Side::after}}),
+                .restitution = number(json, "restitution", 0),
+                .gap = number(json, "gap", 0)};
+  for (const Json& name : part(json, "bodies"))
+    if (!name.is_null()) stop.bodies.push_back(name.get<std::string>());
+  if (has(json, "stiffness")) stop.buffer = Buffer{number(json, "stiffness"), number(json, "damping", 0)};
+  if (!stop.at && stop.bodies.size() != 2)
+    findings.error(path, "stands nowhere: give \"at\", or the two \"bodies\" that it keeps apart");
+  return stop;
 }
 
 CaseBeamJoint read_beam_joint(const Json& json, const std::string& path, Findings& findings) {
@@ -224,18 +291,25 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   result.path = file;
   result.name = text(json, "name", file.stem().string());
   result.gravity = vector(json, "gravity", result.gravity);
+  result.air = {number(part(json, "air"), "density", 0),
+                vector(part(json, "air"), "wind", Eigen::Vector3d::Zero())};
   const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
-  for_each_item(
-      json, "beams", "",
-      [&](const Json& beam, const std::string& path) {
-        result.beams.push_back(read_beam(beam, path, directory, findings));
-      });
+  for_each_item(json, "beams", "", [&](const Json& beam, const std::string& path) {
+    result.beams.push_back(read_beam(beam, path, directory, findings));
+  });
   for_each_item(
       json, "bodies", "",
-      [&](const Json& body, const std::string&) {
+      [&](const Json& body, const std::string& path) {
+        if (has(body, "drag_area") && !has(json, "air"))
+          findings.error(child(path, "drag_area"),
+                         "needs the \"air\" that drags; at sea level it has a \"density\" of 1.225");
         result.bodies.push_back({.name = text(body, "name"),
                                  .mass = number(body, "mass"),
-                                 .roll_inertia = number(body, "roll_inertia", 0)});
+                                 .roll_inertia = number(body, "roll_inertia", 0),
+                                 .drag_area = number(body, "drag_area", 0),
+                                 .path = path,
+                                 .velocity = vector(body, "velocity", Eigen::Vector3d::Zero())});
+        if (has(body, "position")) result.bodies.back().position = vector(body, "position");
       });
   for_each_item(
       json, "loads", "",
@@ -248,10 +322,20 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   for_each_item(
       json, "sliding_joints", "",
       [&](const Json& joint, const std::string& path) {
-        result.sliding_joints.push_back(read_sliding_joint(joint, path));
+        result.sliding_joints.push_back(read_sliding_joint(joint, path, findings));
       });
-  for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
-    result.joints.push_back(read_beam_joint(joint, path, findings));
+  for_each_item(
+      json, "stops", "",
+      [&](const Json& stop, const std::string& path) {
+        result.stops.push_back(read_stop(stop, path, findings));
+      });
+  for_each_item(
+      json, "joints", "",
+      [&](const Json& joint, const std::string& path) {
+        result.joints.push_back(read_beam_joint(joint, path, findings));
+      });
+  for_each_item(json, "connectors", "", [&](const Json& connector, const std::string& path) {
+    result.connectors.push_back(read_connector(connector, path, findings));
   });
   result.analysis = read_analysis(part(json, "analysis"), findings);
   result.output = read_output(part(json, "output"), result.analysis);

@@ -50,8 +50,10 @@ struct CaseAxis {
 
 /// A section drawn in a CAD file.
 struct CaseProfile {
-  std::filesystem::path path;  ///< absolute
+  std::filesystem::path path;  ///< absolute; of an outline what it is called
   bool x_in_plane = false;     ///< a planar model bends along the profile's x axis; else along y
+  /// Given by numbers instead of a file: corners, anticlockwise [m].
+  std::vector<Eigen::Vector2d> outline = {};
 };
 
 struct CaseSection {
@@ -74,6 +76,9 @@ struct CaseMaterial {
   std::optional<double> shear_modulus = {};      ///< [Pa]
   std::optional<double> poissons_ratio = {};     ///< one of them at most
   std::optional<double> thermal_expansion = {};  ///< [1/K]
+  double mass_damping = 0;                       ///< [1/s], alpha
+  double stiffness_damping = 0;                  ///< [s], beta
+  std::string name = {};                         ///< of a standard material whose numbers it has
 };
 
 struct CaseElements {
@@ -107,6 +112,7 @@ struct CaseBeam {
   std::string path;  ///< JSON path of this object, for messages
   CaseAxis axis;
   double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  bool rigid = false;                     ///< a guide: no section, material or elements
   bool ring = false;                      ///< the axis is closed, and so is the beam
   Corners corners = Corners::error;
   double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]; 0: none
@@ -125,6 +131,7 @@ struct CaseBeam {
   Metric metric = Metric::arc_length;
   Form form = Form::variational;
   std::optional<double> unstressed_length = {};  ///< [m]
+  double tension = 0;                            ///< as drawn [N]
   TimeTable temperature = {};                    ///< above that of the unstressed length [K]; empty: none
   std::optional<CaseVelocity> velocity = {};
 };
@@ -133,6 +140,10 @@ struct CaseBody {
   std::string name;
   double mass = 0;          ///< [kg]
   double roll_inertia = 0;  ///< of one that follows a section [kg m^2]
+  double drag_area = 0;     ///< C_d A [m^2]
+  std::string path = {};
+  std::optional<Eigen::Vector3d> position = {};        ///< of one that no sliding joint places [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< likewise [m/s]
 };
 
 struct CaseLoad {
@@ -149,13 +160,16 @@ struct CaseLoad {
 };
 
 struct CaseSupport {
-  enum class Type { clamped, pinned, fork } type = Type::pinned;
+  enum class Type { clamped, pinned, fork, guided } type = Type::pinned;
   std::string name;  ///< heads the columns of its reaction; may be empty
   std::string path;
   std::string beam;
   Place at;
   std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
   std::optional<Eigen::Vector3d> axis = {};         ///< of a hinge
+  std::optional<Eigen::Vector3d> direction = {};    ///< of a guided one: where it is free
+  double force = 0, mass = 0;                       ///< along it [N], [kg]
+  std::optional<int> motion_law = {};               ///< the function of a program that prescribes it
 };
 
 struct CaseSlidingJoint {
@@ -170,6 +184,22 @@ struct CaseSlidingJoint {
   bool leave_at_end = true;  ///< false: stop
   bool follows_section = false;
   std::optional<Eigen::Vector2d> offset = {};  ///< in the section that it follows [m]
+  StaticPlace rest = StaticPlace::automatic;
+  std::optional<Friction> friction = {};
+  std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
+};
+
+/// What keeps bodies on one side of a place of a beam, or two bodies apart.
+struct CaseStop {
+  enum class Side { both, before, after };
+  std::string path;
+  std::string beam;
+  std::optional<Place> at;          ///< of one that stands on the beam
+  std::vector<std::string> bodies;  ///< those that it stops; empty: all on the beam
+  Side side = Side::both;           ///< from where it stops bodies
+  double restitution = 0;
+  std::optional<Buffer> buffer = {};
+  double gap = 0;  ///< between two bodies [m]
 };
 
 /// Beams that meet at one place.
@@ -180,6 +210,25 @@ struct CaseBeamJoint {
   bool rigid = false;                        ///< else hinged
   std::optional<Eigen::Vector3d> near;       ///< where [m]; else where an end of one meets the other
   std::optional<Eigen::Vector3d> axis = {};  ///< of a hinge
+};
+
+/// What a connector is fastened to: one of these.
+struct CaseConnectorEnd {
+  std::string path, beam, body;
+  Place at = {};                              ///< on the beam
+  std::optional<Eigen::Vector3d> point = {};  ///< [m]
+};
+
+struct CaseConnector {
+  std::string path, name;
+  std::array<CaseConnectorEnd, 2> ends;
+  ConnectorType type = ConnectorType::spring;
+  double stiffness = 0, damping = 0;  ///< [N/m], [N s/m]
+  ConnectorLength length_rule = ConnectorLength::given;
+  std::optional<double> length = {};  ///< where it is given; else that of the drawing [m]
+  double force = 0;                   ///< with ConnectorLength::force [N]
+  std::optional<Eigen::Vector3d> direction = {};
+  std::array<double, 2> end_masses = {0, 0};  ///< [kg]
 };
 
 /// Of modes and buckling.
@@ -242,12 +291,15 @@ struct CaseFile {
   std::string json;  ///< as read, overrides applied, without comments and spaces
   std::string name;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);
+  Air air = {};
   std::vector<CaseBeam> beams;
   std::vector<CaseBody> bodies;
   std::vector<CaseLoad> loads;
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
+  std::vector<CaseConnector> connectors;
   CaseAnalysis analysis;
   CaseOutput output;
   std::vector<CaseLaw> laws = {};  ///< of a case made in memory

@@ -6,6 +6,7 @@
 
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/shapes.h"
+#include "pipelines/case/standard_materials.h"
 
 namespace nurbeam {
 
@@ -20,6 +21,20 @@ Range element_count() {
 /// Of a point of a section.
 Shape offset() {
   Shape shape = array(Shape{.kind = Kind::quantity, .dimension = Dimension::length}, 2);
+  shape.most_items = 2;
+  return shape;
+}
+/// Of both ends of a connector.
+Shape masses() {
+  Shape shape =
+      array(Shape{.kind = Kind::quantity, .dimension = Dimension::mass, .range = not_negative()}, 2);
+  shape.most_items = 2;
+  return shape;
+}
+/// [width, height].
+Shape sides() {
+  Shape shape =
+      array(Shape{.kind = Kind::quantity, .dimension = Dimension::length, .range = plausible(1e-9, 1e4)}, 2);
   shape.most_items = 2;
   return shape;
 }
@@ -77,8 +92,27 @@ Shape section() {
                "STEP or IGES file with an outline and its holes, relative to the case file", required},
               {"in_plane", choice({"y", "x"}),
                "the profile's axis that lies in the plane of a planar model; y when omitted"}});
+  const Shape size = quantity(Dimension::length, plausible(1e-9, 1e4));
+  const Shape i_section = object({{"width", size, "of the flanges", required},
+                                  {"height", size, "from outside to outside", required},
+                                  {"flange", size, "thickness of the flanges", required},
+                                  {"web", size, "thickness of the web", required}});
+  const Shape rope = object(
+      {{"diameter", size, "over all", required},
+       {"metallic_area", quantity(Dimension::area, plausible(1e-18, 1e8)), "of all wires together", required},
+       {"wires", integer({.lower = 1, .upper = 10000}),
+        "how many, each of which bends by itself; 114 (6 x 19) when omitted"},
+       {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)),
+        "where it is known better than from the wires"}});
   return object(
-      {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round solid section"},
+      {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round section"},
+       {"bore", quantity(Dimension::length, not_negative()), "inner radius of a pipe; 0 when omitted", false,
+        "radius"},
+       {"rectangle", sides(),
+        "[width, height] of a rectangle; the height lies in the plane of a planar model, and "
+        "along the section's y axis"},
+       {"i_section", i_section, "of an I, upright along the section's y axis"},
+       {"rope", rope, "wire rope"},
        {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area"},
        {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
         false, "area"},
@@ -94,7 +128,8 @@ Shape section() {
         "area"},
        {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
-      {{{"radius", "area", "profile", "from"}, required}, {{"second_moment", "second_moments"}, false}});
+      {{{"radius", "rectangle", "i_section", "rope", "area", "profile", "from"}, required},
+       {{"second_moment", "second_moments"}, false}});
 }
 
 Shape orientation() {
@@ -142,10 +177,19 @@ Shape initial() {
 
 Shape beam() {
   const Shape material = object(
-      {{"density", quantity(Dimension::density, plausible(1e-3, 1e6)), "mass per volume", required},
-       {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "Young's modulus", required},
+      {{"name", choice(standard_material_names()),
+        "a standard material, which gives what is not given beside it"},
+       {"density", quantity(Dimension::density, plausible(1e-3, 1e6)),
+        "mass per volume; needed without `name`"},
+       {"youngs_modulus", quantity(Dimension::pressure, plausible(1, 1e16)),
+        "Young's modulus, of a rope the effective one; needed without `name`"},
        {"damping", quantity(Dimension::time, plausible(0, 1e9)),
         "time c of the stress c E d(strain)/dt; 0 when omitted"},
+       {"mass_damping", quantity(Dimension::rate, plausible(0, 1e9)),
+        "rate alpha of the force -alpha density area v on the velocity v; 0 when omitted"},
+       {"stiffness_damping", quantity(Dimension::time, plausible(0, 1e9)),
+        "time beta of Rayleigh's damping: as `damping`, and beta times the stiffness that tension gives, which damps "
+        "taut strings too; 0 when omitted"},
        {"thermal_expansion", quantity(Dimension::thermal_expansion, plausible(-1e-2, 1e-2)),
         "strain per kelvin of the beam's `temperature`"},
        {"shear_modulus", quantity(Dimension::pressure, plausible(1, 1e16)), "of beams with torsion"},
@@ -155,8 +199,12 @@ Shape beam() {
   return object(
       {{"name", name(), "name of the beam", required},
        {"axis", axis(), "the beam's axis as drawn", required},
-       {"section", section(), "cross-section", required},
-       {"material", material, "material", required},
+       {"rigid", boolean(),
+        "a guide: the axis stays as drawn, without elements, mass or strain, and takes neither section nor material; "
+        "false when omitted"},
+       {"section", section(), "cross-section; needed unless the beam is `rigid`"},
+       {"material", either(choice(standard_material_names()), material),
+        "a standard material by its name, or its numbers; needed unless the beam is `rigid`"},
        {"elements", elements(), "how the axis is divided"},
        {"element", choice({"ale-rancf", "ale-ancf"}),
         "rational elements, or all weights 1; ale-rancf when omitted"},
@@ -185,6 +233,8 @@ Shape beam() {
         "the axial strain that carries: the quadratic with its values at the element's ends and its mean, or that at "
         "every point, as in the papers, which locks in slender beams; when omitted ends-and-mean, but pointwise with "
         "constant weights, without metric and with form virtual-work"},
+       {"tension", quantity(Dimension::force, plausible(-1e12, 1e12)),
+        "axial force that the beam has as drawn; negative, of a beam that bends: a thrust; 0 when omitted"},
        {"unstressed_length", quantity(Dimension::length, positive()),
         "length of the beam when it is free, if it is not drawn so: the drawing is then its place and, scaled, its "
         "unstressed shape; the drawn length when omitted"},
@@ -206,7 +256,8 @@ Shape beam() {
         "else none",
         false, "corners"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
-        "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m when omitted"}});
+        "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m when omitted"}},
+      {{{"tension", "unstressed_length"}, false}});
 }
 
 Shape load() {
@@ -233,16 +284,44 @@ Shape support() {
   return object(
       {{"beam", name(), "the supported beam", required},
        {"at", place(), "where", required},
-       {"type", choice({"clamped", "pinned", "fork"}),
+       {"type", choice({"clamped", "pinned", "fork", "guided"}),
         "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
-        "position and roll of a beam with torsion",
+        "position and roll of a beam with torsion; guided: the position but along `direction`, where it is free",
         required},
+       {"direction", vector(Dimension::number), "of a guided support: where it is free"},
+       {"force", quantity(Dimension::force),
+        "of a guided support: pulls along `direction`, as a weight over a pulley does; 0 when omitted", false,
+        "direction"},
+       {"mass", quantity(Dimension::mass, plausible(0, 1e12)),
+        "of a guided support: the inertia of what pulls it; 0 when omitted", false, "direction"},
        {"axis", vector(Dimension::number),
         "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"},
        {"name", name(), "heads the columns of its reaction"},
        {"motion", vector_table(Dimension::length),
         "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the first "
         "and the last"}});
+}
+
+Shape friction() {
+  const Range force = not_negative();
+  return object(
+      {{"coefficient",
+        quantity(Dimension::number,
+                 {.lower = 0, .upper = 10, .reason = "a coefficient of friction has no unit"}),
+        "of sliding: friction over the force across the beam; 0 when omitted"},
+       {"static",
+        quantity(Dimension::number,
+                 {.lower = 0, .upper = 10, .reason = "a coefficient of friction has no unit"}),
+        "the same of a body that sticks, at least `coefficient`, which it is when omitted"},
+       {"law", choice({"coulomb", "capstan"}),
+        "at the kink of a discontinuous slope: coulomb: of the force across the bisector; capstan: tensions of up to "
+        "exp(coefficient times angle); coulomb when omitted"},
+       {"force", either(quantity(Dimension::force, force), table(Dimension::force, force)),
+        "of a brake or a seal, whatever presses on the beam, or that over time; 0 when omitted"},
+       {"viscous", quantity(Dimension::damping, not_negative()),
+        "force over sliding velocity; 0 when omitted"},
+       {"stick_stiffness", quantity(Dimension::force_per_length, positive()),
+        "of a body that sticks; when omitted that with which it vibrates at 100 Hz"}});
 }
 
 Shape sliding_joint() {
@@ -255,6 +334,9 @@ Shape sliding_joint() {
        {"at", place(), "where it starts", required},
        {"speed", quantity(Dimension::speed), "initial speed in reference arc length; 0 when omitted"},
        {"motion", motion, "prescribes the body's place, from `at` on"},
+       {"equilibrium", choice({"held", "free"}),
+        "where statics find the body: held at its `at`, or free, where it rests; when omitted free in a static "
+        "analysis, held at the start of a motion"},
        {"release", quantity(Dimension::time, positive()),
         "time until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
@@ -263,9 +345,30 @@ Shape sliding_joint() {
         "the body rolls with the section of a beam with torsion where it is; false when omitted"},
        {"offset", offset(), "[x, y] of the body from the axis, along the axes of the section that it follows",
         false, "follows_section"},
+       {"friction", friction(), "what resists the body that slides; nothing when omitted"},
        {"at_beam_end", choice({"leave", "stop"}),
         "what happens at the beam's end; leave when omitted; at a supported end a body stops"}},
       {{{"speed", "motion", "release"}, false}});
+}
+
+Shape stop() {
+  return object(
+      {{"beam", name(), "the beam on which bodies meet it", required},
+       {"at", place(), "where it stands on the beam; without it, it is between the two `bodies`"},
+       {"bodies", array(name(), 1),
+        "those that it stops, when omitted all on the beam; or the two that it keeps apart"},
+       {"side", choice({"both", "before", "after"}),
+        "stops bodies that come from before it (lesser s), from after it, or both; both when omitted", false,
+        "at"},
+       {"gap", quantity(Dimension::length, not_negative()),
+        "least distance of the two bodies along the beam; 0 when omitted"},
+       {"restitution", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+        "of a hard stop: speed after over speed before an impact; 0 when omitted"},
+       {"stiffness", quantity(Dimension::force_per_length, positive()),
+        "of a buffer: force over how far it is pressed in"},
+       {"damping", quantity(Dimension::damping, not_negative()),
+        "of a buffer: force over the speed of that; 0 when omitted", false, "stiffness"}},
+      {{{"restitution", "stiffness"}, false}, {{"at", "gap"}, false}});
 }
 
 Shape beam_joint() {
@@ -276,6 +379,33 @@ Shape beam_joint() {
                  {"axis", vector(Dimension::number),
                   "as drawn, of a hinge between beams with torsion, which turn about it alone"},
                  {"name", name(), "heads the columns of its forces"}});
+}
+
+Shape connector() {
+  const Shape end = object({{"beam", name(), "a beam, at the place `at`"},
+                            {"at", place(), "where on that beam", false, "beam"},
+                            {"body", name(), "a body"},
+                            {"point", vector(Dimension::length), "a point that stays where it is"}},
+                           {{{"beam", "body", "point"}, required}});
+  return object(
+      {{"name", name(), "heads the columns of its force and length", required},
+       {"from", end, "its first end", required},
+       {"to", end, "its second end", required},
+       {"type", choice({"spring", "tension-only", "compression-only", "rod"}),
+        "tension-only: a dropper or a rope, slack where it is shorter than its free length; compression-only: the "
+        "other way; rod: it keeps its length; spring when omitted"},
+       {"stiffness", quantity(Dimension::stiffness, plausible(0, 1e16)), "force per stretch"},
+       {"damping", quantity(Dimension::damping, plausible(0, 1e16)),
+        "force per speed of the stretch; 0 when omitted", false, "stiffness"},
+       {"length", either(choice({"drawn", "as-drawn"}), quantity(Dimension::length, not_negative())),
+        "free length, of a rod its length; drawn: the distance of its ends as drawn; as-drawn: that for which its "
+        "first end stands where it is drawn when all is in equilibrium; drawn when omitted"},
+       {"force", quantity(Dimension::force, plausible(-1e12, 1e12)),
+        "force at the start, positive where it pulls, which gives the free length"},
+       {"direction", vector(Dimension::number),
+        "it acts along this direction alone, on the distance along it from the first end to the second"},
+       {"end_masses", masses(), "[kg, kg] lumped at its ends, as of clamps; none when omitted"}},
+      {{{"length", "force"}, false}});
 }
 
 Shape analysis() {
@@ -348,6 +478,12 @@ Shape output() {
        {"report", boolean(), "report.html; true when omitted"}});
 }
 
+Shape air() {
+  return object({{"density", quantity(Dimension::density, plausible(0, 1e4)), "mass per volume", required},
+                 {"wind", vector(Dimension::speed, plausible(-1e3, 1e3)),
+                  "velocity of the air, everywhere alike; still when omitted"}});
+}
+
 Shape body() {
   return object(
       {{"name", name(), "name of the body", required},
@@ -359,7 +495,12 @@ Shape body() {
                             "unit"}),
         "mass", required},
        {"roll_inertia", quantity(Dimension::inertia, plausible(0, 1e16)),
-        "about the beam, of a body that follows its section; 0 when omitted"}});
+        "about the beam, of a body that follows its section; 0 when omitted"},
+       {"drag_area", quantity(Dimension::area, plausible(0, 1e6)),
+        "drag coefficient times area, of the drag of the `air`; 0 when omitted"},
+       {"position", vector(Dimension::length), "where a body without a sliding joint starts"},
+       {"velocity", vector(Dimension::speed), "how fast it starts; at rest when omitted", false,
+        "position"}});
 }
 
 }  // namespace
@@ -382,21 +523,25 @@ std::string Range::rule() const {
 }
 
 const Shape& case_keys() {
-  static const Shape shape =
-      object({{"$schema", any_text(), "for editors; ignored"},
-              {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
-               "version of the case-file format", required},
-              {"name", any_text(), "title of the case; the file's name when omitted"},
-              {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
-               "acceleration of gravity; [0, 0, -9.81] when omitted"},
-              {"beams", array(beam(), 1), "the beams", required},
-              {"bodies", array(body()), "point masses that slide on beams; each needs a sliding joint"},
-              {"loads", short_array(load()), "forces and moments"},
-              {"supports", array(support()), "where beams are held"},
-              {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
-              {"joints", array(beam_joint()), "which beams are joined to each other"},
-              {"analysis", analysis(), "what to compute", required},
-              {"output", output(), "what to store"}});
+  static const Shape shape = object(
+      {{"$schema", any_text(), "for editors; ignored"},
+       {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
+        "version of the case-file format", required},
+       {"name", any_text(), "title of the case; the file's name when omitted"},
+       {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
+        "acceleration of gravity; [0, 0, -9.81] when omitted"},
+       {"air", air(), "what drags on bodies with a `drag_area`; none when omitted"},
+       {"beams", array(beam(), 1), "the beams", required},
+       {"bodies", array(body()),
+        "point masses: each slides on a beam or on several that cross, or hangs on connectors"},
+       {"loads", short_array(load()), "forces and moments"},
+       {"supports", array(support()), "where beams are held"},
+       {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+       {"stops", array(stop()), "what sliding bodies come up against"},
+       {"joints", array(beam_joint()), "which beams are joined to each other"},
+       {"connectors", short_array(connector()), "springs, ropes and rods between bodies, beams and points"},
+       {"analysis", analysis(), "what to compute", required},
+       {"output", output(), "what to store"}});
   return shape;
 }
 

@@ -8,6 +8,7 @@
 
 #include "cad_import/files/cad_format.h"
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_connector.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -41,7 +42,9 @@ void check_names(const Json& json, Findings& findings) {
   auto columns = collect(json, "bodies", "");  // these head columns of the same table
   const auto probes = collect(part(json, "output"), "probes", "output");
   const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
-  for (const auto& more : {probes, supports, joints}) columns.insert(columns.end(), more.begin(), more.end());
+  const auto connectors = collect(json, "connectors", "");
+  for (const auto& more : {probes, supports, joints, connectors})
+    columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
 }
 
@@ -86,12 +89,30 @@ void check_references(const Json& json, const Json& holder, const char* key, con
       });
 }
 
+/// The same of both ends of every connector.
+void check_connector_ends(const Json& json, const char* reference, const std::vector<std::string>& known,
+                          Findings& findings) {
+  for_each_item(
+      json, "connectors", "",
+      [&](const Json& connector, const std::string& path) {
+        for (const char* end : {"from", "to"}) {
+          const std::string name = text(part(connector, end), reference);
+          if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json))
+            findings.error(
+                child(child(path, end), reference),
+                "there is no " + std::string(reference) + " " + in_quotes(name) + known_names(name, known));
+        }
+      });
+}
+
 void check_references(const Json& json, Findings& findings) {
   if (const auto beams = names_under(json, "beams")) {
     check_references(json, json, "loads", "", "beam", *beams, findings);
     check_references(json, json, "supports", "", "beam", *beams, findings);
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
+    check_references(json, json, "stops", "", "beam", *beams, findings);
     check_references(json, part(json, "output"), "probes", "output", "beam", *beams, findings);
+    check_connector_ends(json, "beam", *beams, findings);
     for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
       for_each_item(joint, "beams", path, [&](const Json& name, const std::string& name_path) {
         if (!is_one_of(name, *beams) && !is_beam_of_chain(name, json))
@@ -100,27 +121,16 @@ void check_references(const Json& json, Findings& findings) {
       });
     });
   }
-  if (const auto bodies = names_under(json, "bodies"))
+  if (const auto bodies = names_under(json, "bodies")) {
     check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
-}
-
-/// Every body is held by exactly one sliding joint.
-void check_bodies(const Json& json, const CaseFile& c, Findings& findings) {
-  std::map<std::string, std::vector<std::string>> holders;  // paths of the joints of each body
-  for (const CaseSlidingJoint& joint : c.sliding_joints) holders[joint.body].push_back(joint.path);
-  const std::vector<std::string> bodies = names_under(json, "bodies").value_or(std::vector<std::string>{});
-  const bool all_known = std::all_of(holders.begin(), holders.end(),
-                                     [&](const auto& holder) { return is_one_of(holder.first, bodies); });
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::vector<std::string>& joints = holders[bodies[i]];
-    if (joints.empty() && all_known) {
-      findings.error(child("bodies", i),
-                     "no sliding joint holds the body " + in_quotes(bodies[i]) +
-                         ", so it has no place; add one to \"sliding_joints\" or remove it");
-    } else if (joints.size() > 1) {
-      findings.error(joints[1], "the body " + in_quotes(bodies[i]) + " is already held by " + joints[0] +
-                                    "; a body slides on one beam");
-    }
+    check_connector_ends(json, "body", *bodies, findings);
+    for_each_item(json, "stops", "", [&](const Json& stop, const std::string& path) {
+      for_each_item(stop, "bodies", path, [&](const Json& name, const std::string& name_path) {
+        if (!is_one_of(name, *bodies))
+          findings.error(name_path, "there is no body " + in_quotes(name.get<std::string>()) +
+                                        known_names(name.get<std::string>(), *bodies));
+      });
+    });
   }
 }
 
@@ -221,7 +231,7 @@ void check_source(const CaseFile& c, Findings& findings) {
 void check_across(const Json& json, const CaseFile& case_file, Findings& findings) {
   check_names(json, findings);
   check_references(json, findings);
-  check_bodies(json, case_file, findings);
+  check_connectors(case_file, findings);
   check_times(json, case_file, findings);
   check_modes(case_file, findings);
   check_solids(case_file, findings);

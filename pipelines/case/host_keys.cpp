@@ -1,5 +1,7 @@
 #include "pipelines/case/host_keys.h"
 
+#include <algorithm>
+
 namespace nurbeam {
 
 namespace {
@@ -28,6 +30,14 @@ Shape law_shape() {
 const Shape& host_keys() {
   static const Shape shape = [] {
     Shape keys = case_keys();
+    for (const char* moved : {"supports", "sliding_joints"}) {
+      const auto key =
+          std::find_if(keys.keys.begin(), keys.keys.end(), [&](const Key& k) { return k.name == moved; });
+      key->shape.items[0].keys.push_back({"motion_law",
+                                          Shape{.kind = Shape::Kind::integer, .range = {.lower = 0}},
+                                          "number of the function that prescribes the motion"});
+      key->shape.items[0].alternatives.push_back({{"motion", "motion_law"}, false});
+    }
     keys.keys.push_back({"laws", Shape{.kind = Shape::Kind::array, .items = {law_shape()}},
                          "forces by functions of the program"});
     return keys;

@@ -4,7 +4,8 @@
 namespace nurbeam {
 
 /// The case as a program makes it in memory: the keys of the case file, and "laws", forces by functions of
-/// the program. A function is known by its place in that list.
+/// the program, each known by its place in that list; "motion_law" of supports and sliding joints, the number
+/// of a function that prescribes the motion.
 const Shape& host_keys();
 
 /// The laws of a case that has been checked against host_keys().

@@ -109,6 +109,12 @@ DimensionInfo info(Dimension dimension) {
       return {"moment of inertia", "kg m^2", {2, 1, 0}, "kg m^2, kg mm^2, g cm^2"};
     case Dimension::torque_per_length:
       return {"torque per length", "N m/m", {1, 1, -2}, "N m/m, N mm/mm, kN m/m"};
+    case Dimension::rate:
+      return {"rate", "1/s", {0, 0, -1}, "rad/s, rad/ms, rad/min"};
+    case Dimension::stiffness:
+      return {"stiffness", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, MN/m, lbf/in"};
+    case Dimension::damping:
+      return {"damping", "N s/m", {0, 1, -1}, "N s/m, kN s/m, N s/mm"};
   }
   return {};
 }

@@ -24,7 +24,10 @@ enum class Dimension {
   thermal_expansion,
   angular_speed,
   inertia,
-  torque_per_length
+  torque_per_length,
+  rate,
+  stiffness,
+  damping
 };
 
 /// "length", "force per length", ...

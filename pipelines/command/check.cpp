@@ -24,6 +24,11 @@ std::string place(double s) { return "s = " + text_of(s, place_digits) + " m"; }
 
 void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   const double L = beam.curve.length();
+  if (beam.rigid) {
+    out << "guide     " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
+        << text_of(L, place_digits) << " m, rigid, " << beam.curve.segment_count() << " CAD segments\n";
+    return;
+  }
   double shortest = L, longest = 0;
   for (std::size_t i = 1; i < beam.home.size(); ++i) {
     const double length = beam.home[i].s - beam.home[i - 1].s;
@@ -47,6 +52,8 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
     out << "EI " << size(p.bending_stiffness * stretch);
   out << " N m^2, stress-free " << (beam.curve.straight() ? "straight" : "as drawn");
   if (stretch != 1) out << ", unstressed length " << text_of(L * stretch, place_digits) << " m";
+  if (p.free_strain.of_tension != 0)
+    out << ", tension " << size(-p.free_strain.of_tension * p.axial_stiffness) << " N as drawn";
   if (!p.free_strain.thermal.empty()) out << ", with a temperature";
   if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
   out << '\n';
@@ -69,6 +76,20 @@ void print_corners(std::ostream& out, const Beam& beam) {
           << (node.kind == NodeKind::rigid ? "rigid" : "a hinge") << '\n';
 }
 
+void print_materials(std::ostream& out, const CaseFile& case_file) {
+  for (const CaseBeam& beam : case_file.beams) {
+    const CaseMaterial& material = beam.material;
+    if (material.name.empty()) continue;
+    const auto size = [](double value) { return text_of(value, size_digits); };
+    out << "material  of " << beam.name << ": " << material.name << ", density " << size(material.density)
+        << " kg/m^3, Young's modulus " << size(material.youngs_modulus) << " Pa";
+    if (material.poissons_ratio) out << ", Poisson's ratio " << size(*material.poissons_ratio);
+    if (material.thermal_expansion)
+      out << ", thermal expansion " << size(*material.thermal_expansion) << " /K";
+    out << '\n';
+  }
+}
+
 void print_sections(std::ostream& out, const BuiltModel& built) {
   for (std::size_t b = 0; b < built.sources.size(); ++b)
     if (const auto& drawn = built.sources[b].profile) {
@@ -87,6 +108,22 @@ void print_joints(std::ostream& out, const BeamModel& model) {
       out << "joint     " << model.beams[joint->beam_a].name << " at " << place(joint->s_a) << " and "
           << model.beams[joint->beam_b].name << " at " << place(joint->s_b) << ", "
           << (joint->rigid ? "rigid" : "hinged") << '\n';
+}
+
+void print_connectors(std::ostream& out, const BeamModel& model) {
+  const auto end_text = [&](const ConnectorEnd& end) -> std::string {
+    if (end.beam >= 0) return model.beams[end.beam].name + " at " + place(end.s);
+    return end.body >= 0 ? model.bodies[end.body].name : "a point";
+  };
+  for (const Connector& connector : model.connectors) {
+    out << "connector " << connector.name << ": " << end_text(connector.ends[0]) << " to "
+        << end_text(connector.ends[1]);
+    if (connector.type != ConnectorType::rod)
+      out << ", " << text_of(connector.stiffness, size_digits) << " N/m";
+    if (connector.length_rule == ConnectorLength::given)
+      out << ", length " << text_of(connector.length, place_digits) << " m";
+    out << '\n';
+  }
 }
 
 // Where elements cannot even have the drawn shape without stretching.
@@ -129,8 +166,10 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
   if (const auto& adapted = report.value->adapted)
     out << "mesh      positions off by about " << text_of(adapted->error, 2) << " of a beam's length, by the "
         << (adapted->from_equilibrium ? "static state" : "drawing") << '\n';
+  print_materials(out, case_file);
   print_sections(out, *report.value);
   print_joints(out, model);
+  print_connectors(out, model);
   out << "supports  " << count<Support>(model.constraints) << ", point loads "
       << count<PointLoad>(model.forces) << ", moments " << count<Moment>(model.forces)
       << ", distributed loads " << count<LineLoad>(model.forces) << '\n';

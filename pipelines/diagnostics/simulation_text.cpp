@@ -85,7 +85,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
              " J has come from nowhere, more than all that moves" + places +
              "; take a shorter \"step\" or a \"tolerance\"";
     case Failure::Kind::bodies_meet:
-      return "sliding bodies meet at t = " + time + "; contact between bodies is not modelled" + places;
+      return "sliding bodies meet at t = " + time + "; give a stop that keeps them apart" + places;
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
              "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) + slope_hint(model);
@@ -101,6 +101,16 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the loads do not change the stiffness: nothing buckles under them";
     case Failure::Kind::eigenvalues:
       return "the eigenvalues are not found; a smaller \"count\" may help";
+    case Failure::Kind::free_lengths:
+      return "no lengths of the connectors were found with which they do in equilibrium what \"as-drawn\" or "
+             "\"force\" says: one of them does not move its end, or another one holds it";
+    case Failure::Kind::wrong_sign: {
+      const Connector& connector = model.connectors[failure.connector];
+      const bool pulls = connector.type == ConnectorType::tension_only;
+      return "connector \"" + connector.name + "\" would have to " + (pulls ? "push " : "pull ") +
+             text_of(failure.force, 6) + " N for what its length says, but it is " +
+             (pulls ? "tension-only" : "compression-only") + "; let its end stand lower, or leave it out";
+    }
     case Failure::Kind::resting_place:
       break;
   }
@@ -123,6 +133,16 @@ std::string name_of(EventKind kind) {
       return "left the beam";
     case EventKind::released:
       return "released";
+    case EventKind::sticks:
+      return "sticks";
+    case EventKind::slides:
+      return "slides";
+    case EventKind::hits_stop:
+      return "hits a stop";
+    case EventKind::rests_at_stop:
+      return "rests at a stop";
+    case EventKind::leaves_stop:
+      return "leaves a stop";
     case EventKind::stopped_at_end:
       break;
   }

@@ -217,7 +217,9 @@ std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCu
                                          " degrees are smoothed (\"smooth_up_to\"): "
                                    : "a beam needs a smooth axis: ") +
             rounding(corner) +
-            (beam.ring ? "" : ", or keep it with \"corners\": \"rigid\" (its angle stays) or \"hinge\""));
+            (beam.ring || beam.rigid
+                 ? ""
+                 : ", or keep it with \"corners\": \"rigid\" (its angle stays) or \"hinge\""));
   }
   return corners;
 }

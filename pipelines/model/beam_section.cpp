@@ -44,16 +44,32 @@ double farthest(const SectionProfile& profile, Distance distance) {
   return greatest;
 }
 
+// The sides of a polygon, as if from a file.
+std::vector<ImportedCurve> sides_of(const std::vector<Eigen::Vector2d>& corners) {
+  std::vector<ImportedCurve> sides;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 2);
+    points.col(0).head<2>() = corners[i];
+    points.col(1).head<2>() = corners[(i + 1) % corners.size()];
+    sides.push_back(
+        {.entity = "line",
+         .curve = make_nurbs_curve(KnotVector(1, {0, 0, 1, 1}), points, Eigen::Vector2d::Ones())});
+  }
+  return sides;
+}
+
 }  // namespace
 
 std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
                                         Findings& findings) {
   if (!beam.section.profile) return BeamSection{beam.section};
-  const std::filesystem::path& file = beam.section.profile->path;
-  const std::string where = beam.path + ".section.profile";
-  const ImportReport& report = files.read(file, findings);
-  if (!report.ok()) return {};
-  ProfileReport drawn = section_profile(report.curves, findings.where(where) + ": " + file.string());
+  const CaseProfile& source = *beam.section.profile;
+  const bool by_numbers = !source.outline.empty();
+  const std::string where = beam.path + (by_numbers ? ".section" : ".section.profile");
+  if (!by_numbers && !files.read(source.path, findings).ok()) return {};
+  const std::vector<ImportedCurve> curves =
+      by_numbers ? sides_of(source.outline) : files.read(source.path, findings).curves;
+  ProfileReport drawn = section_profile(curves, findings.where(where) + ": " + source.path.string());
   findings.append(drawn.diagnostics);
   if (!drawn.value) return {};
   const SectionProfile& profile = *drawn.value;

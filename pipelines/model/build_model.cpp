@@ -10,11 +10,14 @@
 #include "fem/model/build.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/findings.h"
+#include "pipelines/model/add_stops.h"
 #include "pipelines/model/asked_torsion.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/check_drawing.h"
+#include "pipelines/model/check_guides.h"
+#include "pipelines/model/connectors.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/drawn_bending.h"
@@ -43,16 +46,29 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   std::vector<RationalCubic> segments;
   for (const BeamAxis& axis : axes)
     segments.insert(segments.end(), axis.segments.begin(), axis.segments.end());
-  std::vector<Eigen::Vector3d> forces = {resolved.gravity}, moments;
+  std::vector<Eigen::Vector3d> forces = {resolved.gravity, resolved.air.wind}, moments;
   for (const CaseLoad& load : resolved.loads)
     (load.kind == CaseLoad::Kind::moment ? moments : forces).push_back(load.value);
-  for (const CaseSupport& support : resolved.supports)
+  for (const CaseSupport& support : resolved.supports) {
     for (const auto& [time, displacement] : support.motion) forces.push_back(displacement);
+    if (support.direction) forces.push_back(*support.direction);
+  }
   for (const CaseBeam& beam : resolved.beams)
     if (beam.velocity) {
       forces.push_back(beam.velocity->translation);
       moments.push_back(beam.velocity->rotation);
     }
+  // Points besides the axes are in the plane of a planar model too.
+  const Eigen::Vector3d origin = segments.front().point(0);
+  for (const CaseConnector& connector : resolved.connectors) {
+    if (connector.direction) forces.push_back(*connector.direction);
+    for (const CaseConnectorEnd& end : connector.ends)
+      if (end.point) forces.push_back(*end.point - origin);
+  }
+  for (const CaseBody& body : resolved.bodies) {
+    if (body.position) forces.push_back(*body.position - origin);
+    forces.push_back(body.velocity);
+  }
   for (const CaseLaw& law : resolved.laws)
     if (law.spatial)
       for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));
@@ -142,6 +158,25 @@ void add_temperature(const CaseBeam& from, BeamProperties& properties) {
                                                 stretch_squared * *from.material.thermal_expansion * kelvin);
 }
 
+// A thrust needs a beam that bends, and a curved axis under tension is in no equilibrium as drawn.
+void add_tension(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& drawn,
+                 BeamProperties& properties, Findings& findings) {
+  if (from.tension == 0) return;
+  properties.free_strain.of_tension = -from.tension / properties.axial_stiffness;
+  const std::string path = from.path + ".tension";
+  if (from.tension < 0 && properties.bending_stiffness == 0)
+    findings.error(path,
+                   "is " + text_of(from.tension) +
+                       " N of a beam without bending stiffness, which no thrust can be in; give a positive "
+                       "\"tension\", or the section a second moment");
+  const CaseAnalysis& analysis = resolved.analysis;
+  if (is_curved(drawn) && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
+    findings.warn(path,
+                  "is " + text_of(from.tension) +
+                      " N in an axis that is drawn curved, which is no equilibrium: the motion starts with a "
+                      "jerk; start with \"initial\": \"equilibrium\"");
+}
+
 std::optional<BeamVelocity> initial_velocity(const CaseBeam& from, const ModelFrame& frame) {
   if (!from.velocity) return {};
   return BeamVelocity{frame.direction_to_local(from.velocity->translation),
@@ -161,7 +196,11 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
                       .extreme_fibre = section.radius           ? section.radius
                                        : section.second_moments ? std::nullopt
                                                                 : section.extreme_fibre};
-  const Material material{from.material.youngs_modulus, from.material.density, from.material.damping, {}};
+  const Material material{.youngs_modulus = from.material.youngs_modulus,
+                          .density = from.material.density,
+                          .damping = from.material.damping,
+                          .mass_damping = from.material.mass_damping,
+                          .stiffness_damping = from.material.stiffness_damping};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
   std::optional<SectionStresses> stresses;
@@ -174,6 +213,7 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   if (const double stretch = free_stretch(from, curve, findings); stretch != 1)
     properties = properties.with_free_stretch(stretch);
   add_temperature(from, properties);
+  add_tension(resolved, from, curve, properties, findings);
   const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
           .curve = oriented(from, stress_free, findings),
@@ -207,6 +247,17 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
   return motion;
 }
 
+// Makes a support guided, with what pulls it.
+void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
+  support.guide = frame.direction_to_local(from.direction->normalized());
+  if (from.force != 0)
+    model.forces.push_back(
+        PointLoad{{.beam = support.beam, .s = support.s, .value = from.force * *support.guide}});
+  if (from.mass > 0)
+    model.forces.push_back(
+        PlaceMass{.beam = support.beam, .s = support.s, .mass = from.mass, .weighs = false});
+}
+
 // Adds the supports of one beam; returns their places in reference arc length [m].
 std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
                                  const ModelFrame& frame, BeamModel& model, Findings& findings) {
@@ -231,8 +282,9 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
                                         support.name,
                                         motion_of(resolved, support, frame, findings),
                                         {}});
-    if (support.axis)
-      std::get<Support>(model.constraints.back()).axis = frame.direction_to_local(*support.axis);
+    Support& added = std::get<Support>(model.constraints.back());
+    if (support.axis) added.axis = frame.direction_to_local(*support.axis);
+    if (support.direction) add_guide(support, frame, added, model);
   }
   return places;
 }
@@ -324,6 +376,16 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     CaseBeam& from = resolved.beams[b];
     const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
     if (!drawn) break;
+    if (from.rigid) {
+      built.model.beams.push_back({.name = from.name,
+                                   .curve = drawn->curve,
+                                   .properties = {},
+                                   .rigid = true,
+                                   .home = guide_nodes(drawn->curve)});
+      built.sources.push_back({axes[b].curve_name, axes[b].source});
+      beams.push_back(*drawn);
+      continue;
+    }
     const bool asked = from.torsion;
     from.torsion = from.torsion || is_given_torsion(from, drawn->curve);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
@@ -347,8 +409,13 @@ void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
                   const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model, Findings& findings) {
   for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
     const CaseBeam& from = resolved.beams[b];
+    if (from.rigid) continue;
     std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], frame, model, findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
+    const double same = same_place * beams[b].measured.length();
+    for (const double s : connector_places(resolved, static_cast<int>(b), beams[b], findings))
+      if (std::none_of(held.begin(), held.end(), [&](double t) { return std::abs(t - s) <= same; }))
+        held.push_back(s);
     model.beams[b].home =
         divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), frame, findings);
   }
@@ -382,13 +449,15 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
   CadFiles files;
   ResolvedCase resolved = resolve_case(case_file, files, findings);
   const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
-  give_asked_torsion(resolved, findings);
+  if (!findings.has_errors()) check_guides(resolved, findings);
+  if (!findings.has_errors()) give_asked_torsion(resolved, findings);
   if (findings.has_errors()) return {};
 
   BuiltModel built;
   built.frame = frame_of(resolved, axes);
   built.model.dimension = built.frame.dimension;
   built.model.gravity = built.frame.direction_to_local(resolved.gravity);
+  built.model.air = {resolved.air.density, built.frame.direction_to_local(resolved.air.wind)};
   const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, built, findings);
   if (findings.has_errors()) return {};
 
@@ -398,11 +467,12 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
   check_joined_supports(resolved, beams, joined, findings);
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
-  mark_held_nodes(built.model);
-
   add_loads(resolved, beams, built.frame, built.model, findings);
   add_sliding_joints(resolved, beams, joined, built.model, findings);
+  add_connectors(resolved, beams, built.frame, built.model, findings);
+  if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};
+  mark_held_nodes(built.model);
   built.adapted = adapt_elements(resolved, built.model, findings);
   check_turns(resolved.beams, built.model, built.frame, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
@@ -412,6 +482,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
     built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
   }
   for (const CaseLaw& law : resolved.laws) built.laws.push_back(law_points(law, resolved, beams, findings));
+  built.motions = laws_of_motion(resolved, built.model);
   built.inputs = files.inputs();
   built.import_seconds = files.seconds();
   if (findings.has_errors()) return {};

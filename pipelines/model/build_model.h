@@ -38,6 +38,13 @@ struct BeamSource {
   SectionOutline outline = {};
 };
 
+/// A motion that a function of the program prescribes.
+struct LawOfMotion {
+  std::string path;  ///< in the case
+  int function;
+  int joint = -1, constraint = -1;  ///< of the model: one of them, without that motion
+};
+
 /// A case as a model: everything resolved and in place.
 struct BuiltModel {
   BeamModel model;
@@ -45,6 +52,7 @@ struct BuiltModel {
   std::vector<BeamSource> sources;  ///< per beam
   std::vector<Probe> probes;
   std::vector<std::vector<CustomForce::Attachment>> laws = {};  ///< where each law of the case acts
+  std::vector<LawOfMotion> motions = {};                        ///< that functions prescribe
   std::optional<AdaptedMesh> adapted = {};  ///< where beams name a tolerance instead of a number of elements
   std::vector<std::filesystem::path> inputs;  ///< CAD files read
   double import_seconds = 0;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "fem/forces/custom_force.h"
+#include "pipelines/model/build_model.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/resolved_case.h"
 
@@ -11,5 +12,8 @@ namespace nurbeam {
 /// fewer.
 std::vector<CustomForce::Attachment> law_points(const CaseLaw& law, const ResolvedCase& resolved,
                                                 const std::vector<DrawnBeam>& beams, Findings& findings);
+
+/// The motions that functions prescribe, of a model that has its supports and sliding joints.
+std::vector<LawOfMotion> laws_of_motion(const ResolvedCase& resolved, const BeamModel& model);
 
 }  // namespace nurbeam

@@ -74,6 +74,10 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   SnapshotNames names;
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
+  for (const SlidingJoint& joint : built.model.joints) names.friction = names.friction || joint.friction;
+  names.springs = names.friction;
+  for (const Stop& stop : built.model.stops) names.springs = names.springs || stop.buffer;
+  names.springs = names.springs || !built.model.connectors.empty();
   for (const Beam& beam : built.model.beams) {
     names.beams.push_back(beam.name);
     names.sections = names.sections || beam.has_torsion();
@@ -82,6 +86,7 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
     names.reactions.push_back(
         std::visit([&](const auto& of) { return distinct(reaction_name(built.model, of), names.reactions); },
                    constraint));
+  for (const Connector& connector : built.model.connectors) names.connectors.push_back(connector.name);
   return names;
 }
 

@@ -53,6 +53,8 @@ std::string name_of(CaseAnalysis::Type type) {
   return {};
 }
 
+double drawn_tension(const BeamProperties& p) { return 0 - p.free_strain.of_tension * p.axial_stiffness; }
+
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
   const double stretch =
@@ -61,14 +63,17 @@ Json to_json(const Beam& beam, const BeamSource& source) {
                {"length [m]", beam.curve.length()},
                {"unstressed length [m]", beam.curve.length() * stretch},
                {"mass [kg]", beam.curve.length() * p.mass_per_length},
-               {"elements", beam.home.size() - 1},
+               {"elements", beam.rigid ? 0 : beam.home.size() - 1},
                {"CAD segments", beam.curve.segment_count()},
-               {"element", name_of(beam.weights)},
+               {"element", beam.rigid ? "none: a rigid guide" : name_of(beam.weights)},
                {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
+               {"rigid", beam.rigid},
                {"bending as drawn [J]", source.drawn_bending},
                {"EA [N]", p.axial_stiffness * stretch * stretch * stretch},
                {"EI [N m^2]", p.bending_stiffness * stretch},
-               {"damping [s]", p.damping}};
+               {"damping [s]", p.damping},
+               {"mass damping [1/s]", p.mass_damping},
+               {"tension as drawn [N]", drawn_tension(p)}};
   if (p.sections) {
     json.erase("EI [N m^2]");
     json["torsion"] = source.torsion;
@@ -94,6 +99,7 @@ Json to_json(const Support& support, const BuiltModel& built) {
   return {{"beam", beam.name},
           {"type", support.clamped ? "clamped"
                    : support.fork  ? "fork"
+                   : support.guide ? "guided"
                                    : "pinned"},
           {"s [m]", support.s},
           {"position [m]", to_json(built.frame.to_world(beam.curve.position(support.s)))},
@@ -110,6 +116,39 @@ Json to_json(const SlidingJoint& joint, const BeamModel& model) {
           {"follows section", joint.follows_section},
           {"offset [m]", {joint.offset[0], joint.offset[1]}},
           {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};
+}
+
+std::string name_of(ConnectorType type) {
+  switch (type) {
+    case ConnectorType::spring:
+      return "spring";
+    case ConnectorType::tension_only:
+      return "tension-only";
+    case ConnectorType::compression_only:
+      return "compression-only";
+    case ConnectorType::rod:
+      return "rod";
+  }
+  return {};
+}
+
+Json to_json(const ConnectorEnd& end, const BuiltModel& built) {
+  if (end.beam >= 0) return {{"beam", built.model.beams[end.beam].name}, {"s [m]", end.s}};
+  if (end.body >= 0) return {{"body", built.model.bodies[end.body].name}};
+  return {{"point [m]", to_json(built.frame.to_world(end.point))}};
+}
+
+Json to_json(const Connector& connector, const BuiltModel& built) {
+  Json json = {{"name", connector.name},
+               {"type", name_of(connector.type)},
+               {"from", to_json(connector.ends[0], built)},
+               {"to", to_json(connector.ends[1], built)}};
+  if (connector.type != ConnectorType::rod)
+    json.update({{"stiffness [N/m]", connector.stiffness}, {"damping [N s/m]", connector.damping}});
+  if (connector.length_rule == ConnectorLength::given) json["length [m]"] = connector.length;
+  if (connector.length_rule == ConnectorLength::as_drawn) json["length [m]"] = "as drawn";
+  if (connector.length_rule == ConnectorLength::force) json["force at the start [N]"] = connector.force;
+  return json;
 }
 
 Json to_json(const TimeTable& table) {
@@ -167,6 +206,7 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
       {"bodies", Json::array()},
       {"supports", Json::array()},
       {"joints", Json::array()},
+      {"connectors", Json::array()},
       {"loads", Json::array()}};
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     json["beams"].push_back(to_json(model.beams[b], built.sources[b]));
@@ -177,6 +217,7 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
     if (const auto* support = std::get_if<Support>(&constraint))
       json["supports"].push_back(to_json(*support, built));
   for (const SlidingJoint& joint : model.joints) json["joints"].push_back(to_json(joint, model));
+  for (const Connector& connector : model.connectors) json["connectors"].push_back(to_json(connector, built));
   for (const Force& force : model.forces)
     std::visit(
         [&](const auto& load) {

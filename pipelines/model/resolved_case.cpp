@@ -127,12 +127,23 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
       findings.error(joint.path + ".beam",
                      "is " + in_quotes(joint.beam) +
                          ", which is several beams; choose one: " + quoted_list(names.at(joint.beam)));
+  for (const CaseStop& stop : resolved.stops)
+    if (known(stop.beam, stop.path) && names.at(stop.beam).size() > 1)
+      findings.error(stop.path + ".beam",
+                     "is " + in_quotes(stop.beam) +
+                         ", which is several beams; choose one: " + quoted_list(names.at(stop.beam)));
   for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& name : joint.beams)
       if (known(name, joint.path) && names.at(name).size() > 1)
         findings.error(joint.path + ".beams",
                        "names " + in_quotes(name) +
                            ", which is several beams; choose of: " + quoted_list(names.at(name)));
+  for (const CaseConnector& connector : resolved.connectors)
+    for (const CaseConnectorEnd& end : connector.ends)
+      if (!end.beam.empty() && known(end.beam, end.path) && names.at(end.beam).size() > 1)
+        findings.error(end.path + ".beam",
+                       "is " + in_quotes(end.beam) +
+                           ", which is several beams; choose one: " + quoted_list(names.at(end.beam)));
   for (const CaseProbe& probe : resolved.probes)
     if (known(probe.beam, "output.probes") && names.at(probe.beam).size() > 1)
       findings.error("output.probes",
@@ -144,11 +155,14 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
 
 ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& findings) {
   ResolvedCase resolved{.gravity = case_file.gravity,
+                        .air = case_file.air,
                         .bodies = case_file.bodies,
                         .loads = case_file.loads,
                         .supports = case_file.supports,
                         .sliding_joints = case_file.sliding_joints,
+                        .stops = case_file.stops,
                         .joints = case_file.joints,
+                        .connectors = case_file.connectors,
                         .probes = case_file.output.probes,
                         .laws = case_file.laws,
                         .analysis = case_file.analysis};

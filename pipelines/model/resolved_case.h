@@ -13,13 +13,16 @@ namespace nurbeam {
 /// is said of one of these.
 struct ResolvedCase {
   Eigen::Vector3d gravity;
+  Air air = {};
   std::vector<CaseBeam> beams = {};
   std::vector<Chain> chains = {};  ///< per beam: indices into the curves of its file; empty for other axes
   std::vector<CaseBody> bodies;
   std::vector<CaseLoad> loads;
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
+  std::vector<CaseConnector> connectors;
   std::vector<CaseProbe> probes;
   std::vector<CaseLaw> laws = {};
   CaseAnalysis analysis;

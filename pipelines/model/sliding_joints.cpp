@@ -85,15 +85,26 @@ void check_following(const CaseSlidingJoint& joint, Findings& findings) {
     findings.error(joint.path + ".offset", "needs \"follows_section\": true, which turns it with the beam");
 }
 
+// What sticks has a memory of steps, and small vibrations have no friction.
+void check_friction(const CaseSlidingJoint& joint, const CaseAnalysis& analysis, Findings& findings) {
+  if (!joint.friction) return;
+  if (analysis.type == CaseAnalysis::Type::dynamic && std::holds_alternative<Ida>(analysis.integrator))
+    findings.error("analysis.integrator.type",
+                   "is \"ida\", but " + joint.path +
+                       " has friction, which \"ida\" has no memory for; use \"generalized-alpha\"");
+  if (analysis.has_modes()) findings.warn(joint.path + ".friction", "has no effect on modes and buckling");
+}
+
 // Nothing on a beam runs faster than the waves along it.
 void warn_of_speed(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
                    Findings& findings) {
+  if (model.beam_of(joint).rigid) return;
   const BeamProperties& p = model.beam_of(joint).properties;
   const double waves = std::sqrt(p.axial_stiffness / p.mass_per_length);
   double fastest = std::abs(joint.speed);
   if (joint.motion)
-    for (std::size_t i = 0; i + 1 < joint.motion->size(); ++i) {
-      const auto &a = (*joint.motion)[i], &b = (*joint.motion)[i + 1];
+    for (std::size_t i = 0; i + 1 < joint.motion->rows().size(); ++i) {
+      const auto &a = joint.motion->rows()[i], &b = joint.motion->rows()[i + 1];
       fastest = std::max(fastest, std::abs((b.second - a.second) / (b.first - a.first)));
     }
   if (fastest > waves)
@@ -110,14 +121,30 @@ void check_apart(const std::vector<CaseSlidingJoint>& from, const BeamModel& mod
       const SlidingJoint &a = model.joints[i], &b = model.joints[j];
       if (a.beam != b.beam) continue;
       const Beam& beam = model.beam_of(b);
-      const double least = meeting_distance * beam.curve.length() / beam.home_intervals();
+      const double least =
+          (beam.rigid ? touching_distance : meeting_distance) * beam.curve.length() / beam.home_intervals();
       const double apart = std::abs(beam.curve.unrolled(a.s, b.s) - b.s);
       if (apart <= least)
         findings.error(from[j].path + ".at", "puts body \"" + from[j].body + "\" " + text_of(apart) +
                                                  " m from body \"" + from[i].body + "\" on beam \"" +
-                                                 from[j].beam +
-                                                 "\"; contact is not modelled, bodies must be more than " +
+                                                 from[j].beam + "\"; bodies must be more than " +
                                                  text_of(least) + " m apart");
+    }
+}
+
+// The beams that one body slides on cross where it starts.
+void check_together(const std::vector<CaseSlidingJoint>& from, const BeamModel& model, Findings& findings) {
+  constexpr double apart = 1e-6;  // of the length
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const SlidingJoint &a = model.joints[i], &b = model.joints[j];
+      if (a.body != b.body) continue;
+      const ReferenceCurve &one = model.beam_of(a).curve, &other = model.beam_of(b).curve;
+      const double distance = (one.position(a.s) - other.position(b.s)).norm();
+      if (distance > apart * std::max(one.length(), other.length()))
+        findings.error(from[j].path + ".at", "puts body \"" + from[j].body + "\" " + text_of(distance) +
+                                                 " m from where " + from[i].path +
+                                                 " puts it; a body slides on two beams where they cross");
     }
 }
 
@@ -129,9 +156,10 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
   for (const CaseBody& body : resolved.bodies) {
-    model.bodies.push_back({.name = body.name, .mass = body.mass, .roll_inertia = body.roll_inertia});
-    const auto carries = [&](const CaseSlidingJoint& j) { return j.body == body.name; };
-    const auto count = std::count_if(resolved.sliding_joints.begin(), resolved.sliding_joints.end(), carries);
+    model.bodies.push_back({.name = body.name,
+                            .mass = body.mass,
+                            .roll_inertia = body.roll_inertia,
+                            .drag_area = body.drag_area});
     const bool follows =
         std::any_of(resolved.sliding_joints.begin(), resolved.sliding_joints.end(),
                     [&](const CaseSlidingJoint& j) { return j.body == body.name && j.follows_section; });
@@ -140,9 +168,6 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                      "body \"" + body.name +
                          "\" has a \"roll_inertia\", but follows no section: give its sliding joint "
                          "\"follows_section\": true");
-    if (count != 1)
-      findings.error("bodies", "body \"" + body.name + "\" is in " + std::to_string(count) +
-                                   " sliding joints; a body needs exactly one");
   }
   for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
     const int b = resolved.beam_index(joint.beam);
@@ -156,8 +181,11 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                        joint.continuous_slope,
                        joint.leave_at_end,
                        joint.follows_section,
-                       joint.offset.value_or(Eigen::Vector2d::Zero())};
+                       joint.offset.value_or(Eigen::Vector2d::Zero()),
+                       joint.rest,
+                       joint.friction};
     check_following(joint, findings);
+    check_friction(joint, resolved.analysis, findings);
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
       if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
     if (!joint.motion_table.empty()) {
@@ -176,6 +204,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     model.joints.push_back(std::move(added));
   }
   check_apart(resolved.sliding_joints, model, findings);
+  check_together(resolved.sliding_joints, model, findings);
 }
 
 }  // namespace nurbeam

@@ -10,7 +10,7 @@
 namespace nurbeam {
 
 /// Adds the bodies of a case and the joints by which they slide to a model that has its beams and supports;
-/// an error for a body without exactly one joint and for a motion that leaves its beam.
+/// an error for a motion that leaves its beam and for places of one body that are not one.
 void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                         const JoinedBeams& joined, BeamModel& model, Findings& findings);
 

@@ -30,6 +30,37 @@ inline constexpr EnergyPart energy_parts[] = {{"kinetic", &EnergyRecord::kinetic
                                               {"total", &EnergyRecord::total},
                                               {"input", &EnergyRecord::input}};
 
+/// What is known besides where SnapshotNames::friction says that bodies have friction: variables body_NAME,
+/// columns NAME.NAME.
+struct BodyPart {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+  double BodyRecord::*value;
+};
+inline constexpr BodyPart friction_parts[] = {
+    {"friction_force", "N", "friction along the beam on the body, positive towards the beam's end",
+     &BodyRecord::friction_force},
+    {"stuck", "1", "1 where the body sticks to the beam, 0 where it slides", &BodyRecord::stuck},
+    {"drive_force", "N", "force along the beam of the drive that prescribes the place of the body",
+     &BodyRecord::drive_force}};
+
+inline std::span<const BodyPart> known_body_parts(const SnapshotNames& names) {
+  return names.friction ? std::span<const BodyPart>(friction_parts) : std::span<const BodyPart>();
+}
+
+/// What a connector does: variables connector_NAME, columns NAME.COLUMN.
+struct ConnectorPart {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+  double ConnectorRecord::*value;
+};
+inline constexpr ConnectorPart connector_parts[] = {
+    {"force", "N", "force that pulls the ends of the connector together", &ConnectorRecord::force},
+    {"length", "m", "distance of its ends, or its part along the connector's direction",
+     &ConnectorRecord::length}};
+
 /// What a probe knows of its section: variables probe_NAME, columns NAME.COLUMN.
 struct SectionPart {
   const char* name;

@@ -12,7 +12,10 @@ FrameReader::FrameReader(const std::filesystem::path& file)
   if (file_.has_dimension("probe")) names_.probes = file_.texts("probe_name");
   if (file_.has_dimension("body")) names_.bodies = file_.texts("body_name");
   if (file_.has_dimension("reaction")) names_.reactions = file_.texts("reaction_name");
+  if (file_.has_dimension("connector")) names_.connectors = file_.texts("connector_name");
   names_.beams = file_.texts("beam_name");
+  names_.friction = file_.has_variable(std::string("body_") + friction_parts[0].name);
+  names_.springs = file_.has_variable("energy_spring");
   names_.sections = file_.has_variable(section_axes[0].name);
   const std::size_t n = file_.size("time"), beams = names_.beams.size();
   if (n == 0) return;
@@ -31,6 +34,7 @@ std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) co
     frame.bodies.resize(names_.bodies.size());
     frame.beams.resize(names_.beams.size());
     frame.reactions.resize(names_.reactions.size());
+    frame.connectors.resize(names_.connectors.size());
   }
   read_scalars(first, frames);
   read_points(first, frames);
@@ -53,6 +57,10 @@ void FrameReader::read_scalars(std::size_t first, std::vector<Snapshot>& frames)
   for (const EnergyPart& part : energy_parts) {
     const Doubles values = file_.doubles(std::string("energy_") + part.name, {first}, {n});
     for (std::size_t i = 0; i < n; ++i) frames[i].energy.*part.value = values[i];
+  }
+  if (names_.springs) {
+    const Doubles spring = file_.doubles("energy_spring", {first}, {n});
+    for (std::size_t i = 0; i < n; ++i) frames[i].energy.spring = spring[i];
   }
   const std::size_t beams = names_.beams.size();
   const Doubles length = file_.doubles("beam_length", {first, 0}, {n, beams});
@@ -117,6 +125,10 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
   numbers(
       "body_holding_force", names_.bodies.size(),
       [](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].holding_force; });
+  for (const BodyPart& part : known_body_parts(names_))
+    numbers(
+        std::string("body_") + part.name,
+        names_.bodies.size(), [&](Snapshot & f, std::size_t j) -> auto& { return f.bodies[j].*part.value; });
   numbers(
       "beam_sag", names_.beams.size(), [](Snapshot & f, std::size_t j) -> auto& { return f.beams[j].sag; });
   for (const BeamExtreme& extreme : with_own_axes(beam_extremes, own_axes_extremes, names_.sections)) {
@@ -129,6 +141,10 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
           return (f.beams[j].*extreme.value).s;
         });
   }
+  for (const ConnectorPart& part : connector_parts)
+    numbers(
+        std::string("connector_") + part.name, names_.connectors.size(),
+        [&](Snapshot & f, std::size_t j) -> auto& { return f.connectors[j].*part.value; });
   vectors(
       "reaction_position", reactions,
       [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].position; });

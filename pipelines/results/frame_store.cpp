@@ -14,7 +14,10 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
       body_count_(names.bodies.size()),
       beam_count_(names.beams.size()),
       reaction_count_(names.reactions.size()),
+      connector_count_(names.connectors.size()),
       sections_(names.sections),
+      springs_(names.springs),
+      body_parts_(known_body_parts(names)),
       section_parts_(with_own_axes(section_parts, own_axes_parts, names.sections)),
       beam_extremes_(with_own_axes(beam_extremes, own_axes_extremes, names.sections)),
       sampled_fields_(with_own_axes(sampled_fields, own_axes_fields, names.sections)) {
@@ -31,6 +34,8 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
     define_of_time("body_s", {"body"}, "m", "reference arc length of the body from the start of its beam");
     define_of_time("body_holding_force", {"body"}, "N",
                    "force along the beam that keeps the body where it is prescribed or has stopped");
+    for (const BodyPart& part : body_parts_)
+      define_of_time(std::string("body_") + part.name, {"body"}, part.unit, part.long_name);
   }
   if (probe_count_ > 0) {
     define_of_time("probe_displacement", {"probe", "xyz"}, "m", "displacement from the drawing");
@@ -39,6 +44,7 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
   }
   define_beams(names.beams);
   define_reactions(names.reactions);
+  define_connectors(names.connectors);
   define_steps();
 }
 
@@ -56,6 +62,7 @@ void FrameStore::define_scalars() {
   define_of_time("newton_iterations", {}, "1", "Newton iterations since the previous frame", Type::integer);
   for (const EnergyPart& part : energy_parts)
     define_of_time(std::string("energy_") + part.name, {}, "J", std::string(part.name) + " energy");
+  if (springs_) define_of_time("energy_spring", {}, "J", "energy of what is elastic beside the beams");
 }
 
 void FrameStore::define_points(const std::string& kind, const std::vector<std::string>& names) {
@@ -121,6 +128,14 @@ void FrameStore::define_reactions(const std::vector<std::string>& names) {
   define_of_time("reaction_couple", {"reaction", "xyz"}, "N m", "likewise the couple");
 }
 
+void FrameStore::define_connectors(const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  file_.define_dimension("connector", names.size());
+  file_.define_texts("connector_name", "connector", names);
+  for (const ConnectorPart& part : connector_parts)
+    define_of_time(std::string("connector_") + part.name, {"connector"}, part.unit, part.long_name);
+}
+
 void FrameStore::define_steps() {
   file_.define_dimension("solver_step", NetcdfFile::unlimited);
   define_of_time("solver_step_count", {}, "1", "number of steps since the previous frame", Type::integer);
@@ -176,6 +191,7 @@ void FrameStore::write(std::span<const Snapshot> frames) {
   if (body_count_ > 0) write_bodies(each);
   write_beams(each);
   if (reaction_count_ > 0) write_reactions(each);
+  if (connector_count_ > 0) write_connectors(each);
   write_elements(frames);
   write_nodes(frames);
   write_steps(frames);
@@ -187,9 +203,11 @@ void FrameStore::write_scalars(const PerFrame& each) {
       "time", {}, [](const Snapshot& f, Doubles& x) { x.push_back(f.time); });
   each.write("step", {}, [](const Snapshot& f, Doubles& x) { x.push_back(f.step); });
   for (const EnergyPart& part : energy_parts)
+    each.write(std::string("energy_") + part.name, {},
+               [&](const Snapshot& f, Doubles& x) { x.push_back(f.energy.*part.value); });
+  if (springs_)
     each.write(
-        std::string("energy_") + part.name, {},
-        [&](const Snapshot& f, Doubles& x) { x.push_back(f.energy.*part.value); });
+        "energy_spring", {}, [](const Snapshot& f, Doubles& x) { x.push_back(f.energy.spring); });
   each.write_integers("newton_iterations", {},
                       [](const Snapshot& f, Integers& x) { x.push_back(f.newton_iterations); });
 }
@@ -231,6 +249,9 @@ void FrameStore::write_bodies(const PerFrame& each) {
       [](Doubles& x, const BodyRecord& body) { x.push_back(body.s.value_or(NetcdfFile::fill)); });
   write("body_holding_force", {body_count_},
         [](Doubles& x, const BodyRecord& body) { x.push_back(body.holding_force); });
+  for (const BodyPart& part : body_parts_)
+    write(std::string("body_") + part.name, {body_count_},
+          [&](Doubles& x, const BodyRecord& body) { x.push_back(filled(body.*part.value)); });
 }
 
 void FrameStore::write_beams(const PerFrame& each) {
@@ -271,6 +292,15 @@ void FrameStore::write_reactions(const PerFrame& each) {
   write("reaction_position", &ReactionRecord::position);
   write("reaction_force", &ReactionRecord::force);
   write("reaction_couple", &ReactionRecord::couple);
+}
+
+void FrameStore::write_connectors(const PerFrame& each) {
+  for (const ConnectorPart& part : connector_parts)
+    each.write(
+        std::string("connector_") + part.name, {connector_count_},
+        [&](const Snapshot& f, Doubles& x) {
+          for (const ConnectorRecord& connector : f.connectors) x.push_back(connector.*part.value);
+        });
 }
 
 void FrameStore::write_elements(std::span<const Snapshot> frames) {

@@ -13,8 +13,9 @@ namespace nurbeam {
 ///   time(time), step(time), newton_iterations(time), energy_*(time)
 ///   probe_position, probe_velocity (time, probe, xyz); body_position, body_velocity, body_joint_force (time,
 ///   body, xyz); body_s (time, body), the fill value after a body has left; beam_length (time, beam)
-///   probe_displacement, probe_* of section_parts; body_holding_force; beam_* and beam_*_s of beam_extremes
-///   (and of own_axes_parts and own_axes_extremes where beams have torsion);
+///   probe_displacement, probe_* of section_parts; body_holding_force, body_* of friction_parts where bodies
+///   have friction; beam_* and beam_*_s of beam_extremes (and of own_axes_parts and own_axes_extremes where
+///   beams have torsion); connector_force, connector_length (time, connector), connector_name;
 ///   reaction_position, reaction_force, reaction_couple (time, reaction, xyz)
 ///   probe_name, body_name, beam_name, reaction_name
 /// and, because the elements of a beam and the steps between two frames change in number, contiguous ragged
@@ -41,6 +42,7 @@ class FrameStore {
   void define_points(const std::string& kind, const std::vector<std::string>& names);
   void define_beams(const std::vector<std::string>& names);
   void define_reactions(const std::vector<std::string>& names);
+  void define_connectors(const std::vector<std::string>& names);
   void define_steps();
   class PerFrame;
   void write_scalars(const PerFrame& each);
@@ -48,13 +50,15 @@ class FrameStore {
   void write_bodies(const PerFrame& each);
   void write_beams(const PerFrame& each);
   void write_reactions(const PerFrame& each);
+  void write_connectors(const PerFrame& each);
   void write_elements(std::span<const Snapshot> frames);
   void write_nodes(std::span<const Snapshot> frames);
   void write_steps(std::span<const Snapshot> frames);
 
   NetcdfFile file_;
-  std::size_t probe_count_, body_count_, beam_count_, reaction_count_;
-  bool sections_;
+  std::size_t probe_count_, body_count_, beam_count_, reaction_count_, connector_count_;
+  bool sections_, springs_;
+  std::span<const BodyPart> body_parts_;
   std::vector<SectionPart> section_parts_;
   std::vector<BeamExtreme> beam_extremes_;
   std::vector<SampledField> sampled_fields_;

@@ -107,6 +107,29 @@ void add_own_axes(const SnapshotNames& names, Columns& columns) {
   }
 }
 
+void add_connectors(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.connectors.size(); ++i) {
+    columns.of("connector", i, names.connectors[i]);
+    for (const ConnectorPart& part : connector_parts)
+      columns.add(part.name, part.unit,
+                  [i, &part](const Snapshot& f) { return f.connectors[i].*part.value; });
+  }
+}
+
+void add_spring(const SnapshotNames& names, Columns& columns) {
+  if (!names.springs) return;
+  columns.of("energy", 0, "energy");
+  columns.add("spring", "J", [](const Snapshot& f) { return f.energy.spring; });
+}
+
+void add_friction(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.bodies.size(); ++i) {
+    columns.of("body", i, names.bodies[i]);
+    for (const BodyPart& part : known_body_parts(names))
+      columns.add(part.name, part.unit, [i, &part](const Snapshot& f) { return f.bodies[i].*part.value; });
+  }
+}
+
 void add_derived(const SnapshotNames& names, Columns& columns) {
   for (std::size_t i = 0; i < names.probes.size(); ++i) {
     columns.of("probe", i, names.probes[i]);
@@ -131,6 +154,9 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   add_forces(names, columns);
   if (names.sections) add_own_axes(names, columns);
   add_derived(names, columns);
+  add_spring(names, columns);
+  add_friction(names, columns);
+  add_connectors(names, columns);
   return all;
 }
 

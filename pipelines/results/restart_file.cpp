@@ -194,6 +194,7 @@ void exchange_linearisation(Archive& archive, std::shared_ptr<const Linearisatio
   exchange_vector(archive, "matrix_v", "generalised velocities of that matrix", state.v);
   exchange_vector(archive, "matrix_a", "generalised accelerations of that matrix", state.a);
   exchange_vector(archive, "matrix_lambda", "Lagrange multipliers of that matrix", state.lambda);
+  exchange_vector(archive, "matrix_memory", "memory of forces at that matrix", state.memory);
   linearisation = std::make_shared<const Linearisation>(std::move(at[0]));
 }
 
@@ -260,6 +261,10 @@ void exchange_plan(Archive& archive, MeshPlan& plan) {
   exchange_rows(archive, "held_joints", "whether a body waits for its release", held,
                 [](int& each, auto& slot) { slot(each); });
   plan.held.assign(held.begin(), held.end());
+  std::vector<int> closed(plan.closed.begin(), plan.closed.end());
+  exchange_rows(archive, "closed_stops", "whether a body rests against a stop", closed,
+                [](int& each, auto& slot) { slot(each); });
+  plan.closed.assign(closed.begin(), closed.end());
   exchange_rows(archive, "spins", "with which bodies that followed a section have left their beams",
                 plan.spins, [](double& spin, auto& slot) { slot(spin); });
   exchange_rows(archive, "constant_weights", "beam, s_a, s_b, w_0 to w_3", plan.weights,
@@ -292,9 +297,14 @@ void exchange(Archive& archive, Checkpoint& p) {
   exchange_vector(archive, "v", "generalised velocities", p.state.v);
   exchange_vector(archive, "a", "generalised accelerations", p.state.a);
   exchange_vector(archive, "lambda", "Lagrange multipliers", p.state.lambda);
+  exchange_vector(archive, "memory",
+                  "memory of forces: per body with friction z [m], s [m] and the way it slides",
+                  p.state.memory);
   exchange_history(archive, p.history);
 
   exchange_plan(archive, p.plan);
+  exchange_rows(archive, "connector_lengths", "free lengths of the connectors", p.connector_lengths,
+                [](double& length, auto& slot) { slot(length); });
   exchange_rows(archive, "steps",
                 "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
                 [](StepRecord& step, auto& slot) {

@@ -136,7 +136,10 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, torsion_stability_problems());
   append(all, torsion_flight_problems());
   append(all, modes_problems());
+  append(all, resistance_problems());
   append(all, torsion_sliding_problems());
+  append(all, mechanics_problems());
+  append(all, train_problems());
   append(all, sliding_problems());
   return all;
 }

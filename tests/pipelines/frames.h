@@ -23,6 +23,7 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   EXPECT_EQ(a.energy.dissipated, b.energy.dissipated);
   EXPECT_EQ(a.energy.input, b.energy.input);
   EXPECT_EQ(a.energy.total, b.energy.total);
+  EXPECT_EQ(a.energy.spring, b.energy.spring);
   ASSERT_EQ(a.probes.size(), b.probes.size());
   for (std::size_t i = 0; i < a.probes.size(); ++i) {
     EXPECT_TRUE(equal(a.probes[i], b.probes[i]));
@@ -37,12 +38,20 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
                             &SectionRecord::von_mises})
       EXPECT_TRUE(same(x.*part, y.*part));
   }
+  EXPECT_EQ(a.energy.spring, b.energy.spring);
+  ASSERT_EQ(a.connectors.size(), b.connectors.size());
+  for (std::size_t i = 0; i < a.connectors.size(); ++i) {
+    EXPECT_EQ(a.connectors[i].force, b.connectors[i].force);
+    EXPECT_EQ(a.connectors[i].length, b.connectors[i].length);
+  }
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
     EXPECT_TRUE(equal(a.bodies[i].point, b.bodies[i].point));
     EXPECT_EQ(a.bodies[i].s, b.bodies[i].s);
     EXPECT_EQ(a.bodies[i].joint_force, b.bodies[i].joint_force);
     EXPECT_EQ(a.bodies[i].holding_force, b.bodies[i].holding_force);
+    for (const auto part : {&BodyRecord::friction_force, &BodyRecord::stuck, &BodyRecord::drive_force})
+      EXPECT_TRUE(same(a.bodies[i].*part, b.bodies[i].*part));
   }
   ASSERT_EQ(a.beams.size(), b.beams.size());
   for (std::size_t i = 0; i < a.beams.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "fem/motion/simulation.h"
 #include "pipelines/results/restart_file.h"
@@ -103,6 +104,31 @@ TEST(Restart, WithFixedStepsARunGoesOnBitByBitThroughEventsAndTheEndOfTheBeam) {
   EXPECT_GE(play(model, options).report.events.size(), 5u);
 }
 
+// On a guide that swings up on both sides, and on a beam that deforms, over kinks in time and in the mesh.
+BeamModel rubbing_bodies() {
+  ModelBuilder builder(2, {0, -9.81, 0});
+  const int guide = builder.add_guide(
+      ReferenceCurve(testing::arc_cubics({0, 0, 0}, 0.2, std::numbers::pi, 2 * std::numbers::pi, 3), 2));
+  const int bar = builder.add_beam(ReferenceCurve({testing::line_cubic({0, 1, 0}, {1, 0.8, 0})}, 2),
+                                   testing::round_bar(0.02, 7200, 2e7), {8});
+  builder.clamp(bar, 0);
+  const Friction friction{.coefficient = 0.1, .static_coefficient = 0.2};
+  builder.slide(builder.add_body("on the guide", 0.5), guide, 0.02).friction = friction;
+  builder.slide(builder.add_body("on the bar", 0.5), bar, 0.2).friction = friction;
+  return builder.build();
+}
+
+TEST(Restart, WithFrictionARunGoesOnBitByBitWhetherBodiesStickOrSlide) {
+  const BeamModel model = rubbing_bodies();
+  const SimulationOptions options = options_with(GeneralizedAlpha{}, 1e-3);
+  expect_resumes_bit_by_bit(model, options);
+  const auto events = play(model, options).report.events;
+  EXPECT_GE(std::count_if(events.begin(), events.end(),
+                          [](const RunEvent& event) { return event.kind == EventKind::slides; }),
+            1);
+  expect_resumes_bit_by_bit(model, options_with(GeneralizedAlpha{.tolerance = 1e-4}, {}));
+}
+
 TEST(Restart, WithErrorControlARunGoesOnBitByBit) {
   expect_resumes_bit_by_bit(falling_beam(), options_with(GeneralizedAlpha{.tolerance = 1e-3}, {}));
 }
@@ -112,6 +138,28 @@ TEST(Restart, WithConstantWeightsARunGoesOnBitByBit) {
   model.beams[0].weights = WeightRule::constant;
   model.beams[0].merge = MergeRule::paper;
   expect_resumes_bit_by_bit(model, options_with(GeneralizedAlpha{}, 1e-3));
+}
+
+// With lengths that equilibrium gave, droppers that go slack, clamps and damping of every kind.
+TEST(Restart, WithConnectorsARunGoesOnBitByBit) {
+  BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                                      testing::round_bar(0.02, 7200, 2e6), 6, {{0, true}});
+  testing::add_slider(model, 0.8, 0.2);
+  model.beams[0].properties.mass_damping = 0.1;
+  model.beams[0].properties.damping = model.beams[0].properties.tension_damping = 1e-3;
+  const double s = model.beams[0].home.back().s;
+  model.connectors = {{.name = "dropper",
+                       .ends = {ConnectorEnd::on_beam(0, s), ConnectorEnd::at_point({s, 0.5, 0})},
+                       .type = ConnectorType::tension_only,
+                       .stiffness = 2000,
+                       .damping = 3,
+                       .length = 0.5,
+                       .length_rule = ConnectorLength::as_drawn}};
+  model.forces.push_back(PlaceMass{.beam = 0, .s = s, .mass = 0.3});
+  SimulationOptions options = options_with(GeneralizedAlpha{}, 1e-3);
+  options.start_from_equilibrium = true;
+  model.joints[0].speed = 0.5;
+  expect_resumes_bit_by_bit(model, options);
 }
 
 TEST(Restart, WithRungeAndKuttaARunGoesOnBitByBit) {

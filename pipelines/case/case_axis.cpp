@@ -1,0 +1,137 @@
+#include "pipelines/case/case_axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
+  static const std::set<std::string> extensions = {".step", ".stp", ".iges", ".igs",
+                                                   ".STEP", ".STP", ".IGES", ".IGS"};
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
+    if (extensions.contains(entry.path().extension().string()))
+      names.push_back(entry.path().filename().string());
+  return names;
+}
+
+CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& directory,
+                              const std::string& path, Findings& findings) {
+  CaseAxis::File file;
+  file.path = (directory / text(axis, "file")).lexically_normal();
+  file.chain = flag(axis, "chain");
+  file.layer = optional_text(axis, "layer");
+  file.part = optional_text(axis, "part");
+  file.colour = optional_text(axis, "colour");
+  if (has(axis, "near")) file.near = vector(axis, "near");
+  file.longest = flag(axis, "longest");
+  file.all_chains = text(axis, "chains") == "all";
+  file.gap = optional_number(axis, "gap");
+  if (has(axis, "curve")) {
+    const Json& curve = axis["curve"];
+    if (curve.is_string())
+      file.curve_name = curve.get<std::string>();
+    else
+      file.curve_index = curve.get<int>();
+  }
+  check_cad_file(file.path, child(path, "file"), findings);
+  return file;
+}
+
+std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path, Findings& findings) {
+  const std::vector<Eigen::Vector3d> points_in = points(nurbs, "control_points");
+  const std::vector<double> knots = numbers(nurbs, "knots");
+  std::vector<double> weights = numbers(nurbs, "weights");
+  const bool complete = has(nurbs, "degree") && points_in.size() == part(nurbs, "control_points").size() &&
+                        knots.size() == part(nurbs, "knots").size() &&
+                        weights.size() == part(nurbs, "weights").size();
+  if (!complete || knots.empty() || points_in.empty()) return {};  // what is missing has been reported
+  if (!has(nurbs, "weights")) weights.assign(points_in.size(), 1.0);
+  if (weights.size() != points_in.size()) {
+    findings.error(path, "has " + std::to_string(weights.size()) + " weights for " +
+                             std::to_string(points_in.size()) +
+                             " control points; give one per control point");
+    return {};
+  }
+  Eigen::Matrix3Xd control_points(3, points_in.size());
+  for (std::size_t i = 0; i < points_in.size(); ++i) control_points.col(i) = points_in[i];
+  try {
+    return make_nurbs_curve(KnotVector(nurbs["degree"].get<int>(), knots), control_points,
+                            Eigen::Map<const Eigen::VectorXd>(weights.data(), weights.size()));
+  } catch (const std::invalid_argument& error) {
+    findings.error(path, error.what());
+    return {};
+  }
+}
+
+CaseAxis::Polyline read_polyline(const Json& axis, const std::string& path, Findings& findings) {
+  const CaseAxis::Polyline polyline = points(axis, "polyline");
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    if (polyline[i] == polyline[i - 1])
+      findings.error(child(child(path, "polyline"), i), "is the same point as the one before; remove one");
+  return polyline;
+}
+
+CaseAxis::Arc read_arc(const Json& axis, const std::string& axis_path, Findings& findings) {
+  const Json& json = part(axis, "arc");
+  const std::string path = child(axis_path, "arc");
+  const CaseAxis::Arc arc = {vector(json, "center"), vector(json, "start"), vector(json, "end"),
+                             vector(json, "normal")};
+  const Eigen::Vector3d a = arc.start - arc.center, b = arc.end - arc.center;
+  constexpr double relative = 1e-6;
+  // Comparisons with a missing (NaN) point are false: it has been reported.
+  if (arc.normal.norm() == 0) {
+    findings.error(child(path, "normal"), "is [0, 0, 0]; must have a direction");
+  } else if (a.norm() == 0) {
+    findings.error(child(path, "start"), "is the center; must be apart from it");
+  } else if (std::abs(a.norm() - b.norm()) > relative * a.norm()) {
+    findings.error(path, "start is " + text_of(a.norm(), all_digits) + " m and end " +
+                             text_of(b.norm(), all_digits) + " m from the center; must be the same distance");
+  } else if (std::max(std::abs(a.dot(arc.normal)), std::abs(b.dot(arc.normal))) >
+             relative * a.norm() * arc.normal.norm()) {
+    findings.error(child(path, "normal"), "is not perpendicular to the plane of center, start and end");
+  } else if ((a - b).norm() <= relative * a.norm()) {
+    findings.error(path, "start and end are the same point; a full circle can be given as \"nurbs\"");
+  }
+  return arc;
+}
+
+}  // namespace
+
+void check_cad_file(const std::filesystem::path& file, const std::string& path, Findings& findings) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    const bool is_directory = std::filesystem::is_directory(status);
+    findings.error(path, in_quotes(file.string()) + " is a " +
+                             (is_directory ? "directory" : "device or pipe") +
+                             "; expected a STEP or IGES file" +
+                             (is_directory ? known_names("", cad_files_in(file)) : ""));
+  } else if (!std::filesystem::exists(status)) {
+    findings.error(path, "there is no file " + in_quotes(file.string()) +
+                             known_names(file.filename().string(), cad_files_in(file.parent_path())));
+  }
+}
+
+CaseAxis read_beam_axis(const Json& axis, const std::string& path, const std::filesystem::path& directory,
+                        Findings& findings) {
+  if (has(axis, "file")) return {read_axis_file(axis, directory, path, findings)};
+  if (has(axis, "nurbs")) {
+    const auto curve = read_nurbs(axis["nurbs"], child(path, "nurbs"), findings);
+    return curve ? CaseAxis{*curve} : CaseAxis{};
+  }
+  if (has(axis, "polyline")) return {read_polyline(axis, path, findings)};
+  if (has(axis, "arc")) return {read_arc(axis, path, findings)};
+  return {};
+}
+
+// A disk, or with a bore a pipe.
+
+}  // namespace nurbeam

@@ -1,0 +1,13 @@
+#pragma once
+#include "pipelines/case/case_values.h"
+
+namespace nurbeam {
+
+/// The axis of a beam; files are relative to `directory`.
+CaseAxis read_beam_axis(const Json& axis, const std::string& path, const std::filesystem::path& directory,
+                        Findings& findings);
+
+/// Reports a CAD file that is not there.
+void check_cad_file(const std::filesystem::path& file, const std::string& path, Findings& findings);
+
+}  // namespace nurbeam

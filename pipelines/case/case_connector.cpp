@@ -1,0 +1,158 @@
+#include "pipelines/case/case_connector.h"
+
+#include <algorithm>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+CaseConnectorEnd read_end(const Json& json, const std::string& path, Findings& findings) {
+  CaseConnectorEnd end{.path = path, .beam = text(json, "beam"), .body = text(json, "body")};
+  if (has(json, "point")) end.point = vector(json, "point");
+  if (has(json, "beam") && !json.contains("at"))
+    findings.error(path, "\"beam\" needs \"at\" beside it: the place on the beam");
+  end.at = read_place(json);
+  return end;
+}
+
+// A rod has a length and nothing else; the others need a stiffness.
+void check_stiffness(const Json& json, const std::string& path, const CaseConnector& connector,
+                     Findings& findings) {
+  if (connector.type == ConnectorType::rod) {
+    for (const char* key : {"stiffness", "damping", "force"})
+      if (json.contains(key))
+        findings.error(child(path, key),
+                       "is not for a rod, which keeps its length; leave it out, or use \"spring\"");
+    return;
+  }
+  if (!json.contains("stiffness"))
+    findings.error(path, "\"stiffness\" is missing; all connectors but rods need it");
+  if (has(json, "force") && connector.stiffness == 0)
+    findings.error(child(path, "force"),
+                   "is " + text_of(connector.force) +
+                       " N, but the stiffness is 0, with which no length gives a force; give a stiffness");
+}
+
+}  // namespace
+
+CaseConnector read_connector(const Json& json, const std::string& path, Findings& findings) {
+  CaseConnector connector{
+      .path = path,
+      .name = text(json, "name"),
+      .ends = {read_end(part(json, "from"), child(path, "from"), findings),
+               read_end(part(json, "to"), child(path, "to"), findings)},
+      .type = chosen<ConnectorType>(json, "type",
+                                    {{"", ConnectorType::spring},
+                                     {"spring", ConnectorType::spring},
+                                     {"tension-only", ConnectorType::tension_only},
+                                     {"compression-only", ConnectorType::compression_only},
+                                     {"rod", ConnectorType::rod}}),
+      .stiffness = number(json, "stiffness", 0),
+      .damping = number(json, "damping", 0),
+      .force = number(json, "force", 0)};
+  if (has(json, "force")) connector.length_rule = ConnectorLength::force;
+  if (has(json, "length")) {
+    if (json["length"].is_number())
+      connector.length = number(json, "length");
+    else if (text(json, "length") == "as-drawn")
+      connector.length_rule = ConnectorLength::as_drawn;
+  }
+  if (has(json, "direction")) {
+    connector.direction = vector(json, "direction");
+    if (connector.direction->norm() == 0)
+      findings.error(child(path, "direction"), "is [0, 0, 0]; give the direction along which it acts");
+  }
+  const std::vector<double> masses = numbers(json, "end_masses");
+  if (masses.size() == 2) connector.end_masses = {masses[0], masses[1]};
+  check_stiffness(json, path, connector, findings);
+  return connector;
+}
+
+namespace {
+
+void check_ends(const CaseConnector& connector, Findings& findings) {
+  const auto& [from, to] = connector.ends;
+  if (from.point && to.point)
+    findings.error(connector.path,
+                   "joins two points, which both stay where they are; give a \"beam\" or a "
+                   "\"body\" as one end");
+  if (!from.body.empty() && from.body == to.body)
+    findings.error(connector.path, "joins the body " + in_quotes(from.body) + " to itself");
+  for (const int i : {0, 1})
+    if (connector.end_masses[i] > 0 && connector.ends[i].point)
+      findings.error(
+          child(child(connector.path, "end_masses"), i),
+          "is " + text_of(connector.end_masses[i]) + " kg at a point, which does not move; give 0 there");
+}
+
+// Lengths that an equilibrium gives need one.
+void check_length(const CaseConnector& connector, const CaseAnalysis& analysis, Findings& findings) {
+  if (connector.length_rule != ConnectorLength::as_drawn) return;
+  const std::string path = child(connector.path, "length");
+  if (analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
+    findings.error(path,
+                   "is \"as-drawn\", which is found in equilibrium, but the run starts as drawn; start with "
+                   "\"initial\": \"equilibrium\", or give the length as a number");
+  if (analysis.has_modes() && !analysis.modes.about_equilibrium)
+    findings.error(path,
+                   "is \"as-drawn\", which is found in equilibrium, but the modes are about the drawing");
+  if (connector.ends[0].point)
+    findings.error(path,
+                   "is \"as-drawn\", but the first end is a point, which stands where it is drawn anyway; "
+                   "exchange \"from\" and \"to\"");
+  if (connector.type != ConnectorType::rod && connector.stiffness == 0)
+    findings.error(path, "is \"as-drawn\", but the stiffness is 0, with which no length carries anything");
+}
+
+// Every body is held, and placed, by sliding joints or connectors.
+void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
+  std::vector<const CaseSlidingJoint*> joints;
+  for (const CaseSlidingJoint& joint : c.sliding_joints)
+    if (joint.body == body.name) joints.push_back(&joint);
+  const bool connected =
+      std::any_of(c.connectors.begin(), c.connectors.end(), [&](const CaseConnector& connector) {
+        return connector.ends[0].body == body.name || connector.ends[1].body == body.name;
+      });
+  if (joints.empty() && !connected)
+    findings.error(body.path, "no sliding joint and no connector holds the body " + in_quotes(body.name) +
+                                  "; add one to \"sliding_joints\" or \"connectors\", or remove the body");
+  else if (joints.empty() && !body.position)
+    findings.error(body.path, "the body " + in_quotes(body.name) +
+                                  " slides on no beam, so that nothing says where it starts; give its "
+                                  "\"position\"");
+  if (!joints.empty() && body.position)
+    findings.error(child(body.path, "position"), "is given, but " + joints[0]->path +
+                                                     " says where the body " + in_quotes(body.name) +
+                                                     " starts; leave one of them out");
+  for (std::size_t i = 1; i < joints.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (joints[i]->beam == joints[k]->beam)
+        findings.error(joints[i]->path, "the body " + in_quotes(body.name) + " already slides on the beam " +
+                                            in_quotes(joints[i]->beam) + " by " + joints[k]->path);
+}
+
+}  // namespace
+
+void check_connectors(const CaseFile& c, Findings& findings) {
+  for (const CaseConnector& connector : c.connectors) {
+    check_ends(connector, findings);
+    check_length(connector, c.analysis, findings);
+  }
+  // A name that is none has been reported; whose body it was to hold is not known.
+  const auto is_known = [&](const std::string& name) {
+    return std::any_of(c.bodies.begin(), c.bodies.end(),
+                       [&](const CaseBody& body) { return body.name == name; });
+  };
+  for (const CaseSlidingJoint& joint : c.sliding_joints)
+    if (!is_known(joint.body)) return;
+  for (const CaseConnector& connector : c.connectors)
+    for (const CaseConnectorEnd& end : connector.ends)
+      if (!end.body.empty() && !is_known(end.body)) return;
+  for (const CaseBody& body : c.bodies)
+    if (!body.name.empty()) check_body(body, c, findings);
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,136 @@
+#include "pipelines/model/connectors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
+
+namespace nurbeam {
+
+namespace {
+
+int body_index(const ResolvedCase& resolved, const std::string& name) {
+  const auto found = std::find_if(resolved.bodies.begin(), resolved.bodies.end(),
+                                  [&](const CaseBody& body) { return body.name == name; });
+  return static_cast<int>(found - resolved.bodies.begin());
+}
+
+ConnectorEnd end_of(const CaseConnectorEnd& from, const ResolvedCase& resolved,
+                    const std::vector<DrawnBeam>& beams, const BeamModel& model, const ModelFrame& frame,
+                    Findings& findings) {
+  if (from.point) return ConnectorEnd::at_point(frame.to_local(*from.point));
+  if (!from.body.empty()) return ConnectorEnd::on_body(body_index(resolved, from.body));
+  const int b = resolved.beam_index(from.beam);
+  const double s = place_on(beams[b], from.at, from.path, findings);
+  if (model.beams[b].rigid) return ConnectorEnd::at_point(beams[b].curve.position(s));
+  return ConnectorEnd::on_beam(b, beams[b].material_coordinate(s));
+}
+
+// As drawn, in the model's own coordinates.
+Eigen::Vector3d place_of(const ConnectorEnd& end, const BeamModel& model) {
+  if (end.beam >= 0) return model.beams[end.beam].curve.position(end.s);
+  if (end.body < 0) return end.point;
+  for (const SlidingJoint& joint : model.joints)
+    if (joint.body == end.body) return model.beam_of(joint).curve.position(joint.s);
+  return model.bodies[end.body].position;
+}
+
+// Whether a support keeps the end where it is drawn.
+bool is_held(const ConnectorEnd& end, const BeamModel& model) {
+  return std::any_of(
+      model.constraints.begin(), model.constraints.end(),
+      [&](const Constraint& constraint) {
+        const auto* support = std::get_if<Support>(&constraint);
+        return support && !support->guide && support->beam == end.beam &&
+               std::abs(support->s - end.s) <= same_place * model.beams[end.beam].curve.length();
+      });
+}
+
+// The drawing must have what the connector needs of it.
+void check_drawing(const CaseConnector& from, const Connector& connector, double drawn, Findings& findings) {
+  const bool needs_direction = connector.type == ConnectorType::rod || connector.length > 0 ||
+                               connector.length_rule != ConnectorLength::given;
+  if (drawn == 0 && needs_direction && !connector.direction)
+    findings.error(
+        from.path,
+        "has both ends in one place as drawn, which gives it no direction; give a \"direction\", or "
+        "move an end");
+  const auto& [a, b] = connector.ends;
+  if (a.is_point() && b.is_point())
+    findings.error(from.path,
+                   "joins two places of rigid guides or points, which stay where they are; give a "
+                   "\"body\" or an elastic \"beam\" as one end");
+  if (a.beam >= 0 && a.beam == b.beam && a.s == b.s)
+    findings.error(from.path, "joins a place of beam " + in_quotes(from.ends[0].beam) +
+                                  " to itself, at s = " + text_of(a.s) + " m");
+}
+
+// The mass of an end is that of its body, or a lump of its beam.
+void add_mass(double mass, const ConnectorEnd& end, BeamModel& model) {
+  if (!(mass > 0)) return;
+  if (end.body >= 0)
+    model.bodies[end.body].mass += mass;
+  else
+    model.forces.push_back(PlaceMass{.beam = end.beam, .s = end.s, .mass = mass});
+}
+
+}  // namespace
+
+std::vector<double> connector_places(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
+                                     Findings& findings) {
+  std::vector<double> places;
+  for (const CaseConnector& connector : resolved.connectors)
+    for (const CaseConnectorEnd& end : connector.ends)
+      if (!end.beam.empty() && resolved.beam_index(end.beam) == b)
+        places.push_back(place_on(beam, end.at, end.path, findings));
+  return places;
+}
+
+void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
+                    const ModelFrame& frame, BeamModel& model, Findings& findings) {
+  for (std::size_t i = 0; i < resolved.bodies.size(); ++i) {
+    const CaseBody& body = resolved.bodies[i];
+    if (!body.position) continue;
+    model.bodies[i].position = frame.to_local(*body.position);
+    model.bodies[i].velocity = frame.direction_to_local(body.velocity);
+  }
+  for (const CaseConnector& from : resolved.connectors) {
+    Connector connector{.name = from.name,
+                        .ends = {end_of(from.ends[0], resolved, beams, model, frame, findings),
+                                 end_of(from.ends[1], resolved, beams, model, frame, findings)},
+                        .type = from.type,
+                        .stiffness = from.stiffness,
+                        .damping = from.damping,
+                        .length_rule = from.length_rule,
+                        .force = from.force};
+    if (from.direction) connector.direction = frame.direction_to_local(from.direction->normalized());
+    const Eigen::Vector3d d = place_of(connector.ends[1], model) - place_of(connector.ends[0], model);
+    const double drawn = connector.direction ? connector.direction->dot(d) : d.norm();
+    connector.length = from.length.value_or(drawn);
+    check_drawing(from, connector, drawn, findings);
+    const CaseAnalysis& analysis = resolved.analysis;
+    const bool starts_drawn =
+        analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium;
+    if (connector.type == ConnectorType::rod && starts_drawn &&
+        std::abs(connector.length - drawn) > 1e-9 * std::abs(drawn))
+      findings.error(
+          from.path + ".length",
+          "is " + text_of(connector.length) + " m, but the ends of the rod are " + text_of(drawn) +
+              " m apart as drawn, where the run starts; leave \"length\" out, move an end, or start with "
+              "\"initial\": \"equilibrium\"");
+    if (connector.length_rule == ConnectorLength::force && starts_drawn) {
+      connector.length_rule = ConnectorLength::given;
+      connector.length = drawn - from.force / from.stiffness;
+    }
+    if (connector.length_rule == ConnectorLength::as_drawn && is_held(connector.ends[0], model))
+      findings.error(from.path + ".length",
+                     "is \"as-drawn\", but a support holds its first end where it is drawn anyway; exchange "
+                     "\"from\" and \"to\", or leave \"length\" out");
+    for (const int end : {0, 1}) add_mass(from.end_masses[end], connector.ends[end], model);
+    model.connectors.push_back(std::move(connector));
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,38 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+/// A string in a vertical plane as a boundary-value problem of its force, by shooting: an oracle that shares
+/// nothing with the elements.
+namespace nurbeam::verification {
+
+/// A string on [0, length] of its label s with T = (tension + stiffness (lambda^2 - 1)/2) lambda, lambda the
+/// stretch of s, from (0, 0) to (span, 0).
+struct HangingString {
+  double length, span;        ///< [m]
+  double tension, stiffness;  ///< [N]
+  double weight;              ///< per s [N/m]
+
+  /// What pulls at a label: a force that stays, and a spring that only pulls, to a point.
+  struct Pull {
+    double s, force_z = 0;                                ///< [m], [N] upwards
+    double stiffness = 0, free_length = 0, x = 0, z = 0;  ///< [N/m], [m]
+  };
+  std::vector<Pull> pulls = {};  ///< s increasing
+
+  /// At one pull: place, what its spring pulls with and the tensions on both sides; the last is the end.
+  struct AtPull {
+    double x, z, spring, tension_before, tension_after;
+  };
+  struct Solution {
+    double horizontal, vertical;  ///< of the force at the start [N]
+    std::vector<AtPull> pulls;
+  };
+  Solution solve() const;
+
+ private:
+  std::vector<AtPull> shoot(const Eigen::VectorXd& unknowns) const;
+  Eigen::VectorXd residual(const Eigen::VectorXd& unknowns) const;
+};
+
+}  // namespace nurbeam::verification
