@@ -12,7 +12,9 @@
 #include "fem/motion/kinks.h"
 #include "fem/motion/resting_place.h"
 #include "fem/motion/simulation.h"
+#include "fem/system/material_points.h"
 #include "fem/system/observables.h"
+#include "nurbs/gauss_panels.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
@@ -57,8 +59,14 @@ std::string not_finite(const Snapshot& frame) {
 
 // ---- Balance of forces ----
 
-/// d(momentum)/dt at fixed force: by central differences along q', v'.
-Vector3d momentum_rate(const BeamSystem& system, const State& state) {
+/// d(momentum)/dt at fixed force, and what round-off leaves of it.
+struct MomentumRate {
+  Vector3d value;
+  double noise;
+};
+
+/// By central differences along q', v'.
+MomentumRate momentum_rate(const BeamSystem& system, const State& state) {
   const auto at = [&](double h) {
     State moved = state;
     moved.q += h * state.v + h * h / 2 * state.a;
@@ -70,7 +78,8 @@ Vector3d momentum_rate(const BeamSystem& system, const State& state) {
   const double turn = std::sqrt(state.a.cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>());
   const double h = 1e-3 / std::max({fastest, turn, 1e-3});
   const auto slope = [&](double step) -> Vector3d { return (at(step) - at(-step)) / (2 * step); };
-  return (4 * slope(h / 2) - slope(h)) / 3;
+  constexpr double digits = 1e-15;
+  return {(4 * slope(h / 2) - slope(h)) / 3, digits * momentum(system, state).norm() / h};
 }
 
 struct Loads {
@@ -81,6 +90,22 @@ struct Loads {
     largest = std::max(largest, force.norm());
   }
 };
+
+/// What the damping of mass does to all beams.
+Vector3d mass_damping_force(const BeamSystem& system, const State& state) {
+  Vector3d force = Vector3d::Zero();
+  for (int i = 0; i < static_cast<int>(system.mesh().spans.size()); ++i) {
+    const MeshSpan& span = system.mesh().spans[i];
+    const BeamProperties& beam = system.model().beams[span.beam].properties;
+    if (beam.mass_damping == 0) continue;
+    const double a = span.place_a < 0 ? span.s_a : state.q[span.place_a];
+    const double b = span.place_b < 0 ? span.s_b : state.q[span.place_b];
+    for (int d = 0; d < 3; ++d)
+      force[d] -= beam.mass_damping * beam.mass_per_length *
+                  gauss([&](double s) { return material_point_in(system, state, i, s).velocity[d]; }, a, b);
+  }
+  return force;
+}
 
 /// Weight, loads and reactions at a moment.
 Loads external_forces(const BeamSystem& system, const State& state) {
@@ -107,6 +132,11 @@ Loads external_forces(const BeamSystem& system, const State& state) {
     for (const MeshNode& node : nodes) add(node.r);
   for (const int r : system.mesh().bodies) add(r);
   loads.add(of_rows - loads.sum);
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
+    loads.add(air_drag(system, state, body) - air_drag(system, free, body));
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
+    if (model.beam_of(model.joints[j]).rigid) loads.add(joint_force(system, state, j));
+  loads.add(mass_damping_force(system, state));
   double length = 0;
   for (const Beam& beam : model.beams) length += beam.curve.length();
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i) {
@@ -122,14 +152,14 @@ Loads external_forces(const BeamSystem& system, const State& state) {
 
 double imbalance(const BeamSystem& system, const State& state) {
   const Loads loads = external_forces(system, state);
-  const Vector3d inertia = momentum_rate(system, state);
+  const auto [inertia, noise] = momentum_rate(system, state);
   // Where nothing acts forces are what round-off leaves of strains: those of a millionth are compared.
   double largest = std::max(loads.largest, inertia.norm());
   for (const Beam& beam : system.model().beams)
     largest = std::max(largest, 1e-6 * beam.properties.axial_stiffness);
   for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
     largest = std::max(largest, joint_force(system, state, j).norm());
-  return largest > 0 ? (inertia - loads.sum).norm() / largest : 0;
+  return largest > 0 ? std::max(0.0, (inertia - loads.sum).norm() - noise) / largest : 0;
 }
 
 bool same_mesh(const MeshPlan& a, const MeshPlan& b) {

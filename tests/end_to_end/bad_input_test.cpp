@@ -248,14 +248,14 @@ TEST(HardInput, TwoBodiesThatMeetEndTheRun) {
   const CaseRun met = run_beam(
       {bodies,
        R"(sliding_joints=[{"body":"a","beam":"beam","at":{"length":0.2},"speed":5},{"body":"b","beam":"beam","at":{"length":0.6}}])"});
-  expect_stopped(
-      met, {"sliding bodies meet at t = ", "\"a\" is at s = ", "contact between bodies is not modelled"});
+  expect_stopped(met,
+                 {"sliding bodies meet at t = ", "\"a\" is at s = ", "give a stop that keeps them apart"});
   EXPECT_GT(met.last("a.s [m]"), 0.5);
   const CaseRun same_place = run_beam(
       {bodies,
        R"(sliding_joints=[{"body":"a","beam":"beam","at":{"length":0.5}},{"body":"b","beam":"beam","at":{"length":0.5}}])"});
   expect_refused(same_place, {"sliding_joints[1].at: puts body \"b\" 0 m from body \"a\"",
-                              "contact is not modelled", "more than 0.00625 m apart"});
+                              "bodies must be more than 0.00625 m apart"});
 }
 
 TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
@@ -263,7 +263,7 @@ TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
       test::sample("statics/bead_level.json"),
       {R"(bodies=[{"name":"a","mass":40},{"name":"b","mass":40}])",
        R"(sliding_joints=[{"body":"a","beam":"cable","at":{"length":20},"slope":"discontinuous","at_beam_end":"stop"},{"body":"b","beam":"cable","at":{"length":90},"slope":"discontinuous","at_beam_end":"stop"}])"});
-  expect_stopped(run, {"sliding bodies meet", "contact between bodies is not modelled"});
+  expect_stopped(run, {"sliding bodies meet", "give a stop that keeps them apart"});
 }
 
 TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {

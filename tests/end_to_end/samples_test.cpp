@@ -128,5 +128,51 @@ TEST(Samples, ThePipeRunBendsAsAFrameDoes) {
   EXPECT_NEAR(run.last("at lower anchor.von_mises [Pa]"), von_mises, 0.02 * von_mises);
 }
 
+// Where the trolley stands the load swings with the period of a pendulum.
+TEST(Samples, TheLoadOfTheCableCraneSwingsAsAPendulum) {
+  const test::CaseRun run =
+      test::run_file(test::sample("cable_crane/cable_crane.json"), {"output.report=false"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const auto swing = [&](std::size_t row) {
+    return run.value(row, "load.x [m]") - run.value(row, "trolley.x [m]");
+  };
+  std::vector<double> passes;  // forwards, while the trolley is held
+  for (std::size_t row = 160; row + 1 < run.rows.size(); ++row)
+    if (const double a = swing(row), b = swing(row + 1); a < 0 && b >= 0)
+      passes.push_back(run.value(row, "time [s]") - 0.1 * a / (b - a));
+  ASSERT_GE(passes.size(), 2u);
+  const double length = 6 + 900 * 9.81 / 400e3, period = 2 * std::numbers::pi * std::sqrt(length / 9.81);
+  EXPECT_NEAR(passes[1] - passes[0], period, 2e-3 * period);
+}
+
+// Its centre of mass runs as deep as it has fallen, but for what the rope has taken.
+TEST(Samples, TheTrainRunsAsFastAsItHasFallen) {
+  const test::CaseRun run =
+      test::run_file(test::sample("trolley_train/trolley_train.json"), {"output.report=false"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  double square = 0, fallen = 0;
+  const std::size_t row = 80;  // at 4 s
+  for (const std::string body : {"first", "second", "third"}) {
+    square +=
+        std::pow(run.value(row, body + ".vx [m/s]"), 2) + std::pow(run.value(row, body + ".vz [m/s]"), 2);
+    fallen += run.value(0, body + ".z [m]") - run.value(row, body + ".z [m]");
+  }
+  EXPECT_GT(fallen, 2.5);
+  EXPECT_NEAR(square / (2 * 9.81 * fallen), 1, 0.08);  // the rope takes 7 % there
+}
+
+// The inner droppers carry their fields of 8 m and a clamp, the wire is level, and no energy is lost on the
+// way.
+TEST(Samples, TheCatenarySpanIsLevelOnItsDroppers) {
+  const test::CaseRun run =
+      test::run_file(test::sample("catenary_span/catenary_span.json"), {"output.report=false"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double share = (8 * 8900 * 150e-6 + 0.2) * 9.81;
+  EXPECT_NEAR(run.value(0, "dropper 3.force [N]"), share, 1e-2);
+  EXPECT_NEAR(run.value(0, "dropper 4.force [N]"), share, 1e-2);
+  EXPECT_NEAR(run.value(0, "dropper place.uz [m]"), 0, 1e-9);
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 1e-3);
+}
+
 }  // namespace
 }  // namespace nurbeam

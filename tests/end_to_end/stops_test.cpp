@@ -1,0 +1,282 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+constexpr double weight = 9.81;
+const char* const thirty_degrees = R"({"polyline": [[0, 0, 0], [17.320508075688775, 0, -10]]})";
+const char* const level = R"({"polyline": [[0, 0, 0], [20, 0, 0]]})";
+
+struct Happening {
+  double time;
+  std::string kind, body;
+};
+
+/// A run and the events of its run.json.
+struct StopRun {
+  CaseRun run;
+  std::vector<Happening> events;
+
+  std::vector<double> times(const std::string& kind) const {
+    std::vector<double> found;
+    for (const Happening& event : events)
+      if (event.kind == kind) found.push_back(event.time);
+    return found;
+  }
+};
+
+StopRun run_stops(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const TemporaryDirectory directory;
+  const auto results = directory.path() / "results";
+  std::vector<std::string> words = {"run", directory.write("stops.json", text).string(), "--quiet", "--out",
+                                    results.string()};
+  for (const std::string& override : overrides) words.insert(words.end(), {"--set", override});
+  std::ostringstream out, err;
+  const CapturedErrors errors;
+  StopRun stops{{run_command_line(words, out, err), {}, {}, {}, {}}, {}};
+  stops.run.messages = err.str() + errors.text();
+  read_histories(results / "histories.csv", stops.run);
+  std::ifstream file(results / "run.json");
+  const auto json = file ? nlohmann::json::parse(file) : nlohmann::json();
+  if (json.contains("events"))
+    for (const auto& event : json.at("events"))
+      stops.events.push_back({event.at("time [s]"), event.at("kind"), event.at("body")});
+  return stops;
+}
+
+std::string one_body(const std::string& axis, double mass, const std::string& joint, const std::string& stops,
+                     const std::string& analysis) {
+  std::ostringstream text;
+  text << R"({"nurbeam": 1, "beams": [{"name": "rail", "rigid": true, "axis": )" << axis
+       << R"(}], "bodies": [{"name": "bead", "mass": )" << mass
+       << R"(}], "sliding_joints": [{"body": "bead", "beam": "rail", )" << joint << R"(}], "stops": )"
+       << stops << R"(, "analysis": )" << analysis << "}";
+  return text.str();
+}
+
+double total_drift(const CaseRun& run) {
+  double most = 0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i)
+    most = std::max(most, std::abs(run.value(i, "energy.total [J]") - run.value(0, "energy.total [J]")));
+  return most;
+}
+
+TEST(StopsRun, ImpactsComeFasterAndFasterAndEnd) {
+  // S1.
+  const StopRun stops = run_stops(one_body(thirty_degrees, 5, R"("at": "start")",
+                                           R"([{"beam": "rail", "at": {"length": 2}, "restitution": 0.6}])",
+                                           R"({"end_time": 4, "step": "1 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  const double a = weight / 2, v = std::sqrt(2 * a * 2);
+  const std::vector<double> impacts = stops.times("hits a stop"), rests = stops.times("rests at a stop");
+  ASSERT_GE(impacts.size(), 8u);
+  double t = v / a, u = 0.6 * v;
+  EXPECT_NEAR(t, 0.9030473, 1e-7);
+  for (std::size_t i = 0; i < 8; ++i, t += 2 * u / a, u *= 0.6) EXPECT_NEAR(impacts[i], t, 1e-6) << i;
+  ASSERT_EQ(rests.size(), 1u);
+  EXPECT_NEAR(rests[0], v / a + 2 * 0.6 * v / a / 0.4, 1.1e-4);
+  EXPECT_LT(impacts.size(), 40u);
+  EXPECT_NEAR(stops.run.last("bead.s [m]"), 2, 1e-12);
+  EXPECT_NEAR(stops.run.last("energy.dissipated [J]"), 5 * a * 2, 1e-6);
+  EXPECT_LT(total_drift(stops.run), 1e-6);
+  double highest = 2;
+  for (std::size_t i = 0; i < stops.run.rows.size(); ++i) {
+    EXPECT_LT(stops.run.value(i, "bead.s [m]"), 2 + 1e-11);
+    const double time = stops.run.value(i, "time [s]");
+    if (time > impacts[0] && time < impacts[1]) highest = std::min(highest, stops.run.value(i, "bead.s [m]"));
+  }
+  EXPECT_NEAR(2 - highest, 0.72, 2e-3);
+}
+
+TEST(StopsRun, WithFrictionTheWayBackIsShorter) {
+  // S2: down with g (sin - mu cos), up with g (sin + mu cos).
+  const StopRun stops =
+      run_stops(one_body(thirty_degrees, 5, R"("at": "start", "friction": {"coefficient": 0.1})",
+                         R"([{"beam": "rail", "at": {"length": 2}, "restitution": 0.6}])",
+                         R"({"end_time": 4, "step": "1 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  const double cosine = std::sqrt(0.75), down = weight * (0.5 - 0.1 * cosine),
+               up = weight * (0.5 + 0.1 * cosine);
+  double t = std::sqrt(4 / down), v = down * t;
+  EXPECT_NEAR(v, 4.0276192, 1e-7);
+  const std::vector<double> impacts = stops.times("hits a stop"), rests = stops.times("rests at a stop");
+  ASSERT_GE(impacts.size(), 5u);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NEAR(impacts[i], t, 1e-5) << i;
+    const double u = 0.6 * v, height = u * u / (2 * up);
+    v = std::sqrt(2 * down * height);
+    t += u / up + v / down;
+  }
+  const double ratio = 0.6 * std::sqrt(down / up), first = 4.0276192;
+  const double rest = std::sqrt(4 / down) + 0.6 * first * (1 / up + 1 / std::sqrt(up * down)) / (1 - ratio);
+  EXPECT_NEAR(rest, 2.8471752, 1e-6);
+  ASSERT_EQ(rests.size(), 1u);
+  EXPECT_NEAR(rests[0], rest, 4e-5);
+  EXPECT_LT(total_drift(stops.run), 1e-5);
+}
+
+TEST(StopsRun, ABufferThatDoesNotStickLetsTheBodyGoWhereItsForceEnds) {
+  // S3: x = v/w exp(-b t) sin(w t), away where k x + c dx/dt = 0.
+  const double m = 80, k = 2e4, c = 800, v = 3, b = c / (2 * m), w = std::sqrt(k / m - b * b);
+  const auto at_step = [&](const char* step) {
+    return run_stops(
+        one_body(level, m, R"("at": {"length": 1}, "speed": 3)",
+                 R"([{"beam": "rail", "at": {"length": 4}, "stiffness": 20000, "damping": 800}])",
+                 R"({"end_time": 1.3})"),
+        {std::string("analysis.step=") + step, "output.every=0.01"});
+  };
+  const StopRun stops = at_step("0.0005"), coarse = at_step("0.001");
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  const double deepest = std::atan2(w, b) / w, x = v / w * std::exp(-b * deepest) * std::sin(w * deepest);
+  EXPECT_NEAR(x, 0.1251219, 1e-7);
+  EXPECT_NEAR(deepest, 0.0832697, 1e-7);
+  ASSERT_EQ(stops.times("hits a stop").size(), 1u);
+  EXPECT_NEAR(stops.times("hits a stop")[0], 1, 1e-9);
+  ASSERT_EQ(stops.times("leaves a stop").size(), 1u);
+  EXPECT_NEAR(stops.times("leaves a stop")[0] - 1, 0.1665394, 1e-6);
+  EXPECT_NEAR(stops.run.last("bead.vx [m/s]"), -1.3046243, 3e-5);
+  double most = 0;
+  for (std::size_t i = 0; i < stops.run.rows.size(); ++i)
+    most = std::max(most, stops.run.value(i, "bead.s [m]"));
+  EXPECT_NEAR(most - 4, x, 2e-3);
+  EXPECT_NEAR(stops.run.last("energy.dissipated [J]"), 40 * (9 - 1.3046243 * 1.3046243), 2e-2);
+  EXPECT_LT(total_drift(stops.run), 2e-2);
+  EXPECT_GT(total_drift(coarse.run) / total_drift(stops.run), 3);
+}
+
+const char* const two_bodies = R"({"nurbeam": 1,
+  "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], [20, 0, 0]]}}],
+  "bodies": [{"name": "a", "mass": 2}, {"name": "b", "mass": 6}],
+  "sliding_joints": [{"body": "a", "beam": "rail", "at": {"length": 2}, "speed": 4},
+                     {"body": "b", "beam": "rail", "at": {"length": 6}}],
+  "stops": [{"beam": "rail", "bodies": ["a", "b"], "gap": 1, "restitution": 0.5}],
+  "analysis": {"end_time": 2, "step": "5 ms"}})";
+
+TEST(StopsRun, TwoBodiesExchangeMomentumAcrossTheirGap) {
+  const StopRun stops = run_stops(two_bodies);
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_EQ(stops.times("hits a stop").size(), 1u);
+  EXPECT_NEAR(stops.times("hits a stop")[0], 0.75, 1e-9);
+  // v = (m v -+ ... e): 4 (2 - 6/2)/8 and 4 * 2 * 1.5/8.
+  EXPECT_NEAR(stops.run.last("a.vx [m/s]"), -0.5, 1e-9);
+  EXPECT_NEAR(stops.run.last("b.vx [m/s]"), 1.5, 1e-9);
+}
+
+TEST(StopsRun, BodiesThatDoNotPartGoOnTogetherUntilTheyArePulledApart) {
+  const StopRun stops = run_stops(two_bodies, {"stops[0].restitution=0", "bodies[0].drag_area=0.5",
+                                               "air={\"density\": 1.2}", "gravity=[1, 0, -9.81]"});
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  // The air drags on the first alone, and both fall along: they part, after the impact took place.
+  ASSERT_GE(stops.events.size(), 1u);
+  EXPECT_GT(stops.run.last("b.s [m]") - stops.run.last("a.s [m]"), 1);
+}
+
+TEST(StopsRun, WithoutAStopBodiesOnAGuideNeverPassEachOther) {
+  const StopRun stops = run_stops(two_bodies, {"stops=[]"});
+  EXPECT_EQ(stops.run.code, 3);
+  EXPECT_TRUE(stops.run.says("sliding bodies meet at t = 1 s") ||
+              stops.run.says("sliding bodies meet at t = 0.99999"))
+      << stops.run.messages;
+  EXPECT_TRUE(stops.run.says("\"a\"") && stops.run.says("\"b\"")) << stops.run.messages;
+}
+
+TEST(StopsRun, ATrainComesToRestAgainstAStopAndAChainOfImpactsEnds) {
+  const StopRun stops = run_stops(R"({"nurbeam": 1,
+    "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], [17.320508075688775, 0, -10]]}}],
+    "bodies": [{"name": "a", "mass": 2}, {"name": "b", "mass": 6}, {"name": "c", "mass": 1}],
+    "sliding_joints": [{"body": "a", "beam": "rail", "at": {"length": 1}}, {"body": "b", "beam": "rail", "at": {"length": 3}},
+                       {"body": "c", "beam": "rail", "at": {"length": 5}}],
+    "stops": [{"beam": "rail", "bodies": ["a", "b"], "gap": 0.5, "restitution": 0.4},
+              {"beam": "rail", "bodies": ["c", "b"], "gap": 0.5, "restitution": 0.4},
+              {"beam": "rail", "at": {"length": 8}, "restitution": 0.4}],
+    "analysis": {"end_time": 6, "step": "2 ms"}})");
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_NEAR(stops.run.last("c.s [m]"), 8, 1e-9);
+  EXPECT_NEAR(stops.run.last("b.s [m]"), 7.5, 1e-9);
+  EXPECT_NEAR(stops.run.last("a.s [m]"), 7, 1e-9);
+  EXPECT_LT(stops.events.size(), 400u);
+  EXPECT_LT(total_drift(stops.run), 1e-4);
+}
+
+TEST(StopsRun, OnARingAStopIsMetFromBothSides) {
+  const std::string ring =
+      R"({"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4],
+        "control_points": [[0, -2, 0], [2, -2, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [-2, 2, 0], [-2, 0, 0], [-2, -2, 0],
+                           [0, -2, 0]],
+        "weights": [1, 0.70710678118654757, 1, 0.70710678118654757, 1, 0.70710678118654757, 1, 0.70710678118654757, 1]}})";
+  const double L = 4 * std::numbers::pi;
+  const StopRun stops = run_stops(one_body(ring, 2, R"("at": {"length": 1}, "speed": 3)",
+                                           R"([{"beam": "rail", "at": {"length": 0.5}, "restitution": 1}])",
+                                           R"({"end_time": 12, "step": "5 ms"})"),
+                                  {"beams[0].closed=true"});
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  const std::vector<double> impacts = stops.times("hits a stop");
+  ASSERT_EQ(impacts.size(), 2u);
+  EXPECT_NEAR(impacts[0], (L - 0.5) / 3, 1e-4);
+  EXPECT_NEAR(impacts[1], (2 * L - 0.5) / 3, 2e-4);
+}
+
+TEST(StopsRun, TheImpulseGoesIntoARopeThatDeforms) {
+  const StopRun stops = run_stops(R"({"nurbeam": 1,
+    "beams": [{"name": "rope", "axis": {"polyline": [[0, 0, 0], [10, 0, -1]]},
+      "section": {"radius": 0.006}, "material": {"density": 5200, "youngs_modulus": "60 GPa"}, "elements": {"count": 20}}],
+    "supports": [{"beam": "rope", "at": "start", "type": "pinned"}, {"beam": "rope", "at": "end", "type": "pinned"}],
+    "bodies": [{"name": "bead", "mass": 5}],
+    "sliding_joints": [{"body": "bead", "beam": "rope", "at": {"length": 3}, "speed": 4, "friction": {"coefficient": 0.05}}],
+    "stops": [{"beam": "rope", "at": {"length": 5.2}, "restitution": 0.5, "side": "before"}],
+    "analysis": {"initial": "equilibrium", "end_time": 2, "step": "1 ms"}})");
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_GE(stops.times("hits a stop").size(), 1u);
+  for (std::size_t i = 0; i < stops.run.rows.size(); ++i)
+    EXPECT_LT(stops.run.value(i, "bead.s [m]"), 5.2 + 1e-9);
+  // Waves that the impact leaves and the steps hardly follow are damped by them: energy is lost, but none is
+  // made.
+  const double start = stops.run.value(0, "energy.total [J]");
+  for (std::size_t i = 0; i < stops.run.rows.size(); ++i) {
+    EXPECT_LT(stops.run.value(i, "energy.total [J]"), start + 0.1);
+    EXPECT_GT(stops.run.value(i, "energy.total [J]"), start - 6);
+  }
+}
+
+TEST(StopsRun, AtRestABodyLeansAgainstItsStop) {
+  const StopRun stops =
+      run_stops(one_body(thirty_degrees, 5, R"("at": "start")", R"([{"beam": "rail", "at": {"length": 2}}])",
+                         R"({"type": "static"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_NEAR(stops.run.last("bead.s [m]"), 2, 1e-12);
+  EXPECT_NEAR(stops.run.last("bead.holding_force [N]"), -5 * weight / 2, 1e-8);
+  const StopRun buffer = run_stops(one_body(thirty_degrees, 5, R"("at": "start")",
+                                            R"([{"beam": "rail", "at": {"length": 2}, "stiffness": 1000}])",
+                                            R"({"type": "static"})"));
+  ASSERT_EQ(buffer.run.code, 0) << buffer.run.messages;
+  EXPECT_NEAR(buffer.run.last("bead.s [m]"), 2 + 5 * weight / 2 / 1000, 1e-6);
+}
+
+TEST(StopsRun, WhatCannotStopIsRefused) {
+  const std::string text =
+      one_body(thirty_degrees, 5, R"("at": {"length": 3})", R"([{"beam": "rail", "at": {"length": 5}}])",
+               R"({"end_time": 1, "step": "5 ms"})");
+  const auto says = [&](const std::vector<std::string>& overrides, const std::string& part) {
+    const StopRun stops = run_stops(text, overrides);
+    EXPECT_EQ(stops.run.code, 2) << overrides[0];
+    EXPECT_TRUE(stops.run.says(part)) << stops.run.messages;
+  };
+  says({"stops[0].restitution=0.5", "stops[0].stiffness=100"}, "exclude each other");
+  says({"stops[0].restitution=1.5"}, "must be between 0 and 1");
+  says({R"(stops[0].at={"length": 2})", "stops[0].side=before"}, "starts beyond, at s = 3 m");
+  says({"stops[0].at=null"}, "stands nowhere");
+  says({"stops[0].bodies=[\"bed\"]"}, "there is no body \"bed\"");
+  says({"stops[0].beam=rial"}, "there is no beam \"rial\"");
+  says({"stops[0].at=end", "sliding_joints[0].at_beam_end=stop"}, "keep one of them");
+  says({R"(sliding_joints[0].motion={"speed": 1})"}, "is prescribed by its \"motion\"");
+  says({"analysis.integrator.type=ida"}, "is a stop");
+}
+
+}  // namespace
+}  // namespace nurbeam::test
