@@ -1,8 +1,11 @@
-# cpack -G DEB in the build tree: nurbeam (the programs) and libnurbeam-dev (libraries and headers).
+# cpack -G DEB in the build tree: nurbeam (the programs), libnurbeam-dev (libraries and headers) and python3-nurbeam.
 set(CPACK_PACKAGE_NAME nurbeam)
 set(CPACK_PACKAGE_CONTACT "The nurbeam authors <nurbeam@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL runtime dev)
+if(NURBEAM_WITH_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME nurbeam)
@@ -20,4 +23,12 @@ if(NURBEAM_WITH_CGAL)
 endif()
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Libraries and headers of nurbeam
  Curves, beam elements, integrators, CAD files and whole runs from C++.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-nurbeam)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "nurbeam (= ${PROJECT_VERSION}), ${NURBEAM_PYTHON_DEPENDS}, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
+  "python3-scipy, python3-matplotlib, python3-pandas, python3-xarray, python3-tqdm")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "nurbeam from Python
+ Curves, models, runs, forces of one's own and results as arrays.")
 include(CPack)

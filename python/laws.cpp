@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <variant>
 
 #include "nurbs/number_text.h"
 
@@ -132,16 +133,111 @@ class PythonLaw {
   std::size_t number_;  // in the case
 };
 
+// Value, speed and acceleration of a motion, N numbers each, in what its function returns.
+template <int N>
+class PythonMotion {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+  struct Moment {
+    Vector value, speed, acceleration;
+  };
+
+  PythonMotion(const py::function& function, std::string path)
+      : function_(shared_function(function)), path_(std::move(path)) {}
+
+  Moment at(double t) const {
+    const py::gil_scoped_acquire lock;
+    const py::object answer = (*function_)(t);
+    if (PyTuple_CheckExact(answer.ptr()) && PyTuple_GET_SIZE(answer.ptr()) == 3 &&
+        (N == 1 || PySequence_Check(PyTuple_GET_ITEM(answer.ptr(), 0)))) {
+      const py::tuple parts(answer);
+      return {vector(parts[0], t), vector(parts[1], t), vector(parts[2], t)};
+    }
+    constexpr double h = 1e-4;  // [s]
+    const Vector now = vector(answer, t), before = vector((*function_)(t - h), t - h),
+                 after = vector((*function_)(t + h), t + h);
+    return {now, (after - before) / (2 * h), (after - 2 * now + before) / (h * h)};
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  Vector vector(const py::handle& answer, double t) const {
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(answer);
+    if (!array) PyErr_Clear();
+    const std::string returned = path_ + ".motion: returned " + std::string(py::str(py::repr(answer))) +
+                                 " at t = " + text_of(t) + " s; ";
+    if (!array || array.size() != N)
+      throw py::type_error(returned + "expected " +
+                           (N == 1 ? "the reference arc length, a number in metres"
+                                   : "the displacement, three numbers in metres") +
+                           ", or this and its first two derivatives");
+    const Vector value = Eigen::Map<const Vector>(array.data());
+    if (!value.allFinite()) throw py::value_error(returned + "a motion must be finite");
+    return value;
+  }
+
+  std::shared_ptr<const py::function> function_;
+  std::string path_;  // in the case
+};
+
+PlaceMotion place_motion(const PythonMotion<1>& motion, const SlidingJoint& joint, double length) {
+  const double start = motion.at(0).value[0];
+  if (std::abs(start - joint.s) > 1e-9 * length)
+    throw py::value_error(motion.path() + ".motion: is at s = " + text_of(start) +
+                          " m at time 0, but \"at\" is s = " + text_of(joint.s) +
+                          " m; it must start where \"at\" is");
+  return PlaceMotion([motion](double t) {
+    const auto now = motion.at(t);
+    return PlaceMotion::Moment{now.value[0], now.speed[0], now.acceleration[0]};
+  });
+}
+
+DisplacementTable support_motion(const PythonMotion<3>& motion, const ModelFrame& frame,
+                                 bool starts_as_drawn) {
+  const double start = motion.at(0).value.norm();
+  if (starts_as_drawn && start > 0)
+    throw py::value_error(
+        motion.path() + ".motion: is " + text_of(start) +
+        " m from the drawn place at time 0, but the run starts as drawn; begin with (0, 0, 0), or "
+        "start with initial=\"equilibrium\"");
+  return DisplacementTable([motion, frame](double t) {
+    const auto now = motion.at(t);
+    if (frame.dimension == 2 && std::abs((frame.rotation * now.value)[2]) > 1e-9 * now.value.norm()) {
+      const py::gil_scoped_acquire lock;
+      throw py::value_error(
+          motion.path() + ".motion: leaves the plane of the model at t = " + text_of(t) +
+          " s; give the model a load out of its plane, which may be 0 in time, to make it one in space");
+    }
+    return DisplacementTable::Motion{frame.direction_to_local(now.value), frame.direction_to_local(now.speed),
+                                     frame.direction_to_local(now.acceleration)};
+  });
+}
+
 }  // namespace
 
-BeamModel with_laws(const BuiltModel& built, const std::vector<py::function>& functions) {
-  if (functions.size() != built.laws.size())
-    throw std::invalid_argument("there are " + std::to_string(functions.size()) + " functions for " +
+BeamModel with_laws(const BuiltModel& built, const Functions& functions, const CaseAnalysis& analysis) {
+  const auto& [forces, motions] = functions;
+  if (forces.size() != built.laws.size())
+    throw std::invalid_argument("there are " + std::to_string(forces.size()) + " functions for " +
                                 std::to_string(built.laws.size()) + " laws");
   BeamModel model = built.model;
-  for (std::size_t i = 0; i < functions.size(); ++i)
+  for (std::size_t i = 0; i < forces.size(); ++i)
     model.forces.push_back(
-        CustomForce{built.laws[i], PythonLaw(functions[i], built.laws[i].size(), built.frame, i)});
+        CustomForce{built.laws[i], PythonLaw(forces[i], built.laws[i].size(), built.frame, i)});
+  const bool as_drawn = analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium;
+  for (const LawOfMotion& law : built.motions) {
+    if (law.function >= static_cast<int>(motions.size()))
+      throw std::invalid_argument(law.path + ".motion_law: there is no function " +
+                                  std::to_string(law.function) + "; give the function itself as the motion");
+    const py::function& function = motions[law.function];
+    if (law.joint >= 0) {
+      SlidingJoint& joint = model.joints[law.joint];
+      joint.motion = place_motion({function, law.path}, joint, model.beam_of(joint).curve.length());
+    } else {
+      auto& support = std::get<Support>(model.constraints[law.constraint]);
+      support.motion = support_motion({function, law.path}, built.frame, as_drawn);
+    }
+  }
   return model;
 }
 

@@ -1,19 +1,27 @@
 #pragma once
 #include <pybind11/pybind11.h>
 
+#include <utility>
 #include <vector>
 
 #include "pipelines/model/build_model.h"
 
 namespace nurbeam::python {
 
-/// The model of a case with the forces by Python's functions, of which there is one for each law of the case.
+/// Python's functions that a model is made with: forces, of which there is one for each law of the case, and
+/// motions.
+using Functions = std::pair<std::vector<pybind11::function>, std::vector<pybind11::function>>;
+
+/// The model of a case with the forces and the motions by Python's functions.
 ///
-/// A function takes the time [s] and, as arrays in world coordinates, positions [m] and velocities [m/s] of
-/// its points, (3) of one point, else (points x 3). It returns the forces [N] in the same shape, or these
-/// with their derivatives by positions and velocities, (3 points x 3 points) [N/m], [N s/m]. What it raises
-/// ends the call that has led to it. Throws std::invalid_argument where there are not as many functions as
-/// laws.
-BeamModel with_laws(const BuiltModel& built, const std::vector<pybind11::function>& functions);
+/// A force takes the time [s] and, as arrays in world coordinates, positions [m] and velocities [m/s] of its
+/// points, (3) of one point, else (points x 3). It returns the forces [N] in the same shape, or these with
+/// their derivatives by positions and velocities, (3 points x 3 points) [N/m], [N s/m]. A motion takes the
+/// time and returns the reference arc length of a sliding joint [m] or the displacement of a support (3) [m],
+/// alone or with its first two derivatives. What they raise ends the call that has led to it. Throws
+/// std::invalid_argument where there are not the functions that the case has use for, and
+/// pybind11::value_error where a body's motion does not begin where the body is, or a support's not at its
+/// drawn place though the run does.
+BeamModel with_laws(const BuiltModel& built, const Functions& functions, const CaseAnalysis& analysis);
 
 }  // namespace nurbeam::python

@@ -54,13 +54,13 @@ class LiveRun::Turn {
   std::optional<py::gil_scoped_release> released_;
 };
 
-LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const std::vector<py::function>& laws,
-                 const Checkpoint* start)
+LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, const Checkpoint* start)
     : of_(std::move(of)),
       recording_(recording_for(*of_)),
-      simulation_(std::make_shared<const BeamModel>(with_laws(of_->built(), laws)),
-                  probe_places(of_->built()), simulation_options(of_->case_file),
-                  observer_of(*of_, *recording_, interrupts_), start) {}
+      simulation_(
+          std::make_shared<const BeamModel>(with_laws(of_->built(), functions, of_->case_file.analysis)),
+          probe_places(of_->built()), simulation_options(of_->case_file),
+          observer_of(*of_, *recording_, interrupts_), start) {}
 
 bool LiveRun::advance() {
   if (ended_ || interrupts_.pending()) return false;
@@ -93,9 +93,7 @@ Frame LiveRun::now() const {
   auto alone = std::make_shared<Recording>();
   alone->title = recording_->title;
   alone->names = recording_->names;
-  alone->frames.push_back(
-      to_world(of_->built().frame,
-               record_snapshot(simulation_.system(), simulation_.state(), probe_places(of_->built()))));
+  alone->frames.push_back(to_world(of_->built().frame, simulation_.present()));
   return {alone, &alone->frames.front()};
 }
 

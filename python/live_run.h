@@ -7,6 +7,7 @@
 #include "fem/motion/simulation.h"
 #include "python/built_case.h"
 #include "python/interrupts.h"
+#include "python/laws.h"
 #include "python/recording.h"
 
 namespace nurbeam::python {
@@ -17,8 +18,7 @@ namespace nurbeam::python {
 class LiveRun {
  public:
   /// `start` may be null.
-  LiveRun(std::shared_ptr<BuiltCase> of, const std::vector<pybind11::function>& laws,
-          const Checkpoint* start);
+  LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, const Checkpoint* start);
 
   /// Takes the next step; whether more are to come. Ctrl-C is answered before it.
   bool step();

@@ -50,10 +50,10 @@ py::dict report_facts(const SimulationReport& report, const BuiltCase& c) {
 }
 
 // (recording, report) of modes or buckling.
-py::tuple modes(const std::shared_ptr<BuiltCase>& c, const std::vector<py::function>& functions) {
+py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions) {
   auto recording = std::make_shared<Recording>();
   BuiltModel built = c->built();
-  built.model = with_laws(built, functions);
+  built.model = with_laws(built, functions, c->case_file.analysis);
   recording->title = c->case_file.name;
   recording->names = snapshot_names(built);
   Interrupts interrupts;
@@ -74,12 +74,12 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const std::vector<py::funct
 }
 
 // Runs into a results directory: (exit code, messages). `progress` is told the time ten times a second.
-py::tuple run_into(const std::shared_ptr<BuiltCase>& c, const std::vector<py::function>& functions,
+py::tuple run_into(const std::shared_ptr<BuiltCase>& c, const Functions& functions,
                    const std::filesystem::path& out, bool resume,
                    const std::optional<std::function<void(double)>>& progress) {
   using Clock = std::chrono::steady_clock;
   BuildReport report = c->report;
-  report.value->model = with_laws(c->built(), functions);
+  report.value->model = with_laws(c->built(), functions, c->case_file.analysis);
   std::ostringstream messages;
   Interrupts interrupts;
   Clock::time_point told = Clock::now();
@@ -104,8 +104,8 @@ py::tuple run_into(const std::shared_ptr<BuiltCase>& c, const std::vector<py::fu
 }  // namespace
 
 void bind_simulations(py::module_& module) {
-  module.def("modes", &modes, py::arg("case"), py::arg("laws"));
-  module.def("run_into", &run_into, py::arg("case"), py::arg("laws"), py::arg("out"), py::arg("resume"),
+  module.def("modes", &modes, py::arg("case"), py::arg("functions"));
+  module.def("run_into", &run_into, py::arg("case"), py::arg("functions"), py::arg("out"), py::arg("resume"),
              py::arg("progress"));
   py::class_<Checkpoint, std::shared_ptr<Checkpoint>>(module, "Checkpoint",
                                                       "A moment that a motion can go on from.")
@@ -118,8 +118,8 @@ void bind_simulations(py::module_& module) {
           "load", [](const std::filesystem::path& file) { return read_checkpoint(file); }, py::arg("file"),
           py::call_guard<py::gil_scoped_release>());
   py::class_<LiveRun, std::shared_ptr<LiveRun>>(module, "LiveRun", "A run that is taken step by step.")
-      .def(py::init<std::shared_ptr<BuiltCase>, const std::vector<py::function>&, const Checkpoint*>(),
-           py::arg("case"), py::arg("laws"), py::arg("start"))
+      .def(py::init<std::shared_ptr<BuiltCase>, const Functions&, const Checkpoint*>(), py::arg("case"),
+           py::arg("functions"), py::arg("start"))
       .def("step", &LiveRun::step)
       .def("next", &LiveRun::next)
       .def_property_readonly("time", &LiveRun::time)

@@ -21,8 +21,9 @@ class Equations {
   Equations(std::shared_ptr<const BeamModel> model, const MeshPlan& plan, State state)
       : system_(std::move(model), plan), state_(std::move(state)) {}
 
-  static Equations drawn(const BuiltCase& c, const std::vector<py::function>& laws) {
-    const auto model = std::make_shared<const BeamModel>(with_laws(c.built(), laws));
+  static Equations drawn(const BuiltCase& c, const Functions& functions) {
+    const auto model =
+        std::make_shared<const BeamModel>(with_laws(c.built(), functions, c.case_file.analysis));
     const MeshedState drawn = MeshedState::drawn(model);
     return {model, drawn.system->mesh().plan, drawn.state};
   }
@@ -121,7 +122,7 @@ Eigen::SparseMatrix<double> tangent(const Equations& e, double mass, double damp
 
 void bind_systems(py::module_& module) {
   py::class_<Equations>(module, "Equations", "The equations of motion of a model and a state of it.")
-      .def_static("drawn", &Equations::drawn, py::arg("case"), py::arg("laws"))
+      .def_static("drawn", &Equations::drawn, py::arg("case"), py::arg("functions"))
       .def_static("of", &Equations::of, py::arg("run"))
       .def_property_readonly(
           "t", [](const Equations& e) { return e.state().t; })

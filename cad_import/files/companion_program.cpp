@@ -28,8 +28,8 @@ std::filesystem::path CompanionProgram::find() const {
   std::error_code error;
   for (const fs::path& own : {fs::read_symlink("/proc/self/exe", error).parent_path(), this_library()})
     if (!own.empty())
-      for (const std::string& beside :
-           {std::string("."), std::string("../libexec/nurbeam"), "../" + folder, "../../" + folder})
+      for (const std::string& beside : {std::string("."), std::string("../libexec/nurbeam"), "../" + folder,
+                                        "../../" + folder, std::string("../../../../libexec/nurbeam")})
         places.push_back(own / beside / name);
   places.push_back(fs::path(NURBEAM_LIBEXEC) / name);
   for (const fs::path& place : places)

@@ -30,6 +30,7 @@ Place = Union[float, str, Mapping[str, Any], npt.ArrayLike]
 """A place on a beam: "start", "end", a reference arc length from the start ([m] or a text with a unit), a point nearby
 (three numbers [m]), or as in the case file {"length": ...}, {"fraction": ...}, {"near": [...], "within": ...}."""
 Force = Callable[[float, npt.NDArray[np.float64], npt.NDArray[np.float64]], Any]
+MotionLaw = Callable[[float], Any]
 
 
 class Section(dict[str, Any]):
@@ -136,6 +137,7 @@ class Model:
         self.case.update(_json(keys))
         self._file = name
         self._laws: list[tuple[dict[str, Any], Force]] = []
+        self._motions: list[MotionLaw] = []
 
     @property
     def name(self) -> str:
@@ -188,8 +190,11 @@ class Model:
         axis: npt.ArrayLike | None = None,
         **keys: Any,
     ) -> None:
-        """Holds a place of a beam: "pinned", "clamped" or "fork". `motion` moves it: rows [time, dx, dy, dz]."""
-        self.add("supports", beam=beam, at=at, type=type, name=name, motion=motion, axis=axis, **keys)
+        """Holds a place of a beam: "pinned", "clamped" or "fork". `motion` moves it from its drawn place: rows
+        [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or this with its first
+        two derivatives; else these are taken by differences over 0.1 ms, also just before time 0."""
+        by = self._by_function(motion)
+        self.add("supports", beam=beam, at=at, type=type, name=name, axis=axis, **by, **keys)
 
     def add_sliding_joint(
         self,
@@ -197,16 +202,18 @@ class Model:
         beam: Beam | str,
         at: Place,
         speed: Quantity | None = None,
-        motion: Mapping[str, Any] | None = None,
+        motion: Mapping[str, Any] | MotionLaw | None = None,
         slope: str | None = None,
         at_beam_end: str | None = None,
         **keys: Any,
     ) -> None:
-        """Puts a body on a beam, to slide along it. `motion` prescribes how: {"speed": ...} or {"table": rows [time, s]};
-        `slope`: "continuous" or "discontinuous"; `at_beam_end`: "leave" or "stop"."""
+        """Puts a body on a beam, to slide along it. `motion` prescribes how: {"speed": ...}, {"table": rows [time, s]}, or a
+        smooth function motion(t) that returns the reference arc length from the beam's start [m], or this with its first
+        two derivatives; else these are taken by differences over 0.1 ms, also just before time 0. `slope`: "continuous" or "discontinuous"; `at_beam_end`: "leave" or "stop"."""
         self.add(
             "sliding_joints",
-            body=body, beam=beam, at=at, speed=speed, motion=motion, slope=slope, at_beam_end=at_beam_end, **keys,
+            body=body, beam=beam, at=at, speed=speed, slope=slope, at_beam_end=at_beam_end,
+            **self._by_function(motion), **keys,
         )  # fmt: skip
 
     def add_joint(
@@ -301,12 +308,14 @@ class Model:
         other.case = copy.deepcopy(self.case)
         other._file = self._file
         other._laws = list(self._laws)
+        other._motions = list(self._motions)
         return other
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes the case to a file, for the command line. Error where it has forces by functions, which no file holds."""
-        if self._laws:
-            raise Error("the model has forces by functions (add_force), which a case file cannot hold")
+        """Writes the case to a file, for the command line. Error where it has forces or motions by functions, which no file
+        holds."""
+        if self._laws or self._motions:
+            raise Error("the model has forces or motions by functions, which a case file cannot hold")
         with open(file, "w", encoding="utf-8") as stream:
             json.dump(self.case, stream, indent=2)
             stream.write("\n")
@@ -333,8 +342,15 @@ class Model:
             raise CaseError(findings)
         return built, findings
 
-    def _functions(self) -> list[Force]:
-        return [function for _, function in self._laws]
+    def _functions(self) -> tuple[list[Force], list[MotionLaw]]:
+        return [function for _, function in self._laws], self._motions
+
+    def _by_function(self, motion: Any) -> dict[str, Any]:
+        """The keys of a motion, which may be a function."""
+        if not callable(motion):
+            return {"motion": motion}
+        self._motions.append(motion)
+        return {"motion_law": len(self._motions) - 1}
 
     def check(self, **analysis: Any) -> list[Finding]:
         """What is to be said of the model, warnings and notes; CaseError where it cannot be one. The keywords are those
@@ -458,6 +474,7 @@ def load(file: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> 
     model.case = case if isinstance(case, dict) else {"": case}
     model._file = os.fspath(file)
     model._laws = []
+    model._motions = []
     return model
 
 

@@ -97,7 +97,7 @@ class Simulation:
 
     @property
     def snapshot(self) -> Snapshot:
-        """The present state, at an output time or not. Its energies leave out what has been dissipated and put in."""
+        """The present state, at an output time or not."""
         return Snapshot(self._core.now())
 
     @property

@@ -76,7 +76,8 @@ class Study(Mapping[str, Array]):
         """The columns and the statuses, a row for each variant."""
         import pandas
 
-        return pandas.DataFrame({**self._columns, "status": self.statuses})
+        columns: dict[str, Any] = {**self._columns, "status": self.statuses}
+        return pandas.DataFrame(columns)
 
 
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,

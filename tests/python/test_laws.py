@@ -150,3 +150,62 @@ def test_case_files_have_no_laws(tmp_path, command):
     model.set("analysis.type", "static")
     model.save(tmp_path / "case.json")
     assert 'unknown key "laws"' in command("check", tmp_path / "case.json", expect=2)
+
+
+def swing(t):
+    return 1.0 + 0.3 * (1 - np.cos(4 * t))
+
+
+def test_a_body_moves_as_its_function_says():
+    model = bead_on_a_wire(motion=swing)
+    results = model.run(end_time=1, step=1e-3)
+    t = results.times
+    assert results.histories["bead.s"] == pytest.approx(swing(t), abs=1e-12)
+    # What holds it there is its mass times its acceleration; the wire, which it shakes, trembles a little.
+    assert results.histories["bead.holding_force"][2:] == pytest.approx(2.0 * 0.3 * 16 * np.cos(4 * t[2:]), abs=0.2)
+    assert np.ptp(results.histories["energy.total"]) < 1e-3 * np.ptp(results.histories["energy.input"])
+
+
+def test_given_derivatives_of_a_motion_are_those_by_differences():
+    exact = bead_on_a_wire(motion=lambda t: (swing(t), 1.2 * np.sin(4 * t), 4.8 * np.cos(4 * t)))
+    differences = bead_on_a_wire(motion=swing)
+    a, b = (model.run(end_time=0.3, step=1e-3).histories["bead.vx"] for model in (exact, differences))
+    assert a == pytest.approx(b, abs=1e-6)
+
+
+def test_a_support_moves_as_its_function_says():
+    model = straight_cantilever()
+    model.case["supports"] = []
+    model.add_support("rod", at="start", type="clamped", motion=lambda t: (0, 0.02 * (1 - np.cos(6 * t)), 0))
+    results = model.run(end_time=0.5, step=1e-3)
+    found = [snapshot.beams["rod"].nodes[0, 1] for snapshot in results]
+    assert found == pytest.approx(0.02 * (1 - np.cos(6 * results.times)), abs=1e-10)
+    assert np.ptp(results.histories["energy.total"]) < 5e-3 * results.histories["energy.input"].max()
+
+
+def test_motions_that_cannot_be_say_why():
+    with pytest.raises(ValueError, match="must start where \"at\" is"):
+        bead_on_a_wire(motion=lambda t: 2.0).run(end_time=1, step=1e-2)
+    with pytest.raises(TypeError, match="expected the reference arc length, a number in metres"):
+        bead_on_a_wire(motion=lambda t: "x").run(end_time=1, step=1e-2)
+    with pytest.raises(ValueError, match="a motion must be finite"):
+        bead_on_a_wire(motion=lambda t: 1 if t < 0.05 else np.nan).run(end_time=1, step=1e-2)
+    model = straight_cantilever()
+    model.case["supports"] = []
+    model.add_support("rod", at="start", motion=lambda t: (0, 1, 0))
+    with pytest.raises(ValueError, match="the run starts as drawn"):
+        model.run(end_time=1, step=1e-2)
+    model.set("supports[0].motion", [[0, 0, 0, 0], [1, 0, 1, 0]])
+    with pytest.raises(nb.CaseError, match="motion_law"):
+        model.run(end_time=1, step=1e-2)
+    with pytest.raises(nb.Error, match="cannot hold"):
+        model.save("case.json")
+
+
+def test_a_body_driven_beyond_its_beam_leaves_it():
+    model = bead_on_a_wire(at=3.5, motion=lambda t: 3.5 + 2 * t * t)
+    model.case["supports"] = [dict(model.case["supports"][0], type="clamped")]
+    results = model.run(end_time=0.7, step=2e-3)
+    assert np.isnan(results.histories["bead.s"][-1])
+    left = [event["time"] for event in results.report["events"] if "left" in event["kind"]]
+    assert left == pytest.approx([0.5], abs=5e-3)

@@ -134,7 +134,7 @@ def test_a_copy_is_a_model_of_its_own():
 def test_no_body_without_a_place_and_no_run_without_a_beam():
     model = straight_cantilever()
     model.add_body("lost", mass=1)
-    with pytest.raises(nb.CaseError, match="no sliding joint holds"):
+    with pytest.raises(nb.CaseError, match="no sliding joint and no connector holds"):
         model.check(type="static")
     with pytest.raises(nb.CaseError, match="beams"):
         nb.Model().run(type="static")

@@ -106,6 +106,9 @@ def test_snapshots_between_output_times_are_the_present_state():
     simulation.run_until(0.007)
     assert simulation.snapshot.time == pytest.approx(simulation.time) and simulation.time >= 0.007
     assert simulation.snapshot.beams["rod"].nodes.shape == (9, 3)
+    whole = simulation.run()
+    assert simulation.snapshot["energy.total"] == whole.histories["energy.total"][-1]
+    assert simulation.snapshot["energy.input"] == whole.histories["energy.input"][-1] != 0
 
 
 def test_statics_go_step_by_step_too():
@@ -152,7 +155,7 @@ def test_python_goes_on_while_a_run_computes():
 
     thread = threading.Thread(target=tick)
     thread.start()
-    swinging().run(end_time=0.5, step=1e-3)
+    swinging().run(end_time=40, step=1e-3, every=40)  # one call of the compiled part
     done.set()
     thread.join()
     assert len(ticks) > 10
