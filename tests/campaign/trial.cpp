@@ -150,16 +150,26 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   return loads;
 }
 
-double imbalance(const BeamSystem& system, const State& state) {
+/// What round-off of positions leaves of the inertia after a step of that length.
+double inertia_noise(const BeamSystem& system, const State& state, double step) {
+  constexpr double digits = 1e-15;
+  double mass = 0;
+  for (const Beam& beam : system.model().beams) mass += beam.properties.mass_per_length * beam.curve.length();
+  for (const Body& body : system.model().bodies) mass += body.mass;
+  return mass * digits * state.q.lpNorm<Eigen::Infinity>() / (step * step);
+}
+
+/// `noise`: of the accelerations [N].
+double imbalance(const BeamSystem& system, const State& state, double noise = 0) {
   const Loads loads = external_forces(system, state);
-  const auto [inertia, noise] = momentum_rate(system, state);
+  const auto [inertia, of_rate] = momentum_rate(system, state);
   // Where nothing acts forces are what round-off leaves of strains: those of a millionth are compared.
   double largest = std::max(loads.largest, inertia.norm());
   for (const Beam& beam : system.model().beams)
     largest = std::max(largest, 1e-6 * beam.properties.axial_stiffness);
   for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
     largest = std::max(largest, joint_force(system, state, j).norm());
-  return largest > 0 ? std::max(0.0, (inertia - loads.sum).norm() - noise) / largest : 0;
+  return largest > 0 ? std::max(0.0, (inertia - loads.sum).norm() - of_rate - noise) / largest : 0;
 }
 
 bool same_mesh(const MeshPlan& a, const MeshPlan& b) {
@@ -236,7 +246,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     longest_step = std::max(longest_step, step);
     if (step < 1e-4 * longest_step) return;
     const BeamSystem system(model, point.plan);
-    const double found = imbalance(system, point.state);
+    const double found = imbalance(system, point.state, inertia_noise(system, point.state, step));
     if (!(found <= trial.imbalance)) {
       trial.imbalance = found;
       trial.imbalance_time = point.state.t;
