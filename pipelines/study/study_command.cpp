@@ -11,7 +11,6 @@
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
-#include "pipelines/model/cad_files.h"
 #include "pipelines/results/file_hash.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/study/best_variant.h"

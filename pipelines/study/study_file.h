@@ -37,7 +37,8 @@ struct ControlPointWeight {
 };
 
 /// Moves control points of a beam's curve, all where none are listed: by the value [m] along `direction`;
-/// turned by the value [rad] about the axis `direction` through `about`; or scaled by the value from `about`.
+/// turned by the value [degrees] about the axis `direction` through `about`; or scaled by the value from
+/// `about`.
 struct CurveTransform {
   enum class Kind { translate, rotate, scale } kind = Kind::translate;
   std::string beam;
