@@ -22,6 +22,8 @@ def run(name, **changes):
     for task, keys in changes.items():
         study[task].update(keys)
     study["case"] = str((samples / study["case"]).resolve())
+    for observation in study.get("calibrate", {}).get("observations", []):
+        observation["measured"]["file"] = str(samples / observation["measured"]["file"])
     scratch.mkdir(parents=True, exist_ok=True)
     file = scratch / f"{name}.json"
     file.write_text(json.dumps(study))
@@ -88,8 +90,22 @@ def the_zip_line_holds_its_limits():
     assert best["tension"] == min(allowed)
 
 
+def the_rod_is_the_one_that_was_filmed():
+    answer = run("pendulum")
+    true = {"E": 5.4e6, "mass_per_length": 1150 * math.pi * 0.01**2}
+    (a, b), (_, c) = answer["covariance"]
+    x, y = (answer["variables"][name] - value for name, value in true.items())
+    distance = (c * x * x - 2 * b * x * y + a * y * y) / (a * c - b * b)  # Mahalanobis', squared
+    print("pendulum:", {name: estimate["value"] for name, estimate in answer["estimates"].items()}, "true:", true)
+    assert distance < -2 * math.log(0.05), distance
+    assert answer["estimates"]["E"]["sd"] < 0.02 * true["E"]
+    assert answer["estimates"]["mass_per_length"]["sd"] < 0.005 * true["mass_per_length"]
+    assert 0.85 < answer["noise"] < 1.15, answer["noise"]
+
+
 shutil.rmtree(scratch, ignore_errors=True)
 the_rail_is_as_fast_as_the_cycloid()
 the_arch_is_the_inverted_catenary()
 the_zip_line_holds_its_limits()
+the_rod_is_the_one_that_was_filmed()
 print("all samples answered as they should")
