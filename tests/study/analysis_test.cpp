@@ -61,6 +61,16 @@ TEST(Surrogate, OfIshigamisFunctionHasItsSobolIndices) {
   EXPECT_NEAR(chaos.total_order[2], 0.2437, 0.01);
 }
 
+// A modulus and a radius: numbers of 1e11 and of 0.01.
+TEST(Surrogate, ByKrigingAnswersWhateverTheUnits) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "E", "range": [1e11, 3e11]}, {"name": "r", "range": [0.005, 0.02]}],
+    "quantities": [{"name": "y", "value": "E / 1e11 * sin(300 * r)"}],
+    "plan": {"latin_hypercube": {"count": 100}}, "surrogate": {"type": "kriging"}})json");
+  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  EXPECT_GE(make_surrogates(study, *study.surrogate, points, evaluated(study, points))[0].q2, 0.99);
+}
+
 TEST(Surrogate, ThatHasMoreTermsThanRowsIsRefused) {
   const StudyFile study = study_of(
       ishigami_head + R"json("plan": {"latin_hypercube": {"count": 50}}, "surrogate": {"degree": 9}})json");
