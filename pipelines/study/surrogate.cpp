@@ -53,6 +53,8 @@ Fitted kriging_of(const OT::Sample& x, const OT::Sample& y) {
   covariance.setScale(OT::Point(inputs, 0.5));
   OT::KrigingAlgorithm algorithm(parts(x), y, covariance, OT::ConstantBasisFactory(inputs).build());
   algorithm.setOptimizationBounds(OT::Interval(OT::Point(inputs, 0.02), OT::Point(inputs, 20)));
+  algorithm.setOptimizationAlgorithm(
+      OT::NLopt("LN_COBYLA"));  // the default's search along lines fails at times
   algorithm.run();
   return {OT::ComposedFunction(algorithm.getResult().getMetaModel(), parts)};
 }
