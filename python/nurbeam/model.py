@@ -343,7 +343,7 @@ class Model:
         return built, findings
 
     def _functions(self) -> tuple[list[Force], list[MotionLaw]]:
-        return [function for _, function in self._laws], self._motions
+        return [function for _, function in self._laws], list(self._motions)
 
     def _by_function(self, motion: Any) -> dict[str, Any]:
         """The keys of a motion, which may be a function."""
@@ -397,7 +397,7 @@ class Model:
                 raise RunError(report["status"], results)
             return results
         with progress_bar(built, progress) as told:
-            return Simulation(_core.LiveRun(built, self._functions(), None), built).run(told)
+            return Simulation(_core.LiveRun.begin(built, self._functions(), None), built).run(told)
 
     def _run_into(
         self, built: _core.BuiltCase, out: str | os.PathLike[str], resume: bool, progress: bool | None
@@ -431,7 +431,7 @@ class Model:
         tell(findings)
         if built.analysis in ("modes", "buckling"):
             raise ValueError(f'there are no steps to take in an analysis of the type "{built.analysis}"; use run')
-        return Simulation(_core.LiveRun(built, self._functions(), start._core if start else None), built)
+        return Simulation(_core.LiveRun.begin(built, self._functions(), start._core if start else None), built)
 
     def system(self, **analysis: Any) -> System:
         """The equations of motion of the model as drawn; those of other states are `simulation.system`."""
