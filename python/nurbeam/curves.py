@@ -71,6 +71,8 @@ class Curve:
     ):
         points = _points(control_points, "control points")
         n = len(points)
+        if n < 2:
+            raise ValueError(f"{n} control point(s); a curve has at least 2")
         p = min(3, n - 1) if degree is None else int(degree)
         if knots is None:
             inner = np.linspace(0, 1, n - p + 1)[1:-1] if n > p else np.empty(0)

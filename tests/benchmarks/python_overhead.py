@@ -4,7 +4,7 @@
 
 Instructions are counted (by valgrind), which other work on the machine does not change; of runs of two lengths, so that
 what starting takes (of Python, of imports) is told apart from what a run takes. A call is what a law that is called often
-adds, in instructions and in time.
+adds, in time, and what is between C++ and the function and back, in instructions.
 """
 
 import json
@@ -20,7 +20,8 @@ import nurbeam as nb
 ROOT = Path(__file__).resolve().parents[2]
 CASE = ROOT / "samples/zipline/zipline.json"
 ENDS = (0.1, 0.6)  # [s]: the longer less the shorter is the run itself
-CALLS = (200, 1200)  # steps, likewise
+LAW = ("nurbeam::python::(anonymous namespace)::PythonLaw::operator()(double, Eigen::Matrix<double, 3, -1, 0, 3, -1> const&, "
+       "Eigen::Matrix<double, 3, -1, 0, 3, -1> const&) const")
 
 
 def changed(end):
@@ -28,22 +29,35 @@ def changed(end):
 
 
 def instructions(*command):
-    """That a program takes from its start to its end."""
-    done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *map(str, command)],
-                          check=True, capture_output=True, text=True)
-    return int(re.search(r"Collected : (\d+)", done.stderr)[1])
+    """That a program takes: a function of the name of one of its own, which is then with all that it calls; of none, all."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/counted", *map(str, command)],
+                       check=True, capture_output=True)
+        told = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", f"{folder}/counted"],
+                              check=True, capture_output=True, text=True).stdout
+    counts = re.findall(r"^\s*([\d,]+) \(.*?%\)\s+(?:\?\?\?:)?(.*?)(?: \[.*\])?$", told, re.M)
+
+    def of(function="PROGRAM TOTALS"):
+        return sum(int(count.replace(",", "")) for count, name in counts if name == function)
+
+    return of
 
 
 def of_command(program, end):
     with tempfile.TemporaryDirectory() as out:
         settings = [word for key, value in changed(end).items() for word in ("--set", f"{key}={json.dumps(value)}")]
-        return instructions(program, "run", CASE, "--out", out, "--quiet", *settings)
+        return of_run(instructions(program, "run", CASE, "--out", out, "--quiet", *settings))
 
 
 def of_python(end):
     with tempfile.TemporaryDirectory() as out:
         run = f"import nurbeam as nb; nb.load({str(CASE)!r}, set={changed(end)!r}).run(out={out!r})"
-        return instructions(sys.executable, "-c", run)
+        return of_run(instructions(sys.executable, "-c", run))
+
+
+def of_run(counted):
+    """Without the restart points, which are written every few seconds of the clock."""
+    return counted() - counted("nurbeam::RunOutputs::write(nurbeam::Checkpoint const&)")
 
 
 def overhead(program):
@@ -77,21 +91,19 @@ def calls(laws, steps):
 
 
 def per_call():
-    """Of a function that does nothing, with what is made for it and read of its answer: instructions and seconds."""
-    many, few = 21, 1
-    counted = {}
-    for laws in (few, many):
-        programs = [f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import python_overhead; "
-                    f"python_overhead.calls({laws}, {steps})" for steps in CALLS]
-        counted[laws] = instructions(sys.executable, "-c", programs[1]) - instructions(sys.executable, "-c", programs[0])
-    called = {laws: calls(laws, CALLS[1])[1] - calls(laws, CALLS[0])[1] for laws in (few, many)}
-    seconds = min(calls(many, CALLS[1])[0] - calls(few, CALLS[1])[0] for _ in range(5))
-    timed = calls(many, CALLS[1])[1] - calls(few, CALLS[1])[1]
-    return (counted[many] - counted[few]) / (called[many] - called[few]), seconds / timed, timed
+    """Of a function that does nothing, with what is made for it and read of its answer: instructions, and seconds with what
+    the force element does for each."""
+    many, few, steps = 21, 1, 1000
+    program = (f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import python_overhead; "
+               f"python_overhead.calls({many}, {steps})")
+    counted = instructions(sys.executable, "-c", program)(LAW)
+    seconds = min(calls(many, steps)[0] - calls(few, steps)[0] for _ in range(5))
+    called = {laws: calls(laws, steps)[1] for laws in (few, many)}
+    return counted / called[many], seconds / (called[many] - called[few]), called[many]
 
 
 if __name__ == "__main__":
     print(f"overhead of Python: {100 * overhead(sys.argv[1]):+.2f} %")
     counted, seconds, count = per_call()
-    print(f"a call of a function: {counted:.0f} instructions, {1e6 * seconds:.2f} microseconds ({count} calls, with what the "
-          "force element does for each)")
+    print(f"a call of a function: {counted:.0f} instructions; {1e6 * seconds:.2f} microseconds with what the force element "
+          f"does for it ({count} calls)")

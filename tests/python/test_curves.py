@@ -81,6 +81,8 @@ def test_the_closest_point_is_where_no_other_is_nearer(degree):
 def test_what_is_no_curve_says_why():
     with pytest.raises(ValueError, match=r"shape \(3,\); expected \(n, 3\)"):
         nb.Curve([1, 2, 3])
+    with pytest.raises(ValueError, match="1 control point"):
+        nb.Curve([[1, 2, 3]])
     with pytest.raises(ValueError, match="weight"):
         nb.Curve([[0, 0, 0], [1, 0, 0]], weights=[1, -1])
     with pytest.raises(ValueError, match="must both be|both must be its radius"):
