@@ -43,7 +43,8 @@ TEST(Seam, IsPassedByANodeWithAKink) {
   EXPECT_LT(run.last("body 1.s [m]"), 0.6172);
   EXPECT_GT(run.last("body 1.s [m]"), 0.4);
   const double moves = run.last("energy.kinetic [J]");
-  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 1e-3 * moves);
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"),
+              5e-2 * moves);  // high frequencies are damped
 }
 
 TEST(EnergyWarning, DoesNotRingOverRoundOff) {
