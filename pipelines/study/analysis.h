@@ -17,6 +17,9 @@ using StudyEvaluation = std::function<StudyPoints(const StudyPoints& points)>;
 
 struct StudyInterrupted {};
 
+/// Keeps OpenTURNS from writing to the terminal: what matters of its warnings stands in the answers.
+void silence_openturns();
+
 /// The points of a plan.
 StudyPoints plan_points(const StudyFile& study, const StudyPlan& plan);
 

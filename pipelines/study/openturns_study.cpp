@@ -69,6 +69,8 @@ class VariantsFunction : public OT::EvaluationImplementation {
 
 }  // namespace
 
+void silence_openturns() { OT::Log::Show(OT::Log::NONE); }
+
 OT::Distribution joint_distribution(const StudyFile& study) {
   OT::ComposedDistribution::DistributionCollection marginals;
   for (const std::size_t i : study.free_variables()) {
