@@ -572,7 +572,9 @@ struct Simulation::Implementation {
         crossing.s + (crossing.forward ? beyond : -beyond);
     auto next = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
     if (!model_->joints[crossing.joint].follows_section) {
-      at_.system = std::move(next);
+      // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
+      State moved = interpolated(*at_.system, at_.state, *next);
+      at_ = {std::move(next), std::move(moved)};
       return restart();
     }
     // Curvature and twist jump from element to element, and with them the motion of a body that follows the
