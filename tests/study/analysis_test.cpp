@@ -152,6 +152,25 @@ TEST(Reliability, BySimulationIsWithinItsDeviation) {
   }
 }
 
+TEST(Reliability, BySimulationRunsAsManyAsAskedForOrUntilItIsSure) {
+  const auto runs = [](const std::string& more) {
+    const StudyFile study = study_of(linear_head + R"json("reliability": {"quantity": "margin", "below": 4,
+      "method": "monte_carlo", "count": 2000)json" +
+                                     more + "}}");
+    std::size_t count = 0;
+    failure_probability(study, std::get<StudyReliability>(study.task), [&](const StudyPoints& points) {
+      count += points.size();
+      return evaluated(study, points);
+    });
+    return count;
+  };
+  EXPECT_EQ(runs(""), 2000U);
+  const std::size_t until_sure =
+      runs(R"(, "coefficient_of_variation": 0.1)");  // sqrt((1 - p) / (p n)), p = 0.34
+  EXPECT_GE(until_sure, 120U);
+  EXPECT_LE(until_sure, 300U);
+}
+
 TEST(Optimum, HoldsItsConstraints) {
   for (const char* method : {"cobyla", "gradient"}) {
     const StudyFile study = study_of(R"json({"nurbeam_study": 1,
