@@ -148,7 +148,8 @@ void describe(const Handle(StepData_StepModel) & model, const std::string& name)
 
 std::string text(STEPControl_Writer& writer) {
   StepData_StepWriter out(writer.Model());
-  out.FloatWriter().SetFormat("%.17E");
+  // 17 digits, which give a number back; with one more OpenCASCADE overruns its buffer at "-1.2...E-101".
+  out.FloatWriter().SetFormat("%.16E");
   out.FloatWriter().SetZeroSuppress(Standard_False);
   out.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
   std::ostringstream stream;

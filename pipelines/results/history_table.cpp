@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace nurbeam {
@@ -29,8 +30,10 @@ void HistoryTable::close() {
   check_stream();
 }
 
-// Appends a number with the 17 digits that give it back exactly, with a decimal point in every locale.
+// Appends a number with the 17 digits that give it back exactly, with a decimal point in every locale. What
+// has decayed below the smallest normal number is 0: common readers take it for an overflow.
 void HistoryTable::add_number(double value) {
+  if (std::abs(value) < std::numeric_limits<double>::min()) value = 0;
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 17).ptr;
   row_.append(digits, end);

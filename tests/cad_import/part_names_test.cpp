@@ -103,5 +103,20 @@ TEST(PartNames, EachWrittenCurveIsAProductAndSeveralAreAnAssembly) {
   EXPECT_EQ(lines, (Names{{"rod", "beams/rod"}, {"tube", "beams/tube"}}));
 }
 
+TEST(WrittenNumbers, MayHaveExponentsOfThreeDigits) {
+  // -1.2...E-171 has a character more than E-17: OpenCASCADE's buffer has room for it with 17 digits.
+  const ScratchDirectory scratch;
+  const double tiny = -1.234567890123456e-171;
+  const NurbsCurve axis = line({0, 0, 0}, {1, 0.3, tiny});
+  for (const char* name : {"rod.step"})
+    EXPECT_TRUE(export_solids(scratch.path() / name, {{{"rod", axis}, 0.1}}, LengthUnit::metre).empty())
+        << name;
+  for (const char* name : {"axis.step", "axis.igs", "axis.dxf", "axis.brep"})
+    EXPECT_TRUE(export_curves(scratch.path() / name, {{"axis", axis}},
+                              name == std::string("axis.brep") ? LengthUnit::millimetre : LengthUnit::metre)
+                    .empty())
+        << name;
+}
+
 }  // namespace
 }  // namespace nurbeam
