@@ -143,7 +143,8 @@ class Mechanics : private Draw {
       c_["bodies"].push_back(body);
       Json joint = {{"body", name}, {"beam", "line"}, {"at", {{"fraction", at}}}};
       if (chance(0.5)) joint["speed"] = uniform(-1, 1) * std::sqrt(9.81 * length_);
-      if (is_elastic() && chance(0.3)) joint["slope"] = "discontinuous";
+      if (chance(carrier_ == Carrier::rope ? 0.85 : carrier_ == Carrier::elastic_ring ? 0.3 : 0))
+        joint["slope"] = "discontinuous";
       if (chance(0.7)) joint["friction"] = friction(body["mass"], joint.contains("slope"));
       if (chance(0.3)) joint["at_beam_end"] = "stop";
       if (chance(0.2)) joint["equilibrium"] = "free";
