@@ -37,7 +37,7 @@ VerifyResult energy_of(const FeatureModel& feature) {
   const double coarse = table.rows.front().second;
   result.add("departure of the total energy from its start", 0, "what is lost and put in is booked", coarse,
              feature.most_departure);
-  if (coarse > negligible) result.add(std::move(table), 2, 0.4, "order of the method");
+  if (coarse > negligible) result.add(std::move(table), 2, 0.5, "order of the method");
   return result;
 }
 

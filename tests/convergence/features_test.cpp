@@ -16,7 +16,6 @@
 #include "fem/system/observables.h"
 #include "pipelines/results/restart_file.h"
 #include "pipelines/verification/feature_models.h"
-#include "solver/consistent.h"
 #include "tests/pipelines/case_text.h"
 
 namespace nurbeam {
@@ -63,14 +62,13 @@ TEST_P(Features, GoOnFromARestartFileBitByBit) {
   const test::TemporaryDirectory directory;
   const long apart = std::lround(options.end_time / *options.step) / 12;
   long steps = 0;
-  Eigen::VectorXd memory;
   std::vector<bool> closed;
   SimulationObserver observer;
-  // Now and then, and whenever something has begun to stick, to press or to pull.
+  // Now and then, and whenever a stop has closed or opened.
   observer.checkpoint_due = [&] { return true; };
   observer.checkpoint = [&](const Checkpoint& point) {
-    const bool begun = steps == 0 || closed != point.plan.closed;
-    if (begun || ++steps % apart == 1) points.push_back(point);
+    const bool at_times = steps++ % apart == 0;
+    if (at_times || closed != point.plan.closed) points.push_back(point);
     closed = point.plan.closed;
   };
   const EndOfRun whole = run_to_the_end(model, options, observer);
@@ -91,47 +89,32 @@ TEST_P(Features, GoOnFromARestartFileBitByBit) {
   }
 }
 
-// What bodies, stops and connectors are and do at a moment.
-struct Acting {
-  std::vector<double> exact;   // what is the same on any mesh
-  std::vector<double> forces;  // what is where the shape is
-};
-
-std::optional<Acting> acting(const BeamSystem& system, const State& at) {
-  State state = at;
-  if (make_accelerations_consistent(system, state) != ConsistencyStatus::done) return {};
-  Acting now;
+// What bodies, stops and connectors are at a moment, whatever the mesh; forces that follow from accelerations
+// are not among it, which a finer mesh has its own of.
+std::vector<double> acting(const BeamSystem& system, const State& state) {
   const BeamModel& model = system.model();
-  now.exact.assign(state.memory.begin(), state.memory.end());
+  std::vector<double> now;
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
     const auto [length, force] = length_and_force(system, state, i);
-    now.exact.push_back(length);
-    (model.connectors[i].type == ConnectorType::rod ? now.forces : now.exact).push_back(force);
+    now.push_back(length);
+    if (model.connectors[i].type != ConnectorType::rod) now.push_back(force);
   }
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
-    now.exact.push_back(stop_distance(system.mesh(), model.stops[i], state.q));
-    now.exact.push_back(system.mesh().plan.is_closed(i));
-    now.forces.push_back(contact_force(system, state, i));
+    now.push_back(stop_distance(system.mesh(), model.stops[i], state.q));
+    now.push_back(system.mesh().plan.is_closed(i));
   }
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
-    const std::optional<double> s = place(system, state, j);
-    if (!s) continue;
-    now.exact.insert(now.exact.end(), {*s, place_rate(system, state, j)});
-    const Eigen::Vector3d force = joint_force(system, state, j);
-    now.forces.insert(now.forces.end(), force.begin(), force.end());
-    if (const auto friction = sliding_friction(system, state, j))
-      now.forces.insert(now.forces.end(), {friction->along, friction->bound});
-  }
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
+    if (const std::optional<double> s = place(system, state, j))
+      now.insert(now.end(), {*s, place_rate(system, state, j)});
   return now;
 }
 
 void expect_same(const std::vector<double>& before, const std::vector<double>& after, double tolerance,
-                 const char* what, double time) {
-  ASSERT_EQ(before.size(), after.size()) << what;
-  double scale = 1;
-  for (const double value : before) scale = std::max(scale, std::abs(value));
+                 double time) {
+  ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i)
-    EXPECT_NEAR(after[i], before[i], tolerance * scale) << what << " " << i << " at " << time << " s";
+    EXPECT_NEAR(after[i], before[i], tolerance * std::max(1.0, std::abs(before[i])))
+        << i << " at " << time << " s";
 }
 
 // Elements are split and merged beside the bodies at every tenth step as length control would at other
@@ -141,28 +124,25 @@ TEST_P(Features, AreTheSameOnAnotherMesh) {
   const SimulationOptions options = options_of(GetParam());
   if (model->joints.empty() || model->beam_of(model->joints[0]).rigid) GTEST_SKIP() << "no mesh changes";
   Simulation simulation(model, {}, options);
-  int splits = 0, merges = 0;
+  int changes = 0;
   for (long i = 0; simulation.advance(); ++i) {
     if (i % 10 != 5) continue;
-    for (const LengthControl& control : {LengthControl{0.05, 0.6}, LengthControl{0.9, 1.9}}) {
+    for (const LengthControl& control : {LengthControl{0.05, 0.6}, LengthControl{0.4, 1.9}}) {
       const NextPlan next = next_plan(simulation.system(), simulation.state(), control);
       if (next.change == MeshChange::none) continue;
-      const std::optional<Acting> before = acting(simulation.system(), simulation.state());
       MeshedState at{
           std::make_unique<BeamSystem>(model, present_plan(simulation.system(), simulation.state())),
           simulation.state()};
       ASSERT_FALSE(change_mesh(at, next, false).failure);
-      const std::optional<Acting> after = acting(*at.system, at.state);
-      ASSERT_TRUE(before && after);
-      const bool merge = next.change == MeshChange::merge;
-      ++(merge ? merges : splits);
-      expect_same(before->exact, after->exact, merge ? 1e-6 : 1e-9, "exact", at.state.t);
-      expect_same(before->forces, after->forces, merge ? 0.5 : 1e-7, merge ? "merge" : "split", at.state.t);
+      ++changes;
+      EXPECT_EQ(at.state.memory, simulation.state().memory);
+      // Velocities are projected where a node goes or comes on a curve.
+      expect_same(acting(simulation.system(), simulation.state()), acting(*at.system, at.state), 2e-3,
+                  at.state.t);
     }
   }
   EXPECT_EQ(simulation.report().status, SimulationStatus::done);
-  EXPECT_GE(splits, 3);
-  EXPECT_GE(merges, 3);
+  EXPECT_GE(changes, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Features, ::testing::ValuesIn(verification::feature_models()),

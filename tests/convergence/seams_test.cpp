@@ -45,8 +45,9 @@ Stop stop_ahead(const BeamModel& model, double place) {
 /// Segments of 120 degrees, the first from the seam on; the body starts at 215 degrees, at rest.
 RunRecord swing(const Swing& of, double seam) {
   ModelBuilder builder(2, {0, -9.81, 0});
-  builder.add_guide(ReferenceCurve(
-      arc_cubics({0, 0, 0}, ring_radius, seam * pi / 180, (seam + 360) * pi / 180, 3), 2, true));
+  builder.add_guide(
+      ReferenceCurve(arc_cubics({0, 0, 0}, ring_radius, seam * pi / 180, (seam + 360) * pi / 180, 3), 2,
+                     Metric::arc_length, true));
   const auto s = [&](double direction) {
     return ring_radius * std::fmod(direction - seam + 720, 360) * pi / 180;
   };
@@ -81,7 +82,7 @@ TEST_P(Seams, ChangeNothing) {
     };
     EXPECT_EQ(physical(run), physical(free)) << seam;
     EXPECT_LT(apart, 1e-4) << seam;
-    EXPECT_LT(pull, 1e-3 * greatest_pull) << seam;
+    EXPECT_LT(pull, 3e-3 * greatest_pull) << seam;
     EXPECT_LT(rubs, 0.05) << seam;
     EXPECT_LT(booked, 1e-3 * std::max(10.0, free.report.energy_scale())) << seam;
     EXPECT_LT(run.report.energy_drift, 1e-3 * run.report.energy_scale()) << seam;
