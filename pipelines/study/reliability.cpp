@@ -11,18 +11,39 @@ namespace {
 
 constexpr std::size_t block = 32;  // variants of a simulation that run together
 
+// What is over the threshold, in units of `scale`. Differences are taken over a thousandth of the scatter:
+// runs are not exact to the last digit.
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
-                             const StudyEvaluation& evaluate) {
+                             const StudyEvaluation& evaluate, double scale) {
   const std::size_t k = quantity_index(study, reliability.quantity);
-  const OT::Function f =
-      study_function(study, evaluate, 1,
-                     [k](const std::vector<double>& quantities, const std::vector<double>&) {
-                       return std::vector<double>{quantities[k]};
-                     },
-                     {std::numeric_limits<double>::quiet_NaN()});
-  const OT::CompositeRandomVector output(f, OT::RandomVector(joint_distribution(study)));
-  return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), reliability.threshold)
-                                 : OT::ThresholdEvent(output, OT::Less(), reliability.threshold);
+  const double threshold = reliability.threshold;
+  OT::Function f = study_function(
+      study, evaluate, 1,
+      [k, threshold, scale](const std::vector<double>& quantities, const std::vector<double>&) {
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        return std::vector<double>{quantities.empty() ? none : (quantities[k] - threshold) / scale};
+      });
+  const OT::Distribution joint = joint_distribution(study);
+  f.setGradient(OT::CenteredFiniteDifferenceGradient(1e-3 * joint.getStandardDeviation(), f.getEvaluation()));
+  const OT::CompositeRandomVector output(f, OT::RandomVector(joint));
+  return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), 0.0)
+                                 : OT::ThresholdEvent(output, OT::Less(), 0.0);
+}
+
+std::vector<double> nominal_point(const StudyFile& study) {
+  std::vector<double> point;
+  for (const std::size_t i : study.free_variables()) point.push_back(study.variables[i].nominal);
+  return point;
+}
+
+// How far the quantity is from its threshold where FORM begins; 1 where that is not known.
+double scale_of(const StudyFile& study, const StudyReliability& reliability,
+                const StudyEvaluation& evaluate) {
+  const std::vector<double> quantities = evaluate({nominal_point(study)}).front();
+  if (quantities.empty()) return 1;
+  const double margin =
+      std::abs(quantities[quantity_index(study, reliability.quantity)] - reliability.threshold);
+  return margin > 0 ? margin : 1;
 }
 
 OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliability,
@@ -30,13 +51,12 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
   OT::AbdoRackwitz search;
   search.setMaximumEvaluationNumber(static_cast<std::size_t>(reliability.count));
   search.setMaximumIterationNumber(static_cast<std::size_t>(reliability.count));
-  search.setMaximumAbsoluteError(1e-8);
-  search.setMaximumRelativeError(1e-8);
-  search.setMaximumResidualError(1e-8);
-  search.setMaximumConstraintError(1e-8);
-  std::vector<double> start;
-  for (const std::size_t i : study.free_variables()) start.push_back(study.variables[i].nominal);
-  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(start));
+  constexpr double tolerance = 1e-6;
+  search.setMaximumAbsoluteError(tolerance);
+  search.setMaximumRelativeError(tolerance);
+  search.setMaximumResidualError(tolerance);
+  search.setMaximumConstraintError(tolerance);
+  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(nominal_point(study)));
   form.run();
   return form.getResult();
 }
@@ -67,8 +87,10 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
         std::count_if(quantities.begin(), quantities.end(), [](const auto& row) { return row.empty(); }));
     return quantities;
   };
-  const OT::RandomVector event = limit_event(study, reliability, counted);
-  if (reliability.method == Method::monte_carlo) {
+  const bool searches = reliability.method != Method::monte_carlo;
+  const double scale = searches ? scale_of(study, reliability, counted) : 1;
+  const OT::RandomVector event = limit_event(study, reliability, counted, scale);
+  if (!searches) {
     ReliabilityResult result = simulated(reliability, event, OT::MonteCarloExperiment());
     result.not_done = not_done;
     return result;

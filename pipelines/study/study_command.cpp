@@ -77,9 +77,11 @@ class StudyLine {
     last_ = now;
     tenth_ = tenth;
     total_ = p.total;
-    err_ << (terminal_ ? "\r\033[K" : "") << ended << " of " << p.total << " variants, " << p.failed
-         << " not done, " << p.running << " running, " << text_of(std::ceil(p.seconds_to_go)) << " s to go"
-         << (terminal_ ? "" : "\n") << std::flush;
+    const std::string most = p.at_most ? "at most " : "";
+    err_ << (terminal_ ? "\r\033[K" : "") << ended << " of " << most << p.total << " variants, " << p.failed
+         << " not done, " << p.running << " running";
+    if (p.seconds_to_go) err_ << ", " << most << text_of(std::ceil(*p.seconds_to_go)) << " s to go";
+    err_ << (terminal_ ? "" : "\n") << std::flush;
     open_ = terminal_;
   }
   ~StudyLine() {
@@ -103,12 +105,16 @@ void write_results(const ReadyStudy& ready, const StudyOptions& options, const S
   write_study_summary(options.out / "study.json", ready.study, result);
   const StudyCase* study_case = ready.study_case ? &*ready.study_case : nullptr;
   write_study_report(options.out / "study.html", ready.study, study_case, result);
-  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer); optimum && study_case)
+  if (!study_case) return;
+  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer))
     write_best_variant(options.out, ready.study, *study_case, optimum->points.front());
+  if (const auto* calibrated = std::get_if<CalibrationResult>(&result.answer))
+    write_best_variant(options.out, ready.study, *study_case, calibrated->point);
 }
 
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
                   std::ostream& out, std::ostream& err) {
+  silence_openturns();
   const InterruptGuard guard;
   StudyRows rows(options.out / "study.rows", digest_of(ready), options.resume);
   StudyResult result;

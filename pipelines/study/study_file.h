@@ -49,6 +49,14 @@ struct CurveTransform {
 
 using StudyTarget = std::variant<CasePaths, ControlPointCoordinate, ControlPointWeight, CurveTransform>;
 
+/// Knots that are put into the curve of a beam, which stays as it is but gets as many control points more.
+struct StudyRefinement {
+  std::string beam;
+  std::string path;                ///< JSON path of this object, for messages
+  std::vector<double> knots = {};  ///< to be inserted once each
+  int parts = 1;                   ///< into which each span of the curve is divided
+};
+
 /// What a study varies.
 struct StudyVariable {
   std::string name;
@@ -64,6 +72,7 @@ struct StudyQuantity {
   std::string name, unit;
   std::string path;
   Expression value;
+  bool observed = false;  ///< of a calibration, at the time of a measurement: behind all others
 };
 
 /// Which variants a study runs.
@@ -105,6 +114,20 @@ struct StudyOptimum {
   double tolerance = 1e-4;  ///< of the variables, as a part of their ranges
 };
 
+/// The values of the variables at which quantities are as they were measured.
+struct StudyCalibration {
+  /// What was measured of one history.
+  struct Observation {
+    std::string value;  ///< the expression
+    std::vector<double> times, measured;
+    double sd = 1;  ///< of the noise
+  };
+  std::vector<Observation> observations;  ///< their times are the observed quantities, in this order
+  bool prior = false;                     ///< the distributions, all normal, are what is known before
+  double confidence = 0.95;               ///< of the intervals and the region
+  int evaluations = 200;                  ///< at most
+};
+
 /// Surrogates of the quantities, made of the rows of a plan.
 struct StudySurrogate {
   enum class Kind { chaos, kriging } kind = Kind::chaos;
@@ -112,7 +135,7 @@ struct StudySurrogate {
   double held_back = 0.2;  ///< part of the rows that validates
 };
 
-using StudyTask = std::variant<StudyPlan, StudySensitivity, StudyReliability, StudyOptimum>;
+using StudyTask = std::variant<StudyPlan, StudySensitivity, StudyReliability, StudyOptimum, StudyCalibration>;
 
 /// A study file, resolved, valid as far as the file and its case can tell.
 struct StudyFile {
@@ -121,6 +144,7 @@ struct StudyFile {
   std::string name;
   std::optional<std::filesystem::path> case_file = {};  ///< absolute; none where all quantities are formulas
   std::vector<std::string> overrides = {};              ///< of the case, as --set has them
+  std::vector<StudyRefinement> refinements = {};        ///< of curves, before variables move them
   std::vector<StudyVariable> variables;
   std::vector<Expression> constraints = {};  ///< a variant for which one is 0 does not run
   std::vector<StudyQuantity> quantities;

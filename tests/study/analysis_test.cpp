@@ -107,6 +107,28 @@ TEST(Reliability, OfALinearLimitIsExactByForm) {
   EXPECT_NEAR(result.design_point[0], 10 - 1.5 * 0.6 * beta, 1e-5);
 }
 
+// Numbers of 1e11 and of 0.01 with the last digits rounded off, as runs have them; ln S - ln R is normal.
+TEST(Reliability, OfRoundedQuantitiesIsFoundInFewVariants) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "R", "distribution": {"lognormal": {"mean": 2e11, "sd": 2e10}}},
+                  {"name": "S", "distribution": {"lognormal": {"mean": 0.01, "sd": 0.002}}}],
+    "quantities": [{"name": "use", "value": "1e13 * S / R"}],
+    "reliability": {"quantity": "use", "above": 1}})json");
+  int runs = 0;
+  const StudyEvaluation rounded = [&](const StudyPoints& points) {
+    StudyPoints quantities = evaluated(study, points);
+    runs += static_cast<int>(points.size());
+    for (auto& row : quantities) row[0] = std::round(row[0] * 1e9) / 1e9;
+    return quantities;
+  };
+  const ReliabilityResult result =
+      failure_probability(study, std::get<StudyReliability>(study.task), rounded);
+  const double of_r = std::log(1 + 0.1 * 0.1), of_s = std::log(1 + 0.2 * 0.2);  // variances of the logarithms
+  const double margin = (std::log(2e11) - of_r / 2) - (std::log(0.01) - of_s / 2) - std::log(1e13);
+  EXPECT_NEAR(*result.reliability_index, margin / std::sqrt(of_r + of_s), 1e-5);
+  EXPECT_LE(runs, 80);
+}
+
 TEST(Reliability, BySimulationIsWithinItsDeviation) {
   const double exact = 0.5 * std::erfc(2 / std::sqrt(2.0));
   for (const char* method : {"importance_sampling", "monte_carlo"}) {
@@ -134,6 +156,54 @@ TEST(Optimum, HoldsItsConstraints) {
     EXPECT_NEAR(result.points[0][1], 0.5, 1e-3) << method;
     EXPECT_NEAR(result.history.back(), 0.5, 1e-3);
   }
+}
+
+// A modulus and a radius: numbers of 1e11 and of 0.01.
+TEST(Optimum, IsFoundWhateverTheUnitsAndWithinTheRanges) {
+  for (const char* method : {"cobyla", "nelder_mead", "gradient", "genetic"}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "E", "range": [1e11, 3e11]}, {"name": "r", "range": [0.005, 0.02]}],
+      "quantities": [{"name": "f", "value": "(E / 1e11 - 1.2)^2 + (100 * r - 0.5)^2"}],
+      "optimise": {"minimise": "f", "evaluations": 400, "tolerance": 1e-7, "method": ")json" +
+                                     std::string(method) + "\"}}");
+    const StudyEvaluation within = [&](const StudyPoints& points) {
+      for (const std::vector<double>& point : points) {
+        EXPECT_TRUE(point[0] >= 1e11 && point[0] <= 3e11) << method << " " << point[0];
+        EXPECT_TRUE(point[1] >= 0.005 && point[1] <= 0.02) << method << " " << point[1];
+      }
+      return evaluated(study, points);
+    };
+    const OptimumResult result = find_optimum(study, std::get<StudyOptimum>(study.task), within);
+    const double tolerance = std::string(method) == "genetic" ? 0.1 : 1e-3;
+    EXPECT_NEAR(result.points[0][0] / 1e11, 1.2, tolerance) << method;
+    EXPECT_NEAR(100 * result.points[0][1], 0.5, tolerance) << method;
+  }
+}
+
+// The square root is no number below 0.2.
+TEST(Optimum, IsFoundBesideVariantsThatFail) {
+  for (const char* method : {"cobyla", "nelder_mead"}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [-1, 1], "nominal": 0.8}, {"name": "y", "range": [-1, 1], "nominal": 0.8}],
+      "quantities": [{"name": "f", "value": "(x - 0.21)^2 + (y + 0.3)^2 + 0 * sqrt(x - 0.2)"}],
+      "optimise": {"minimise": "f", "evaluations": 300, "tolerance": 1e-6, "method": ")json" +
+                                     std::string(method) + "\"}}");
+    const OptimumResult result =
+        find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+    EXPECT_NEAR(result.points[0][0], 0.21, 1e-2) << method;
+    EXPECT_NEAR(result.points[0][1], -0.3, 1e-2) << method;
+  }
+}
+
+TEST(Optimum, GoesOnAsAnInterruptToItsCaller) {
+  const StudyFile study = study_of(ishigami_head + R"json("optimise": {"minimise": "y"}})json");
+  int calls = 0;
+  const StudyEvaluation interrupted = [&](const StudyPoints& points) {
+    if (++calls > 5) throw StudyInterrupted{};
+    return evaluated(study, points);
+  };
+  EXPECT_THROW(find_optimum(study, std::get<StudyOptimum>(study.task), interrupted), StudyInterrupted);
+  EXPECT_EQ(calls, 6);
 }
 
 TEST(Optimum, OfTwoObjectivesIsAFrontThatNoVariantBeats) {
