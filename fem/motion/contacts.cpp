@@ -194,7 +194,9 @@ bool start_contacts(MeshedState& at, double step) {
 
 std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, bool presses) {
   const bool hard = !stop_of(*at.system, event.stop).buffer;
-  if (!hard)
+  // A damped one is left while it is still pressed in, and followed until it is not.
+  if (!hard &&
+      (event.kind == ContactEvent::Kind::hits || stop_of(*at.system, event.stop).buffer->damping == 0))
     set_presses(at.system->model(), at.state.memory, event.stop, event.kind == ContactEvent::Kind::hits);
   else if (event.kind == ContactEvent::Kind::hits && !hit_stop(at, event.stop, step, presses))
     return {};
