@@ -25,6 +25,7 @@ class Assembly final : public SecondOrderSystem {
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
+  ~Assembly() override;
 
   const std::shared_ptr<const BeamModel>& model() const { return model_; }
   const Mesh& mesh() const { return mesh_; }
@@ -89,8 +90,10 @@ class Assembly final : public SecondOrderSystem {
     Block block;
     std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
   };
+  struct Walk;
   struct Sink;
 
+  void batch_elements();
   void bind_constraints(const std::vector<bool>& held);
   void bind_forces();
   void bind_friction(int j, const Eigen::VectorXd& drawn);
@@ -102,6 +105,7 @@ class Assembly final : public SecondOrderSystem {
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;
   std::vector<MeshElement<D>> elements_;
+  std::vector<Walk> walks_;  // of each beam
   std::vector<BoundConstraint<D>> constraints_;
   std::vector<BoundForce<D>> forces_;
 
