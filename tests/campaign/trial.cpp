@@ -262,7 +262,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     events = point.report.events.size();
     // Right after a change of the mesh, where it may be left, or a jump of a prescribed speed accelerations
     // are means over the next step.
-    if (!goes_on || left || !with_accelerations || point.steps.empty()) return;
+    if (!goes_on || point.restarted || left || !with_accelerations || point.steps.empty()) return;
     if (!motion_kinks(*model, point.state.t).empty()) return;
     // Where a run is about to fail its steps shorten until round-off, over their square, is what accelerates.
     const double step = point.steps.back().size;
