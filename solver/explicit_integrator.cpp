@@ -42,6 +42,11 @@ class FirstOrderEquations {
   /// The state of the last evaluation, with its acceleration.
   const State& state() const { return state_; }
 
+  /// The memory of forces in the steps to come.
+  void remember(const Vector& memory) {
+    if (memory != state_.memory) outcome_ = StepStatus::not_converged;
+    state_.memory = memory;
+  }
   void write(const State& state, VectorRef y) const {
     y.head(n_) = state.q.cwiseQuotient(s_);
     y.tail(n_) = T_ * state.v.cwiseQuotient(s_);
@@ -176,7 +181,8 @@ struct ExplicitIntegrator::Implementation {
         report.step = trial.t - state.t;
         if (!is_fixed()) report.local_error = local_error();
         std::swap(state, trial);
-        must_restart = false;
+        state.memory = system->committed(state);
+        must_restart = state.memory != trial.memory;
         return report;
       }
     }
@@ -187,6 +193,7 @@ struct ExplicitIntegrator::Implementation {
   bool is_fixed() const { return settings.tolerance == 0; }
 
   void restart(const State& from) {
+    equations.remember(from.memory);
     equations.write(from, sundials::map(y.get()));
     sundials::check(ERKStepReset(memory.get(), from.t, y.get()));
   }

@@ -18,10 +18,17 @@ int of_stop(const Structure& structure, int stop) {
   return first_of_joint(structure, structure.joints.size()) + stop;
 }
 
+int of_connector(const Structure& structure, std::size_t connector) {
+  return of_stop(structure, static_cast<int>(structure.stops.size())) +
+         static_cast<int>(std::count_if(
+             structure.connectors.begin(), structure.connectors.begin() + static_cast<long>(connector),
+             [](const Connector& c) { return c.jumps(); }));
+}
+
 }  // namespace
 
 Eigen::VectorXd no_memory(const Structure& structure) {
-  return Eigen::VectorXd::Zero(of_stop(structure, static_cast<int>(structure.stops.size())));
+  return Eigen::VectorXd::Zero(of_connector(structure, structure.connectors.size()));
 }
 
 FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint) {
@@ -40,6 +47,14 @@ bool presses(const Structure& structure, const Eigen::VectorXd& memory, int stop
 
 void set_presses(const Structure& structure, Eigen::VectorXd& memory, int stop, bool pressed) {
   memory[of_stop(structure, stop)] = pressed ? 1 : 0;
+}
+
+bool is_taut(const Structure& structure, const Eigen::VectorXd& memory, int connector) {
+  return memory[of_connector(structure, connector)] != 0;
+}
+
+void set_taut(const Structure& structure, Eigen::VectorXd& memory, int connector, bool taut) {
+  memory[of_connector(structure, connector)] = taut ? 1 : 0;
 }
 
 }  // namespace nurbeam

@@ -5,7 +5,7 @@
 #include "fem/structure/structure.h"
 
 /// State::memory: three numbers of each joint with friction in turn, then one of each stop: 1 where a body
-/// presses on its buffer.
+/// presses on its buffer; then one of each connector that jumps: 1 where it is taut.
 namespace nurbeam {
 
 /// All zero, of a model.
@@ -15,5 +15,7 @@ void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, in
                          const FrictionMemory& of_joint);
 bool presses(const Structure& structure, const Eigen::VectorXd& memory, int stop);
 void set_presses(const Structure& structure, Eigen::VectorXd& memory, int stop, bool pressed);
+bool is_taut(const Structure& structure, const Eigen::VectorXd& memory, int connector);
+void set_taut(const Structure& structure, Eigen::VectorXd& memory, int connector, bool taut);
 
 }  // namespace nurbeam

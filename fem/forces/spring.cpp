@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "fem/forces/memory.h"
+
 namespace nurbeam {
 
-ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double rate) {
-  const double sign = connector.type == ConnectorType::compression_only ? -1 : 1;
-  const bool one_sided = connector.type != ConnectorType::spring;
-  const double k = connector.stiffness, c = connector.damping;
-  if (one_sided && !(sign * stretch > 0)) return;
-  elastic = k * stretch;
-  force = elastic + c * rate;
-  if (one_sided && !(sign * force > 0)) {
+ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double rate, bool taut) {
+  const int sign = connector.sign();
+  const double k = connector.stiffness, c = sign != 0 && !taut ? 0 : connector.damping;
+  const bool stretched = sign == 0 || sign * stretch > 0;
+  if (stretched) elastic = k * stretch;
+  if (!stretched && c == 0) return;
+  force = k * stretch + c * rate;
+  if (sign != 0 && !(sign * force > 0)) {
     force = 0;
     return;
   }
@@ -20,48 +22,74 @@ ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double 
 }
 
 template <int D>
-void Spring<D>::add_force(const MeshedBeams<D>&, const State& state,
-                          Eigen::Ref<Eigen::VectorXd> dynamics) const {
-  const auto line = axis_.line(state);
-  const ConnectorPull pull(*connector_, line.length - connector_->length, line.rate);
-  axis_.add_pull(pull.force * line.n, dynamics);
+ConnectorPull Spring<D>::pull(const MeshedBeams<D>& at, const Line& line,
+                              const Eigen::VectorXd& memory) const {
+  const Connector& connector = described(at);
+  const double stretch = line.length - connector.length;
+  const bool taut = connector.jumps() && memory.size() > 0 ? is_taut(at.structure, memory, number_)
+                                                           : connector.sign() * stretch > 0;
+  return {connector, stretch, line.rate, taut};
 }
 
 template <int D>
-typename Spring<D>::Matrix Spring<D>::tangent(const State& state, const TangentWeights& w) const {
-  const auto line = axis_.line(state);
-  const ConnectorPull pull(*connector_, line.length - connector_->length, line.rate);
+void Spring<D>::add_force(const MeshedBeams<D>& at, const State& state,
+                          Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  const Line line = axis_.line(state);
+  axis_.add_pull(pull(at, line, state.memory).force * line.n, dynamics);
+}
+
+template <int D>
+typename Spring<D>::Matrix Spring<D>::tangent(const MeshedBeams<D>& at, const State& state,
+                                              const TangentWeights& w) const {
+  const Line line = axis_.line(state);
+  const ConnectorPull now = pull(at, line, state.memory);
   const Eigen::Matrix<double, D, 1> by_d =
-      w.stiffness * (pull.by_stretch * line.n + pull.by_rate * line.rate_gradient) +
-      w.damping * pull.by_rate * line.n;
+      w.stiffness * (now.by_stretch * line.n + now.by_rate * line.rate_gradient) +
+      w.damping * now.by_rate * line.n;
   typename ConnectorAxis<D>::Matrix in_d =
-      line.n * by_d.transpose() + w.stiffness * pull.force * line.curvature;
-  if (!(line.length > 0) && !connector_->direction) in_d.diagonal().array() += w.stiffness * pull.by_stretch;
+      line.n * by_d.transpose() + w.stiffness * now.force * line.curvature;
+  if (!(line.length > 0) && !described(at).direction) in_d.diagonal().array() += w.stiffness * now.by_stretch;
   return axis_.in_ends(in_d);
 }
 
 template <int D>
-void Spring<D>::add_energy(const MeshedBeams<D>&, const State& state, SystemEnergy& sum) const {
-  const auto line = axis_.line(state);
-  const double stretch = line.length - connector_->length;
-  const ConnectorPull pull(*connector_, stretch, line.rate);
-  sum.spring += pull.elastic * stretch / 2;
-  sum.dissipation += (pull.force - pull.elastic) * line.rate;
+void Spring<D>::add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const {
+  const Line line = axis_.line(state);
+  sum.spring += pull(at, line, state.memory).elastic * (line.length - described(at).length) / 2;
 }
 
 template <int D>
-std::pair<double, double> Spring<D>::length_and_force(const State& state) const {
-  const auto line = axis_.line(state);
-  return {line.length, ConnectorPull(*connector_, line.length - connector_->length, line.rate).force};
+double Spring<D>::loss(const MeshedBeams<D>& at, const State& from, const State& to) const {
+  if (described(at).damping == 0) return 0;
+  const Line before = axis_.line(from), after = axis_.line(to);
+  const ConnectorPull first = pull(at, before, from.memory), last = pull(at, after, from.memory);
+  return (first.force - first.elastic + last.force - last.elastic) / 2 * (after.length - before.length);
 }
 
 template <int D>
-Eigen::Matrix<double, D, 1> Spring<D>::on_body(int body, const State& state) const {
+void Spring<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const {
+  const Connector& connector = described(at);
+  if (!connector.jumps() || memory.size() == 0) return;
+  const Line line = axis_.line(state);
+  // One that has been slack and come back within the step pulls on: the force goes on over its end.
+  const bool pulls = pull(at, line, state.memory).force != 0;
+  const double stretch = connector.sign() * (line.length - connector.length);
+  set_taut(at.structure, memory, number_, pulls || stretch > -connector.least_stretch(line.length));
+}
+
+template <int D>
+std::pair<double, double> Spring<D>::length_and_force(const MeshedBeams<D>& at, const State& state) const {
+  const Line line = axis_.line(state);
+  return {line.length, pull(at, line, state.memory).force};
+}
+
+template <int D>
+Eigen::Matrix<double, D, 1> Spring<D>::on_body(const MeshedBeams<D>& at, int body, const State& state) const {
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
-  const auto line = axis_.line(state);
-  const Eigen::Matrix<double, D, 1> pull = length_and_force(state).second * line.n;
+  const Line line = axis_.line(state);
+  const Eigen::Matrix<double, D, 1> force = pull(at, line, state.memory).force * line.n;
   for (const int end : {0, 1})
-    if (axis_.body(end) == body) sum += end == 0 ? pull : Eigen::Matrix<double, D, 1>(-pull);
+    if (axis_.body(end) == body) sum += end == 0 ? force : Eigen::Matrix<double, D, 1>(-force);
   return sum;
 }
 

@@ -6,42 +6,51 @@
 
 namespace nurbeam {
 
-/// The pull of a connector of that stretch e and rate of it, and its derivatives.
+/// The pull of a connector of that stretch e and rate of it, and its derivatives. One that carries one sign
+/// and is not `taut` at the start of a step has no damping in it; one that is, wherever it comes to: within a
+/// step nothing jumps.
 struct ConnectorPull {
   double force = 0;    ///< N [N]
   double elastic = 0;  ///< its part k e, whose energy is stored [N]
   double by_stretch = 0, by_rate = 0;
 
-  ConnectorPull(const Connector& connector, double stretch, double rate);
+  ConnectorPull(const Connector& connector, double stretch, double rate, bool taut);
 };
 
 /// A connector but a rod, in one mesh.
 template <int D>
 class Spring {
  public:
-  /// `connector` must outlive it.
-  Spring(const Connector& connector, const MeshedBeams<D>& at)
-      : connector_(&connector), axis_(connector, at.structure, at.mesh) {}
+  Spring(int connector, const MeshedBeams<D>& at)
+      : number_(connector), axis_(at.structure.connectors[connector], at.structure, at.mesh) {}
 
   const std::vector<int>& dofs() const { return axis_.dofs(); }
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <class Sink>
-  void add_tangent(const MeshedBeams<D>&, const State& state, const TangentWeights& w, Sink&& sink) const {
-    if (w.stiffness != 0 || w.damping != 0) sink.own(tangent(state, w));
+  void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    if (w.stiffness != 0 || w.damping != 0) sink.own(tangent(at, state, w));
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
 
-  const Connector& connector() const { return *connector_; }
+  /// What damping takes between two states [J]: the mean force on the way.
+  double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
+
+  /// In the model.
+  int connector() const { return number_; }
   /// |d| or n . d [m], and N [N].
-  std::pair<double, double> length_and_force(const State& state) const;
+  std::pair<double, double> length_and_force(const MeshedBeams<D>& at, const State& state) const;
   /// What it gives to a body [N].
-  Eigen::Matrix<double, D, 1> on_body(int body, const State& state) const;
+  Eigen::Matrix<double, D, 1> on_body(const MeshedBeams<D>& at, int body, const State& state) const;
 
  private:
   using Matrix = Eigen::Matrix<double, 2 * D, 2 * D>;
-  Matrix tangent(const State& state, const TangentWeights& w) const;
+  using Line = typename ConnectorAxis<D>::Line;
+  Matrix tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
+  ConnectorPull pull(const MeshedBeams<D>& at, const Line& line, const Eigen::VectorXd& memory) const;
+  const Connector& described(const MeshedBeams<D>& at) const { return at.structure.connectors[number_]; }
 
-  const Connector* connector_;
+  int number_;
   ConnectorAxis<D> axis_;
 };
 

@@ -133,11 +133,13 @@ bool hit_stop(MeshedState& at, int stop, double step, bool presses) {
 }
 
 // Whether a step that begins there comes to the event: from where the state is clear of it, or after it has
-// left.
+// left. What a hard stop pulls leaves.
 bool comes_to(const BeamSystem& system, const State& before, const State& after, const ContactEvent& event) {
   const double near = tolerance(system, before, event);
   const double from = beyond(system, before, before, event), to = beyond(system, before, after, event);
   if (event.kind == ContactEvent::Kind::hits) return to > (from < -near ? 0 : near);
+  const bool hard = event.kind == ContactEvent::Kind::leaves && !stop_of(system, event.stop).buffer;
+  if (hard && from > near) return to > near;
   return from < -near && to > 0;
 }
 
@@ -162,13 +164,16 @@ double tolerance(const BeamSystem& system, const State& before, const ContactEve
                   buffer->damping * std::abs(opening_rate(system, before, event.stop)));
 }
 
-std::optional<ContactEvent> first_contact(const BeamSystem& system, const State& before, const State& after) {
+std::optional<ContactEvent> first_contact(const BeamSystem& system, const State& before, const State& after,
+                                          bool nothing_leaves) {
   std::optional<ContactEvent> first;
   for (ContactEvent& event : possible_events(system, before)) {
-    if (!comes_to(system, before, after, event)) continue;
+    const bool stays =
+        nothing_leaves && event.kind == ContactEvent::Kind::leaves && !stop_of(system, event.stop).buffer;
+    if (stays || !comes_to(system, before, after, event)) continue;
     const double from = std::min(0.0, beyond(system, before, before, event)),
                  to = beyond(system, before, after, event);
-    event.part = from / (from - to);
+    event.part = from < 0 ? from / (from - to) : 0;
     if (!first || event.part < first->part) first = event;
   }
   return first;
@@ -189,8 +194,10 @@ bool start_contacts(MeshedState& at, double step) {
 
 std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, bool presses) {
   const bool hard = !stop_of(*at.system, event.stop).buffer;
-  if (event.kind == ContactEvent::Kind::hits && !hard)
-    set_presses(at.system->model(), at.state.memory, event.stop, true);
+  // A damped one is left while it is still pressed in, and followed until it is not.
+  if (!hard &&
+      (event.kind == ContactEvent::Kind::hits || stop_of(*at.system, event.stop).buffer->damping == 0))
+    set_presses(at.system->model(), at.state.memory, event.stop, event.kind == ContactEvent::Kind::hits);
   else if (event.kind == ContactEvent::Kind::hits && !hit_stop(at, event.stop, step, presses))
     return {};
   if (event.kind == ContactEvent::Kind::leaves && hard) {

@@ -26,8 +26,10 @@ struct ContactEvent {
   double part = 0;  ///< of the step, about, at which it happens
 };
 
-/// The first of them between two states of the system.
-std::optional<ContactEvent> first_contact(const BeamSystem& system, const State& before, const State& after);
+/// The first of them between two states of the system; `nothing_leaves`: what rests against a hard stop
+/// stays.
+std::optional<ContactEvent> first_contact(const BeamSystem& system, const State& before, const State& after,
+                                          bool nothing_leaves);
 /// How near a state of the step is to the event, negative before it; nearer than the tolerance is at it.
 double beyond(const BeamSystem& system, const State& before, const State& state, const ContactEvent& event);
 double tolerance(const BeamSystem& system, const State& before, const ContactEvent& event);

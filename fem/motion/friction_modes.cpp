@@ -6,6 +6,7 @@
 
 #include "fem/forces/memory.h"
 #include "fem/motion/mesh_rules.h"
+#include "fem/motion/taut_connectors.h"
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
 
@@ -106,6 +107,7 @@ std::vector<int> joints_with_friction(const BeamSystem& system) {
 
 bool start_memory(MeshedState& at, double step) {
   at.state.memory = no_memory(at.system->model());
+  start_connectors(at);
   return settle_friction(at, joints_with_friction(*at.system), step, false);
 }
 

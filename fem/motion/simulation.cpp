@@ -101,6 +101,7 @@ struct Simulation::Implementation {
     point.history = integrator_->history();
     point.next_step = step_;
     point.last_step = last_step_;
+    point.restarted = restarted_;
     point.dissipated = dissipated_;
     point.input = input_;
     point.start_energy = start_energy_;
@@ -219,6 +220,7 @@ struct Simulation::Implementation {
     integrator_->restore(point.state, point.history);
     step_ = point.next_step;
     last_step_ = point.last_step;
+    restarted_ = point.restarted;
     dissipated_ = point.dissipated;
     input_ = point.input;
     start_energy_ = point.start_energy;
@@ -310,8 +312,9 @@ struct Simulation::Implementation {
     end_at_end_time();
   }
 
-  // One accepted step and what follows from it. Returns false when the run cannot go on.
-  bool take_step(double step) {
+  // One accepted step and what follows from it; `nothing_leaves` a hard stop in it. Returns false when the
+  // run cannot go on.
+  bool take_step(double step, bool nothing_leaves = false) {
     const State before = at_.state;
     const IntegratorHistory history = integrator_->history();
     const StepReport taken = step_keeping_energy(before, history, step);
@@ -324,22 +327,27 @@ struct Simulation::Implementation {
     ++report_.steps;
     last_step_ = taken.step;
     at_.state = integrator_->state();
-    restarted_ = false;
+    const bool first = std::exchange(restarted_, false);
     const double end = at_.state.t;
     std::optional<Crossing> crossing = first_crossing(*at_.system, before, at_.state);
     if (crossing) land({before, history, at_.state, taken.step}, *crossing);
-    const std::optional<StepEvent> event = land_on_event(before, history);
+    const std::optional<StepEvent> event = land_on_event(before, history, nothing_leaves);
     if (event) crossing.reset();
     if (crossing) at_.state = carried_over(*at_.system, std::move(at_.state), taken.step, *crossing);
     const std::optional<Crossing> ending = end_passed(*at_.system, at_.state);
     if (ending) land({before, history, at_.state, at_.state.t - before.t}, *ending);
     if (!crossing && !event && !ending && !options_.step)
       land_on_change({before, history, at_.state, taken.step});
-    if (event && at_.state.t == before.t) return pass_event(*event, true);
+    if (event && at_.state.t == before.t) {
+      if (!pass_event(*event, true)) return false;
+      // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
+      return !rests_by(*event) || take_step(step, true);
+    }
     const double length = at_.state.t == end ? taken.step : at_.state.t - before.t;
     last_record_ = {at_.state.t, length, taken.newton_iterations, taken.rejected};
     steps_.push_back(last_record_);
-    if (at_.state.t > before.t) dissipated_ += lost_between(before, at_.state);
+    if (at_.state.t > before.t)
+      dissipated_ += lost_between(before, at_.state) - (first ? unbalanced_work(before, at_.state) : 0);
     if (driven()) input_ += input_work(*at_.system, before, at_.state);
     if (ending && !end_sliding(*ending)) return false;
     note_friction(before, event);
@@ -386,7 +394,7 @@ struct Simulation::Implementation {
     const SystemEnergy now = energy(*at_.system, after);
     known_energy_ = {after.t, now};
     double gained = now.mechanical() - old.mechanical();
-    gained += lost_between(before, after);
+    gained += lost_between(before, after) - (restarted_ ? unbalanced_work(before, after) : 0);
     if (driven()) gained -= input_work(*at_.system, before, after);
     const double strain = old.strain(), fallen = std::abs(now.gravity - old.gravity);
     const double scale = std::max({report_.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
@@ -443,19 +451,27 @@ struct Simulation::Implementation {
   }
 
   // Repeats a step in which an event happens so that it ends there.
-  std::optional<StepEvent> land_on_event(const State& before, const IntegratorHistory& history) {
+  std::optional<StepEvent> land_on_event(const State& before, const IntegratorHistory& history,
+                                         bool nothing_leaves) {
     std::optional<StepEvent> found;
     if (!has_events_) return found;
-    const std::size_t most =
-        model_->joints.size() + model_->stops.size();  // the first found need not come first
+    const std::size_t most = model_->joints.size() + model_->stops.size() +
+                             model_->connectors.size();  // the first found need not come first
     for (std::size_t i = 0; i <= most && at_.state.t > before.t; ++i) {
-      const std::optional<StepEvent> event = first_event(*at_.system, before, at_.state);
+      const std::optional<StepEvent> event = first_event(*at_.system, before, at_.state, nothing_leaves);
       if (!event) break;
       const State after = at_.state;
       at_.state = landed(*at_.system, *integrator_, {before, history, after, after.t - before.t}, *event);
       found = event;
     }
     return found;
+  }
+
+  // Whether the event has closed a hard stop.
+  bool rests_by(const StepEvent& event) const {
+    const auto* contact = std::get_if<ContactEvent>(&event);
+    return contact && contact->kind == ContactEvent::Kind::hits &&
+           at_.system->mesh().plan.is_closed(contact->stop);
   }
 
   // What the event that a step has ended at does; `at_once`: that the step would begin with. What it takes
@@ -465,16 +481,30 @@ struct Simulation::Implementation {
     if (contact && contact->kind == ContactEvent::Kind::bodies_meet)
       return goes_on(
           Failure{.kind = Failure::Kind::bodies_meet, .time = at_.state.t, .places = places_of(at_)});
+    if (const auto* taut = std::get_if<TautEvent>(&event)) {
+      apply(at_, *taut);
+      return restart();
+    }
     RunEvent happened = event_before(at_, EventKind::slides, joint_of(*model_, event));
     const std::optional<EventKind> kind =
-        std::visit([&](const auto& e) { return apply(at_, e, shortest_time(), at_once); }, event);
+        contact ? apply(at_, *contact, shortest_time(), at_once)
+                : apply(at_, std::get<FrictionChange>(event), shortest_time(), at_once);
     if (!kind) return fail(Failure::Kind::mass_matrix);
     happened.kind = *kind;
     dissipated_ += happened.energy_before - energy(*at_.system, at_.state).mechanical();
     if (!restart()) return false;
     finish_event(at_, happened);
-    report_.events.push_back(std::move(happened));
+    if (at_once && happened.kind == EventKind::rests_at_stop && has_just_left(happened))
+      report_.events.pop_back();
+    else
+      report_.events.push_back(std::move(happened));
     return true;
+  }
+
+  // Whether the last event was that the body left its stop at that moment.
+  bool has_just_left(const RunEvent& event) const {
+    return !report_.events.empty() && report_.events.back().kind == EventKind::leaves_stop &&
+           report_.events.back().time == event.time && report_.events.back().body == event.body;
   }
 
   // Of bodies that stick or slide though their step did not end there.
@@ -537,6 +567,14 @@ struct Simulation::Implementation {
     return (damped() ? dissipated_between(from, to) : 0) + lost_energy(*at_.system, from, to);
   }
 
+  // Of what the accelerations of a restart leave out of balance (make_accelerations_smooth): transients that
+  // the step does not follow, of which the trapezoidal rule takes half.
+  double unbalanced_work(const State& from, const State& to) const {
+    Eigen::VectorXd dynamics(at_.system->coordinate_count()), closed(at_.system->constraint_count());
+    at_.system->residual(from, dynamics, closed);
+    return dynamics.dot(to.q - from.q) / 2;
+  }
+
   double strain_noise() const {
     double stiffness = 0;
     for (const Beam& beam : model_->beams) stiffness += beam.properties.axial_stiffness * beam.curve.length();
@@ -544,12 +582,9 @@ struct Simulation::Implementation {
   }
 
   bool damped() const {
-    const auto& connectors = model_->connectors;
-    if (std::any_of(connectors.begin(), connectors.end(),
-                    [](const Connector& connector) { return connector.damping > 0; }))
-      return true;
-    return std::any_of(model_->beams.begin(), model_->beams.end(),
-                       [](const Beam& beam) { return beam.properties.is_damped(); });
+    return std::any_of(
+        model_->beams.begin(), model_->beams.end(),
+        [](const Beam& beam) { return beam.properties.is_damped(); });
   }
 
   bool driven() const {
@@ -715,7 +750,7 @@ struct Simulation::Implementation {
   double seconds_ = 0;                     // of the calls so far, and of the run that was interrupted
   std::optional<Clock::time_point> call_;  // when the present one began
   std::vector<double> kinks_;              // of tables: steps end there
-  const bool has_events_;                  // of bodies with friction or stops, or on guides
+  const bool has_events_;                  // of friction, stops and connectors, or of bodies on guides
   SimulationReport report_;
   MeshedState at_;
   std::unique_ptr<Integrator> integrator_;

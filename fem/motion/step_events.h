@@ -5,6 +5,7 @@
 
 #include "fem/motion/contacts.h"
 #include "fem/motion/friction_modes.h"
+#include "fem/motion/taut_connectors.h"
 #include "solver/event.h"
 
 namespace nurbeam {
@@ -12,15 +13,16 @@ namespace nurbeam {
 /// The list of what a step ends at, beside the places that bodies cross (crossing.h) and the ends of beams:
 /// all that has to be said of a new one outside its own file. Each has a `part` of the step, about, at which
 /// it happens, and beyond(), tolerance() and apply().
-using StepEvent = std::variant<FrictionChange, ContactEvent>;
+using StepEvent = std::variant<FrictionChange, ContactEvent, TautEvent>;
 
-/// The first event between two states of the system.
-std::optional<StepEvent> first_event(const BeamSystem& system, const State& before, const State& after);
+/// The first event between two states of the system; `nothing_leaves` as for first_contact.
+std::optional<StepEvent> first_event(const BeamSystem& system, const State& before, const State& after,
+                                     bool nothing_leaves);
 /// The state to which a step of another length leads, just before the event; the state before the step where
 /// that begins at the event.
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
              const StepEvent& event);
-/// The body of which joint it is about.
+/// The body of which joint it is about; not of connectors.
 int joint_of(const BeamModel& model, const StepEvent& event);
 
 }  // namespace nurbeam

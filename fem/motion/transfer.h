@@ -18,8 +18,8 @@ struct Transferred {
   Eigen::VectorXd impulse;
 };
 
-/// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far as
-/// they were, or round-off.
+/// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far
+/// as they were, or round-off.
 double closed_enough(const BeamSystem& from, const State& state);
 
 /// The same for a mesh that cannot hold the motion exactly: velocities are the L2 projection of the material

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,7 @@ enum class ConnectorLength {
 /// direction n, it pulls them together with N = k e + c e'.
 ///
 /// Of the types that carry one sign alone, N = max(0, k e + c e') where e > 0, else 0; or the same mirrored.
+/// With a damper N jumps where e comes to 0, at which a step ends: State::memory says where one is taut.
 struct Connector {
   std::string name;
   std::array<ConnectorEnd, 2> ends;
@@ -47,6 +49,14 @@ struct Connector {
   std::optional<Eigen::Vector3d> direction = {};  ///< n, of unit length
   ConnectorLength length_rule = ConnectorLength::given;
   double force = 0;  ///< with ConnectorLength::force [N]
+
+  /// Of the types that carry one sign: 1 where that is a pull, -1 a push; 0 of the others.
+  int sign() const {
+    return type == ConnectorType::tension_only ? 1 : type == ConnectorType::compression_only ? -1 : 0;
+  }
+  bool jumps() const { return sign() != 0 && damping > 0; }
+  /// Less is none, where its ends are that far apart [m].
+  double least_stretch(double distance) const { return 1e-12 * (std::abs(distance) + std::abs(length)); }
 };
 
 }  // namespace nurbeam

@@ -159,8 +159,8 @@ void Assembly<D>::bind_forces() {
   for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i)
     if (model_->stops[i].buffer && is_in_place(mesh_, model_->stops[i]))
       forces_.emplace_back(BufferForce<D>(at, i));
-  for (const Connector& connector : model_->connectors)
-    if (connector.type != ConnectorType::rod) forces_.emplace_back(Spring<D>(connector, at));
+  for (int i = 0; i < static_cast<int>(model_->connectors.size()); ++i)
+    if (model_->connectors[i].type != ConnectorType::rod) forces_.emplace_back(Spring<D>(i, at));
   for (const Force& force : model_->forces)
     forces_.push_back(std::visit(
         [&](const auto& description) -> BoundForce<D> { return bind_force<D>(description, at, drawn); },
@@ -332,7 +332,7 @@ template <int D>
 typename Assembly<D>::Vector Assembly<D>::pull_on_body(int body, const State& state) const {
   Vector sum = Vector::Zero();
   for (const BoundForce<D>& force : forces_)
-    if (const auto* spring = std::get_if<Spring<D>>(&force)) sum += spring->on_body(body, state);
+    if (const auto* spring = std::get_if<Spring<D>>(&force)) sum += spring->on_body(beams(), body, state);
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     if (const auto* rod = std::get_if<KeptLength<D>>(&constraints_[i]))
       sum += rod->on_body(body, state.lambda[constraint_blocks_[i].row], state);
@@ -341,12 +341,12 @@ typename Assembly<D>::Vector Assembly<D>::pull_on_body(int body, const State& st
 
 template <int D>
 std::pair<double, double> Assembly<D>::length_and_force(int i, const State& state) const {
-  const Connector* asked = &model_->connectors[i];
   for (const BoundForce<D>& force : forces_)
-    if (const auto* spring = std::get_if<Spring<D>>(&force); spring && &spring->connector() == asked)
-      return spring->length_and_force(state);
+    if (const auto* spring = std::get_if<Spring<D>>(&force); spring && spring->connector() == i)
+      return spring->length_and_force(beams(), state);
   for (const BoundConstraint<D>& constraint : constraints_)
-    if (const auto* rod = std::get_if<KeptLength<D>>(&constraint); rod && &rod->connector() == asked)
+    if (const auto* rod = std::get_if<KeptLength<D>>(&constraint);
+        rod && &rod->connector() == &model_->connectors[i])
       return {rod->length(state), state.lambda[rod_rows_[i].first]};
   return {};
 }

@@ -34,6 +34,13 @@ void check_stiffness(const Json& json, const std::string& path, const CaseConnec
     findings.error(child(path, "force"),
                    "is " + text_of(connector.force) +
                        " N, but the stiffness is 0, with which no length gives a force; give a stiffness");
+  const bool pulls = connector.type == ConnectorType::tension_only;
+  if ((pulls && connector.force < 0) ||
+      (connector.type == ConnectorType::compression_only && connector.force > 0))
+    findings.error(child(path, "force"),
+                   "is " + text_of(connector.force) + " N, a " + (pulls ? "push" : "pull") + ", but " +
+                       (pulls ? "\"tension-only\" pulls" : "\"compression-only\" pushes") +
+                       "; turn the sign, or use \"spring\"");
 }
 
 }  // namespace

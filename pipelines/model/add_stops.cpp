@@ -136,6 +136,11 @@ void add_stops(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
   for (const CaseStop& stop : resolved.stops) {
     const int b = resolved.beam_index(stop.beam);
     const std::vector<int> joints = stopped_joints(stop, b, model, findings);
+    if (stop.bodies.empty() && joints.empty())
+      findings.error(stop.path + ".beam",
+                     "names " + in_quotes(stop.beam) +
+                         ", on which no body slides; name the beam of the bodies that it "
+                         "is to stop, or leave the stop out");
     Stops stops(stop, b, model, findings);
     if (stop.at) {
       stops.stand_at(place_on(beams[b], *stop.at, stop.path, findings), joints);

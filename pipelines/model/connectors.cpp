@@ -128,6 +128,12 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
       findings.error(from.path + ".length",
                      "is \"as-drawn\", but a support holds its first end where it is drawn anyway; exchange "
                      "\"from\" and \"to\", or leave \"length\" out");
+    if (connector.jumps() && analysis.type == CaseAnalysis::Type::dynamic &&
+        std::holds_alternative<Ida>(analysis.integrator))
+      findings.error("analysis.integrator.type",
+                     "is \"ida\", but " + from.path +
+                         " carries one sign with a damper, and \"ida\" has no memory for when it is taut; "
+                         "leave \"damping\" out, or use \"generalized-alpha\"");
     for (const int end : {0, 1}) add_mass(from.end_masses[end], connector.ends[end], model);
     model.connectors.push_back(std::move(connector));
   }

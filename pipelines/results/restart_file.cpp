@@ -222,6 +222,7 @@ void exchange_numbers(Archive& archive, Checkpoint& p) {
                   slot(point.snapshots);
                   slot(point.next_step);
                   slot(point.last_step);
+                  slot(point.restarted);
                   slot(point.dissipated);
                   slot(point.input);
                   slot(point.start_energy);
@@ -298,7 +299,8 @@ void exchange(Archive& archive, Checkpoint& p) {
   exchange_vector(archive, "a", "generalised accelerations", p.state.a);
   exchange_vector(archive, "lambda", "Lagrange multipliers", p.state.lambda);
   exchange_vector(archive, "memory",
-                  "memory of forces: per body with friction z [m], s [m] and the way it slides",
+                  "memory of forces: per body with friction z [m], s [m] and the way it slides; per stop; "
+                  "per connector of one sign with a damper",
                   p.state.memory);
   exchange_history(archive, p.history);
 

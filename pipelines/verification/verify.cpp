@@ -140,6 +140,7 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, torsion_sliding_problems());
   append(all, mechanics_problems());
   append(all, train_problems());
+  append(all, energy_problems());
   append(all, sliding_problems());
   return all;
 }

@@ -64,6 +64,7 @@ std::vector<VerifyProblem> resistance_problems();
 std::vector<VerifyProblem> torsion_sliding_problems();
 std::vector<VerifyProblem> mechanics_problems();
 std::vector<VerifyProblem> train_problems();
+std::vector<VerifyProblem> energy_problems();
 
 /// Runs the problems, as many at a time as there are processors, and prints their table to `out` and what is
 /// done so far to `progress`. A problem that throws is one failed row. Returns the exit code: 0, or 1 when a

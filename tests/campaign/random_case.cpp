@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/campaign/draw.h"
+
 namespace nurbeam::campaign {
 
 namespace {
@@ -16,9 +18,9 @@ using std::numbers::pi;
 
 Json to_json(const Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-class Generator {
+class Generator : private Draw {
  public:
-  explicit Generator(unsigned long seed) : random_(seed) {}
+  explicit Generator(unsigned long seed) : Draw(seed) {}
 
   Json make() {
     planar_ = chance(0.5);
@@ -35,16 +37,6 @@ class Generator {
   }
 
  private:
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
-  template <class T>
-  T one_of(const std::vector<T>& choices) {
-    return choices[whole(0, static_cast<int>(choices.size()) - 1)];
-  }
   /// In the x-z plane where the model is planar.
   Vector3d vector(double size) {
     return {uniform(-size, size), planar_ ? 0 : uniform(-size, size), uniform(-size, size)};
@@ -259,7 +251,6 @@ class Generator {
     if (!analysis.contains("type")) c["output"]["every"] = end_time() / 20;
   }
 
-  std::mt19937_64 random_;
   bool planar_ = true, torsion_ = false, ring_ = false;
   double length_ = 1, slenderness_ = 100, modulus_ = 1e9, density_ = 1000;
   bool damped_or_not_ = false;

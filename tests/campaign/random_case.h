@@ -1,6 +1,5 @@
 #pragma once
 #include <nlohmann/json.hpp>
-#include <random>
 
 namespace nurbeam::campaign {
 
@@ -10,5 +9,8 @@ using Json = nlohmann::ordered_json;
 /// rings, cables or with torsion, supports, joints, sliding bodies, loads and motions over time, any
 /// integrator. The same for the same seed. It moves for some hundred steps at most.
 Json random_case(unsigned long seed);
+/// The same of what resists, holds and connects: bodies with friction, drag and stops on guides, rings, ropes
+/// and bars, in the plane and in space, with loads that hang on them, trains and droppers.
+Json random_mechanics(unsigned long seed);
 
 }  // namespace nurbeam::campaign

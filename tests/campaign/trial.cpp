@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "fem/mesh/connector_axis.h"
 #include "fem/motion/kinks.h"
 #include "fem/motion/resting_place.h"
 #include "fem/motion/simulation.h"
@@ -107,6 +108,27 @@ Vector3d mass_damping_force(const BeamSystem& system, const State& state) {
   return force;
 }
 
+Vector3d place_of_end(const BeamSystem& system, const State& state, const ConnectorEnd& end) {
+  if (end.is_point()) return end.point;
+  if (end.body >= 0) return vector_at(system, state.q, system.mesh().bodies[end.body]);
+  return vector_at(system, state.q, kept_position(system.model(), system.mesh(), end.beam, end.s, "an end"));
+}
+
+/// What points in space give through connectors.
+Vector3d force_of_points(const BeamSystem& system, const State& state) {
+  Vector3d force = Vector3d::Zero();
+  for (int i = 0; i < static_cast<int>(system.model().connectors.size()); ++i) {
+    const Connector& connector = system.model().connectors[i];
+    const Vector3d d =
+        place_of_end(system, state, connector.ends[1]) - place_of_end(system, state, connector.ends[0]);
+    const Vector3d n = connector.direction ? *connector.direction : Vector3d(d.normalized());
+    const double pull = length_and_force(system, state, i).second;
+    if (connector.ends[1].is_point()) force += pull * n;
+    if (connector.ends[0].is_point()) force -= pull * n;
+  }
+  return force;
+}
+
 /// Weight, loads and reactions at a moment.
 Loads external_forces(const BeamSystem& system, const State& state) {
   Loads loads;
@@ -137,6 +159,7 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
     if (model.beam_of(model.joints[j]).rigid) loads.add(joint_force(system, state, j));
   loads.add(mass_damping_force(system, state));
+  loads.add(force_of_points(system, state) - force_of_points(system, free));
   double length = 0;
   for (const Beam& beam : model.beams) length += beam.curve.length();
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i) {
@@ -242,7 +265,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     events = point.report.events.size();
     // Right after a change of the mesh, where it may be left, or a jump of a prescribed speed accelerations
     // are means over the next step.
-    if (!goes_on || left || !with_accelerations || point.steps.empty()) return;
+    if (!goes_on || point.restarted || left || !with_accelerations || point.steps.empty()) return;
     if (!motion_kinks(*model, point.state.t).empty()) return;
     // Where a run is about to fail its steps shorten until round-off, over their square, is what accelerates.
     const double step = point.steps.back().size;

@@ -250,6 +250,8 @@ TEST(FrictionRun, WhatCannotBeIsRefused) {
   says("sliding_joints[0].friction.force=-3", "must be at least 0");
   says("sliding_joints[0].friction.stick_stiffness=0", "must be greater than 0");
   says("analysis.integrator.type=ida", "friction");
+  says("sliding_joints[0].friction={\"stick_stiffness\": 100}",
+       "friction: resists nothing; give \"coefficient\"");
   says("bodies[0].drag_area=0.8", "bodies[0].drag_area: needs the \"air\" that drags");
 }
 

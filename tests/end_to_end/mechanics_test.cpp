@@ -148,8 +148,25 @@ TEST(Rope, WithADamperLosesWhatIsBooked) {
     EXPECT_GT(run.last("energy.dissipated [J]"), 5);
     changes.push_back(energy_change(run));
   }
-  EXPECT_LT(changes[2], 0.02);
-  EXPECT_LT(changes[2], 0.6 * changes[0]);
+  EXPECT_LT(changes[2], 1e-4);
+  EXPECT_LT(changes[2], 0.1 * changes[0]);
+}
+
+// Falling 0.1 m onto a damper that takes all within a step, or within a thousandth of one: no step fails,
+// what is lost is booked where steps follow it, and little is made up where they do not.
+TEST(Rope, WithADamperStifferThanTheStepsIsNoTrouble) {
+  for (const auto& [damping, departs] :
+       {std::pair{"1e3", 1e-3}, {"1e4", 0.02}, {"1e5", 0.1}, {"1e6", 0.15}}) {
+    SCOPED_TRACE(damping);
+    const CaseRun run =
+        run_mechanics(rope, {std::string("connectors[0].damping=") + damping, "connectors[0].length=1.1",
+                             "analysis={\"end_time\": 1, \"step\": 1e-3}"});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    const double fallen = 1.5 * 1.5 * 10 / 2 + 10 * 9.81 * (-1 - run.last("load.z [m]"));
+    EXPECT_LT(energy_change(run), departs * fallen);
+    if (departs > 0.05) continue;  // the method rings where c h/m is beyond 2
+    for (std::size_t i = 0; i < run.rows.size(); ++i) EXPECT_LT(run.value(i, "load.vz [m/s]"), 1.5);
+  }
 }
 
 // A pendulum of 2 m from 60 degrees: period 4 K(sin 30) sqrt(l/g).
@@ -299,6 +316,11 @@ TEST(Connectors, ThatCannotBeAreRefused) {
   refused({"connectors[0]={\"name\": \"r\", \"from\": {\"body\": \"load\"}, \"to\": {\"point\": [0, 0, 0]}, "
            "\"type\": \"rod\", \"length\": 1.5}"},
           "connectors[0].length: is 1.5 m, but the ends of the rod are 1 m apart as drawn");
+  refused({"connectors[0].force=-5"}, "connectors[0].force: is -5 N, a push, but \"tension-only\" pulls");
+  refused({"connectors[0].damping=5", "analysis={\"end_time\": 1, \"integrator\": {\"type\": \"ida\"}}"},
+          "connectors[0] carries one sign with a damper");
+  refused({"stops=[{\"beam\": \"post\", \"at\": \"end\"}]"},
+          "stops[0].beam: names \"post\", on which no body slides");
   refused({"supports[0].direction=[1, 0, 0]"}, "is for the type \"guided\" only");
   refused({"supports[0].type=guided"}, "\"guided\" needs the \"direction\"");
 }

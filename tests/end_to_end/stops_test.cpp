@@ -121,6 +121,24 @@ TEST(StopsRun, WithFrictionTheWayBackIsShorter) {
   EXPECT_LT(total_drift(stops.run), 1e-5);
 }
 
+// Between two buffers that lose nothing: pi/w in each, 2/3 s on the way.
+TEST(StopsRun, BuffersThatLoseNothingThrowABodyToAndFro) {
+  const StopRun stops = run_stops(one_body(level, 80, R"("at": {"length": 3}, "speed": 3)",
+                                           R"([{"beam": "rail", "at": {"length": 4}, "stiffness": 20000},
+                             {"beam": "rail", "at": {"length": 2}, "stiffness": 20000}])",
+                                           R"({"end_time": 10, "step": "1 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  const double in = std::numbers::pi / std::sqrt(2e4 / 80), between = 2.0 / 3;
+  const std::vector<double> hits = stops.times("hits a stop"), leaves = stops.times("leaves a stop");
+  ASSERT_EQ(hits.size(), 12u);
+  ASSERT_EQ(leaves.size(), 11u);
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    EXPECT_NEAR(hits[i], 1.0 / 3 + i * (in + between), 1e-5 * (i + 1)) << i;
+    EXPECT_NEAR(leaves[i] - hits[i], in, 1e-5) << i;
+  }
+  EXPECT_LT(total_drift(stops.run), 0.02);
+}
+
 TEST(StopsRun, ABufferThatDoesNotStickLetsTheBodyGoWhereItsForceEnds) {
   // S3: x = v/w exp(-b t) sin(w t), away where k x + c dx/dt = 0.
   const double m = 80, k = 2e4, c = 800, v = 3, b = c / (2 * m), w = std::sqrt(k / m - b * b);

@@ -115,17 +115,24 @@ TEST(ConnectedSystem, EnergyIsWhatForcesWorkAgainst) {
     State slow = moving;
     slow.v *= 0.5;
     const Eigen::VectorXd less = residual_of(system, slow).head(system.coordinate_count()) - f;
-    // Of linear dampers: what is of first order in the velocities works as the dissipation says.
-    EXPECT_NEAR((4 * less - lost).dot(state.v), energy(system, moving).dissipation,
+    // Of linear dampers: what is of first order in the velocities works as the dissipation of the beams says,
+    // and what connectors lose on a short way.
+    State there = moving, here = moving;
+    there.q += h * state.v;
+    here.q -= h * state.v;
+    const double of_connectors = lost_energy(system, here, there) / (2 * h);
+    EXPECT_GT(of_connectors, 0);
+    EXPECT_NEAR((4 * less - lost).dot(state.v), energy(system, moving).dissipation + of_connectors,
                 1e-6 * lost.norm() * state.v.norm());
   }
 }
 
 SimulationReport glide(const BeamModel& model, double end, std::vector<Snapshot>& frames,
-                       std::vector<RunEvent>& events) {
+                       std::vector<RunEvent>& events, double step = 2e-4) {
   SimulationOptions options;
   options.end_time = end;
-  options.step = 2e-4;
+  options.step = step;
+  options.length_control.min = 0.2;
   for (int i = 0; i <= 20; ++i) options.output_times.push_back(end * i / 20);
   options.integrator = GeneralizedAlpha{.rho_infinity = 0.9};
   SimulationObserver observer;
@@ -160,8 +167,14 @@ TEST(PlaceMass, KeepsItsMomentumWhereTheMeshChanges) {
     }
     EXPECT_GE(points, kinks ? 1 : 2);
     EXPECT_GE(merges, 2);
-    // A chain in flight whips.
-    EXPECT_NEAR(frames.back().energy.total, frames.front().energy.total, kinks ? 1e-2 : 2e-4);
+    const double lost = std::abs(frames.back().energy.total - frames.front().energy.total);
+    // A chain whips: waves run into the element that shrinks before the trolley, faster and faster. The steps
+    // that follow them keep their energy.
+    EXPECT_LT(lost, kinks ? 1e-2 : 2e-4);
+    if (!kinks) continue;
+    std::vector<Snapshot> fine;
+    ASSERT_FALSE(glide(builder.build(), 0.8, fine, events, 2.5e-5).failure);
+    EXPECT_LT(std::abs(fine.back().energy.total - fine.front().energy.total), 2e-4);
   }
 }
 
