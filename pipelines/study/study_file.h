@@ -128,6 +128,7 @@ struct StudyFile {
   std::optional<StudySurrogate> surrogate = {};
   unsigned seed = 1;
   std::optional<double> time_limit = {};  ///< of one variant, in wall time [s]
+  bool derivatives = false;               ///< variants come with derivatives of the quantities
 
   /// Indices of the variables that are not derived.
   std::vector<std::size_t> free_variables() const;

@@ -1,0 +1,17 @@
+#pragma once
+#include <memory>
+
+#include "fem/motion/meshed_state.h"
+
+namespace nurbeam {
+
+/// Whether two systems have the same nodes and coordinates: that of a model and of a neighbouring one.
+bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
+
+/// The system of a neighbouring model on the mesh of a rest: with the same nodes, and joints held at the
+/// corresponding places. Throws std::runtime_error where sections have other charts than the drawing's, or
+/// elements constant weights.
+std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
+                                         const std::shared_ptr<const BeamModel>& model);
+
+}  // namespace nurbeam
