@@ -62,6 +62,15 @@ State unloaded(const SecondOrderSystem& system, State state) {
   return state;
 }
 
+/// (m) g(q, t).
+Eigen::VectorXd constraint_values(const SecondOrderSystem& system, const State& moving) {
+  const State state = unloaded(system, moving);
+  Eigen::VectorXd dynamics(system.coordinate_count());
+  Eigen::VectorXd constraints(system.constraint_count());
+  system.residual(state, dynamics, constraints);
+  return constraints;
+}
+
 /// (n) f(q, v, t): what is left of minus the dynamics without acceleration and multipliers.
 Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
   const State state = unloaded(system, moving);
@@ -117,6 +126,26 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
 
 ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
   return make_accelerations_smooth(system, 0, state);
+}
+
+double open_constraints(const SecondOrderSystem& system, const State& state) {
+  return constraint_values(system, state).lpNorm<Eigen::Infinity>();
+}
+
+bool close_constraints(const SecondOrderSystem& system, double enough, State& state) {
+  constexpr int most_moves = 10;
+  State closed = state;
+  Eigen::VectorXd open = constraint_values(system, closed);
+  for (int i = 0; i < most_moves && open.lpNorm<Eigen::Infinity>() > enough; ++i) {
+    const FactorisedKkt kkt(system, unloaded(system, closed));
+    if (!kkt.regular()) return false;
+    closed.q += kkt.solve(Eigen::VectorXd::Zero(closed.q.size()), -open).head(closed.q.size());
+    if (!system.admissible(closed)) return false;
+    open = constraint_values(system, closed);
+  }
+  if (!(open.lpNorm<Eigen::Infinity>() <= enough)) return false;
+  state = std::move(closed);
+  return true;
 }
 
 Projection project_velocities(const SecondOrderSystem& system, State& state, double h) {

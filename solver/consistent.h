@@ -19,6 +19,13 @@ enum class ConsistencyStatus {
 [[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
                                                           State& state);
 
+/// The largest of what is left of the constraints g(q, t), in their units.
+double open_constraints(const SecondOrderSystem& system, const State& state);
+
+/// Closes the constraints to `enough`, in their units, by least displacements in the mass norm (Newton's
+/// method); nothing moves where they are closed. Returns whether they are in the end.
+[[nodiscard]] bool close_constraints(const SecondOrderSystem& system, double enough, State& state);
+
 struct Projection {
   ConsistencyStatus status;
   Eigen::VectorXd impulse;  ///< (m) of the constraints [N s]

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "fem/motion/sliding_bodies.h"
+#include "fem/motion/transfer.h"
 #include "fem/system/initial_state.h"
+#include "solver/consistent.h"
 
 namespace nurbeam {
 
@@ -32,12 +34,14 @@ MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest
   const bool exact = at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change);
   const std::vector<bool> held(model.joints.size(), at_rest);
   auto to = std::make_unique<BeamSystem>(at.system->shared_model(), next.plan, held);
+  std::optional<Transferred> moved;
   if (exact) {
-    State moved = interpolated(*at.system, at.state, *to);
-    at = {std::move(to), std::move(moved)};
-    return {};
+    State carried = interpolated(*at.system, at.state, *to);
+    if (close_constraints(*to, closed_enough(*at.system, at.state), carried))
+      moved = Transferred{std::move(carried), {}};
+  } else {
+    moved = projected(*at.system, at.state, *to);
   }
-  std::optional<Transferred> moved = projected(*at.system, at.state, *to);
   if (!moved)
     return {Failure{.kind = Failure::Kind::projection, .time = at.state.t, .places = places_of(at)}, {}};
   at = {std::move(to), std::move(moved->state)};

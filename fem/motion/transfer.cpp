@@ -1,8 +1,10 @@
 #include "fem/motion/transfer.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "fem/motion/carried_sections.h"
@@ -20,7 +22,7 @@ namespace {
 class Remap {
  public:
   Remap(const BeamSystem& from, const State& state, const BeamSystem& to)
-      : from_(from), state_(state), to_(to) {}
+      : from_(from), state_(state), to_(to), enough_(closed_enough(from, state)) {}
 
   // The velocities for the places next.q, by L2 projection: nothing when that is singular.
   std::optional<Transferred> with_velocities(State next) const {
@@ -34,6 +36,7 @@ class Remap {
           material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
     }
     carry_bodies(to_, next);
+    if (!close_constraints(to_, enough_, next)) return std::nullopt;
     const Projection projection = velocities_from_momentum(to_, momentum_on(next), next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
@@ -98,26 +101,22 @@ class Remap {
     return false;
   }
 
-  // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy: d = -(K + mu M)^-1 g.
+  // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy, and what constraints allow:
+  // d = -(K + mu M)^-1 g in that space.
   Eigen::VectorXd least_move(const State& next, const std::vector<int>& free, double e) const {
-    const long n = static_cast<long>(free.size());
     State still = next;
     still.v.setZero();
     still.a.setZero();
     still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
     Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
     to_.residual(still, force, constraints);
-    add_carried_forces(still, force);
+    const Eigen::MatrixXd allowed = allowed_moves(still, free);
+    if (allowed.cols() == 0) return Eigen::VectorXd::Zero(allowed.rows());
     const auto part = [&](const TangentWeights& weights) {
-      Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
-      to_.tangent(still, weights, kkt);
-      Eigen::MatrixXd block(n, n);
-      for (long i = 0; i < n; ++i)
-        for (long k = 0; k < n; ++k) block(i, k) = kkt.coeff(free[i], free[k]);
+      const Eigen::MatrixXd block = allowed.transpose() * tangent_block(still, weights, free, free) * allowed;
       return Eigen::MatrixXd((block + block.transpose()) / 2);
     };
-    Eigen::VectorXd g(n);
-    for (long i = 0; i < n; ++i) g[i] = force[free[i]];
+    const Eigen::VectorXd g = allowed.transpose() * force(free);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(part({.stiffness = 1}),
                                                                           part({.mass = 1}));
     const Eigen::ArrayXd K = modes.eigenvalues().array();
@@ -137,32 +136,34 @@ class Remap {
       const double middle = (low + high) / 2;
       (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
     }
-    return modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix();
+    return allowed * (modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix());
   }
 
-  // Adds to forces on the mesh those on bodies with an offset, which it carries: by the rows of the
-  // constraints that have the bodies' coordinates.
-  void add_carried_forces(const State& state, Eigen::VectorXd& force) const {
-    const auto& joints = to_.model().joints;
-    if (std::none_of(joints.begin(), joints.end(), [](const SlidingJoint& j) { return j.is_offset(); }))
-      return;
+  Eigen::MatrixXd tangent_block(const State& still, const TangentWeights& weights,
+                                const std::vector<int>& rows, const std::vector<int>& columns) const {
     Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
-    to_.tangent(state, {}, kkt);
-    const int n = to_.coordinate_count();
-    const Eigen::SparseMatrix<double> G = kkt.block(n, 0, to_.constraint_count(), n);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (!joints[j].is_offset() || to_.mesh().plan.modes[j] == JointMode::free) continue;
-      for (int d = 0; d < 3; ++d) {
-        const int body = to_.mesh().bodies[joints[j].body] + d;
-        const Eigen::VectorXd row = G.transpose() * G.col(body);  // of that constraint, times -1
-        force -= row * force[body];
-      }
-    }
+    to_.tangent(still, weights, kkt);
+    Eigen::MatrixXd block(rows.size(), columns.size());
+    for (long i = 0; i < block.rows(); ++i)
+      for (long k = 0; k < block.cols(); ++k) block(i, k) = kkt.coeff(rows[i], columns[k]);
+    return block;
+  }
+
+  // (free, moves) An orthonormal basis of the moves of free coordinates that open no constraint.
+  Eigen::MatrixXd allowed_moves(const State& still, const std::vector<int>& free) const {
+    const long n = static_cast<long>(free.size());
+    std::vector<int> rows(to_.constraint_count());
+    std::iota(rows.begin(), rows.end(), to_.coordinate_count());
+    const Eigen::MatrixXd G = tangent_block(still, {}, rows, free);
+    if (G.isZero(0)) return Eigen::MatrixXd::Identity(n, n);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> across(G.transpose());
+    const Eigen::MatrixXd Q = across.householderQ();
+    return Q.rightCols(n - across.rank());
   }
 
   // Positions, slopes and sections of the nodes of new elements, and of the given rings of neighbours, and
   // the bubbles of new elements: but for supported positions, clamped slopes, sections at supports and
-  // positions of bodies.
+  // positions of bodies that are nodes. Bodies carried as points go with the curve.
   std::vector<int> free_coordinates(int rings) const {
     const Mesh& mesh = to_.mesh();
     std::set<std::pair<int, int>> nodes;  // beam, node
@@ -184,6 +185,13 @@ class Remap {
     }
     for (const MeshSpan& span : mesh.spans)
       if (span.bubble >= 0 && !was_there(span)) free.insert(span.bubble);
+    if (free.empty()) return {};
+    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+      const SlidingJoint& joint = to_.model().joints[j];
+      if (mesh.plan.modes[j] != JointMode::point && !joint.is_offset()) continue;
+      if (mesh.plan.modes[j] == JointMode::free) continue;
+      for (int k = 0; k < mesh.dimension; ++k) free.insert(mesh.bodies[joint.body] + k);
+    }
     return {free.begin(), free.end()};
   }
 
@@ -199,6 +207,7 @@ class Remap {
   const BeamSystem& from_;
   const State& state_;
   const BeamSystem& to_;
+  const double enough_;  // of closed constraints
 };
 
 // Position, slopes, sections and place of a node that the old mesh had too.
@@ -292,6 +301,10 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
   carry_bodies(to, next);
   return next;
+}
+
+double closed_enough(const BeamSystem& from, const State& state) {
+  return std::max(open_constraints(from, state), 1e-12 * state.q.lpNorm<Eigen::Infinity>());
 }
 
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to) {

@@ -69,7 +69,8 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the impact of \"" + model.body_of(model.joints[failure.joint]).name +
              "\" at the end is singular";
     case Failure::Kind::projection:
-      return "velocities cannot be projected at t = " + time + places;
+      return "the motion cannot be carried over to another mesh at t = " + time + places +
+             "; take more elements";
     case Failure::Kind::mesh:
       return "length control finds no mesh at t = " + time + places;
     case Failure::Kind::mesh_energy:

@@ -23,6 +23,18 @@ TEST(EnergyOfTheMesh, IsRefusedWithALoadAsWithoutOne) {
   }
 }
 
+TEST(EnergyOfTheMesh, IsNeverKeptByOpeningAJoint) {
+  // A heavy body becomes a node beside a rigid joint of two beams: four elements cannot hold the bent shape,
+  // and moves of the joint's node alone would open it, to be closed by the next step with 12 J of 100.
+  const CaseRun coarse = run_case("node_beside_joined_beams.json");
+  EXPECT_EQ(coarse.code, 3);
+  EXPECT_TRUE(coarse.says("the mesh would have to change")) << coarse.messages;
+  const CaseRun fine =
+      run_case("node_beside_joined_beams.json", {"beams[0].elements.count=16", "beams[1].elements.count=16"});
+  EXPECT_EQ(fine.code, 0) << fine.messages;
+  EXPECT_NEAR(fine.last("energy.total [J]"), fine.value(0, "energy.total [J]"), 1e-2);
+}
+
 TEST(EnergyWarning, DoesNotRingOverRoundOff) {
   const CaseRun run = run_case("d_rest_false_warning.json");
   ASSERT_EQ(run.code, 0) << run.messages;

@@ -78,6 +78,20 @@ TEST(Consistent, TheVelocityOfAMomentumKeepsItsTangentialPart) {
   EXPECT_NEAR(projection.impulse[0], 3, 1e-13);
 }
 
+TEST(Consistent, ConstraintsAreClosedByTheNearestPlaces) {
+  const CartesianPendulum pendulum;
+  const State swinging = pendulum.at_angle(0, 0.7, 1.3);
+  State state = swinging;
+  state.q *= 1.2;
+  EXPECT_GT(open_constraints(pendulum, state), 0.1);
+  ASSERT_TRUE(close_constraints(pendulum, 1e-14, state));
+  EXPECT_LT((state.q - swinging.q).norm(), 1e-14);
+  EXPECT_LE(open_constraints(pendulum, state), 1e-14);
+  const State closed = state;
+  ASSERT_TRUE(close_constraints(pendulum, 1e-14, state));
+  EXPECT_EQ(state.q, closed.q);
+}
+
 TEST(Consistent, RedundantConstraintsAreReportedAndLeaveTheStateAlone) {
   const DoublyHeldMass system;
   State state{.t = 0,
@@ -89,6 +103,9 @@ TEST(Consistent, RedundantConstraintsAreReportedAndLeaveTheStateAlone) {
   EXPECT_EQ(make_accelerations_consistent(system, state), ConsistencyStatus::singular);
   EXPECT_EQ(project_velocities(system, state).status, ConsistencyStatus::singular);
   EXPECT_EQ(velocities_from_momentum(system, state.v, state).status, ConsistencyStatus::singular);
+  state.q = Eigen::Vector2d(1, 1);
+  EXPECT_FALSE(close_constraints(system, 1e-14, state));
+  state.q = before.q;
   EXPECT_EQ(state.v, before.v);
   EXPECT_EQ(state.a, before.a);
   EXPECT_EQ(state.lambda, before.lambda);

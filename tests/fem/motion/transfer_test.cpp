@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "fem/system/material_points.h"
+#include "solver/consistent.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {
@@ -177,6 +178,55 @@ TEST(Merge, OfAFreeBeamKeepsItsMomentumInThePlane) {
 TEST(Merge, OfAFreeBeamKeepsItsMomentumInSpace) {
   check_merge<3>(false, 7);
   check_merge<3>(true, 8);
+}
+
+// A state on its constraints near the drawn shape.
+State disturbed_within_constraints(const BeamSystem& system, std::mt19937& random, double amount) {
+  State state = disturbed_state(system, random, amount);
+  EXPECT_TRUE(close_constraints(system, 1e-13, state));
+  EXPECT_EQ(project_velocities(system, state).status, ConsistencyStatus::done);
+  return state;
+}
+
+// The home node before or after the joint goes, and the new element reaches to a place that is held.
+void check_merge_beside(BeamModel model, int home, int direction, std::mt19937& random) {
+  const auto& nodes = model.beams[0].home;
+  model.joints.clear();
+  testing::add_slider(model, 0.8, nodes[home].s - direction * 0.3 * (nodes[home + 1].s - nodes[home].s));
+  MeshPlan full = initial_plan(model), coarse = full;
+  full.beams[0].present.assign(nodes.size(), true);
+  coarse.beams[0].present = full.beams[0].present;
+  coarse.beams[0].present[home] = false;
+  const BeamSystem from(model, full), to(model, coarse);
+  const State before = disturbed_within_constraints(from, random, 0.01);
+  const std::optional<Transferred> after = projected(from, before, to);
+  ASSERT_TRUE(after);
+  EXPECT_LT(open_constraints(to, after->state), 1e-11);
+  const double old = energy(from, before).mechanical();
+  EXPECT_NEAR(energy(to, after->state).mechanical(), old, 1e-8 * std::abs(old));
+}
+
+TEST(Merge, BesideJoinedBeamsOpensNoJoint) {
+  std::mt19937 random(31);
+  for (const int dimension : {2, 3}) {
+    const BeamModel model = testing::joined_model(random, dimension);
+    check_merge_beside(model, static_cast<int>(model.beams[0].home.size()) - 2, 1, random);
+    check_merge_beside(model, 1, -1, random);
+  }
+}
+
+TEST(Merge, BesideARigidCornerKeepsItsAngle) {
+  std::mt19937 random(32);
+  for (const int dimension : {2, 3}) {
+    const BeamModel model = testing::cornered_model(random, dimension);
+    const auto& home = model.beams[0].home;
+    const auto corner = std::find_if(home.begin(), home.end(),
+                                     [](const HomeNode& node) { return node.kind == NodeKind::rigid; });
+    ASSERT_NE(corner, home.end());
+    const int before = static_cast<int>(corner - home.begin()) - 1;
+    check_merge_beside(model, before, 1, random);
+    check_merge_beside(model, before + 2, -1, random);
+  }
 }
 
 // Ten elements of 0.1 m, a break in the middle: home node 5.
