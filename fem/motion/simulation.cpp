@@ -28,6 +28,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double neighbours_accuracy =
+    1e-14;  // of kept energy, where differences are taken of what comes out
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -638,7 +641,8 @@ struct Simulation::Implementation {
       }
       // Curvature and twist jump from element to element, and with them the motion of a body that follows the
       // section: an impact.
-      std::optional<Transferred> moved = projected(*at.system, at.state, *next);
+      const double accuracy = &at == &at_ ? kept_energy : neighbours_accuracy;
+      std::optional<Transferred> moved = projected(*at.system, at.state, *next, accuracy);
       if (!moved) return false;
       at = {std::move(next), std::move(moved->state)};
       return true;
@@ -706,7 +710,7 @@ struct Simulation::Implementation {
     if (!goes_on(changed.failure)) return false;
     follow([&next](MeshedState& at) {
       const NextPlan same{next.change, next.joint, plan_like(next.plan, *at.system, at.state)};
-      return !change_mesh(at, same, false).failure;
+      return !change_mesh(at, same, false, neighbours_accuracy).failure;
     });
     if (!restart()) return false;
     at_.state = integrator_->state();

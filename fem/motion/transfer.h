@@ -18,9 +18,12 @@ struct Transferred {
   Eigen::VectorXd impulse;
 };
 
-/// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far as
-/// they were, or round-off.
+/// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far
+/// as they were, or round-off.
 double closed_enough(const BeamSystem& from, const State& state);
+
+/// To what part of the kinetic and strain energy the energy is kept where nothing else is said.
+inline constexpr double kept_energy = 1e-10;
 
 /// The same for a mesh that cannot hold the motion exactly: velocities are the L2 projection of the material
 /// velocity field, and the nodes of new elements, if need be their neighbours too, move so that the total
@@ -28,6 +31,7 @@ double closed_enough(const BeamSystem& from, const State& state);
 /// merged element carries axial strain that the two had not (Ding & Ouyang choose weights instead, Eqs.
 /// 31-38). Such moves open no constraint. Where the energy cannot be reached it comes as near as they bring
 /// it. Returns nullopt when the projection is singular or the constraints cannot be closed.
-std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                     double accuracy = kept_energy);
 
 }  // namespace nurbeam
