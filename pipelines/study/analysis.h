@@ -60,6 +60,20 @@ struct OptimumResult {
 OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
                            const StudyEvaluation& evaluate);
 
+/// What a calibration found.
+struct CalibrationResult {
+  std::vector<double> point;             ///< values of the free variables
+  std::vector<double> sd, lower, upper;  ///< of each: standard deviation, ends of its confidence interval
+  std::vector<std::vector<double>> covariance;  ///< of the free variables
+  double noise = 0;                ///< root mean square of what is left between measurement and run, in `sd`s
+  std::vector<double> quantities;  ///< of that point
+  int evaluations = 0;
+};
+/// By nonlinear least squares, or with what is known before by Gauss' nonlinear calibration; the covariance
+/// is that of the problem linear at the point. Throws std::runtime_error where no point is found.
+CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& calibration,
+                            const StudyEvaluation& evaluate);
+
 /// A function of the variables that stands for one quantity.
 struct SurrogateResult {
   std::string quantity;

@@ -41,13 +41,8 @@ class VariantsFunction : public OT::EvaluationImplementation {
   using Transform =
       std::function<std::vector<double>(const std::vector<double>&, const std::vector<double>&)>;
 
-  VariantsFunction(std::size_t inputs, std::size_t outputs, StudyEvaluation evaluate, Transform f,
-                   std::vector<double> otherwise)
-      : inputs_(inputs),
-        outputs_(outputs),
-        evaluate_(std::move(evaluate)),
-        f_(std::move(f)),
-        otherwise_(std::move(otherwise)) {
+  VariantsFunction(std::size_t inputs, std::size_t outputs, StudyEvaluation evaluate, Transform f)
+      : inputs_(inputs), outputs_(outputs), evaluate_(std::move(evaluate)), f_(std::move(f)) {
     setInputDescription(OT::Description::BuildDefault(inputs, "x"));
     setOutputDescription(OT::Description::BuildDefault(outputs, "y"));
   }
@@ -61,8 +56,7 @@ class VariantsFunction : public OT::EvaluationImplementation {
     const StudyPoints points = from_sample(x);
     const StudyPoints quantities = evaluate_(points);
     OT::Sample result(x.getSize(), outputs_);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      result[i] = to_point(quantities[i].empty() ? otherwise_ : f_(quantities[i], points[i]));
+    for (std::size_t i = 0; i < points.size(); ++i) result[i] = to_point(f_(quantities[i], points[i]));
     callsNumber_.fetchAndAdd(static_cast<int>(x.getSize()));
     return result;
   }
@@ -71,7 +65,6 @@ class VariantsFunction : public OT::EvaluationImplementation {
   std::size_t inputs_, outputs_;
   StudyEvaluation evaluate_;
   Transform f_;
-  std::vector<double> otherwise_;
 };
 
 }  // namespace
@@ -103,9 +96,8 @@ StudyPoints from_sample(const OT::Sample& sample) {
 }
 
 OT::Function study_function(const StudyFile& study, const StudyEvaluation& evaluate, std::size_t outputs,
-                            VariantsFunction::Transform f, std::vector<double> otherwise) {
-  return OT::Function(
-      VariantsFunction(study.free_variables().size(), outputs, evaluate, std::move(f), std::move(otherwise)));
+                            VariantsFunction::Transform f) {
+  return OT::Function(VariantsFunction(study.free_variables().size(), outputs, evaluate, std::move(f)));
 }
 
 std::size_t quantity_index(const StudyFile& study, const std::string& name) {

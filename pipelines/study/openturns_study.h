@@ -14,13 +14,12 @@ OT::Sample to_sample(const StudyPoints& points);
 std::vector<double> from_point(const OT::Point& point);
 StudyPoints from_sample(const OT::Sample& sample);
 
-/// `f` of the quantities and the values of all variables, as a function of the free ones: variants run in
-/// batches, as they are asked for. What is not done is `otherwise`.
+/// `f` of the quantities (none where the variant is not done) and the point, as a function of the point:
+/// variants run in batches, as they are asked for.
 OT::Function study_function(const StudyFile& study, const StudyEvaluation& evaluate, std::size_t outputs,
                             std::function<std::vector<double>(const std::vector<double>& quantities,
                                                               const std::vector<double>& point)>
-                                f,
-                            std::vector<double> otherwise);
+                                f);
 
 /// The place of a quantity in the rows.
 std::size_t quantity_index(const StudyFile& study, const std::string& name);

@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
-#include <memory>
+#include <map>
 #include <stdexcept>
 
 #include "pipelines/study/openturns_study.h"
@@ -11,11 +12,6 @@ namespace nurbeam {
 
 namespace {
 
-/// All variants that a search has asked for.
-struct Searched {
-  StudyPoints points, quantities;
-};
-
 /// What a search minimises and holds, of one variant.
 class Goal {
  public:
@@ -24,6 +20,8 @@ class Goal {
       indices_.push_back(quantity_index(study, objective.quantity));
   }
 
+  std::size_t count() const { return indices_.size(); }
+  std::size_t constraints() const { return optimum_.constraints.size(); }
   std::vector<double> objectives(const std::vector<double>& quantities) const {
     std::vector<double> values;
     for (std::size_t i = 0; i < indices_.size(); ++i)
@@ -53,58 +51,158 @@ class Goal {
   std::vector<std::size_t> indices_;
 };
 
-constexpr double unusable = 1e30;  // what a variant that is not done counts as
+/// The variants that a search asks for. It sees the free variables as parts of their ranges, 0 to 1, so that
+/// lengths and moduli weigh the same, and never leaves them.
+class Search {
+ public:
+  Search(const StudyFile& study, const StudyEvaluation& evaluate, const Goal& goal)
+      : study_(study),
+        evaluate_(evaluate),
+        goal_(goal),
+        range_(joint_distribution(study).getRange()),
+        least_margins_(goal.constraints(), -1.0) {}
 
-OT::OptimizationProblem problem_of(const StudyFile& study, const StudyOptimum& optimum,
-                                   const StudyEvaluation& evaluate, const Goal& goal) {
-  const OT::MemoizeFunction objective(study_function(
-      study, evaluate, optimum.objectives.size(),
-      [&goal](const std::vector<double>& quantities, const std::vector<double>&) {
-        return goal.objectives(quantities);
-      },
-      std::vector<double>(optimum.objectives.size(), unusable)));
-  OT::OptimizationProblem problem{OT::Function(objective)};
-  problem.setBounds(joint_distribution(study).getRange());
+  /// Each variant runs once, however often it is asked for: objective and constraints ask for the same
+  /// points.
+  StudyPoints quantities(const StudyPoints& parts) {
+    StudyPoints fresh;
+    for (const std::vector<double>& each : parts) {
+      const std::vector<double> point = point_of(each);
+      if (indices_.emplace(point, points_.size() + fresh.size()).second) fresh.push_back(point);
+    }
+    StudyPoints result(parts.size());
+    try {
+      if (stopped_) return result;
+      if (!fresh.empty()) keep(fresh, evaluate_(fresh));
+    } catch (...) {  // the methods are written in C
+      stopped_ = std::current_exception();
+      return result;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) result[i] = quantities_[indices_.at(point_of(parts[i]))];
+    return result;
+  }
+  bool stopped() const { return stopped_ != nullptr; }
+  void throw_if_stopped() const {
+    if (stopped_) std::rethrow_exception(stopped_);
+  }
+
+  std::vector<double> objectives(const std::vector<double>& quantities) const {
+    return quantities.empty() ? worse_than_all() : goal_.objectives(quantities);
+  }
+  std::vector<double> margins(const std::vector<double>& quantities, const std::vector<double>& part) const {
+    return quantities.empty() ? least_margins_ : goal_.margins(quantities, point_of(part));
+  }
+
+  std::vector<double> start() const {
+    std::vector<double> parts;
+    for (const std::size_t i : study_.free_variables()) {
+      const std::size_t k = parts.size();
+      const double lower = range_.getLowerBound()[k], upper = range_.getUpperBound()[k];
+      parts.push_back(std::clamp((study_.variables[i].nominal - lower) / (upper - lower), 0.0, 1.0));
+    }
+    return parts;
+  }
+
+  const StudyPoints& points() const { return points_; }
+  const StudyPoints& quantities() const { return quantities_; }
+
+ private:
+  std::vector<double> point_of(const std::vector<double>& parts) const {
+    std::vector<double> point;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const double lower = range_.getLowerBound()[k], upper = range_.getUpperBound()[k];
+      point.push_back(std::clamp(lower + parts[k] * (upper - lower), lower, upper));
+    }
+    return point;
+  }
+
+  void keep(const StudyPoints& fresh, const StudyPoints& quantities) {
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      points_.push_back(fresh[i]);
+      quantities_.push_back(quantities[i]);
+      if (quantities[i].empty()) continue;
+      const std::vector<double> values = goal_.objectives(quantities[i]);
+      if (least_.empty()) least_ = most_ = values;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        least_[k] = std::min(least_[k], values[k]);
+        most_[k] = std::max(most_[k], values[k]);
+      }
+      const std::vector<double> margins = goal_.margins(quantities[i], fresh[i]);
+      for (std::size_t k = 0; k < margins.size(); ++k)
+        least_margins_[k] = std::min(least_margins_[k], margins[k]);
+    }
+  }
+
+  // What a variant that is not done counts as: a search turns back from it, but is not thrown far away.
+  std::vector<double> worse_than_all() const {
+    constexpr double unusable = 1e30;  // before any variant is done
+    std::vector<double> worse(goal_.count(), unusable);
+    for (std::size_t k = 0; k < most_.size(); ++k)
+      worse[k] = most_[k] + std::max({most_[k] - least_[k], 0.1 * std::abs(most_[k]), 1e-12});
+    return worse;
+  }
+
+  const StudyFile& study_;
+  const StudyEvaluation& evaluate_;
+  const Goal& goal_;
+  OT::Interval range_;
+  std::map<std::vector<double>, std::size_t> indices_;  // of points, in the order in which they ran
+  StudyPoints points_, quantities_;
+  std::vector<double> least_, most_;   // of each objective
+  std::vector<double> least_margins_;  // and what a variant that is not done counts as
+  std::exception_ptr stopped_;
+};
+
+OT::OptimizationProblem problem_of(const StudyFile& study, const StudyOptimum& optimum, Search& search) {
+  const StudyEvaluation evaluate = [&search](const StudyPoints& parts) { return search.quantities(parts); };
+  const OT::Function objective =
+      study_function(study, evaluate, optimum.objectives.size(),
+                     [&search](const std::vector<double>& quantities, const std::vector<double>&) {
+                       return search.objectives(quantities);
+                     });
+  OT::OptimizationProblem problem(objective);
+  problem.setBounds(OT::Interval(study.free_variables().size()));
   if (!optimum.constraints.empty())
-    problem.setInequalityConstraint(study_function(
-        study, evaluate, optimum.constraints.size(),
-        [&goal](const std::vector<double>& quantities, const std::vector<double>& point) {
-          return goal.margins(quantities, point);
-        },
-        std::vector<double>(optimum.constraints.size(), -unusable)));
+    problem.setInequalityConstraint(
+        study_function(study, evaluate, optimum.constraints.size(),
+                       [&search](const std::vector<double>& quantities, const std::vector<double>& part) {
+                         return search.margins(quantities, part);
+                       }));
   return problem;
 }
 
+OT::OptimizationAlgorithm genetic_search(const StudyFile& study, const StudyOptimum& optimum,
+                                         const OT::OptimizationProblem& problem) {
+  const std::size_t population =
+      std::clamp<std::size_t>(static_cast<std::size_t>(optimum.evaluations) / 10, 8, 100) / 4 * 4;
+  OT::RandomGenerator::SetSeed(study.seed);
+  const std::size_t inputs = study.free_variables().size();
+  const OT::Sample first =
+      OT::ComposedDistribution(OT::ComposedDistribution::DistributionCollection(inputs, OT::Uniform(0, 1)))
+          .getSample(population);
+  OT::Pagmo genetic(problem, optimum.objectives.size() > 1 ? "nsga2" : "gaco", first);
+  genetic.setGenerationNumber(
+      std::max<std::size_t>(1, static_cast<std::size_t>(optimum.evaluations) / population));
+  genetic.setSeed(study.seed);
+  genetic.setBlockSize(population);
+  return genetic;
+}
+
 OT::OptimizationAlgorithm algorithm_of(const StudyFile& study, const StudyOptimum& optimum,
-                                       const OT::OptimizationProblem& problem) {
+                                       const OT::OptimizationProblem& problem, const Search& search) {
   using Method = StudyOptimum::Method;
-  std::vector<double> start;
-  for (const std::size_t i : study.free_variables()) start.push_back(study.variables[i].nominal);
-  const OT::Interval range = problem.getBounds();
-  const double width = (range.getUpperBound() - range.getLowerBound()).norm();
-  OT::OptimizationAlgorithm algorithm;
-  if (optimum.method == Method::genetic) {
-    const std::size_t population =
-        std::clamp<std::size_t>(static_cast<std::size_t>(optimum.evaluations) / 10, 8, 100) / 4 * 4;
-    OT::RandomGenerator::SetSeed(study.seed);
-    const OT::Sample first = joint_distribution(study).getSample(population);
-    OT::Pagmo genetic(problem, optimum.objectives.size() > 1 ? "nsga2" : "gaco", first);
-    genetic.setGenerationNumber(
-        std::max<std::size_t>(1, static_cast<std::size_t>(optimum.evaluations) / population));
-    genetic.setSeed(study.seed);
-    genetic.setBlockSize(population);
-    return genetic;
-  }
-  if (optimum.method == Method::cobyla) {
-    OT::Cobyla cobyla(problem, width / 10);
-    algorithm = cobyla;
-  } else {
-    algorithm = OT::NLopt(problem, optimum.method == Method::gradient ? "LD_SLSQP" : "LN_NELDERMEAD");
-  }
-  algorithm.setStartingPoint(to_point(start));
+  if (optimum.method == Method::genetic) return genetic_search(study, optimum, problem);
+  const std::string method = optimum.method == Method::gradient      ? "LD_SLSQP"
+                             : optimum.method == Method::nelder_mead ? "LN_NELDERMEAD"
+                                                                     : "LN_COBYLA";
+  OT::NLopt algorithm(problem, method);
+  constexpr double first_step = 0.1;
+  if (optimum.method != Method::gradient)
+    algorithm.setInitialStep(OT::Point(study.free_variables().size(), first_step));
+  algorithm.setStartingPoint(to_point(search.start()));
   algorithm.setMaximumEvaluationNumber(static_cast<std::size_t>(optimum.evaluations));
   algorithm.setMaximumIterationNumber(static_cast<std::size_t>(optimum.evaluations));
-  algorithm.setMaximumAbsoluteError(optimum.tolerance * width);
+  algorithm.setMaximumAbsoluteError(optimum.tolerance);
   algorithm.setMaximumRelativeError(optimum.tolerance);
   return algorithm;
 }
@@ -119,13 +217,13 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// Of all variants that hold the constraints those that no other one is better than in all objectives.
-OptimumResult best_of(const Searched& searched, const Goal& goal) {
+OptimumResult best_of(const Search& search, const Goal& goal) {
   OptimumResult result;
   std::vector<std::vector<double>> front;
   double best = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < searched.points.size(); ++i) {
-    if (!searched.quantities[i].empty() && goal.holds(searched.quantities[i], searched.points[i])) {
-      const std::vector<double> value = goal.objectives(searched.quantities[i]);
+  for (std::size_t i = 0; i < search.points().size(); ++i) {
+    if (!search.quantities()[i].empty() && goal.holds(search.quantities()[i], search.points()[i])) {
+      const std::vector<double> value = goal.objectives(search.quantities()[i]);
       if (!(value[0] >= best)) best = value[0];
       const bool beaten = std::any_of(front.begin(), front.end(), [&](const auto& other) {
         return other == value || dominates(other, value);
@@ -139,8 +237,8 @@ OptimumResult best_of(const Searched& searched, const Goal& goal) {
             result.quantities.erase(result.quantities.begin() + at);
           }
         front.push_back(value);
-        result.points.push_back(searched.points[i]);
-        result.quantities.push_back(searched.quantities[i]);
+        result.points.push_back(search.points()[i]);
+        result.quantities.push_back(search.quantities()[i]);
       }
     }
     result.history.push_back(best);
@@ -153,39 +251,21 @@ OptimumResult best_of(const Searched& searched, const Goal& goal) {
 OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
                            const StudyEvaluation& evaluate) {
   const Goal goal(study, optimum);
-  Searched searched;
-  // Objective and constraints ask for the same points one after the other.
-  const StudyEvaluation once = [&](const StudyPoints& points) {
-    StudyPoints result(points.size()), fresh;
-    std::vector<std::size_t> at;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto found = std::find(searched.points.begin(), searched.points.end(), points[i]);
-      if (found != searched.points.end())
-        result[i] = searched.quantities[static_cast<std::size_t>(found - searched.points.begin())];
-      else {
-        fresh.push_back(points[i]);
-        at.push_back(i);
-      }
-    }
-    const StudyPoints quantities = fresh.empty() ? StudyPoints{} : evaluate(fresh);
-    for (std::size_t i = 0; i < fresh.size(); ++i) {
-      searched.points.push_back(fresh[i]);
-      searched.quantities.push_back(quantities[i]);
-      result[at[i]] = quantities[i];
-    }
-    return result;
-  };
+  Search search(study, evaluate, goal);
   try {
     OT::OptimizationAlgorithm algorithm =
-        algorithm_of(study, optimum, problem_of(study, optimum, once, goal));
+        algorithm_of(study, optimum, problem_of(study, optimum, search), search);
+    algorithm.setStopCallback([](void* of) -> OT::Bool { return static_cast<Search*>(of)->stopped(); },
+                              &search);
     algorithm.run();
   } catch (const OT::Exception& problem) {
-    if (searched.points.empty())
+    if (search.points().empty())
       throw std::runtime_error(std::string("the search did not begin: ") + problem.what());
   }
-  OptimumResult result = best_of(searched, goal);
+  search.throw_if_stopped();
+  OptimumResult result = best_of(search, goal);
   if (result.points.empty())
-    throw std::runtime_error("no variant of " + std::to_string(searched.points.size()) +
+    throw std::runtime_error("no variant of " + std::to_string(search.points().size()) +
                              " is done and holds \"subject_to\"; take wider ranges or more \"evaluations\"");
   return result;
 }

@@ -14,12 +14,11 @@ constexpr std::size_t block = 32;  // variants of a simulation that run together
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
                              const StudyEvaluation& evaluate) {
   const std::size_t k = quantity_index(study, reliability.quantity);
-  const OT::Function f =
-      study_function(study, evaluate, 1,
-                     [k](const std::vector<double>& quantities, const std::vector<double>&) {
-                       return std::vector<double>{quantities[k]};
-                     },
-                     {std::numeric_limits<double>::quiet_NaN()});
+  const OT::Function f = study_function(
+      study, evaluate, 1, [k](const std::vector<double>& quantities, const std::vector<double>&) {
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        return std::vector<double>{quantities.empty() ? none : quantities[k]};
+      });
   const OT::CompositeRandomVector output(f, OT::RandomVector(joint_distribution(study)));
   return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), reliability.threshold)
                                  : OT::ThresholdEvent(output, OT::Less(), reliability.threshold);

@@ -103,8 +103,11 @@ void write_results(const ReadyStudy& ready, const StudyOptions& options, const S
   write_study_summary(options.out / "study.json", ready.study, result);
   const StudyCase* study_case = ready.study_case ? &*ready.study_case : nullptr;
   write_study_report(options.out / "study.html", ready.study, study_case, result);
-  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer); optimum && study_case)
+  if (!study_case) return;
+  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer))
     write_best_variant(options.out, ready.study, *study_case, optimum->points.front());
+  if (const auto* calibrated = std::get_if<CalibrationResult>(&result.answer))
+    write_best_variant(options.out, ready.study, *study_case, calibrated->point);
 }
 
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,

@@ -11,6 +11,7 @@
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/case/case_values.h"
+#include "pipelines/case/table_files.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/study/study_keys.h"
 #include "pipelines/study/study_parts.h"
@@ -218,6 +219,7 @@ StudyFileReport read_study_file(const std::filesystem::path& file) {
   if (!json) return {{}, findings.take()};
   StudyFile study;
   study.path = file;
+  put_in_tables(study_keys(), *json, "", std::filesystem::absolute(file).parent_path(), findings);
   if (check_shape(study_keys(), *json, findings)) {
     study.json = json->dump(-1, ' ', false, Json::error_handler_t::replace);
     StudyReader(*json, study, findings).read();

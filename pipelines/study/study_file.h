@@ -64,6 +64,7 @@ struct StudyQuantity {
   std::string name, unit;
   std::string path;
   Expression value;
+  bool observed = false;  ///< of a calibration, at the time of a measurement: behind all others
 };
 
 /// Which variants a study runs.
@@ -105,6 +106,20 @@ struct StudyOptimum {
   double tolerance = 1e-4;  ///< of the variables, as a part of their ranges
 };
 
+/// The values of the variables at which quantities are as they were measured.
+struct StudyCalibration {
+  /// What was measured of one history.
+  struct Observation {
+    std::string value;  ///< the expression
+    std::vector<double> times, measured;
+    double sd = 1;  ///< of the noise
+  };
+  std::vector<Observation> observations;  ///< their times are the observed quantities, in this order
+  bool prior = false;                     ///< the distributions, all normal, are what is known before
+  double confidence = 0.95;               ///< of the intervals and the region
+  int evaluations = 200;                  ///< at most
+};
+
 /// Surrogates of the quantities, made of the rows of a plan.
 struct StudySurrogate {
   enum class Kind { chaos, kriging } kind = Kind::chaos;
@@ -112,7 +127,7 @@ struct StudySurrogate {
   double held_back = 0.2;  ///< part of the rows that validates
 };
 
-using StudyTask = std::variant<StudyPlan, StudySensitivity, StudyReliability, StudyOptimum>;
+using StudyTask = std::variant<StudyPlan, StudySensitivity, StudyReliability, StudyOptimum, StudyCalibration>;
 
 /// A study file, resolved, valid as far as the file and its case can tell.
 struct StudyFile {

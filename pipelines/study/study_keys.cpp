@@ -130,6 +130,18 @@ Shape optimum() {
                   "of the variables, as a part of their ranges; 1e-4 when omitted"}});
 }
 
+Shape calibration() {
+  const Shape observation =
+      object({{"value", any_text(), "an expression whose value is a history: tip.x", required},
+              {"measured", table(Dimension::number), "what was measured of it, in SI units", required},
+              {"sd", quantity(Dimension::number, {.lower = 1e-30, .upper = 1e30}),
+               "standard deviation of its noise; 1 when omitted. With ranges only the ratios count"}});
+  return object({{"observations", array(observation, 1), "what was measured", required},
+                 {"confidence", quantity(Dimension::number, {.lower = 0.5, .upper = 0.999}),
+                  "level of the intervals and of the region; 0.95 when omitted"},
+                 {"evaluations", integer({.lower = 1, .upper = 1e6}), "most variants; 200 when omitted"}});
+}
+
 Shape surrogate() {
   return object({{"type", choice({"chaos", "kriging"}), "polynomial chaos (when omitted) or Kriging"},
                  {"degree", integer({.lower = 1, .upper = 12}), "of the polynomials; 3 when omitted"},
@@ -151,17 +163,21 @@ const Shape& study_keys() {
        {"variables", array(variable(), 1), "what varies", required},
        {"constraints", array(any_text()),
         "expressions of the variables; a variant runs where all of them hold"},
-       {"quantities", array(quantity_of_interest(), 1), "what is asked of each variant", required},
+       {"quantities", array(quantity_of_interest(), 1),
+        "what is asked of each variant; needed but for \"calibrate\""},
        {"plan", plan(), "which variants run"},
        {"sensitivity", sensitivity(), "Sobol indices of the quantities"},
        {"reliability", reliability(), "the probability that a limit is passed"},
        {"optimise", optimum(), "the best values of the variables"},
+       {"calibrate", calibration(),
+        "the values of the variables at which histories are as they were measured: by least squares where all "
+        "have ranges; where all are normally distributed, their distributions are known before"},
        {"surrogate", surrogate(), "functions of the variables instead of runs, made of the plan's rows",
         false, "plan"},
        {"seed", integer({.lower = 0, .upper = 2147483647}), "of what is random; 1 when omitted"},
        {"time_limit", quantity(Dimension::time, plausible(1e-3, 1e9)),
         "of one variant, in wall time; a longer one fails; none when omitted"}},
-      {{{"plan", "sensitivity", "reliability", "optimise"}, required}});
+      {{{"plan", "sensitivity", "reliability", "optimise", "calibrate"}, required}});
   return shape;
 }
 

@@ -81,6 +81,31 @@ Json answer_json(const StudyFile& study, const OptimumResult& result) {
   return json;
 }
 
+Json answer_json(const StudyFile& study, const CalibrationResult& result) {
+  const auto& calibration = std::get<StudyCalibration>(study.task);
+  const std::vector<std::size_t> free = study.free_variables();
+  Json json = {{"confidence", calibration.confidence}, {"noise", result.noise}};
+  for (std::size_t i = 0; i < free.size(); ++i)
+    json["estimates"][study.variables[free[i]].name] = {{"value", result.point[i]},
+                                                        {"sd", result.sd[i]},
+                                                        {"lower", result.lower[i]},
+                                                        {"upper", result.upper[i]}};
+  json["variables"] = named(study, result.point);
+  json["covariance"] = result.covariance;
+  std::size_t at = 0;
+  while (at < study.quantities.size() && !study.quantities[at].observed) ++at;
+  for (const StudyCalibration::Observation& observation : calibration.observations) {
+    const auto begin = result.quantities.begin() + static_cast<std::ptrdiff_t>(at);
+    at += observation.times.size();
+    const auto end = result.quantities.begin() + static_cast<std::ptrdiff_t>(at);
+    json["observations"].push_back({{"value", observation.value},
+                                    {"times", observation.times},
+                                    {"measured", observation.measured},
+                                    {"run", std::vector<double>(begin, end)}});
+  }
+  return json;
+}
+
 Json to_json(const StudyFile& study, const SurrogateResult& surrogate) {
   Json json = {
       {"quantity", surrogate.quantity}, {"q2", surrogate.q2}, {"largest_error", surrogate.largest_error}};
@@ -137,6 +162,20 @@ void tell(std::ostream& out, const StudyFile& study, const OptimumResult& result
       out << "  " << study.quantities[k].name << " = " << text_of(result.quantities[i][k], 8);
     out << "\n";
   }
+}
+
+void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& result) {
+  const auto& calibration = std::get<StudyCalibration>(study.task);
+  const std::vector<std::size_t> free = study.free_variables();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    out << study.variables[free[i]].name << " = " << text_of(result.point[i], 6) << " +- "
+        << text_of(result.sd[i], 3) << "  (" << text_of(result.lower[i], 6) << " to "
+        << text_of(result.upper[i], 6) << " with " << text_of(100 * calibration.confidence) << " %)\n";
+    for (std::size_t k = 0; k < i; ++k)
+      out << "  correlation with " << study.variables[free[k]].name << " "
+          << text_of(result.covariance[i][k] / (result.sd[i] * result.sd[k]), 3) << "\n";
+  }
+  out << "root mean square of what is left: " << text_of(result.noise, 4) << " of the given sd\n";
 }
 
 }  // namespace
@@ -251,6 +290,8 @@ std::string study_plan_text(const StudyFile& study) {
           out << "at most " << task.count << " variants for a probability\n";
         if constexpr (std::is_same_v<Task, StudyOptimum>)
           out << "at most about " << task.evaluations << " variants for an optimum\n";
+        if constexpr (std::is_same_v<Task, StudyCalibration>)
+          out << "at most about " << task.evaluations << " variants for a calibration\n";
       },
       study.task);
   return out.str();

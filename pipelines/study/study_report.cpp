@@ -43,16 +43,22 @@ Json curves_of(const StudyFile& study, const StudyCase& study_case, const std::v
   return curves;
 }
 
+std::vector<double> first_of(const std::vector<double>& values, std::size_t count) {
+  return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(count, values.size()))};
+}
+
 /// The numbers of the variants that a search ended with.
 std::vector<std::size_t> best_variants(const StudyFile& study, const StudyResult& result) {
+  StudyPoints points;
+  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer)) points = optimum->points;
+  if (const auto* calibrated = std::get_if<CalibrationResult>(&result.answer)) points = {calibrated->point};
   std::vector<std::size_t> best;
-  if (const auto* optimum = std::get_if<OptimumResult>(&result.answer))
-    for (const std::vector<double>& point : optimum->points) {
-      const std::vector<double> values = all_values(study, point);
-      const auto found = std::find_if(result.variants.begin(), result.variants.end(),
-                                      [&](const Variant& variant) { return variant.values == values; });
-      if (found != result.variants.end()) best.push_back(found->number);
-    }
+  for (const std::vector<double>& point : points) {
+    const std::vector<double> values = all_values(study, point);
+    const auto found = std::find_if(result.variants.begin(), result.variants.end(),
+                                    [&](const Variant& variant) { return variant.values == values; });
+    if (found != result.variants.end()) best.push_back(found->number);
+  }
   return best;
 }
 
@@ -72,8 +78,12 @@ Json page_data(const StudyFile& study, const StudyCase* study_case, const StudyR
                {"best", best},
                {"curves", study_case ? curves_of(study, *study_case, result.variants, best) : Json::array()}};
   for (const StudyVariable& variable : study.variables) data["variables"].push_back(variable.name);
-  for (const StudyQuantity& quantity : study.quantities)
+  std::size_t shown = 0;  // what is observed stands in the answer
+  for (const StudyQuantity& quantity : study.quantities) {
+    if (quantity.observed) break;
     data["quantities"].push_back({{"name", quantity.name}, {"unit", quantity.unit}});
+    ++shown;
+  }
   if (const auto* optimum = std::get_if<StudyOptimum>(&study.task))
     for (const StudyOptimum::Objective& objective : optimum->objectives)
       for (std::size_t k = 0; k < study.quantities.size(); ++k)
@@ -81,7 +91,7 @@ Json page_data(const StudyFile& study, const StudyCase* study_case, const StudyR
   for (const Variant& variant : result.variants)
     data["rows"].push_back({{"number", variant.number},
                             {"values", variant.values},
-                            {"quantities", variant.quantities},
+                            {"quantities", first_of(variant.quantities, shown)},
                             {"status", name_of(variant.status)},
                             {"reason", variant.reason}});
   return data;

@@ -126,6 +126,8 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
             result.answer = failure_probability(study, task, evaluate);
           if constexpr (std::is_same_v<Task, StudyOptimum>)
             result.answer = find_optimum(study, task, evaluate);
+          if constexpr (std::is_same_v<Task, StudyCalibration>)
+            result.answer = calibrate(study, task, evaluate);
         },
         study.task);
   } catch (const StudyInterrupted&) {

@@ -24,7 +24,8 @@ struct StudyObserver {
   std::function<void(const StudyProgress&)> progress = [](const StudyProgress&) {};
 };
 
-using StudyAnswer = std::variant<std::monostate, SensitivityResult, ReliabilityResult, OptimumResult>;
+using StudyAnswer =
+    std::variant<std::monostate, SensitivityResult, ReliabilityResult, OptimumResult, CalibrationResult>;
 
 /// What came out of a study.
 struct StudyResult {

@@ -19,6 +19,8 @@ class StudyTaskReader : StudyPartReader {
     if (has(json_, "sensitivity")) study_.task = read_sensitivity(json_["sensitivity"]);
     if (has(json_, "reliability")) study_.task = read_reliability(json_["reliability"]);
     if (has(json_, "optimise")) study_.task = read_optimum(json_["optimise"]);
+    if (has(json_, "calibrate")) study_.task = read_calibration(json_["calibrate"]);
+    if (study_.quantities.empty()) findings_.error("quantities", "is missing: what is asked of each variant");
     if (has(json_, "surrogate")) {
       const Json& json = json_["surrogate"];
       study_.surrogate =
@@ -157,6 +159,46 @@ class StudyTaskReader : StudyPartReader {
     optimum.tolerance = number(json, "tolerance", 1e-4);
     check_bounded("optimise");
     return optimum;
+  }
+
+  StudyCalibration read_calibration(const Json& json) {
+    StudyCalibration calibration{.confidence = number(json, "confidence", 0.95),
+                                 .evaluations = static_cast<int>(number(json, "evaluations", 200))};
+    for_each_item(json, "observations", "calibrate", [&](const Json& item, const std::string& path) {
+      read_observation(item, path, calibration);
+    });
+    using Law = StudyDistribution::Kind;
+    std::size_t normal = 0, uniform = 0;
+    for (const std::size_t i : study_.free_variables()) {
+      normal += study_.variables[i].distribution.kind == Law::normal ? 1 : 0;
+      uniform += study_.variables[i].distribution.kind == Law::uniform ? 1 : 0;
+    }
+    const std::size_t free = study_.free_variables().size();
+    calibration.prior = normal == free;
+    if (normal != free && uniform != free)
+      findings_.error(
+          "calibrate",
+          "needs a \"range\" of each variable, or of each a \"normal\" distribution, which is then "
+          "what is known before");
+    std::size_t measured = 0;
+    for (const auto& observation : calibration.observations) measured += observation.times.size();
+    if (measured <= free)
+      findings_.error("calibrate.observations", "has " + std::to_string(measured) + " values for " +
+                                                    std::to_string(free) + " variables; more are needed");
+    return calibration;
+  }
+
+  void read_observation(const Json& json, const std::string& path, StudyCalibration& calibration) {
+    StudyCalibration::Observation observation{.value = text(json, "value"), .sd = number(json, "sd", 1)};
+    if (!parsed(observation.value, child(path, "value"))) return;
+    for (const auto& [time, value] : time_table(json, "measured")) {
+      observation.times.push_back(time);
+      observation.measured.push_back(value);
+      const std::string at = text_of(time, all_digits);
+      study_.quantities.push_back({observation.value + " at " + at + " s", "", path,
+                                   Expression::parse("at(" + at + ", " + observation.value + ")"), true});
+    }
+    calibration.observations.push_back(std::move(observation));
   }
 
   // "a <= b" as b - a, which is 0 or more where it holds.

@@ -136,6 +136,54 @@ TEST(Optimum, HoldsItsConstraints) {
   }
 }
 
+// A modulus and a radius: numbers of 1e11 and of 0.01.
+TEST(Optimum, IsFoundWhateverTheUnitsAndWithinTheRanges) {
+  for (const char* method : {"cobyla", "nelder_mead", "gradient", "genetic"}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "E", "range": [1e11, 3e11]}, {"name": "r", "range": [0.005, 0.02]}],
+      "quantities": [{"name": "f", "value": "(E / 1e11 - 1.2)^2 + (100 * r - 0.5)^2"}],
+      "optimise": {"minimise": "f", "evaluations": 400, "tolerance": 1e-7, "method": ")json" +
+                                     std::string(method) + "\"}}");
+    const StudyEvaluation within = [&](const StudyPoints& points) {
+      for (const std::vector<double>& point : points) {
+        EXPECT_TRUE(point[0] >= 1e11 && point[0] <= 3e11) << method << " " << point[0];
+        EXPECT_TRUE(point[1] >= 0.005 && point[1] <= 0.02) << method << " " << point[1];
+      }
+      return evaluated(study, points);
+    };
+    const OptimumResult result = find_optimum(study, std::get<StudyOptimum>(study.task), within);
+    const double tolerance = std::string(method) == "genetic" ? 0.1 : 1e-3;
+    EXPECT_NEAR(result.points[0][0] / 1e11, 1.2, tolerance) << method;
+    EXPECT_NEAR(100 * result.points[0][1], 0.5, tolerance) << method;
+  }
+}
+
+// The square root is no number below 0.2.
+TEST(Optimum, IsFoundBesideVariantsThatFail) {
+  for (const char* method : {"cobyla", "nelder_mead"}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [-1, 1], "nominal": 0.8}, {"name": "y", "range": [-1, 1], "nominal": 0.8}],
+      "quantities": [{"name": "f", "value": "(x - 0.21)^2 + (y + 0.3)^2 + 0 * sqrt(x - 0.2)"}],
+      "optimise": {"minimise": "f", "evaluations": 300, "tolerance": 1e-6, "method": ")json" +
+                                     std::string(method) + "\"}}");
+    const OptimumResult result =
+        find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+    EXPECT_NEAR(result.points[0][0], 0.21, 1e-2) << method;
+    EXPECT_NEAR(result.points[0][1], -0.3, 1e-2) << method;
+  }
+}
+
+TEST(Optimum, GoesOnAsAnInterruptToItsCaller) {
+  const StudyFile study = study_of(ishigami_head + R"json("optimise": {"minimise": "y"}})json");
+  int calls = 0;
+  const StudyEvaluation interrupted = [&](const StudyPoints& points) {
+    if (++calls > 5) throw StudyInterrupted{};
+    return evaluated(study, points);
+  };
+  EXPECT_THROW(find_optimum(study, std::get<StudyOptimum>(study.task), interrupted), StudyInterrupted);
+  EXPECT_EQ(calls, 6);
+}
+
 TEST(Optimum, OfTwoObjectivesIsAFrontThatNoVariantBeats) {
   const StudyFile study = study_of(R"json({"nurbeam_study": 1,
     "variables": [{"name": "x", "range": [-1, 3]}],

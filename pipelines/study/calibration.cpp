@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <stdexcept>
+
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/openturns_study.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// Runs as functions of (number of a measurement, the variables), in units of the measurement's noise.
+/// Variables count from where the search begins, as parts of half their ranges or of their standard
+/// deviations.
+class MeasuredRuns {
+ public:
+  MeasuredRuns(const StudyFile& study, const StudyCalibration& calibration, const StudyEvaluation& evaluate)
+      : calibration_(calibration), evaluate_(evaluate) {
+    for (const std::size_t i : study.free_variables()) {
+      const StudyVariable& variable = study.variables[i];
+      const std::vector<double>& p = variable.distribution.parameters;
+      origin_.push_back(calibration.prior ? p[0] : variable.nominal);
+      unit_.push_back(calibration.prior ? p[1] : (p[1] - p[0]) / 2);
+    }
+    for (const StudyCalibration::Observation& observation : calibration.observations)
+      for (const double value : observation.measured) {
+        measured_.push_back(value / observation.sd);
+        sd_.push_back(observation.sd);
+      }
+    while (!study.quantities[first_].observed) ++first_;
+  }
+
+  std::size_t variables() const { return unit_.size(); }
+  const std::vector<double>& measured() const { return measured_; }
+  const std::vector<double>& units() const { return unit_; }
+  int evaluations() const { return static_cast<int>(runs_.size()); }
+  void throw_if_stopped() const {
+    if (stopped_) std::rethrow_exception(stopped_);
+  }
+
+  /// All quantities at this place.
+  const std::vector<double>& quantities(const std::vector<double>& place) {
+    return runs_.at(point_of(place));
+  }
+  std::vector<double> point_of(const std::vector<double>& place) const {
+    std::vector<double> point;
+    for (std::size_t i = 0; i < unit_.size(); ++i) point.push_back(origin_[i] + place[i] * unit_[i]);
+    return point;
+  }
+
+  /// Of rows (number, place): each place runs once.
+  std::vector<double> values(const OT::Sample& rows) {
+    StudyPoints fresh;
+    for (std::size_t r = 0; r < rows.getSize(); ++r) {
+      const std::vector<double> point = point_of(place_of(rows, r));
+      if (!runs_.contains(point) && std::find(fresh.begin(), fresh.end(), point) == fresh.end())
+        fresh.push_back(point);
+    }
+    run(fresh);
+    std::vector<double> values;
+    for (std::size_t r = 0; r < rows.getSize(); ++r) {
+      const auto number = static_cast<std::size_t>(std::lround(rows(r, 0)));
+      const auto found = runs_.find(point_of(place_of(rows, r)));
+      constexpr double far_off = 1e6;  // what is not done: the search turns back
+      const bool done = found != runs_.end() && !found->second.empty();
+      values.push_back(done ? found->second[first_ + number] / sd_[number] : far_off);
+    }
+    return values;
+  }
+
+ private:
+  static std::vector<double> place_of(const OT::Sample& rows, std::size_t r) {
+    const OT::Point row = rows[r];
+    return {row.begin() + 1, row.end()};
+  }
+
+  void run(const StudyPoints& fresh) {
+    if (fresh.empty() || stopped_) return;
+    try {
+      if (evaluations() >= calibration_.evaluations)
+        throw std::runtime_error("the calibration has not ended after " + std::to_string(evaluations()) +
+                                 " variants; take more \"evaluations\" or narrower ranges");
+      const StudyPoints quantities = evaluate_(fresh);
+      for (std::size_t i = 0; i < fresh.size(); ++i) runs_[fresh[i]] = quantities[i];
+    } catch (...) {  // the methods are written in C
+      stopped_ = std::current_exception();
+    }
+  }
+
+  const StudyCalibration& calibration_;
+  const StudyEvaluation& evaluate_;
+  std::vector<double> origin_, unit_, measured_, sd_;
+  std::size_t first_ = 0;  // of the observed quantities
+  std::map<std::vector<double>, std::vector<double>> runs_;
+  std::exception_ptr stopped_;
+};
+
+class MeasuredFunction : public OT::EvaluationImplementation {
+ public:
+  explicit MeasuredFunction(MeasuredRuns& runs) : runs_(&runs) {
+    setInputDescription(OT::Description::BuildDefault(runs.variables() + 1, "x"));
+    setOutputDescription({"y"});
+  }
+  MeasuredFunction* clone() const override { return new MeasuredFunction(*this); }
+  OT::UnsignedInteger getInputDimension() const override { return runs_->variables() + 1; }
+  OT::UnsignedInteger getOutputDimension() const override { return 1; }
+  OT::Point operator()(const OT::Point& x) const override { return operator()(OT::Sample(1, x))[0]; }
+  OT::Sample operator()(const OT::Sample& x) const override {
+    const std::vector<double> values = runs_->values(x);
+    OT::Sample result(values.size(), 1);
+    for (std::size_t i = 0; i < values.size(); ++i) result(i, 0) = values[i];
+    return result;
+  }
+
+ private:
+  MeasuredRuns* runs_;
+};
+
+// With the variables as parameters. Derivatives are central differences over a thousandth of the unit.
+OT::Function model_of(MeasuredRuns& runs) {
+  const MeasuredFunction values(runs);
+  constexpr double step = 1e-3;
+  OT::Function whole(values);
+  whole.setGradient(
+      OT::CenteredFiniteDifferenceGradient(OT::Point(runs.variables() + 1, step), OT::Evaluation(values)));
+  OT::Indices parameters(runs.variables());
+  parameters.fill(1);
+  return OT::ParametricFunction(whole, parameters, OT::Point(runs.variables()));
+}
+
+OT::CalibrationResult calibrated(const MeasuredRuns& runs, const OT::Function& model, bool prior) {
+  OT::Sample numbers(runs.measured().size(), 1), measured(runs.measured().size(), 1);
+  for (std::size_t i = 0; i < runs.measured().size(); ++i) {
+    numbers(i, 0) = static_cast<double>(i);
+    measured(i, 0) = runs.measured()[i];
+  }
+  const OT::Point start(runs.variables());
+  const OT::CMinpack search;  // Levenberg and Marquardt
+  if (prior) {
+    OT::GaussianNonLinearCalibration algorithm(
+        model, numbers, measured, start, OT::CovarianceMatrix(runs.variables()), OT::CovarianceMatrix(1));
+    algorithm.setBootstrapSize(0);
+    algorithm.setOptimizationAlgorithm(search);
+    algorithm.run();
+    return algorithm.getResult();
+  }
+  OT::NonLinearLeastSquaresCalibration algorithm(model, numbers, measured, start);
+  algorithm.setBootstrapSize(0);
+  algorithm.setOptimizationAlgorithm(search);
+  algorithm.run();
+  return algorithm.getResult();
+}
+
+}  // namespace
+
+CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& calibration,
+                            const StudyEvaluation& evaluate) {
+  MeasuredRuns runs(study, calibration, evaluate);
+  const OT::Function model = model_of(runs);
+  OT::CalibrationResult found;
+  try {
+    found = calibrated(runs, model, calibration.prior);
+  } catch (const OT::Exception& problem) {
+    runs.throw_if_stopped();
+    throw std::runtime_error(std::string("the measurements do not determine the variables: ") +
+                             problem.what());
+  }
+  runs.throw_if_stopped();
+  const std::vector<double> place = from_point(found.getParameterMAP());
+  const OT::CovarianceMatrix covariance = found.getParameterPosterior().getCovariance();
+  CalibrationResult result{.point = runs.point_of(place), .quantities = runs.quantities(place)};
+  if (result.quantities.empty()) throw std::runtime_error("the variant that was found is not done");
+  const std::vector<double>& units = runs.units();
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    result.covariance.emplace_back();
+    for (std::size_t k = 0; k < units.size(); ++k)
+      result.covariance[i].push_back(covariance(i, k) * units[i] * units[k]);
+    constexpr double undetermined = 100;  // times half the range
+    if (!(std::sqrt(covariance(i, i)) < undetermined))
+      throw std::runtime_error("the measurements do not determine the variable " +
+                               in_quotes(study.variables[study.free_variables()[i]].name) +
+                               ": others can make up for it");
+    const OT::Distribution marginal = found.getParameterPosterior().getMarginal(i);
+    const OT::Interval interval = marginal.computeBilateralConfidenceInterval(calibration.confidence);
+    const double offset = result.point[i] - place[i] * units[i];
+    result.sd.push_back(std::sqrt(result.covariance[i][i]));
+    result.lower.push_back(offset + interval.getLowerBound()[0] * units[i]);
+    result.upper.push_back(offset + interval.getUpperBound()[0] * units[i]);
+  }
+  const OT::Sample left = found.getResidualFunction()(OT::Sample(1, found.getParameterMAP()));
+  result.noise = OT::Point(left[0]).norm() / std::sqrt(static_cast<double>(runs.measured().size()));
+  result.evaluations = runs.evaluations();
+  return result;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,111 @@
+"""Runs the samples of studies, with fewer variants where they take long, and holds them to what is known of their answers.
+
+study_samples.py NURBEAM DIRECTORY
+"""
+import csv
+import json
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+nurbeam, scratch = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+samples = Path(__file__).resolve().parents[2] / "samples/studies"
+
+
+def run(name, **changes):
+    """The answer of a sample, its keys changed (task={key: value})."""
+    text = "\n".join(line for line in (samples / f"{name}.json").read_text().splitlines()
+                     if not line.lstrip().startswith("//"))
+    study = json.loads(text)
+    for task, keys in changes.items():
+        study[task].update(keys)
+    study["case"] = str((samples / study["case"]).resolve())
+    for observation in study.get("calibrate", {}).get("observations", []):
+        observation["measured"]["file"] = str(samples / observation["measured"]["file"])
+    scratch.mkdir(parents=True, exist_ok=True)
+    file = scratch / f"{name}.json"
+    file.write_text(json.dumps(study))
+    done = subprocess.run([nurbeam, "study", file, "--out", scratch / name, "--quiet"], capture_output=True, text=True)
+    assert done.returncode == 0, (name, done.stdout, done.stderr)
+    return json.loads((scratch / name / "study.json").read_text())["answer"]
+
+
+def rows(name):
+    with open(scratch / name / "study.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def curve_points(axis, count):
+    """Points of a clamped B-spline with equal weights (de Boor)."""
+    points, knots, p = axis["control_points"], axis["knots"], axis["degree"]
+    result = []
+    for i in range(count):
+        u = knots[0] + (knots[-1] - knots[0]) * i / (count - 1)
+        k = p
+        while k < len(points) - 1 and u >= knots[k + 1]:
+            k += 1
+        d = [list(points[j + k - p]) for j in range(p + 1)]
+        for r in range(1, p + 1):
+            for j in range(p, r - 1, -1):
+                a = (u - knots[j + k - p]) / (knots[j + 1 + k - r] - knots[j + k - p])
+                d[j] = [(1 - a) * x + a * y for x, y in zip(d[j - 1], d[j])]
+        result.append(d[p])
+    return result
+
+
+def the_rail_is_as_fast_as_the_cycloid():
+    answer = run("brachistochrone")
+    cycloid = math.pi / math.sqrt(9.81)
+    history = answer["history"]
+    within = next(i + 1 for i, best in enumerate(history) if best is not None and best < 1.01 * cycloid)
+    best = answer["optima"][0]["quantities"]["time"]
+    print(f"brachistochrone: {best:.5f} s, cycloid {cycloid:.5f} s; within 1 % after {within} of {len(history)} variants")
+    assert cycloid * (1 - 1e-4) <= best <= 1.001 * cycloid, best
+    assert history[0] > 1.15 * cycloid, "it begins as a straight line"
+
+
+def the_arch_is_the_inverted_catenary():
+    run("arch")
+    axis = json.loads((scratch / "arch/best.json").read_text())["beams"][0]["axis"]["nurbs"]
+    points = curve_points(axis, 401)
+    rise = points[200][2]
+    low, high = 0.5, 100
+    for _ in range(100):  # rise = a (cosh(5 m / a) - 1)
+        a = (low + high) / 2
+        low, high = (a, high) if a * (math.cosh(5 / a) - 1) > rise else (low, a)
+    off = max(abs(z - rise + a * (math.cosh(x / a) - 1)) for x, _, z in points)
+    print(f"arch: {1e3 * off:.2f} mm off the catenary of its rise, {rise:.3f} m")
+    assert off < 2e-3 * rise, off
+
+
+def the_zip_line_holds_its_limits():
+    answer = run("zipline", optimise={"evaluations": 40})
+    best = answer["optima"][0]["quantities"]
+    print("zip line:", best)
+    assert best["top_speed"] <= 10.5 + 1e-6 and best["arrival"] >= 36 - 1e-6
+    allowed = [float(row["tension [N]"]) for row in rows("zipline")
+               if row["status"] == "done" and float(row["top_speed [m/s]"]) <= 10.5 and float(row["arrival [m]"]) >= 36]
+    assert best["tension"] == min(allowed)
+
+
+def the_rod_is_the_one_that_was_filmed():
+    answer = run("pendulum")
+    true = {"E": 5.4e6, "mass_per_length": 1150 * math.pi * 0.01**2}
+    (a, b), (_, c) = answer["covariance"]
+    x, y = (answer["variables"][name] - value for name, value in true.items())
+    distance = (c * x * x - 2 * b * x * y + a * y * y) / (a * c - b * b)  # Mahalanobis', squared
+    print("pendulum:", {name: estimate["value"] for name, estimate in answer["estimates"].items()}, "true:", true)
+    assert distance < -2 * math.log(0.05), distance
+    assert answer["estimates"]["E"]["sd"] < 0.02 * true["E"]
+    assert answer["estimates"]["mass_per_length"]["sd"] < 0.005 * true["mass_per_length"]
+    assert 0.85 < answer["noise"] < 1.15, answer["noise"]
+
+
+shutil.rmtree(scratch, ignore_errors=True)
+the_rail_is_as_fast_as_the_cycloid()
+the_arch_is_the_inverted_catenary()
+the_zip_line_holds_its_limits()
+the_rod_is_the_one_that_was_filmed()
+print("all samples answered as they should")
