@@ -29,12 +29,14 @@ StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSyst
   system.tangent(after, {.mass = 1}, mass_);
   system.tangent(after, {.damping = 1}, damping_);
   system.tangent(after, {.stiffness = 1}, stiffness_);
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
-  system.tangent(after,
-                 {.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
-                  .damping = gamma * h_ / mass_scale_,
-                  .stiffness = beta * h_ * h_ / mass_scale_},
-                 kkt);
+  Eigen::SparseMatrix<double> kkt = stiffness_;
+  for (int column = 0; column < system.coordinate_count(); ++column)
+    for (int k = kkt.outerIndexPtr()[column]; k < kkt.outerIndexPtr()[column + 1]; ++k)
+      if (kkt.innerIndexPtr()[k] < system.coordinate_count())
+        kkt.valuePtr()[k] =
+            ((1 - alpha_m) / (1 - alpha_f) * mass_.valuePtr()[k] + gamma * h_ * damping_.valuePtr()[k] +
+             beta * h_ * h_ * stiffness_.valuePtr()[k]) /
+            mass_scale_;
   regular_ = solver_.factorise(kkt);
 }
 

@@ -33,7 +33,7 @@ bool same_times(const SimulationOptions& a, const SimulationOptions& b) {
 }  // namespace
 
 double derivative_step(const StudyVariable& variable, double value) {
-  constexpr double part = 1e-4;
+  constexpr double part = 1e-5;
   using Kind = StudyDistribution::Kind;
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;

@@ -8,9 +8,6 @@
 
 namespace nurbeam {
 
-/// Derivatives of quantities: a row for each, by each free variable.
-using StudyGradient = std::vector<std::vector<double>>;
-
 /// By how much a variable is changed for a derivative.
 double derivative_step(const StudyVariable& variable, double value);
 

@@ -12,13 +12,21 @@ namespace {
 constexpr std::size_t block = 32;  // variants of a simulation that run together
 
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
-                             const StudyEvaluation& evaluate) {
+                             const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
   const std::size_t k = quantity_index(study, reliability.quantity);
+  StudyDerivatives gradient;
+  if (derivatives)
+    gradient = [&derivatives, k](const std::vector<double>& point) {
+      const StudyGradient all = derivatives(point);
+      return all.empty() ? StudyGradient{} : StudyGradient{all[k]};
+    };
   const OT::Function f = study_function(
-      study, evaluate, 1, [k](const std::vector<double>& quantities, const std::vector<double>&) {
+      study, evaluate, 1,
+      [k](const std::vector<double>& quantities, const std::vector<double>&) {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
         return std::vector<double>{quantities.empty() ? none : quantities[k]};
-      });
+      },
+      gradient);
   const OT::CompositeRandomVector output(f, OT::RandomVector(joint_distribution(study)));
   return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), reliability.threshold)
                                  : OT::ThresholdEvent(output, OT::Less(), reliability.threshold);
@@ -33,9 +41,7 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
   search.setMaximumRelativeError(1e-8);
   search.setMaximumResidualError(1e-8);
   search.setMaximumConstraintError(1e-8);
-  std::vector<double> start;
-  for (const std::size_t i : study.free_variables()) start.push_back(study.variables[i].nominal);
-  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(start));
+  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(study.nominal()));
   form.run();
   return form.getResult();
 }
@@ -56,7 +62,7 @@ ReliabilityResult simulated(const StudyReliability& reliability, const OT::Rando
 }  // namespace
 
 ReliabilityResult failure_probability(const StudyFile& study, const StudyReliability& reliability,
-                                      const StudyEvaluation& evaluate) {
+                                      const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
   using Method = StudyReliability::Method;
   OT::RandomGenerator::SetSeed(study.seed);
   int not_done = 0;
@@ -66,7 +72,7 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
         std::count_if(quantities.begin(), quantities.end(), [](const auto& row) { return row.empty(); }));
     return quantities;
   };
-  const OT::RandomVector event = limit_event(study, reliability, counted);
+  const OT::RandomVector event = limit_event(study, reliability, counted, derivatives);
   if (reliability.method == Method::monte_carlo) {
     ReliabilityResult result = simulated(reliability, event, OT::MonteCarloExperiment());
     result.not_done = not_done;

@@ -47,6 +47,9 @@ struct CurveTransform {
   Eigen::Vector3d about = Eigen::Vector3d::Zero();      ///< [m]
 };
 
+/// Derivatives of quantities, a row for each, by the free variables.
+using StudyGradient = std::vector<std::vector<double>>;
+
 using StudyTarget = std::variant<CasePaths, ControlPointCoordinate, ControlPointWeight, CurveTransform>;
 
 /// What a study varies.
@@ -147,6 +150,8 @@ struct StudyFile {
 
   /// Indices of the variables that are not derived.
   std::vector<std::size_t> free_variables() const;
+  /// Their nominal values.
+  std::vector<double> nominal() const;
 };
 
 /// A study file and everything that is wrong with it; `value` is empty when any diagnostic is an error.

@@ -128,6 +128,23 @@ void check_kinds(const StudyFile& study, Findings& findings) {
   }
 }
 
+// What takes sums over the run has none: its tangent does not go along.
+void check_derivatives(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
+                       const SimulationOptions& options, Findings& findings) {
+  for (const StudyQuantity& quantity : study.quantities)
+    for (const std::string& name : quantity.value.names())
+      if (name == "energy.total" || name == "energy.dissipated" || name == "energy.input")
+        findings.error(quantity.path + ".value",
+                       in_quotes(name) +
+                           " has no derivative here; take \"derivatives\": \"differences\", or a "
+                           "method without derivatives");
+  try {
+    const VariantGradient gradient(study, study_case, values, options);
+  } catch (const std::invalid_argument& problem) {
+    findings.error("variables", problem.what());
+  }
+}
+
 }  // namespace
 
 std::string name_of(VariantStatus status) {
@@ -178,12 +195,11 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
 
 std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase* study_case) {
   if (!study_case) return {};
-  std::vector<double> nominal;
-  for (const std::size_t i : study.free_variables()) nominal.push_back(study.variables[i].nominal);
+  const std::vector<double> nominal = all_values(study, study.nominal());
   Findings findings(study.path.string());
   try {
     const CaseFileReport read =
-        read_case_text(study_case->variant(study.variables, all_values(study, nominal)), study_case->file());
+        read_case_text(study_case->variant(study.variables, nominal), study_case->file());
     if (!read.value) return {unchecked(study, first_error(read.diagnostics))};
     const BuildReport built = build_model(*read.value);
     if (!built.value) return {unchecked(study, first_error(built.diagnostics))};
@@ -196,6 +212,8 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
           findings.error(quantity.path + ".value",
                          "a run of this case has no column " + in_quotes(name) + known_names(name, known));
     if (!findings.has_errors()) check_kinds(study, findings);
+    if (!findings.has_errors() && study.derivatives)
+      check_derivatives(study, *study_case, nominal, simulation_options(*read.value), findings);
   } catch (const std::invalid_argument& problem) {
     return {unchecked(study, problem.what())};
   }

@@ -29,9 +29,8 @@ struct Variant {
   VariantStatus status = VariantStatus::done;
   std::string reason = {};              ///< empty where it is done
   std::vector<double> quantities = {};  ///< in their order; empty where it is not done
-  /// Derivatives of the quantities, of each by the free variables, where the study asks for them.
-  std::vector<std::vector<double>> gradient = {};
-  double seconds = 0;  ///< wall time
+  StudyGradient gradient = {};          ///< where the study asks for derivatives, and it is done
+  double seconds = 0;                   ///< wall time
 };
 
 /// The values of all variables, of those of the free ones.
