@@ -76,6 +76,7 @@ class MpiEngine : public StudyEngine {
 bool started_by_mpi() {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   if (!size) size = std::getenv("PMI_SIZE");
+  if (!size && std::getenv("PMIX_RANK")) size = std::getenv("SLURM_STEP_NUM_TASKS");  // srun --mpi=pmix
   return size && std::atoi(size) > 1;
 }
 

@@ -6,7 +6,7 @@
 
 namespace nurbeam {
 
-/// Whether this process is one of several that mpirun has started.
+/// Whether this process is one of several that mpirun, or Slurm's srun with PMIx, has started.
 bool started_by_mpi();
 
 /// MPI, from construction to destruction. Precondition: started_by_mpi().
