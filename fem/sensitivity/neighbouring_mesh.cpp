@@ -1,6 +1,9 @@
 #include "fem/sensitivity/neighbouring_mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "fem/motion/run_follower.h"
 #include "fem/system/with_assembly.h"
@@ -19,9 +22,14 @@ double held_place(const MeshedState& at, int joint, const BeamModel& model) {
   return corresponding_place(drawn.beam_of(own), s, model.beam_of(other));
 }
 
-bool is_held(const BeamSystem& system, int joint) {
-  return with_assembly(
-      system, [&](const auto& assembly) { return assembly.rows_of_place(joint).count > 0; });
+// Whether what acts on elements is given over time.
+bool has_tables(const BeamModel& model) {
+  return std::any_of(
+             model.forces.begin(), model.forces.end(),
+             [](const Force& force) { return std::holds_alternative<LineLoad>(force); }) ||
+         std::any_of(
+             model.beams.begin(), model.beams.end(),
+             [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); });
 }
 
 }  // namespace
@@ -37,6 +45,40 @@ bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour) {
   return same;
 }
 
+std::vector<bool> differing_elements(const BeamSystem& system, const BeamSystem& other, const State& state) {
+  constexpr double round_off = 1e-12;
+  const bool always = has_tables(system.model());
+  // Strained and moving everywhere, so that whatever differs is felt.
+  State near = state;
+  const Eigen::VectorXd scale = system.coordinate_scale();
+  for (int i = 0; i < system.coordinate_count(); ++i) {
+    near.q[i] += 1e-3 * scale[i] * std::sin(1 + 1.7 * i);
+    near.v[i] += scale[i] * std::sin(2 + 2.3 * i);
+    near.a[i] += scale[i] * std::sin(3 + 3.1 * i);
+  }
+  return with_assembly(system, [&](const auto& assembly) {
+    const auto& neighbour = *other.assembly<std::decay_t<decltype(assembly)>::dimension>();
+    const auto forces = assembly.element_forces(near), of_other = neighbour.element_forces(near);
+    std::vector<bool> differ;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const double size = forces[i].template lpNorm<Eigen::Infinity>();
+      const double change = (forces[i] - of_other[i]).template lpNorm<Eigen::Infinity>();
+      differ.push_back(always || assembly.elements()[i].twist || !(change <= round_off * size));
+    }
+    return differ;
+  });
+}
+
+std::vector<bool> held_joints(const BeamSystem& system) {
+  std::vector<bool> held;
+  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
+    const bool has_row =
+        with_assembly(system, [&](const auto& assembly) { return assembly.rows_of_place(j).count > 0; });
+    held.push_back(has_row && !system.model().joints[j].motion);
+  }
+  return held;
+}
+
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model) {
   MeshPlan plan = at.system->mesh().plan;
@@ -44,12 +86,8 @@ std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
     throw std::runtime_error(
         "an equilibrium has no derivative here where bodies slide to it on beams with torsion or constant "
         "weights, or sections turn far");
-  std::vector<bool> held;
-  for (int j = 0; j < static_cast<int>(plan.places.size()); ++j) {
-    held.push_back(is_held(*at.system, j) && !at.system->model().joints[j].motion);
-    plan.places[j] = held_place(at, j, *model);
-  }
-  return std::make_unique<BeamSystem>(model, std::move(plan), held);
+  for (int j = 0; j < static_cast<int>(plan.places.size()); ++j) plan.places[j] = held_place(at, j, *model);
+  return std::make_unique<BeamSystem>(model, std::move(plan), held_joints(*at.system));
 }
 
 }  // namespace nurbeam

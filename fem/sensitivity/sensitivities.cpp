@@ -9,6 +9,7 @@
 #include "fem/motion/free_lengths.h"
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
+#include "fem/system/with_assembly.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
 
@@ -57,6 +58,7 @@ void check_tangents(const BeamModel& model) {
 struct Sensitivities::Parameter {
   NeighbourPair pair;
   std::unique_ptr<BeamSystem> more = nullptr, less = nullptr;
+  std::vector<bool> differs = {};  // elements: the others count for nothing in a difference
   MotionTangent tangent = {};
 
   // What `change` makes of the neighbours of a state.
@@ -87,9 +89,20 @@ struct Sensitivities::Difference {
   Vector dynamics, constraints;
 };
 
-Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
-                             Recorder record)
-    : record_(std::move(record)) {
+// Of the neighbours of all parameters; and the joints that they hold.
+struct Sensitivities::Meshes {
+  std::vector<std::pair<MeshPlan, MeshPlan>> plans;  // with more and with less of each parameter
+  std::vector<bool> held;
+};
+
+struct Sensitivities::Record {
+  State state;
+  bool of_the_moment;
+  std::vector<State> tangents;
+  std::shared_ptr<const Meshes> meshes;
+};
+
+Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters) {
   const auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
   if (!options.statics && !settings)
     throw std::invalid_argument("derivatives of a motion need the integrator generalized-alpha");
@@ -109,12 +122,22 @@ Sensitivities::Difference Sensitivities::residual_change(const Parameter& parame
     State state = at;
     state.t += part * time;
     Difference r{Vector(at.q.size()), Vector(at.lambda.size())};
-    system.residual(state, r.dynamics, r.constraints);
+    with_assembly(system, [&](const auto& assembly) {
+      assembly.residual(state, parameter.differs, r.dynamics, r.constraints);
+    });
     return r;
   };
   const double step = parameter.pair.step;
   const Difference more = residual(*parameter.more, step), less = residual(*parameter.less, -step);
   return {(more.dynamics - less.dynamics) / (2 * step), (more.constraints - less.constraints) / (2 * step)};
+}
+
+void Sensitivities::go_on_from(const MeshedState& at) {
+  system_ = at.system.get();
+  state_ = at.state;
+  meshes_ = nullptr;
+  for (Parameter& parameter : parameters_)
+    parameter.differs = differing_elements(*parameter.more, *parameter.less, at.state);
 }
 
 void Sensitivities::begins(const MeshedState& drawn) {
@@ -130,8 +153,7 @@ void Sensitivities::begins(const MeshedState& drawn) {
     parameter.more = std::move(more.system);
     parameter.less = std::move(less.system);
   }
-  system_ = drawn.system.get();
-  state_ = drawn.state;
+  go_on_from(drawn);
 }
 
 void Sensitivities::rests(const MeshedState& at) {
@@ -146,6 +168,7 @@ void Sensitivities::rests(const MeshedState& at) {
     parameter.less = at_rest_like(at, parameter.pair.less.model);
     for (const BeamSystem* each : {parameter.more.get(), parameter.less.get()})
       if (!same_mesh(*at.system, *each)) differs("where bodies rest changes");
+    parameter.differs = differing_elements(*parameter.more, *parameter.less, at.state);
     const Difference change = residual_change(parameter, at.state, 0);
     Vector rhs(n + m);
     rhs << -change.dynamics, -change.constraints;
@@ -153,8 +176,7 @@ void Sensitivities::rests(const MeshedState& at) {
     parameter.start_afresh(
         {.t = 0, .q = x.head(n), .v = Vector::Zero(n), .a = Vector::Zero(n), .lambda = x.tail(m)});
   }
-  system_ = at.system.get();
-  state_ = at.state;
+  go_on_from(at);
 }
 
 void Sensitivities::steps(const FollowedStep& step) {
@@ -202,8 +224,7 @@ void Sensitivities::changes(const MeshedState& at, const std::function<bool(Mesh
     parameter.change(state_, change);
     if (!same_mesh(*at.system, *parameter.more)) differs("what happens at an event changes");
   }
-  system_ = at.system.get();
-  state_ = at.state;
+  go_on_from(at);
 }
 
 void Sensitivities::happens(const RunEvent& event) {
@@ -215,17 +236,30 @@ void Sensitivities::happens(const RunEvent& event) {
 }
 
 void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const Parameter& parameter = parameters_[i];
-    const auto snapshot = [&](const BeamSystem& system, const Neighbour& neighbour, double part) {
-      State state = moved(at.state, parameter.tangent.state, part);
-      if (of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
-        throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
-      return record_snapshot(system, state, neighbour.probes);
-    };
-    record_(i, snapshot(*parameter.more, parameter.pair.more, parameter.pair.step),
-            snapshot(*parameter.less, parameter.pair.less, -parameter.pair.step));
+  if (!meshes_) {
+    auto meshes = std::make_shared<Meshes>();
+    for (const Parameter& parameter : parameters_)
+      meshes->plans.emplace_back(parameter.more->mesh().plan, parameter.less->mesh().plan);
+    meshes->held = held_joints(*at.system);
+    meshes_ = std::move(meshes);
   }
+  Record record{at.state, of_the_moment, {}, meshes_};
+  for (const Parameter& parameter : parameters_) record.tangents.push_back(parameter.tangent.state);
+  records_.push_back(std::move(record));
+}
+
+std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter) const {
+  const Record& of = records_[record];
+  const NeighbourPair& pair = parameters_[parameter].pair;
+  const auto snapshot = [&](const Neighbour& neighbour, const MeshPlan& plan, double part) {
+    const BeamSystem system(neighbour.model, plan, of.meshes->held);
+    State state = moved(of.state, of.tangents[parameter], part);
+    if (of.of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
+      throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
+    return record_snapshot(system, state, neighbour.probes);
+  };
+  const auto& [more, less] = of.meshes->plans[parameter];
+  return {snapshot(pair.more, more, pair.step), snapshot(pair.less, less, -pair.step)};
 }
 
 }  // namespace nurbeam

@@ -39,18 +39,19 @@ struct NeighbourPair {
 /// of the discrete motion with these decisions.
 class Sensitivities final : public RunFollower {
  public:
-  /// Takes the snapshots of the neighbours of parameter i, one after the other, at the times of the run's
-  /// own: of states step dq/dp away.
-  using Recorder = std::function<void(std::size_t i, const Snapshot& more, const Snapshot& less)>;
-
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
   /// what has no tangent: friction, buffers, connectors whose length is found.
-  Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters, Recorder record);
+  Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters);
   ~Sensitivities() override;
 
   /// Derivatives of the time of each event of the run, in order, by each parameter [s]; NaN where steps
   /// decide when: of changes of the mesh.
   const std::vector<std::vector<double>>& event_times() const { return event_times_; }
+
+  /// At the time of snapshot `record` of the run, counted from 0, those of the models in which a parameter is
+  /// greater and less, of states step dq/dp away. Throws std::runtime_error where these have no
+  /// accelerations.
+  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter) const;
 
   void begins(const MeshedState& drawn) override;
   void rests(const MeshedState& at) override;
@@ -62,15 +63,19 @@ class Sensitivities final : public RunFollower {
  private:
   struct Parameter;
   struct Difference;
+  struct Meshes;
+  struct Record;
 
+  void go_on_from(const MeshedState& at);
   Difference residual_change(const Parameter& parameter, const State& at, double time) const;
 
   GeneralizedAlpha settings_;
   std::vector<Parameter> parameters_;
-  Recorder record_;
   const BeamSystem* system_ = nullptr;
   State state_;  // of the run
   std::vector<std::vector<double>> event_times_;
+  std::vector<Record> records_;
+  std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
 };
 
 }  // namespace nurbeam

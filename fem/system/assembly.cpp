@@ -345,11 +345,28 @@ void Assembly<D>::carry_bodies(State& state) const {
 template <int D>
 void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                            Eigen::Ref<Eigen::VectorXd> constraints) const {
+  sum_residual(
+      state, [](int) { return true; }, dynamics, constraints);
+}
+
+template <int D>
+void Assembly<D>::residual(const State& state, const std::vector<bool>& among,
+                           Eigen::Ref<Eigen::VectorXd> dynamics,
+                           Eigen::Ref<Eigen::VectorXd> constraints) const {
+  sum_residual(
+      state, [&](int element) { return among[element]; }, dynamics, constraints);
+}
+
+template <int D>
+template <class Among>
+void Assembly<D>::sum_residual(const State& state, const Among& among, Eigen::Ref<Eigen::VectorXd> dynamics,
+                               Eigen::Ref<Eigen::VectorXd> constraints) const {
   const MeshedBeams<D> at = beams();
   dynamics.setZero();
   for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
     const Vector load = line_load(b, state);
     for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
+      if (!among(i)) continue;
       const MeshElement<D>& e = elements_[i];
       const ElementVector<D> f = element_force(e, state, load);
       for (int k = 0; k < element_size<D>; ++k)

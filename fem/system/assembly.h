@@ -18,6 +18,7 @@ namespace nurbeam {
 template <int D>
 class Assembly final : public SecondOrderSystem {
  public:
+  static constexpr int dimension = D;
   using Vector = Eigen::Matrix<double, D, 1>;
 
   /// `held`: joints whose place is held at its value in the plan.
@@ -68,6 +69,9 @@ class Assembly final : public SecondOrderSystem {
   int constraint_count() const override { return constraint_count_; }
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
+  /// The same without the forces of the elements that are not `among`.
+  void residual(const State& state, const std::vector<bool>& among, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const;
   Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
@@ -96,6 +100,9 @@ class Assembly final : public SecondOrderSystem {
   void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
+  template <class Among>
+  void sum_residual(const State& state, const Among& among, Eigen::Ref<Eigen::VectorXd> dynamics,
+                    Eigen::Ref<Eigen::VectorXd> constraints) const;
   Vector line_load(int beam, const State& state) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
 

@@ -26,6 +26,28 @@ std::vector<double> changed(const StudyFile& study, const std::vector<double>& v
   return all_values(study, free);
 }
 
+/// The stored times at which histories have a part in the quantities.
+std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vector<double>& values,
+                                          const Histories& histories, const BeamModel& model,
+                                          const std::vector<RunEvent>& events) {
+  const auto quantities = [&](const Histories& of) {
+    std::vector<double> all;
+    for (const StudyQuantity& quantity : study.quantities)
+      all.push_back(quantity.value.number(scope_of_run(study, values, of, model, events)));
+    return all;
+  };
+  constexpr double little = 1e-6;
+  const std::vector<double> present = quantities(histories);
+  std::vector<std::size_t> times;
+  for (std::size_t i = 0; i < histories.times().size(); ++i) {
+    Histories more = histories, less = histories;
+    more.nudge(i, little);
+    less.nudge(i, -little);
+    if (quantities(more) != present || quantities(less) != present) times.push_back(i);
+  }
+  return times;
+}
+
 bool same_times(const SimulationOptions& a, const SimulationOptions& b) {
   return a.end_time == b.end_time && a.step == b.step && a.output_times == b.output_times;
 }
@@ -86,7 +108,7 @@ struct VariantGradient::Pair {
 
 VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_case,
                                  const std::vector<double>& values, const SimulationOptions& options)
-    : study_(study) {
+    : study_(study), values_(values) {
   const std::vector<std::size_t> free = study.free_variables();
   std::vector<NeighbourPair> neighbours;
   for (std::size_t k = 0; k < free.size(); ++k) {
@@ -101,17 +123,23 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     }
     neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
   }
-  sensitivities_ = std::make_unique<Sensitivities>(
-      options, std::move(neighbours), [this](std::size_t i, const Snapshot& more, const Snapshot& less) {
-        pairs_[i].more.histories.add(more);
-        pairs_[i].less.histories.add(less);
-      });
+  sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours));
 }
 
 VariantGradient::~VariantGradient() = default;
 
-StudyGradient VariantGradient::of_quantities(const BeamModel& model,
-                                             const std::vector<RunEvent>& events) const {
+StudyGradient VariantGradient::of_quantities(const BeamModel& model, const Histories& histories,
+                                             const std::vector<RunEvent>& events) {
+  const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model, events);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    pairs_[k].more.histories.begin_as(histories);
+    pairs_[k].less.histories.begin_as(histories);
+    for (const std::size_t time : times) {
+      const auto& [more, less] = sensitivities_->neighbours(time, k);
+      pairs_[k].more.histories.replace(time, more);
+      pairs_[k].less.histories.replace(time, less);
+    }
+  }
   StudyGradient gradient;
   for (const StudyQuantity& quantity : study_.quantities) {
     std::vector<double> row;

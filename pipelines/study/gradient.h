@@ -25,14 +25,17 @@ class VariantGradient {
   ~VariantGradient();
 
   RunFollower& follower() { return *sensitivities_; }
-  /// After the run, which had these events. Throws std::invalid_argument for a quantity without a derivative.
-  StudyGradient of_quantities(const BeamModel& model, const std::vector<RunEvent>& events) const;
+  /// After the run, which had these histories and events. Throws std::invalid_argument for a quantity without
+  /// a derivative.
+  StudyGradient of_quantities(const BeamModel& model, const Histories& histories,
+                              const std::vector<RunEvent>& events);
 
  private:
   struct NeighbouringRun;
   struct Pair;
 
   const StudyFile& study_;
+  const std::vector<double> values_;
   std::vector<Pair> pairs_;
   std::unique_ptr<Sensitivities> sensitivities_;
 };

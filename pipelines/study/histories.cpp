@@ -1,6 +1,7 @@
 #include "pipelines/study/histories.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -54,6 +55,24 @@ void Histories::add(const Snapshot& local) {
   const Snapshot snapshot = to_world(frame_, local);
   times_.push_back(snapshot.time);
   for (std::size_t i = 0; i < columns_.size(); ++i) values_[i].push_back(columns_[i].value(snapshot));
+}
+
+void Histories::begin_as(const Histories& other) {
+  times_ = other.times_;
+  values_ = other.values_;
+}
+
+void Histories::replace(std::size_t time, const Snapshot& local) {
+  const Snapshot snapshot = to_world(frame_, local);
+  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i][time] = columns_[i].value(snapshot);
+}
+
+void Histories::nudge(std::size_t time, double part) {
+  for (std::vector<double>& column : values_) {
+    double largest = 0;
+    for (const double value : column) largest = std::fmax(largest, std::abs(value));
+    column[time] += part * largest;
+  }
 }
 
 const std::vector<double>* Histories::find(const std::string& name) const {

@@ -21,6 +21,13 @@ class Histories {
   /// A snapshot in the model's own coordinates.
   void add(const Snapshot& local);
 
+  /// Takes the times and values of another run of the study over.
+  void begin_as(const Histories& other);
+  /// Those of one time, from a snapshot in the model's own coordinates.
+  void replace(std::size_t time, const Snapshot& local);
+  /// Adds a part of the largest of each to the values of one time.
+  void nudge(std::size_t time, double part);
+
   const std::vector<double>& times() const { return times_; }
   /// Null where the study does not ask for that column.
   const std::vector<double>* find(const std::string& name) const;
