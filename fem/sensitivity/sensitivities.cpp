@@ -48,7 +48,7 @@ void check_tangents(const BeamModel& model) {
         "connectors whose length is to be found have no derivative here: give their lengths");
 }
 
-[[noreturn]] void differs(const char* what) {
+[[noreturn]] void not_alike(const char* what) {
   throw std::runtime_error(std::string("a derivative needs neighbouring models of one mesh, and ") + what +
                            " with the parameter");
 }
@@ -72,7 +72,7 @@ struct Sensitivities::Parameter {
     less = std::move(below.system);
     if (above.state.q.size() != below.state.q.size() ||
         above.state.lambda.size() != below.state.lambda.size())
-      differs("what happens at an event changes");
+      not_alike("what happens at an event changes");
     start_afresh(rate(above.state, below.state, pair.step));
   }
 
@@ -146,8 +146,8 @@ void Sensitivities::begins(const MeshedState& drawn) {
     MeshedState more = MeshedState::drawn(parameter.pair.more.model),
                 less = MeshedState::drawn(parameter.pair.less.model);
     for (const MeshedState* each : {&more, &less}) {
-      if (!same_mesh(*drawn.system, *each->system)) differs("the mesh changes");
-      if (kink_times(each->system->model()) != kinks) differs("the times of tables or releases change");
+      if (!same_mesh(*drawn.system, *each->system)) not_alike("the mesh changes");
+      if (kink_times(each->system->model()) != kinks) not_alike("the times of tables or releases change");
     }
     parameter.start_afresh(rate(more.state, less.state, parameter.pair.step));
     parameter.more = std::move(more.system);
@@ -167,7 +167,7 @@ void Sensitivities::rests(const MeshedState& at) {
     parameter.more = at_rest_like(at, parameter.pair.more.model);
     parameter.less = at_rest_like(at, parameter.pair.less.model);
     for (const BeamSystem* each : {parameter.more.get(), parameter.less.get()})
-      if (!same_mesh(*at.system, *each)) differs("where bodies rest changes");
+      if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
     parameter.differs = differing_elements(*parameter.more, *parameter.less, at.state);
     const Difference change = residual_change(parameter, at.state, 0);
     Vector rhs(n + m);
@@ -222,7 +222,7 @@ void Sensitivities::steps(const FollowedStep& step) {
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {
   for (Parameter& parameter : parameters_) {
     parameter.change(state_, change);
-    if (!same_mesh(*at.system, *parameter.more)) differs("what happens at an event changes");
+    if (!same_mesh(*at.system, *parameter.more)) not_alike("what happens at an event changes");
   }
   go_on_from(at);
 }
