@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -102,7 +103,8 @@ struct Sensitivities::Record {
   std::shared_ptr<const Meshes> meshes;
 };
 
-Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters) {
+Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters)
+    : begins_at_rest_(options.statics || options.start_from_equilibrium) {
   const auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
   if (!options.statics && !settings)
     throw std::invalid_argument("derivatives of a motion need the integrator generalized-alpha");
@@ -143,17 +145,18 @@ void Sensitivities::go_on_from(const MeshedState& at) {
 void Sensitivities::begins(const MeshedState& drawn) {
   const std::vector<double> kinks = kink_times(drawn.system->model());
   for (Parameter& parameter : parameters_) {
+    for (const Neighbour* each : {&parameter.pair.more, &parameter.pair.less})
+      if (kink_times(*each->model) != kinks) not_alike("the times of tables or releases change");
+    if (begins_at_rest_) continue;
     MeshedState more = MeshedState::drawn(parameter.pair.more.model),
                 less = MeshedState::drawn(parameter.pair.less.model);
-    for (const MeshedState* each : {&more, &less}) {
+    for (const MeshedState* each : {&more, &less})
       if (!same_mesh(*drawn.system, *each->system)) not_alike("the mesh changes");
-      if (kink_times(each->system->model()) != kinks) not_alike("the times of tables or releases change");
-    }
     parameter.start_afresh(rate(more.state, less.state, parameter.pair.step));
     parameter.more = std::move(more.system);
     parameter.less = std::move(less.system);
   }
-  go_on_from(drawn);
+  if (!begins_at_rest_) go_on_from(drawn);
 }
 
 void Sensitivities::rests(const MeshedState& at) {
@@ -251,15 +254,20 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
 std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter) const {
   const Record& of = records_[record];
   const NeighbourPair& pair = parameters_[parameter].pair;
-  const auto snapshot = [&](const Neighbour& neighbour, const MeshPlan& plan, double part) {
-    const BeamSystem system(neighbour.model, plan, of.meshes->held);
+  const bool present = of.meshes == meshes_;
+  const auto snapshot = [&](const Neighbour& neighbour, const BeamSystem* now, const MeshPlan& plan,
+                            double part) {
+    std::optional<BeamSystem> then;
+    const BeamSystem& system = present ? *now : then.emplace(neighbour.model, plan, of.meshes->held);
     State state = moved(of.state, of.tangents[parameter], part);
     if (of.of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
     return record_snapshot(system, state, neighbour.probes);
   };
-  const auto& [more, less] = of.meshes->plans[parameter];
-  return {snapshot(pair.more, more, pair.step), snapshot(pair.less, less, -pair.step)};
+  const auto& [plan_of_more, plan_of_less] = of.meshes->plans[parameter];
+  const Parameter& at_end = parameters_[parameter];
+  return {snapshot(pair.more, at_end.more.get(), plan_of_more, pair.step),
+          snapshot(pair.less, at_end.less.get(), plan_of_less, -pair.step)};
 }
 
 }  // namespace nurbeam

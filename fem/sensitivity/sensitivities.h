@@ -70,6 +70,7 @@ class Sensitivities final : public RunFollower {
   Difference residual_change(const Parameter& parameter, const State& at, double time) const;
 
   GeneralizedAlpha settings_;
+  bool begins_at_rest_;
   std::vector<Parameter> parameters_;
   const BeamSystem* system_ = nullptr;
   State state_;  // of the run

@@ -128,7 +128,7 @@ class StudyTaskReader : StudyPartReader {
                               {{"form", Method::form},
                                {"importance_sampling", Method::importance_sampling},
                                {"monte_carlo", Method::monte_carlo}});
-    study_.derivatives = read_derivatives(json, "reliability", r.method != Method::monte_carlo);
+    study_.derivatives = read_derivatives(json, "reliability", r.method == Method::form);
     r.count = static_cast<int>(number(json, "count", 1000));
     r.coefficient_of_variation = number(json, "coefficient_of_variation", 0);
     return r;
