@@ -11,6 +11,7 @@
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
 #include "fem/system/with_assembly.h"
+#include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
 
@@ -68,7 +69,7 @@ struct Sensitivities::Parameter {
         below{std::move(less), moved(from, tangent.state, -pair.step)};
     if (!change(above) || !change(below))
       throw std::runtime_error(
-          "a derivative cannot follow the run through an event at t = " + std::to_string(from.t) + " s");
+          "a derivative cannot follow the run through an event at t = " + text_of(from.t) + " s");
     more = std::move(above.system);
     less = std::move(below.system);
     if (above.state.q.size() != below.state.q.size() ||
