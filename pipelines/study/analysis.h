@@ -20,6 +20,9 @@ using StudyDerivatives = std::function<StudyGradient(const std::vector<double>& 
 
 struct StudyInterrupted {};
 
+/// Keeps OpenTURNS from writing to the terminal: what matters of its warnings stands in the answers.
+void silence_openturns();
+
 /// The points of a plan.
 StudyPoints plan_points(const StudyFile& study, const StudyPlan& plan);
 

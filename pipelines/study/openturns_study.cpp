@@ -91,6 +91,8 @@ class VariantsGradient : public OT::GradientImplementation {
 
 }  // namespace
 
+void silence_openturns() { OT::Log::Show(OT::Log::NONE); }
+
 OT::Distribution joint_distribution(const StudyFile& study) {
   OT::ComposedDistribution::DistributionCollection marginals;
   for (const std::size_t i : study.free_variables()) {

@@ -11,25 +11,45 @@ namespace {
 
 constexpr std::size_t block = 32;  // variants of a simulation that run together
 
+// What is over the threshold, in units of `scale`. Differences are taken over a thousandth of the scatter:
+// runs are not exact to the last digit.
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
-                             const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
+                             const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
+                             double scale) {
   const std::size_t k = quantity_index(study, reliability.quantity);
+  const double threshold = reliability.threshold;
   StudyDerivatives gradient;
   if (derivatives)
-    gradient = [&derivatives, k](const std::vector<double>& point) {
-      const StudyGradient all = derivatives(point);
-      return all.empty() ? StudyGradient{} : StudyGradient{all[k]};
+    gradient = [&derivatives, k, scale](const std::vector<double>& point) {
+      StudyGradient all = derivatives(point);
+      if (all.empty()) return all;
+      for (double& by : all[k]) by /= scale;
+      return StudyGradient{all[k]};
     };
-  const OT::Function f = study_function(
+  OT::Function f = study_function(
       study, evaluate, 1,
-      [k](const std::vector<double>& quantities, const std::vector<double>&) {
+      [k, threshold, scale](const std::vector<double>& quantities, const std::vector<double>&) {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
-        return std::vector<double>{quantities.empty() ? none : quantities[k]};
+        return std::vector<double>{quantities.empty() ? none : (quantities[k] - threshold) / scale};
       },
       gradient);
-  const OT::CompositeRandomVector output(f, OT::RandomVector(joint_distribution(study)));
-  return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), reliability.threshold)
-                                 : OT::ThresholdEvent(output, OT::Less(), reliability.threshold);
+  const OT::Distribution joint = joint_distribution(study);
+  if (!derivatives)
+    f.setGradient(
+        OT::CenteredFiniteDifferenceGradient(1e-3 * joint.getStandardDeviation(), f.getEvaluation()));
+  const OT::CompositeRandomVector output(f, OT::RandomVector(joint));
+  return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), 0.0)
+                                 : OT::ThresholdEvent(output, OT::Less(), 0.0);
+}
+
+// How far the quantity is from its threshold where FORM begins; 1 where that is not known.
+double scale_of(const StudyFile& study, const StudyReliability& reliability,
+                const StudyEvaluation& evaluate) {
+  const std::vector<double> quantities = evaluate({study.nominal()}).front();
+  if (quantities.empty()) return 1;
+  const double margin =
+      std::abs(quantities[quantity_index(study, reliability.quantity)] - reliability.threshold);
+  return margin > 0 ? margin : 1;
 }
 
 OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliability,
@@ -37,10 +57,11 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
   OT::AbdoRackwitz search;
   search.setMaximumEvaluationNumber(static_cast<std::size_t>(reliability.count));
   search.setMaximumIterationNumber(static_cast<std::size_t>(reliability.count));
-  search.setMaximumAbsoluteError(1e-8);
-  search.setMaximumRelativeError(1e-8);
-  search.setMaximumResidualError(1e-8);
-  search.setMaximumConstraintError(1e-8);
+  constexpr double tolerance = 1e-6;
+  search.setMaximumAbsoluteError(tolerance);
+  search.setMaximumRelativeError(tolerance);
+  search.setMaximumResidualError(tolerance);
+  search.setMaximumConstraintError(tolerance);
   OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(study.nominal()));
   form.run();
   return form.getResult();
@@ -72,8 +93,10 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
         std::count_if(quantities.begin(), quantities.end(), [](const auto& row) { return row.empty(); }));
     return quantities;
   };
-  const OT::RandomVector event = limit_event(study, reliability, counted, derivatives);
-  if (reliability.method == Method::monte_carlo) {
+  const bool searches = reliability.method != Method::monte_carlo;
+  const double scale = searches ? scale_of(study, reliability, counted) : 1;
+  const OT::RandomVector event = limit_event(study, reliability, counted, derivatives, scale);
+  if (!searches) {
     ReliabilityResult result = simulated(reliability, event, OT::MonteCarloExperiment());
     result.not_done = not_done;
     return result;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "nurbs/knot_insertion.h"
 #include "nurbs/number_text.h"
 #include "nurbs/primitives.h"
 #include "pipelines/case/case_json.h"
@@ -62,6 +63,16 @@ NurbsCurve drawn_curve(const CaseBeam& beam, const Chain& chain, CadFiles& files
       beam.axis.source);
 }
 
+NurbsCurve refined(NurbsCurve curve, const StudyRefinement& refinement) {
+  std::vector<double> knots = refinement.knots;
+  const std::vector<double> breaks = curve.knots().breaks();
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+    for (int part = 1; part < refinement.parts; ++part)
+      knots.push_back(breaks[i] + (breaks[i + 1] - breaks[i]) * part / refinement.parts);
+  for (const double u : knots) curve = with_knot(curve, u);
+  return curve;
+}
+
 // ---- What variables name ----
 
 const std::string* beam_of(const StudyTarget& target) {
@@ -76,11 +87,25 @@ const std::string* beam_of(const StudyTarget& target) {
       target);
 }
 
+std::vector<std::string> keys_of(const std::map<std::string, StudyCurve>& curves) {
+  std::vector<std::string> keys;
+  for (const auto& [key, unused] : curves) keys.push_back(key);
+  return keys;
+}
+
 std::vector<int> indices_of(const StudyTarget& target) {
   if (const auto* point = std::get_if<ControlPointCoordinate>(&target)) return {point->index};
   if (const auto* weight = std::get_if<ControlPointWeight>(&target)) return {weight->index};
   if (const auto* transform = std::get_if<CurveTransform>(&target)) return transform->points;
   return {};
+}
+
+void refine(NurbsCurve& curve, const StudyRefinement& refinement, Findings& findings) {
+  try {
+    curve = refined(std::move(curve), refinement);
+  } catch (const std::invalid_argument& problem) {
+    findings.error(refinement.path, problem.what());
+  }
 }
 
 // The curves that the variables name, by the names of their beams.
@@ -116,8 +141,11 @@ std::map<std::string, StudyCurve> curves_to_move(const StudyFile& study, const C
         continue;
       }
       const Chain& chain = resolved->chains[static_cast<std::size_t>(found - resolved->beams.begin())];
-      curves.emplace(*name, StudyCurve{static_cast<std::size_t>(beam - case_file.beams.begin()),
-                                       drawn_curve(*found, chain, files, findings)});
+      NurbsCurve drawn = drawn_curve(*found, chain, files, findings);
+      for (const StudyRefinement& refinement : study.refinements)
+        if (refinement.beam == *name) refine(drawn, refinement, findings);
+      curves.emplace(*name,
+                     StudyCurve{static_cast<std::size_t>(beam - case_file.beams.begin()), std::move(drawn)});
     }
     const auto count = static_cast<int>(curves.at(*name).drawn.control_points().cols());
     for (const int index : indices_of(*variable.target))
@@ -126,6 +154,10 @@ std::map<std::string, StudyCurve> curves_to_move(const StudyFile& study, const C
                        "the curve of beam " + in_quotes(*name) + " has " + std::to_string(count) +
                            " control points, counted from 0; there is no " + std::to_string(index));
   }
+  for (const StudyRefinement& refinement : study.refinements)
+    if (!curves.contains(refinement.beam))
+      findings.error(refinement.path, "no variable moves the curve of beam " + in_quotes(refinement.beam) +
+                                          known_names(refinement.beam, keys_of(curves)));
   return curves;
 }
 

@@ -74,9 +74,11 @@ class StudyLine {
     last_ = now;
     tenth_ = tenth;
     total_ = p.total;
-    err_ << (terminal_ ? "\r\033[K" : "") << ended << " of " << p.total << " variants, " << p.failed
-         << " not done, " << p.running << " running, " << text_of(std::ceil(p.seconds_to_go)) << " s to go"
-         << (terminal_ ? "" : "\n") << std::flush;
+    const std::string most = p.at_most ? "at most " : "";
+    err_ << (terminal_ ? "\r\033[K" : "") << ended << " of " << most << p.total << " variants, " << p.failed
+         << " not done, " << p.running << " running";
+    if (p.seconds_to_go) err_ << ", " << most << text_of(std::ceil(*p.seconds_to_go)) << " s to go";
+    err_ << (terminal_ ? "" : "\n") << std::flush;
     open_ = terminal_;
   }
   ~StudyLine() {
@@ -109,6 +111,7 @@ void write_results(const ReadyStudy& ready, const StudyOptions& options, const S
 
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
                   std::ostream& out, std::ostream& err) {
+  silence_openturns();
   const InterruptGuard guard;
   StudyRows rows(options.out / "study.rows", digest_of(ready), options.resume);
   StudyResult result;

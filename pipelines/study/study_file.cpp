@@ -34,6 +34,14 @@ class StudyReader : StudyPartReader {
         [&](const Json& change, const std::string&) {
           study_.overrides.push_back(change.get<std::string>());
         });
+    for_each_item(
+        json_, "refine", "",
+        [&](const Json& item, const std::string& path) {
+          study_.refinements.push_back({.beam = text(item, "beam"),
+                                        .path = path,
+                                        .knots = numbers(item, "knots"),
+                                        .parts = static_cast<int>(number(item, "parts", 1))});
+        });
     for_each_item(json_, "variables", "",
                   [&](const Json& item, const std::string& path) { read_variable(item, path); });
     check_names();

@@ -52,6 +52,14 @@ using StudyGradient = std::vector<std::vector<double>>;
 
 using StudyTarget = std::variant<CasePaths, ControlPointCoordinate, ControlPointWeight, CurveTransform>;
 
+/// Knots that are put into the curve of a beam, which stays as it is but gets as many control points more.
+struct StudyRefinement {
+  std::string beam;
+  std::string path;                ///< JSON path of this object, for messages
+  std::vector<double> knots = {};  ///< to be inserted once each
+  int parts = 1;                   ///< into which each span of the curve is divided
+};
+
 /// What a study varies.
 struct StudyVariable {
   std::string name;
@@ -139,6 +147,7 @@ struct StudyFile {
   std::string name;
   std::optional<std::filesystem::path> case_file = {};  ///< absolute; none where all quantities are formulas
   std::vector<std::string> overrides = {};              ///< of the case, as --set has them
+  std::vector<StudyRefinement> refinements = {};        ///< of curves, before variables move them
   std::vector<StudyVariable> variables;
   std::vector<Expression> constraints = {};  ///< a variant for which one is 0 does not run
   std::vector<StudyQuantity> quantities;

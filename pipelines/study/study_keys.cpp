@@ -72,6 +72,14 @@ Shape variable() {
        {{"range", "distribution", "value"}, required}});
 }
 
+Shape refinement() {
+  return object(
+      {{"beam", name(), "whose curve gets more control points; variables move them", required},
+       {"knots", array(quantity(Dimension::number), 1), "knots that are inserted, once each"},
+       {"parts", integer({.lower = 2, .upper = 1000}), "each span is divided into so many equal ones"}},
+      {{{"knots", "parts"}, required}});
+}
+
 Shape quantity_of_interest() {
   return object({{"name", name(), "heads its column", required},
                  {"value", any_text(),
@@ -171,6 +179,8 @@ const Shape& study_keys() {
        {"case", any_text(),
         "case file, relative to the study file; without it all quantities are expressions of the variables"},
        {"set", array(any_text()), "changes of the case for all variants, as --set has them"},
+       {"refine", array(refinement(), 1),
+        "curves that get more control points, without a change of their shape"},
        {"variables", array(variable(), 1), "what varies", required},
        {"constraints", array(any_text()),
         "expressions of the variables; a variant runs where all of them hold"},

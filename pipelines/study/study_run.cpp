@@ -14,7 +14,14 @@ using Clock = std::chrono::steady_clock;
 class VariantSource {
  public:
   VariantSource(const StudyFile& study, StudyEngine& engine, StudyRows& rows, const StudyObserver& observer)
-      : study_(study), engine_(engine), rows_(rows), observer_(observer) {}
+      : study_(study),
+        engine_(engine),
+        rows_(rows),
+        observer_(observer),
+        expected_(expected_variants(study)) {
+    progress_.at_most = !std::holds_alternative<StudyPlan>(study.task) &&
+                        !std::holds_alternative<StudySensitivity>(study.task);
+  }
 
   /// The quantities at these points of the free variables.
   StudyPoints evaluate(const StudyPoints& points) {
@@ -66,15 +73,14 @@ class VariantSource {
   void run(const std::vector<VariantTask>& tasks) {
     if (tasks.empty()) return;
     for (const VariantTask& task : tasks) unfinished_.insert(task.number);
-    progress_.total = variants_.size();
-    const auto start = Clock::now();
+    progress_.total = std::max(expected_, variants_.size());
     std::size_t ended = 0;
     const auto tell = [&] {
-      const double taken = std::chrono::duration<double>(Clock::now() - start).count();
-      const std::size_t left = tasks.size() - ended;
-      progress_.running = std::min<std::size_t>(static_cast<std::size_t>(engine_.workers()), left);
-      progress_.seconds_to_go =
-          ended > 0 ? taken / static_cast<double>(ended) * static_cast<double>(left) : 0;
+      const double taken = std::chrono::duration<double>(Clock::now() - begun_).count();
+      progress_.running =
+          std::min<std::size_t>(static_cast<std::size_t>(engine_.workers()), tasks.size() - ended);
+      const auto left = static_cast<double>(progress_.total - progress_.done - progress_.failed);
+      if (ran_ > 0) progress_.seconds_to_go = taken / static_cast<double>(ran_) * left;
       observer_.progress(progress_);
     };
     tell();
@@ -84,6 +90,7 @@ class VariantSource {
           rows_.append(variant);
           count(variant);
           ++ended;
+          ++ran_;
           unfinished_.erase(variant.number);
           const std::size_t number = variant.number;
           variants_[number] = std::move(variant);
@@ -98,6 +105,9 @@ class VariantSource {
   StudyEngine& engine_;
   StudyRows& rows_;
   const StudyObserver& observer_;
+  std::size_t expected_;
+  Clock::time_point begun_ = Clock::now();
+  std::size_t ran_ = 0;  // since then
   std::vector<Variant> variants_;
   std::set<std::size_t> unfinished_;
   StudyProgress progress_;
@@ -124,6 +134,22 @@ std::vector<Variant> done(const std::vector<Variant>& variants) {
 }
 
 }  // namespace
+
+std::size_t expected_variants(const StudyFile& study) {
+  return std::visit(
+      [&](const auto& task) -> std::size_t {
+        using Task = std::decay_t<decltype(task)>;
+        if constexpr (std::is_same_v<Task, StudyPlan>)
+          return plan_points(study, task).size();
+        else if constexpr (std::is_same_v<Task, StudySensitivity>)
+          return static_cast<std::size_t>(task.count) * (study.free_variables().size() + 2);
+        else if constexpr (std::is_same_v<Task, StudyReliability>)
+          return static_cast<std::size_t>(task.count);
+        else
+          return static_cast<std::size_t>(task.evaluations);
+      },
+      study.task);
+}
 
 StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& rows,
                       const StudyObserver& observer) {

@@ -15,8 +15,9 @@ namespace nurbeam {
 struct StudyProgress {
   std::size_t done = 0, failed = 0;  ///< variants that have ended
   std::size_t running = 0;
-  std::size_t total = 0;     ///< of this batch and those before it
-  double seconds_to_go = 0;  ///< for the rest of the batch, at the present pace
+  std::size_t total = 0;                     ///< of the study
+  bool at_most = false;                      ///< the total is a bound: a search may end before
+  std::optional<double> seconds_to_go = {};  ///< for the rest of the total, at the pace so far
 };
 
 struct StudyObserver {
@@ -40,6 +41,9 @@ struct StudyResult {
   bool interrupted = false;
   std::string failure;  ///< why there is no answer; empty where there is one, or none was asked for
 };
+
+/// How many variants a study runs, at most where it is a search or a simulation.
+std::size_t expected_variants(const StudyFile& study);
 
 /// Runs the variants of a study, and what it asks of them. Variants that are among the rows already do not
 /// run again; each that ends is appended to them. The same study has the same variants and the same answer

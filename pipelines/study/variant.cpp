@@ -55,15 +55,55 @@ void end(Variant& variant, VariantStatus status, std::string reason) {
   variant.reason = std::move(reason);
 }
 
+/// The model of a variant, or why there is none.
+struct VariantModel {
+  CaseFileReport read;
+  BuildReport built = {};
+  std::string problem = {};
+};
+
+VariantModel model_of(const StudyFile& study, const StudyCase& study_case,
+                      const std::vector<double>& values) {
+  VariantModel model{.read = read_case_text(study_case.variant(study.variables, values), study_case.file())};
+  if (!model.read.value) {
+    model.problem = first_error(model.read.diagnostics);
+  } else if (model.read.value->analysis.has_modes()) {
+    model.problem = "the analysis finds modes; a study needs a motion or statics";
+  } else {
+    model.built = build_model(*model.read.value);
+    if (!model.built.value) model.problem = first_error(model.built.diagnostics);
+  }
+  return model;
+}
+
+// The variables without whose values, all others as they are, there would be a model; all where there is none
+// such.
+std::string to_blame(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values) {
+  std::vector<double> free;
+  for (const std::size_t i : study.free_variables()) free.push_back(values[i]);
+  std::string some, all;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const StudyVariable& variable = study.variables[study.free_variables()[k]];
+    const std::string name = variable.name + " = " + text_of(free[k]);
+    all += (all.empty() ? "" : ", ") + name;
+    std::vector<double> others = free;
+    others[k] = variable.nominal;
+    try {
+      if (model_of(study, study_case, all_values(study, others)).problem.empty())
+        some += (some.empty() ? "" : ", ") + name;
+    } catch (const std::invalid_argument&) {  // it is not this one alone
+    }
+  }
+  return some.empty() ? all : some;
+}
+
 void simulate_variant(const StudyFile& study, const StudyCase& study_case, Variant& variant) {
-  const CaseFileReport read =
-      read_case_text(study_case.variant(study.variables, variant.values), study_case.file());
-  if (!read.value) return end(variant, VariantStatus::refused, first_error(read.diagnostics));
-  if (read.value->analysis.has_modes())
+  const VariantModel model = model_of(study, study_case, variant.values);
+  if (!model.problem.empty())
     return end(variant, VariantStatus::refused,
-               "the analysis finds modes; a study needs a motion or statics");
-  const BuildReport built = build_model(*read.value);
-  if (!built.value) return end(variant, VariantStatus::refused, first_error(built.diagnostics));
+               "with " + to_blame(study, study_case, variant.values) + ": " + model.problem);
+  const CaseFileReport& read = model.read;
+  const BuildReport& built = model.built;
   Histories histories(study, *built.value);
   const auto start = std::chrono::steady_clock::now();
   bool too_long = false;

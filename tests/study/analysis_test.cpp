@@ -107,6 +107,28 @@ TEST(Reliability, OfALinearLimitIsExactByForm) {
   EXPECT_NEAR(result.design_point[0], 10 - 1.5 * 0.6 * beta, 1e-5);
 }
 
+// Numbers of 1e11 and of 0.01 with the last digits rounded off, as runs have them; ln S - ln R is normal.
+TEST(Reliability, OfRoundedQuantitiesIsFoundInFewVariants) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "R", "distribution": {"lognormal": {"mean": 2e11, "sd": 2e10}}},
+                  {"name": "S", "distribution": {"lognormal": {"mean": 0.01, "sd": 0.002}}}],
+    "quantities": [{"name": "use", "value": "1e13 * S / R"}],
+    "reliability": {"quantity": "use", "above": 1}})json");
+  int runs = 0;
+  const StudyEvaluation rounded = [&](const StudyPoints& points) {
+    StudyPoints quantities = evaluated(study, points);
+    runs += static_cast<int>(points.size());
+    for (auto& row : quantities) row[0] = std::round(row[0] * 1e9) / 1e9;
+    return quantities;
+  };
+  const ReliabilityResult result =
+      failure_probability(study, std::get<StudyReliability>(study.task), rounded);
+  const double of_r = std::log(1 + 0.1 * 0.1), of_s = std::log(1 + 0.2 * 0.2);  // variances of the logarithms
+  const double margin = (std::log(2e11) - of_r / 2) - (std::log(0.01) - of_s / 2) - std::log(1e13);
+  EXPECT_NEAR(*result.reliability_index, margin / std::sqrt(of_r + of_s), 1e-5);
+  EXPECT_LE(runs, 80);
+}
+
 TEST(Reliability, BySimulationIsWithinItsDeviation) {
   const double exact = 0.5 * std::erfc(2 / std::sqrt(2.0));
   for (const char* method : {"importance_sampling", "monte_carlo"}) {

@@ -1,0 +1,118 @@
+#include "pipelines/study/study_case.h"
+
+#include <gtest/gtest.h>
+
+#include "nurbs/knot_vector.h"
+#include "tests/pipelines/case_text.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr const char* bent_case = R"json({"nurbeam": 1,
+  "beams": [{"name": "rail",
+    "axis": {"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 3, 3, 3],
+                       "control_points": [[0, 0, 0], [1, 0, 1], [2, 0, 1], [3, 0, 0]], "weights": [1, 2, 1, 1]}},
+    "section": {"radius": 0.01}, "material": {"density": 1000, "youngs_modulus": 1e8}, "elements": {"count": 4}},
+   {"name": "cable", "axis": {"polyline": [[0, 1, 0], [1, 1, 0]]},
+    "section": {"radius": 0.01}, "material": {"density": 1000, "youngs_modulus": 1e8}, "elements": {"count": 4}}],
+  "supports": [{"beam": "rail", "at": "start", "type": "clamped"}],
+  "analysis": {"end_time": 1, "step": 0.1}})json";
+
+struct ReadCase {
+  StudyFile study;
+  StudyCaseReport of_case;
+  std::string messages;
+};
+
+// A study of the bent case with these variables, and more keys.
+ReadCase read_with(const std::string& variables, const std::string& more = "") {
+  const test::TemporaryDirectory directory;
+  directory.write("case.json", bent_case);
+  StudyFileReport study = read_study_file(directory.write(
+      "study.json", R"json({"nurbeam_study": 1, "case": "case.json", "variables": [)json" + variables +
+                        R"json(], "quantities": [{"name": "q", "value": "max(rail.length)"}],
+        "plan": {"monte_carlo": {"count": 3}})json" +
+                        more + "}"));
+  ReadCase read;
+  for (const Diagnostic& d : study.diagnostics) read.messages += d.where + ": " + d.message + "\n";
+  if (!study.value) return read;
+  read.study = std::move(*study.value);
+  read.of_case = read_study_case(read.study);
+  for (const Diagnostic& d : read.of_case.diagnostics) read.messages += d.where + ": " + d.message + "\n";
+  return read;
+}
+
+NurbsCurve moved_rail(const ReadCase& read, const std::vector<double>& values) {
+  return read.of_case.value->moved(read.study.variables, values).at("rail");
+}
+Eigen::Vector3d control_point(const NurbsCurve& curve, int i) {
+  return curve.control_points().col(i).head<3>() / curve.control_points()(3, i);
+}
+
+const std::string one_point =
+    R"json({"name": "a", "control_point": {"beam": "rail", "index": 2, "axis": "z"}, "range": [0, 2]})json";
+
+TEST(StudyCase, RefinedCurvesKeepTheirShapeAndHaveMoreControlPoints) {
+  const ReadCase plain = read_with(one_point);
+  const ReadCase fine = read_with(
+      one_point, R"json(, "refine": [{"beam": "rail", "parts": 3}, {"beam": "rail", "knots": [0.5]}])json");
+  ASSERT_TRUE(fine.of_case.value) << fine.messages;
+  const NurbsCurve& drawn = plain.of_case.value->curves().at("rail").drawn;
+  const NurbsCurve& refined = fine.of_case.value->curves().at("rail").drawn;
+  EXPECT_EQ(drawn.control_points().cols(), 4);
+  EXPECT_EQ(refined.control_points().cols(), 9);  // two more knots in each of two spans, and one
+  for (int i = 0; i <= 60; ++i)
+    EXPECT_LE((drawn.point(0.05 * i) - refined.point(0.05 * i)).norm(), 1e-14) << i;
+  // The third control point now moves the curve only up to the knot (0.5, 2/3, 1) behind its three spans.
+  const NurbsCurve bent = moved_rail(fine, {1.5});
+  EXPECT_GT((bent.point(0.5) - refined.point(0.5)).norm(), 0.1);
+  EXPECT_LE((bent.point(1) - refined.point(1)).norm(), 1e-14);
+  EXPECT_LE((bent.point(2) - refined.point(2)).norm(), 1e-14);
+}
+
+TEST(StudyCase, RefinementsThatCannotBeSaySo) {
+  const auto wrong = [](const std::string& refine) {
+    return read_with(one_point, ", \"refine\": [" + refine + "]").messages;
+  };
+  EXPECT_NE(wrong(R"({"beam": "rail", "knots": [4]})").find("refine[0]: the knot 4 must lie between 0 and 3"),
+            std::string::npos);
+  EXPECT_NE(wrong(R"({"beam": "cable", "parts": 2})")
+                .find("refine[0]: no variable moves the curve of beam \"cable\""),
+            std::string::npos);
+  EXPECT_NE(wrong(R"({"beam": "rail"})").find("parts"), std::string::npos);
+}
+
+TEST(StudyCase, VariablesMoveGroupsOfControlPoints) {
+  const ReadCase read = read_with(
+      R"json({"name": "lift", "transform": {"beam": "rail", "points": [1, 2], "translate": [0, 0, 2]}, "range": [0, 1]},
+             {"name": "turn", "transform": {"beam": "rail", "rotate": {"axis": [0, 0, 1], "about": [1, 0, 0]}}, "range": [0, 180]},
+             {"name": "size", "transform": {"beam": "rail", "scale": {"about": [1, 0, 0]}}, "range": [1, 3]},
+             {"name": "w", "weight": {"beam": "rail", "index": 2}, "range": [0.5, 2]})json");
+  ASSERT_TRUE(read.of_case.value) << read.messages;
+  const NurbsCurve curve = moved_rail(read, {0.25, 90, 2, 1.5});
+  // Lifted, turned by a right angle about the vertical through (1, 0, 0), then twice as large about it.
+  EXPECT_LE((control_point(curve, 0) - Eigen::Vector3d(1, -2, 0)).norm(), 1e-14);
+  EXPECT_LE((control_point(curve, 1) - Eigen::Vector3d(1, 0, 2.5)).norm(), 1e-14);
+  EXPECT_LE((control_point(curve, 2) - Eigen::Vector3d(1, 2, 2.5)).norm(), 1e-14);
+  EXPECT_LE((control_point(curve, 3) - Eigen::Vector3d(1, 4, 0)).norm(), 1e-14);
+  EXPECT_EQ(curve.control_points()(3, 1), 2);
+  EXPECT_EQ(curve.control_points()(3, 2), 1.5);
+}
+
+TEST(StudyCase, OneValueStandsInSeveralPlaces) {
+  const ReadCase read = read_with(
+      R"json({"name": "r", "path": ["beams[rail].section.radius", "beams[cable].section.radius"], "range": ["5 mm", "2 cm"]},
+             {"name": "left", "control_point": {"beam": "rail", "index": 1, "axis": "z"}, "range": [0, 2]},
+             {"name": "right", "control_point": {"beam": "rail", "index": 2, "axis": "z"}, "value": "left"})json");
+  ASSERT_TRUE(read.of_case.value) << read.messages;
+  const std::string text = read.of_case.value->variant(read.study.variables, {0.0125, 0.7, 0.7});
+  const std::size_t first = text.find("0.0125");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(text.find("0.0125", first + 1), std::string::npos);
+  const NurbsCurve curve = moved_rail(read, {0.0125, 0.7, 0.7});
+  EXPECT_DOUBLE_EQ(control_point(curve, 1).z(), 0.7);
+  EXPECT_DOUBLE_EQ(control_point(curve, 2).z(), 0.7);
+}
+
+}  // namespace
+}  // namespace nurbeam
