@@ -34,20 +34,6 @@ std::pair<std::shared_ptr<BuiltCase>, PlainFindings> build(const std::string& te
   return {made->report.value ? made : nullptr, findings};
 }
 
-std::string analysis_type(const BuiltCase& c) {
-  switch (c.case_file.analysis.type) {
-    case CaseAnalysis::Type::dynamic:
-      return "dynamic";
-    case CaseAnalysis::Type::statics:
-      return "static";
-    case CaseAnalysis::Type::modes:
-      return "modes";
-    case CaseAnalysis::Type::buckling:
-      return "buckling";
-  }
-  return {};
-}
-
 }  // namespace
 
 void bind_cases(py::module_& module) {
@@ -56,7 +42,8 @@ void bind_cases(py::module_& module) {
   module.def("schema", &case_file_schema);
   py::class_<BuiltCase, std::shared_ptr<BuiltCase>>(module, "BuiltCase", "A case and its model.")
       .def_property_readonly("name", [](const BuiltCase& c) { return c.case_file.name; })
-      .def_property_readonly("analysis", &analysis_type)
+      .def_property_readonly("analysis",
+                             [](const BuiltCase& c) { return name_of(c.case_file.analysis.type); })
       .def_property_readonly("end_time", [](const BuiltCase& c) { return c.case_file.analysis.end_time; })
       .def("summary", [](const BuiltCase& c) { return model_summary(c.case_file, c.built()); });
 }

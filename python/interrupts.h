@@ -1,6 +1,7 @@
 #pragma once
 #include <pybind11/pybind11.h>
 
+#include <chrono>
 #include <optional>
 
 namespace nurbeam::python {
@@ -8,10 +9,14 @@ namespace nurbeam::python {
 /// Asks Python whether Ctrl-C has been pressed; where it has, keeps the exception until it can be thrown.
 class Interrupts {
  public:
-  /// Whether there is an exception. Takes the interpreter's lock.
+  /// Whether there is an exception. Takes the interpreter's lock, for which other threads may make it wait,
+  /// and so looks 20 times a second.
   bool pending() {
+    const Clock::time_point now = Clock::now();
+    if (exception_ || now - asked_ < std::chrono::milliseconds(50)) return exception_.has_value();
+    asked_ = now;
     const pybind11::gil_scoped_acquire lock;
-    if (!exception_ && PyErr_CheckSignals() != 0) exception_.emplace();
+    if (PyErr_CheckSignals() != 0) exception_.emplace();
     return exception_.has_value();
   }
   /// Precondition: the interpreter's lock is held.
@@ -23,6 +28,9 @@ class Interrupts {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  Clock::time_point asked_;
   std::optional<pybind11::error_already_set> exception_;
 };
 

@@ -17,29 +17,17 @@ namespace {
 
 namespace py = pybind11;
 
-// A function that may be copied and dropped without the interpreter's lock.
-std::shared_ptr<const py::function> shared_function(const py::function& function) {
-  return {new py::function(function),
-          [](const py::function* held) {
-            const py::gil_scoped_acquire lock;
-            delete held;
-          }};
-}
-
 class PythonLaw {
  public:
   PythonLaw(const py::function& function, std::size_t points, const ModelFrame& frame, std::size_t number)
-      : function_(shared_function(function)),
-        points_(static_cast<Eigen::Index>(points)),
-        frame_(frame),
-        number_(number) {}
+      : function_(function), points_(static_cast<Eigen::Index>(points)), frame_(frame), number_(number) {}
 
   CustomForce::Response operator()(double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v) const {
     const py::gil_scoped_acquire lock;
     const py::object arguments[] = {py::float_(t), to_array(r, true), to_array(v, false)};
     PyObject* const pointers[] = {arguments[0].ptr(), arguments[1].ptr(), arguments[2].ptr()};
     const auto answer =
-        py::reinterpret_steal<py::object>(PyObject_Vectorcall(function_->ptr(), pointers, 3, nullptr));
+        py::reinterpret_steal<py::object>(PyObject_Vectorcall(function_.ptr(), pointers, 3, nullptr));
     if (!answer) throw py::error_already_set();
     CustomForce::Response response;
     if (has_derivatives(answer)) {
@@ -127,7 +115,7 @@ class PythonLaw {
     return local;
   }
 
-  std::shared_ptr<const py::function> function_;
+  py::handle function_;  // borrowed
   Eigen::Index points_;
   ModelFrame frame_;
   std::size_t number_;  // in the case
@@ -143,19 +131,19 @@ class PythonMotion {
   };
 
   PythonMotion(const py::function& function, std::string path)
-      : function_(shared_function(function)), path_(std::move(path)) {}
+      : function_(function), path_(std::move(path)) {}
 
   Moment at(double t) const {
     const py::gil_scoped_acquire lock;
-    const py::object answer = (*function_)(t);
+    const py::object answer = function_(t);
     if (PyTuple_CheckExact(answer.ptr()) && PyTuple_GET_SIZE(answer.ptr()) == 3 &&
         (N == 1 || PySequence_Check(PyTuple_GET_ITEM(answer.ptr(), 0)))) {
       const py::tuple parts(answer);
       return {vector(parts[0], t), vector(parts[1], t), vector(parts[2], t)};
     }
     constexpr double h = 1e-4;  // [s]
-    const Vector now = vector(answer, t), before = vector((*function_)(t - h), t - h),
-                 after = vector((*function_)(t + h), t + h);
+    const Vector now = vector(answer, t), before = vector(function_(t - h), t - h),
+                 after = vector(function_(t + h), t + h);
     return {now, (after - before) / (2 * h), (after - 2 * now + before) / (h * h)};
   }
   const std::string& path() const { return path_; }
@@ -176,8 +164,8 @@ class PythonMotion {
     return value;
   }
 
-  std::shared_ptr<const py::function> function_;
-  std::string path_;  // in the case
+  py::handle function_;  // borrowed
+  std::string path_;     // in the case
 };
 
 PlaceMotion place_motion(const PythonMotion<1>& motion, const SlidingJoint& joint, double length) {
@@ -239,6 +227,11 @@ BeamModel with_laws(const BuiltModel& built, const Functions& functions, const C
     }
   }
   return model;
+}
+
+py::object keeping(const py::object& functions, py::object owner) {
+  owner.attr("functions") = functions;
+  return owner;
 }
 
 }  // namespace nurbeam::python

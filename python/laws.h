@@ -18,10 +18,15 @@ using Functions = std::pair<std::vector<pybind11::function>, std::vector<pybind1
 /// points, (3) of one point, else (points x 3). It returns the forces [N] in the same shape, or these with
 /// their derivatives by positions and velocities, (3 points x 3 points) [N/m], [N s/m]. A motion takes the
 /// time and returns the reference arc length of a sliding joint [m] or the displacement of a support (3) [m],
-/// alone or with its first two derivatives. What they raise ends the call that has led to it. Throws
+/// alone or with its first two derivatives. What they raise ends the call that has led to it. The model
+/// borrows the functions: as long as it is asked for forces somebody must keep them. Throws
 /// std::invalid_argument where there are not the functions that the case has use for, and
 /// pybind11::value_error where a body's motion does not begin where the body is, or a support's not at its
 /// drawn place though the run does.
 BeamModel with_laws(const BuiltModel& built, const Functions& functions, const CaseAnalysis& analysis);
+
+/// `owner`, an object of Python with attributes of its own, which keeps the functions of its model as one of
+/// them: there the garbage collector sees them, also where they refer back to it.
+pybind11::object keeping(const pybind11::object& functions, pybind11::object owner);
 
 }  // namespace nurbeam::python

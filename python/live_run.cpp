@@ -20,14 +20,18 @@ std::shared_ptr<Recording> recording_for(const BuiltCase& c) {
   return recording;
 }
 
-// Motions are asked for signals between two steps, and so stay where they can go on.
-SimulationObserver observer_of(const BuiltCase& c, Recording& recording, Interrupts& interrupts) {
+// Ctrl-C ends a search for rest. A motion is asked between two steps by the run itself, and so stays where it
+// can go on.
+SimulationObserver observer_of(const BuiltCase& c, Recording& recording, Interrupts& interrupts,
+                               const bool& begun) {
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& local) {
     recording.frames.push_back(to_world(c.built().frame, local));
   };
-  if (c.case_file.analysis.type == CaseAnalysis::Type::statics)
-    observer.interrupted = [&] { return interrupts.pending(); };
+  const bool statics = c.case_file.analysis.type == CaseAnalysis::Type::statics;
+  observer.interrupted = [statics, &begun, &interrupts] {
+    return (statics || !begun) && interrupts.pending();
+  };
   return observer;
 }
 
@@ -60,7 +64,7 @@ LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, cons
       simulation_(
           std::make_shared<const BeamModel>(with_laws(of_->built(), functions, of_->case_file.analysis)),
           probe_places(of_->built()), simulation_options(of_->case_file),
-          observer_of(*of_, *recording_, interrupts_), start) {}
+          observer_of(*of_, *recording_, interrupts_, begun_), start) {}
 
 bool LiveRun::advance() {
   if (ended_ || interrupts_.pending()) return false;

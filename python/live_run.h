@@ -45,9 +45,9 @@ class LiveRun {
   std::shared_ptr<BuiltCase> of_;
   std::shared_ptr<Recording> recording_;
   Interrupts interrupts_;
+  bool begun_ = false, ended_ = false;
   Simulation simulation_;
   std::size_t given_ = 0;  // snapshots
-  bool begun_ = false, ended_ = false;
   std::atomic_flag busy_;
 };
 

@@ -117,9 +117,15 @@ void bind_simulations(py::module_& module) {
       .def_static(
           "load", [](const std::filesystem::path& file) { return read_checkpoint(file); }, py::arg("file"),
           py::call_guard<py::gil_scoped_release>());
-  py::class_<LiveRun, std::shared_ptr<LiveRun>>(module, "LiveRun", "A run that is taken step by step.")
-      .def(py::init<std::shared_ptr<BuiltCase>, const Functions&, const Checkpoint*>(), py::arg("case"),
-           py::arg("functions"), py::arg("start"))
+  py::class_<LiveRun, std::shared_ptr<LiveRun>>(module, "LiveRun", "A run that is taken step by step.",
+                                                py::dynamic_attr())
+      .def_static(
+          "begin",
+          [](std::shared_ptr<BuiltCase> c, const py::object& functions, const Checkpoint* start) {
+            return keeping(functions, py::cast(std::make_shared<LiveRun>(
+                                          std::move(c), functions.cast<Functions>(), start)));
+          },
+          py::arg("case"), py::arg("functions"), py::arg("start"))
       .def("step", &LiveRun::step)
       .def("next", &LiveRun::next)
       .def_property_readonly("time", &LiveRun::time)

@@ -121,9 +121,20 @@ Eigen::SparseMatrix<double> tangent(const Equations& e, double mass, double damp
 }  // namespace
 
 void bind_systems(py::module_& module) {
-  py::class_<Equations>(module, "Equations", "The equations of motion of a model and a state of it.")
-      .def_static("drawn", &Equations::drawn, py::arg("case"), py::arg("functions"))
-      .def_static("of", &Equations::of, py::arg("run"))
+  py::class_<Equations>(module, "Equations", "The equations of motion of a model and a state of it.",
+                        py::dynamic_attr())
+      .def_static(
+          "drawn",
+          [](const BuiltCase& c, const py::object& functions) {
+            return keeping(functions, py::cast(Equations::drawn(c, functions.cast<Functions>())));
+          },
+          py::arg("case"), py::arg("functions"))
+      .def_static(
+          "of",
+          [](const py::object& run) {
+            return keeping(run.attr("functions"), py::cast(Equations::of(run.cast<const LiveRun&>())));
+          },
+          py::arg("run"))
       .def_property_readonly(
           "t", [](const Equations& e) { return e.state().t; })
       .def_property_readonly(

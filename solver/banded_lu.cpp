@@ -1,6 +1,7 @@
 #include "solver/banded_lu.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,7 +11,11 @@ namespace nurbeam {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-using Numbers = Eigen::Map<const Eigen::VectorXd>;
+using Four = Eigen::Map<Eigen::Array4d>;
+using ConstFour = Eigen::Map<const Eigen::Array4d>;
+
+constexpr int block = 4;
+
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
 class Neighbours {
  public:
@@ -85,48 +90,58 @@ void BandedLu::analyse(const Matrix& pattern) {
   for (int i = 0; i < n; ++i)
     for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j)
       half_bandwidth_ = std::max(half_bandwidth_, std::abs(place_[i] - place_[*j]));
-  width_ = 3 * half_bandwidth_ + 1;
+  // All is done by blocks of four; what they reach beyond the band is zero.
+  padded_ = (n + block - 1) / block * block;
+  width_ = 3 * half_bandwidth_ + 2 * block;
+  height_ = half_bandwidth_ + 2 * block;
 }
 
 void BandedLu::fill_band(const Matrix& matrix) {
-  const auto n = unknown_.size();
+  const auto n = unknown_.size(), padded = static_cast<std::size_t>(padded_);
   scale_.assign(n, 0);
   for (int column = 0; column < matrix.cols(); ++column)
     for (Matrix::InnerIterator entry(matrix, column); entry; ++entry)
       scale_[place_[entry.row()]] = std::max(scale_[place_[entry.row()]], std::abs(entry.value()));
   for (double& scale : scale_) scale = scale > 0 ? 1 / scale : 1;
-  band_.assign(n * static_cast<std::size_t>(width_), 0);
-  ends_.assign(n, 0);
+  band_.assign(padded * static_cast<std::size_t>(width_), 0);
+  ends_.assign(padded, 0);
   for (int column = 0; column < matrix.cols(); ++column)
     for (Matrix::InnerIterator entry(matrix, column); entry; ++entry) {
       const int i = place_[entry.row()], j = place_[column];
       row(i)[j - i + half_bandwidth_] = scale_[i] * entry.value();
       ends_[i] = std::max(ends_[i], j + 1);
     }
-  lower_.assign(n * static_cast<std::size_t>(half_bandwidth_), 0);
-  pivots_.resize(n);
-  y_.resize(n);
+  for (int i = static_cast<int>(n); i < padded_; ++i) {
+    row(i)[half_bandwidth_] = 1;
+    ends_[i] = i + 1;
+  }
+  lower_.assign(padded * static_cast<std::size_t>(height_), 0);
+  pivots_.resize(padded);
+  inverse_.resize(padded);
+  y_.assign(padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block), 0);
 }
 
+// The row below that takes the place: the one that is there if it is not much less than the largest, since
+// every exchange widens the band.
 int BandedLu::pivot_of(int column) const {
-  const int n = static_cast<int>(unknown_.size()), last = std::min(n - 1, column + half_bandwidth_);
+  constexpr double enough = 0.1;
+  const int last = std::min(padded_ - 1, column + half_bandwidth_);
+  const auto size = [&](int i) { return std::abs(row(i)[column - i + half_bandwidth_]); };
   int pivot = column;
-  double largest = 0;
-  for (int i = column; i <= last; ++i) {
-    const double size = std::abs(row(i)[column - i + half_bandwidth_]);
-    if (size > largest) {
-      largest = size;
+  double largest = size(column) / enough;
+  for (int i = column + 1; i <= last; ++i)
+    if (size(i) > largest) {
+      largest = size(i);
       pivot = i;
     }
-  }
   return pivot;
 }
 
 double BandedLu::factorise(const Matrix& matrix) {
   fill_band(matrix);
-  const int n = static_cast<int>(unknown_.size()), b = half_bandwidth_;
+  const int b = half_bandwidth_;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (int k = 0; k < n; ++k) {
+  for (int k = 0; k < padded_; ++k) {
     const int p = pivots_[k] = pivot_of(k);
     if (p != k) {
       const int end = std::max(ends_[k], ends_[p]);
@@ -135,16 +150,19 @@ double BandedLu::factorise(const Matrix& matrix) {
     }
     const double* upper = row(k) + b;
     const double pivot = upper[0];
-    smallest = std::min(smallest, std::abs(pivot));
-    largest = std::max(largest, std::abs(pivot));
     if (pivot == 0) return 0;
-    double* multipliers = lower_.data() + static_cast<std::size_t>(k) * b;
-    const int length = ends_[k] - k, last = std::min(n - 1, k + b);
+    inverse_[k] = 1 / pivot;
+    if (k < static_cast<int>(unknown_.size())) {
+      smallest = std::min(smallest, std::abs(pivot));
+      largest = std::max(largest, std::abs(pivot));
+    }
+    double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
+    const int length = ends_[k] - k, last = std::min(padded_ - 1, k + b);
     for (int i = k + 1; i <= last; ++i) {
       double* below = row(i) + k - i + b;
       if (below[0] == 0) continue;
-      const double factor = multipliers[i - k - 1] = below[0] / pivot;
-      for (int j = 1; j < length; ++j) below[j] -= factor * upper[j];
+      const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
+      for (int j = 1; j < length; j += block) Four(below + j) -= factor * ConstFour(upper + j);
       ends_[i] = std::max(ends_[i], ends_[k]);
     }
   }
@@ -152,23 +170,51 @@ double BandedLu::factorise(const Matrix& matrix) {
 }
 
 void BandedLu::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
-  const int n = static_cast<int>(unknown_.size()), b = half_bandwidth_;
+  const int n = static_cast<int>(unknown_.size());
   for (int k = 0; k < n; ++k) y_[k] = scale_[k] * rhs[unknown_[k]];
-  for (int k = 0; k < n; ++k) {
-    std::swap(y_[k], y_[pivots_[k]]);
-    const double value = y_[k];
-    if (value == 0) continue;
-    const double* multipliers = lower_.data() + static_cast<std::size_t>(k) * b;
-    const int count = std::min(n - 1 - k, b);
-    for (int i = 0; i < count; ++i) y_[k + 1 + i] -= multipliers[i] * value;
-  }
+  std::fill(y_.begin() + n, y_.end(), 0);
+  for (int k = 0; k < padded_; k += block) eliminate(k);
+  for (int k = padded_ - block; k >= 0; k -= block) substitute(k);
   x.resize(n);
-  for (int k = n - 1; k >= 0; --k) {
-    const double* upper = row(k) + b;
-    const int count = ends_[k] - k - 1;
-    y_[k] = (y_[k] - Numbers(upper + 1, count).dot(Numbers(&y_[k] + 1, count))) / upper[0];
-    x[unknown_[k]] = y_[k];
+  for (int k = 0; k < n; ++k) x[unknown_[k]] = y_[k];
+}
+
+// Takes a block of unknowns out of the right-hand sides below it.
+void BandedLu::eliminate(int k) const {
+  std::array<const double*, block> m;
+  for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
+  double* y = y_.data() + k;
+  bool exchanged = false;
+  for (int c = 0; c < block; ++c) exchanged |= pivots_[k + c] != k + c;
+  if (exchanged) {
+    for (int c = 0; c < block; ++c) {
+      std::swap(y[c], y_[pivots_[k + c]]);
+      for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
+    }
+    return;
   }
+  y[1] -= m[0][0] * y[0];
+  y[2] -= m[0][1] * y[0] + m[1][0] * y[1];
+  y[3] -= m[0][2] * y[0] + m[1][1] * y[1] + m[2][0] * y[2];
+  for (int i = 0; i < half_bandwidth_; i += block)
+    Four(y + block + i) -= ConstFour(m[0] + i + 3) * y[0] + ConstFour(m[1] + i + 2) * y[1] +
+                           ConstFour(m[2] + i + 1) * y[2] + ConstFour(m[3] + i) * y[3];
+}
+
+// Finds a block of unknowns from those after it.
+void BandedLu::substitute(int k) const {
+  std::array<const double*, block> u;  // from column k on
+  for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+  double* y = y_.data() + k;
+  const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
+  std::array<Eigen::Array4d, block> sums;
+  sums.fill(Eigen::Array4d::Zero());
+  for (int j = block; j < length; j += block)
+    for (int r = 0; r < block; ++r) sums[r] += ConstFour(u[r] + j) * ConstFour(y + j);
+  y[3] = (y[3] - sums[3].sum()) * inverse_[k + 3];
+  y[2] = (y[2] - sums[2].sum() - u[2][3] * y[3]) * inverse_[k + 2];
+  y[1] = (y[1] - sums[1].sum() - u[1][2] * y[2] - u[1][3] * y[3]) * inverse_[k + 1];
+  y[0] = (y[0] - sums[0].sum() - u[0][1] * y[1] - u[0][2] * y[2] - u[0][3] * y[3]) * inverse_[k];
 }
 
 }  // namespace nurbeam

@@ -4,8 +4,8 @@
 
 namespace nurbeam {
 
-/// LU with partial pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain of
-/// elements are: they are put into the reverse order of Cuthill and McKee and eliminated within the band.
+/// LU with threshold pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain
+/// of elements are: they are put into the reverse order of Cuthill and McKee and eliminated within the band.
 class BandedLu {
  public:
   /// Finds the order for a square pattern, which should be symmetric: else the order is poor, not wrong.
@@ -24,13 +24,18 @@ class BandedLu {
   const double* row(int i) const { return band_.data() + static_cast<std::size_t>(i) * width_; }
   void fill_band(const Eigen::SparseMatrix<double>& matrix);
   int pivot_of(int column) const;
+  void eliminate(int k) const;
+  void substitute(int k) const;
 
   int half_bandwidth_ = 0;
-  int width_ = 0;                  ///< of a row in storage: columns i - b to i + 2 b
+  int padded_ = 0;                 ///< unknowns with those that fill the last block: rows of one
+  int width_ = 0;                  ///< of a row in storage: columns i - b to i + 2 b, and zeros
+  int height_ = 0;                 ///< of a column of multipliers: b, and zeros
   std::vector<int> place_;         ///< of each unknown in the order
   std::vector<int> unknown_;       ///< at each place of the order
   std::vector<double> band_;       ///< what is left to eliminate, then U
-  std::vector<double> lower_;      ///< multipliers below the diagonal, b of each column
+  std::vector<double> lower_;      ///< multipliers below the diagonal of each column
+  std::vector<double> inverse_;    ///< of each pivot
   std::vector<double> scale_;      ///< of each row of the matrix
   std::vector<int> pivots_;        ///< row that was brought to each place
   std::vector<int> ends_;          ///< one past the last column of each row of U

@@ -68,11 +68,13 @@ class Transformed {
 class Deflated {
  public:
   using Scalar = double;
-  Deflated(const Transformed& C, const Vectors& found) : C_(C), found_(found) {}
+  Deflated(const Transformed& C, const Vectors& found, const std::function<void()>& between)
+      : C_(C), found_(found), between_(between) {}
 
   Eigen::Index rows() const { return C_.size(); }
   Eigen::Index cols() const { return C_.size(); }
   void perform_op(const double* x, double* y) const {
+    between_();
     const Vector z = without_found(Eigen::Map<const Vector>(x, rows()));
     Eigen::Map<Vector>(y, rows()) = without_found(C_.times(z));
   }
@@ -85,11 +87,13 @@ class Deflated {
 
   const Transformed& C_;
   const Vectors& found_;
+  const std::function<void()>& between_;
 };
 
 /// What one start finds beside `found`: eigenvalues and vectors z.
-std::optional<Eigenpairs> find(const Transformed& C, const Vectors& found, int count) {
-  Deflated op(C, found);
+std::optional<Eigenpairs> find(const Transformed& C, const Vectors& found, int count,
+                               const std::function<void()>& between) {
+  Deflated op(C, found, between);
   const int wanted = std::min(count, C.size() - 1);
   const int subspace = std::min(C.size(), std::max(2 * wanted + 1, 20));
   constexpr int most_restarts = 1000;
@@ -119,13 +123,14 @@ Eigenpairs merged(const Eigenpairs& a, const Eigenpairs& b) {
 
 }  // namespace
 
-std::optional<Eigenpairs> largest_eigenpairs(const Matrix& A, const Matrix& kkt, int count) {
+std::optional<Eigenpairs> largest_eigenpairs(const Matrix& A, const Matrix& kkt, int count,
+                                             const std::function<void()>& between) {
   const Transformed C(A, kkt);
   if (!C.regular() || C.size() < 2) return std::nullopt;
   Eigenpairs found{Vector(0), Vectors(C.size(), 0)};
   constexpr double same = 1e-9;
   for (bool missing = true; missing;) {
-    const std::optional<Eigenpairs> more = find(C, found.vectors, count);
+    const std::optional<Eigenpairs> more = find(C, found.vectors, count, between);
     if (!more) return std::nullopt;
     const auto known = found.values.size();
     // Where enough are known, only a larger one is of interest.

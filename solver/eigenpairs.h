@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <functional>
 #include <optional>
 
 namespace nurbeam {
@@ -15,8 +16,10 @@ struct Eigenpairs {
 /// [[B, G'], [G, 0]] with B symmetric and positive definite where G x = 0. By the implicitly restarted
 /// Lanczos method (Spectra) with sparse factors of `kkt` and of B + w G'G. One vector finds one of equal
 /// eigenvalues; so it is started again beside what is found until nothing is missing. Nothing is returned
-/// where `kkt` is singular, B not as it must be, or the iteration does not converge.
-std::optional<Eigenpairs> largest_eigenpairs(const Eigen::SparseMatrix<double>& A,
-                                             const Eigen::SparseMatrix<double>& kkt, int count);
+/// where `kkt` is singular, B not as it must be, or the iteration does not converge. `between` is called
+/// before every product with A; what it throws arrives unchanged.
+std::optional<Eigenpairs> largest_eigenpairs(
+    const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& kkt, int count,
+    const std::function<void()>& between = [] {});
 
 }  // namespace nurbeam

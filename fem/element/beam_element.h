@@ -24,6 +24,9 @@ struct ElementEnergy {
 /// Whether the ends of an element move over the material.
 enum class Ends { fixed, moving };
 
+template <int D>
+class ElementBatch;
+
 /// What does not change in one element between length-control events.
 ///
 /// All forces are the Euler-Lagrange expressions of one discrete Lagrangian: T - U of the fields of
@@ -94,6 +97,7 @@ class BeamElement {
   }
 
  private:
+  friend class ElementBatch<D>;  // has the same numbers side by side
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
   ElementVector<D> undamped_force(const ElementState<D>& x, const Vector& load) const;

@@ -10,6 +10,13 @@ bool strains_at_points(const BeamProperties& beam) {
   return !beam.sections || beam.axial_strain == AxialStrain::pointwise;
 }
 
+// K += a'H b, without the buffers that Eigen would take for matrices of this size.
+template <class Rows, class Other, int n>
+void add_product(const Rows& a, const Eigen::Matrix3d& H, const Other& b, Eigen::Matrix<double, n, n>& K) {
+  const Eigen::Matrix<double, 3, n> stress = H.lazyProduct(b);
+  K += a.transpose().lazyProduct(stress);
+}
+
 // H of z = (r_s, r_ss) at a point, in the coordinates of the nodes.
 template <int D>
 void add_point_tangent(const Eigen::Matrix<double, 2 * D, 2 * D>& H, const Eigen::Vector4d& S1,
@@ -161,9 +168,9 @@ void BeamElement<D>::add_fixed_axial_tangent(const ElementState<D>& x, const Tan
     for (const int end : {0, 1})
       rate_q.template block<1, D>(1 + end, Layout::slope(end)) =
           x.v.template segment<D>(Layout::slope(end)).transpose();
-    K += w.stiffness * x_q.transpose() * damping.by_rate * rate_q;
+    add_product(x_q, w.stiffness * damping.by_rate, rate_q, K);
   }
-  K += x_q.transpose() * by_x * x_q;
+  add_product(x_q, by_x, x_q, K);
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l)
       K.template block<D, D>(k * D, l * D).diagonal().array() += stress[0] * stretch_(k, l);

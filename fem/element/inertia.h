@@ -188,12 +188,12 @@ class PointInertia {
   /// Of a force -m v on the material velocity: m w N'v and its tangent.
   void add_damping(double m, Coordinates& f) const { f += m * weight_ * N_.transpose() * velocity_; }
   void add_damping_tangent(double m, const TangentWeights& t, Matrix& K) const {
-    if (t.damping != 0) K += (m * t.damping * weight_) * N_.transpose() * N_;
+    if (t.damping != 0) K += (m * t.damping * weight_) * product(N_, N_);
     if (t.stiffness == 0) return;
     const double k = m * t.stiffness;
     const Gradient v_q = r_.rate_gradient(x_.e, x_.e_rate, x_.w) - s_rate_ * rs_.gradient;
     K += k * (N_.transpose() * velocity_ * weight_q_.transpose() +
-              weight_ * (N_.transpose() * v_q - s_q_ * (rs_.gradient.transpose() * velocity_).transpose()));
+              weight_ * (product(N_, v_q) - s_q_ * (rs_.gradient.transpose() * velocity_).transpose()));
     r_.add_hessian(velocity_, k * weight_, x_.e, K);
   }
 
@@ -201,14 +201,14 @@ class PointInertia {
     const Vector& v = velocity_;
     const Gradient R_rate = r_.rate_gradient(x_.e, x_.e_rate, x_.w);
     const Coordinates rs_v = rs_.gradient.transpose() * v;
-    if (t.mass != 0) K += (m * t.mass * weight_) * N_.transpose() * N_;
+    if (t.mass != 0) K += (m * t.mass * weight_) * product(N_, N_);
     if (t.damping != 0) {
       const Gradient acceleration_v = 2 * R_rate - s_rate_ * rs_.gradient - rs_rate_ * s_q_.transpose();
       const Gradient y_v = weight_ * acceleration_v + v * weight_q_.transpose() + weight_rate_ * N_;
-      K += (m * t.damping) *
-           (N_.transpose() * y_v +
-            weight_ * (rs_v * s_q_.transpose() - s_q_ * rs_v.transpose() + L_.transpose() * N_) -
-            weight_q_ * (N_.transpose() * v).transpose());
+      K +=
+          (m * t.damping) * (product(N_, y_v) +
+                             weight_ * (rs_v * s_q_.transpose() - s_q_ * rs_v.transpose() + product(L_, N_)) -
+                             weight_q_ * (N_.transpose() * v).transpose());
     }
     if (t.stiffness != 0) {
       const double k = m * t.stiffness;
@@ -219,14 +219,17 @@ class PointInertia {
           acceleration_ * weight_q_.transpose() + weight_ * acceleration_q + weight_rate_ * v_q;
       r_.add_hessian(momentum_rate_, k, x_.e, K);
       rs_.add_hessian(v, k * weight_ * s_rate_, x_.e, K);
-      K += k * (N_.transpose() * y_q - s_q_ * (rs_.gradient.transpose() * momentum_rate_).transpose() +
+      K += k * (product(N_, y_q) - s_q_ * (rs_.gradient.transpose() * momentum_rate_).transpose() +
                 (L_.transpose() * v) * weight_q_.transpose() +
-                weight_ * (L_.transpose() * v_q - s_q_ * (rs_rate_q.transpose() * v).transpose()) -
+                weight_ * (product(L_, v_q) - s_q_ * (rs_rate_q.transpose() * v).transpose()) -
                 weight_q_ * (v_q.transpose() * v).transpose());
     }
   }
 
  private:
+  // a'b, without the buffers that Eigen would take for matrices of this size.
+  static Matrix product(const Gradient& a, const Gradient& b) { return a.transpose().lazyProduct(b); }
+
   const PointField<D>& r_;
   const PointField<D>& rs_;
   const Motion& x_;

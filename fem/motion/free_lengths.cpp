@@ -135,6 +135,7 @@ void add_cost(const RestReport& part, RestReport& sum) {
   sum.load_steps += part.load_steps;
   sum.newton_iterations += part.newton_iterations;
   sum.failure = part.failure;
+  sum.interrupted = part.interrupted;
 }
 
 }  // namespace
@@ -152,7 +153,7 @@ std::shared_ptr<const BeamModel> with_lengths(const BeamModel& model, const std:
   return found;
 }
 
-RestReport find_free_lengths(MeshedState& at) {
+RestReport find_free_lengths(MeshedState& at, const std::function<bool()>& interrupted) {
   const BeamModel& asked = at.system->model();
   const std::shared_ptr<const BeamModel> original = at.system->shared_model();
   const MeshPlan plan = at.system->mesh().plan;
@@ -164,8 +165,8 @@ RestReport find_free_lengths(MeshedState& at) {
   double last = 0;
   for (int step = 0;; ++step) {
     at.system = std::make_unique<BeamSystem>(model, plan, held);
-    add_cost(find_held_equilibrium(at), report);
-    if (report.failure) return report;
+    add_cost(find_held_equilibrium(at, interrupted), report);
+    if (report.failure || report.interrupted) return report;
     const LengthResiduals c = conditions_of(*at.system, at.state);
     const double error = c.residual.cwiseQuotient(c.size).lpNorm<Eigen::Infinity>();
     if (error <= exact || (step > 0 && error <= good && error > last / 2)) break;

@@ -37,12 +37,12 @@ MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOpt
                           const std::function<bool()>& interrupted, RestReport& report) {
   MeshedState at = MeshedState::drawn(std::move(model));
   if (options.about_equilibrium && asks_for_lengths(at.system->model())) {
-    report = find_free_lengths(at);
-    if (report.failure) return at;
+    report = find_free_lengths(at, interrupted);
+    if (report.failure || report.interrupted) return at;
   }
   if (options.about_equilibrium) {
-    report =
-        options.bodies_held ? find_held_equilibrium(at) : find_rest(at, options.length_control, interrupted);
+    report = options.bodies_held ? find_held_equilibrium(at, interrupted)
+                                 : find_rest(at, options.length_control, interrupted);
   } else if (options.bodies_held) {
     const std::vector<bool> held(at.system->model().joints.size(), true);
     at.system = std::make_unique<BeamSystem>(at.system->shared_model(), at.system->mesh().plan, held);
@@ -79,7 +79,7 @@ struct SquaredFrequencies {
 
 // The lowest, by the inverse of K + shift M: as many digits are lost as the shift is away from them.
 std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_kkt, int n, int count,
-                                         double shift) {
+                                         double shift, const std::function<void()>& between) {
   const Matrix M = coordinate_block(mass_kkt, n);
   // Constraints once: both have them.
   Matrix shifted = kkt;
@@ -88,7 +88,7 @@ std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_k
     for (Matrix::InnerIterator entry(mass_alone, column); entry; ++entry)
       if (entry.row() >= n || column >= n) entry.valueRef() = 0;
   shifted += shift * mass_alone;
-  std::optional<Eigenpairs> found = largest_eigenpairs(shift * M, shifted, count);
+  std::optional<Eigenpairs> found = largest_eigenpairs(shift * M, shifted, count, between);
   if (!found) return std::nullopt;
   SquaredFrequencies result{shift * (found->values.cwiseInverse().array() - 1).matrix(), found->vectors};
   for (Eigen::Index i = 0; i < result.values.size(); ++i) {
@@ -101,14 +101,15 @@ std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_k
 }
 
 // The same with a shift that is a hundredth of the last one, whatever that is.
-std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_kkt, int n, int count) {
+std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_kkt, int n, int count,
+                                         const std::function<void()>& between) {
   double largest = 0;
   for (int i = 0; i < n; ++i)
     if (mass_kkt.coeff(i, i) > 0) largest = std::max(largest, kkt.coeff(i, i) / mass_kkt.coeff(i, i));
   double shift = largest > 0 ? 1e-12 * largest : 1;
   constexpr int most_attempts = 12;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    const std::optional<SquaredFrequencies> found = lowest(kkt, mass_kkt, n, count, shift);
+    const std::optional<SquaredFrequencies> found = lowest(kkt, mass_kkt, n, count, shift, between);
     if (!found) {
       shift *= 1e3;  // K + shift M was singular to the last digit
       continue;
@@ -132,7 +133,8 @@ Vector translation(const BeamSystem& system, int axis) {
   return e;
 }
 
-std::optional<Failure> find_vibrations(const ModesOptions& options, ModesReport& report) {
+std::optional<Failure> find_vibrations(const ModesOptions& options, const std::function<void()>& between,
+                                       ModesReport& report) {
   const BeamSystem& system = *report.at.system;
   const int n = system.coordinate_count();
   const Matrix kkt = tangent(system, report.at.state, {.stiffness = 1});
@@ -140,7 +142,7 @@ std::optional<Failure> find_vibrations(const ModesOptions& options, ModesReport&
   const Matrix mass_kkt = tangent(system, report.at.state, {.mass = 1});
   const Matrix K = coordinate_block(kkt, n), M = coordinate_block(mass_kkt, n);
   const int most = std::max(0, n - system.constraint_count());
-  const auto found = lowest(kkt, mass_kkt, n, std::min(options.count, most));
+  const auto found = lowest(kkt, mass_kkt, n, std::min(options.count, most), between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
   for (Eigen::Index i = 0; i < found->values.size(); ++i) {
     Mode mode;
@@ -199,7 +201,7 @@ std::optional<Matrix> stiffness_of_loads(const BeamSystem& system, const BeamSys
 }
 
 std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions& options,
-                                     ModesReport& report) {
+                                     const std::function<void()>& between, ModesReport& report) {
   const MeshedState& at = report.at;
   const int n = at.system->coordinate_count();
   const Matrix kkt = tangent(*at.system, at.state, {.stiffness = 1});
@@ -217,7 +219,7 @@ std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions&
   if (!(largest > 0)) return failure_of(Failure::Kind::nothing_buckles);
   const Matrix A = -(*geometric + Matrix(geometric->transpose())) / 2;
   const int most = std::max(0, n - at.system->constraint_count());
-  const auto found = largest_eigenpairs(A, kkt, std::min(options.count, most));
+  const auto found = largest_eigenpairs(A, kkt, std::min(options.count, most), between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
   for (Eigen::Index i = 0; i < found->values.size(); ++i) {
     Mode mode;
@@ -256,7 +258,15 @@ ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOption
   }
   report.at = state_at_rest(at_rest, options, interrupted, report.rest);
   if (report.rest.failure || report.rest.interrupted) return report;
-  report.rest.failure = buckling ? find_buckling(*model, options, report) : find_vibrations(options, report);
+  const auto between = [&] {
+    if (interrupted && interrupted()) throw Interruption{};
+  };
+  try {
+    report.rest.failure = buckling ? find_buckling(*model, options, between, report)
+                                   : find_vibrations(options, between, report);
+  } catch (const Interruption&) {
+    report.rest.interrupted = true;
+  }
   return report;
 }
 

@@ -47,7 +47,8 @@ struct ModesReport {
 /// stiffness of the loads themselves.
 ///
 /// In the model's own coordinates. Fails where the state is unstable, the tangent is not symmetric (loads
-/// that follow a section, moments in space) or the eigenvalues are not found.
+/// that follow a section, moments in space) or the eigenvalues are not found. `interrupted` is asked all
+/// along: true ends the search, and its report says so.
 ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
                        const std::function<bool()>& interrupted);
 

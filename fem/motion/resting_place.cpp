@@ -140,10 +140,12 @@ struct Loading {
 };
 
 // A system whose load factor 0 is one loading and 1 another: on the way from an equilibrium under the first.
+// Its tangent throws Interruption where the search is to end.
 class LoadedBetween final : public SecondOrderSystem {
  public:
-  LoadedBetween(const SecondOrderSystem& system, Loading from, Loading to)
-      : system_(system), from_(from), to_(to) {}
+  LoadedBetween(const SecondOrderSystem& system, Loading from, Loading to,
+                const std::function<bool()>& interrupted)
+      : system_(system), from_(from), to_(to), interrupted_(interrupted) {}
 
   Loading at(double factor) const {
     return {from_.load + (to_.load - from_.load) * factor, from_.t + (to_.t - from_.t) * factor};
@@ -157,6 +159,7 @@ class LoadedBetween final : public SecondOrderSystem {
   }
   Eigen::SparseMatrix<double> tangent_pattern() const override { return system_.tangent_pattern(); }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
+    if (interrupted_ && interrupted_()) throw Interruption{};
     system_.tangent(loaded(state), w, kkt);
   }
   Eigen::VectorXd constraint_rate(const State& state) const override {
@@ -178,48 +181,58 @@ class LoadedBetween final : public SecondOrderSystem {
 
   const SecondOrderSystem& system_;
   Loading from_, to_;
+  const std::function<bool()>& interrupted_;
 };
 
 // Brings `at` to rest.
 class RestSearch {
  public:
   // `equilibrium`: the time at which `at` is in equilibrium, where it is.
-  RestSearch(MeshedState& at, const LengthControl& control, std::optional<double> equilibrium = {})
-      : at_(at), control_(control), equilibrium_(equilibrium) {}
+  RestSearch(MeshedState& at, const LengthControl& control, const std::function<bool()>& interrupted,
+             std::optional<double> equilibrium = {})
+      : at_(at), control_(control), interrupted_(interrupted), equilibrium_(equilibrium) {}
 
   RestReport held_equilibrium() {
-    hold_in_equilibrium(at_.system->mesh().plan);
-    return std::move(report_);
+    return told([&] { hold_in_equilibrium(at_.system->mesh().plan); });
   }
 
   // `slides`: the joints whose bodies look for their place.
-  RestReport rest(const std::vector<bool>& slides, const std::function<bool()>& interrupted) {
-    at_.state.memory.resize(0);  // bodies are held as they are searched for
-    if (!goes_on(meeting_bodies(at_)) ||
-        !hold_in_equilibrium(equilibrium_ ? held_at(at_, present_places(at_)) : at_.system->mesh().plan))
-      return std::move(report_);
-    if (!move_driven_bodies()) return std::move(report_);
-    std::vector<Descent> bodies;
-    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? spacing(j) / 4 : 0});
-    constexpr int most_moves = 2000;
-    for (int moves = 0; let_down(bodies); ++moves) {
-      report_.interrupted = interrupted();
-      if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
-      if (report_.interrupted || report_.failure) return std::move(report_);
-    }
-    if (report_.failure) return std::move(report_);
-    std::vector<bool> stays;
-    for (int j = 0; j < joints(); ++j)
-      stays.push_back(bodies[j].at_end || !(slides[j] || model().joints[j].motion));
-    hold_by_friction(at_, stays);
-    free_bodies(stays);
-    return std::move(report_);
+  RestReport rest(const std::vector<bool>& slides) {
+    return told([&] { look_for_rest(slides); });
   }
 
  private:
   const BeamModel& model() const { return at_.system->model(); }
   int joints() const { return static_cast<int>(model().joints.size()); }
   double spacing(int joint) const { return home_spacing(model(), joint); }
+
+  RestReport told(const std::function<void()>& search) {
+    try {
+      search();
+    } catch (const Interruption&) {
+      report_.interrupted = true;
+    }
+    return std::move(report_);
+  }
+
+  void look_for_rest(const std::vector<bool>& slides) {
+    at_.state.memory.resize(0);  // bodies are held as they are searched for
+    if (!goes_on(meeting_bodies(at_)) ||
+        !hold_in_equilibrium(equilibrium_ ? held_at(at_, present_places(at_)) : at_.system->mesh().plan))
+      return;
+    if (!move_driven_bodies()) return;
+    std::vector<Descent> bodies;
+    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? spacing(j) / 4 : 0});
+    constexpr int most_moves = 2000;
+    for (int moves = 0; !report_.failure && let_down(bodies); ++moves)
+      if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
+    if (report_.failure) return;
+    std::vector<bool> stays;
+    for (int j = 0; j < joints(); ++j)
+      stays.push_back(bodies[j].at_end || !(slides[j] || model().joints[j].motion));
+    hold_by_friction(at_, stays);
+    free_bodies(stays);
+  }
 
   bool goes_on(std::optional<Failure> failure) {
     report_.failure = std::move(failure);
@@ -265,7 +278,7 @@ class RestSearch {
 
   // From an equilibrium under one loading to that under another, or as far as they are found.
   StaticReport load(MeshedState& at, Loading from, Loading to) {
-    const LoadedBetween system(*at.system, from, to);
+    const LoadedBetween system(*at.system, from, to, interrupted_);
     at.state.load = 1;
     StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system, at.state);
     const Loading reached = system.at(found.load_factor);
@@ -335,6 +348,7 @@ class RestSearch {
 
   MeshedState& at_;
   const LengthControl& control_;
+  const std::function<bool()>& interrupted_;
   std::optional<double> equilibrium_;  // the time of the last one found
   RestReport report_;
 };
@@ -351,27 +365,28 @@ std::vector<bool> sliding_at_rest(const BeamModel& model, StaticPlace otherwise)
 
 }  // namespace
 
-RestReport find_held_equilibrium(MeshedState& at) {
-  return RestSearch(at, LengthControl{}).held_equilibrium();
+RestReport find_held_equilibrium(MeshedState& at, const std::function<bool()>& interrupted) {
+  return RestSearch(at, LengthControl{}, interrupted).held_equilibrium();
 }
 
 RestReport find_start(MeshedState& at, const LengthControl& control,
                       const std::function<bool()>& interrupted) {
   const std::vector<bool> slides = sliding_at_rest(at.system->model(), StaticPlace::held);
   const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
-  return any ? RestSearch(at, control).rest(slides, interrupted) : RestSearch(at, control).held_equilibrium();
+  RestSearch search(at, control, interrupted);
+  return any ? search.rest(slides) : search.held_equilibrium();
 }
 
 RestReport find_rest(MeshedState& at, const LengthControl& control,
                      const std::function<bool()>& interrupted) {
-  return RestSearch(at, control).rest(sliding_at_rest(at.system->model(), StaticPlace::free), interrupted);
+  return RestSearch(at, control, interrupted).rest(sliding_at_rest(at.system->model(), StaticPlace::free));
 }
 
 RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
                           const std::function<bool()>& interrupted) {
-  RestSearch search(at, control, at.state.t);
+  RestSearch search(at, control, interrupted, at.state.t);
   at.state.t = t;
-  return search.rest(sliding_at_rest(at.system->model(), StaticPlace::free), interrupted);
+  return search.rest(sliding_at_rest(at.system->model(), StaticPlace::free));
 }
 
 }  // namespace nurbeam

@@ -14,8 +14,14 @@ struct RestReport {
   double length_control_seconds = 0;
 };
 
+/// Thrown out of a search that is to end, and caught where that began.
+struct Interruption {};
+
 /// Brings a model to equilibrium with all sliding bodies held where they are; the mesh then holds them.
-[[nodiscard]] RestReport find_held_equilibrium(MeshedState& at);
+/// `interrupted` is asked at every Newton iteration, here and below; a search that it ends leaves a state
+/// that is no equilibrium.
+[[nodiscard]] RestReport find_held_equilibrium(MeshedState& at,
+                                               const std::function<bool()>& interrupted = {});
 
 /// Brings a model that is drawn to the equilibrium that its motion starts from: sliding bodies are held where
 /// they are, but for those that say that they look for their place (StaticPlace).
@@ -25,7 +31,7 @@ struct RestReport {
 /// Brings a model that is drawn to equilibrium, its sliding bodies where they rest, but for those that
 /// are to be held (StaticPlace). They are held, let down
 /// the slope in bounded moves that halve where the force along the beam changes sign, and freed for the last
-/// digits unless they rest against an end. `interrupted` is asked before each move.
+/// digits unless they rest against an end.
 [[nodiscard]] RestReport find_rest(MeshedState& at, const LengthControl& control,
                                    const std::function<bool()>& interrupted);
 

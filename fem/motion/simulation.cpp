@@ -62,21 +62,17 @@ struct Simulation::Implementation {
 
   bool advance() {
     call_ = Clock::now();
-    switch (phase_) {
-      case Phase::start:
-        begin();
-        break;
-      case Phase::rest:
-        rest();
-        break;
-      case Phase::motion:
-        move();
-        break;
-      case Phase::ended:
-        break;
+    try {
+      go_on();
+    } catch (...) {
+      stop_clock();
+      if (phase_ != Phase::motion) {
+        report_.status = SimulationStatus::interrupted;
+        phase_ = Phase::ended;
+      }
+      throw;
     }
-    seconds_ += seconds_since(*call_);
-    call_.reset();
+    stop_clock();
     return phase_ != Phase::ended;
   }
 
@@ -131,6 +127,23 @@ struct Simulation::Implementation {
  private:
   enum class Phase { start, rest, motion, ended };
 
+  void go_on() {
+    switch (phase_) {
+      case Phase::start:
+        return begin();
+      case Phase::rest:
+        return rest();
+      case Phase::motion:
+        return move();
+      case Phase::ended:
+        return;
+    }
+  }
+  void stop_clock() {
+    seconds_ += seconds_since(*call_);
+    call_.reset();
+  }
+
   void begin() {
     if (options_.statics)
       rest();
@@ -142,7 +155,7 @@ struct Simulation::Implementation {
 
   // At the next of the output times.
   void rest() {
-    const auto asked = [this] { return interrupted(); };
+    const auto& asked = observer_.interrupted;
     const std::vector<double>& times = options_.output_times;
     if (phase_ == Phase::start && !times.empty()) at_.state.t = times.front();
     const bool found = phase_ == Phase::start
@@ -157,7 +170,7 @@ struct Simulation::Implementation {
   // The free lengths of connectors that the equilibrium gives; whether the run goes on.
   bool find_lengths() {
     if (!asks_for_lengths(*model_)) return true;
-    const bool found = book(find_free_lengths(at_));
+    const bool found = book(find_free_lengths(at_, observer_.interrupted));
     model_ = at_.system->shared_model();
     return found;
   }
@@ -184,9 +197,8 @@ struct Simulation::Implementation {
   bool start_motion() {
     if (!goes_on(meeting_bodies(at_))) return false;
     if (options_.start_from_equilibrium) {
-      const auto asked = [this] { return interrupted(); };
       if (!find_lengths()) return false;
-      if (!book(find_start(at_, options_.length_control, asked))) return false;
+      if (!book(find_start(at_, options_.length_control, observer_.interrupted))) return false;
       if (observer_.follower) observer_.follower->rests(at_);
       change(&replan);
     }
@@ -636,7 +648,9 @@ struct Simulation::Implementation {
           in_model(crossing, at.system->model()).s + (crossing.forward ? beyond : -beyond);
       auto next = std::make_unique<BeamSystem>(at.system->shared_model(), present_plan(*at.system, at.state));
       if (!follows_section) {
-        at.system = std::move(next);
+        // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
+        State moved = interpolated(*at.system, at.state, *next);
+        at = {std::move(next), std::move(moved)};
         return true;
       }
       // Curvature and twist jump from element to element, and with them the motion of a body that follows the

@@ -29,7 +29,8 @@ struct SimulationOptions {
 struct SimulationObserver {
   std::function<void(const Snapshot&)> snapshot = nullptr;    ///< at every output time
   std::function<void(const StepRecord&)> progress = nullptr;  ///< after every step
-  std::function<bool()> interrupted = nullptr;                ///< true asks to end after the current step
+  std::function<bool()> interrupted =
+      nullptr;  ///< true asks to end: a motion after its step, a search for rest at once
   /// Every change of the mesh, with the beams before and after it.
   std::function<void(const RunEvent&, const std::vector<BeamRecord>&, const std::vector<BeamRecord>&)>
       mesh_changed = nullptr;
@@ -51,7 +52,7 @@ class Simulation {
 
   /// Takes what is next: the state at time 0; then a step, at most to the next output time, with what follows
   /// from it, or the next state at rest. Returns whether more is to come. What a force or the observer throws
-  /// arrives unchanged; a motion can then go on from the last step.
+  /// arrives unchanged; a motion can then go on from the last step, while a search for rest ends the run.
   bool advance();
   /// Changes forces, in place and in their number, between two steps. Returns whether the motion goes on.
   bool change_forces(const std::function<void(std::vector<Force>&)>& change);

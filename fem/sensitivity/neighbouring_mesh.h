@@ -9,10 +9,6 @@ namespace nurbeam {
 /// Whether two systems have the same nodes and coordinates: that of a model and of a neighbouring one.
 bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
 
-/// The elements of two systems of one mesh whose forces differ, by more than round-off: at a state near that
-/// one; all where they may do so at other times only.
-std::vector<bool> differing_elements(const BeamSystem& system, const BeamSystem& other, const State& state);
-
 /// The joints whose places a system holds, but for those whose motion is prescribed.
 std::vector<bool> held_joints(const BeamSystem& system);
 

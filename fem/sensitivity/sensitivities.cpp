@@ -10,7 +10,6 @@
 #include "fem/motion/free_lengths.h"
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
-#include "fem/system/with_assembly.h"
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
@@ -60,7 +59,6 @@ void check_tangents(const BeamModel& model) {
 struct Sensitivities::Parameter {
   NeighbourPair pair;
   std::unique_ptr<BeamSystem> more = nullptr, less = nullptr;
-  std::vector<bool> differs = {};  // elements: the others count for nothing in a difference
   MotionTangent tangent = {};
 
   // What `change` makes of the neighbours of a state.
@@ -125,9 +123,7 @@ Sensitivities::Difference Sensitivities::residual_change(const Parameter& parame
     State state = at;
     state.t += part * time;
     Difference r{Vector(at.q.size()), Vector(at.lambda.size())};
-    with_assembly(system, [&](const auto& assembly) {
-      assembly.residual(state, parameter.differs, r.dynamics, r.constraints);
-    });
+    system.residual(state, r.dynamics, r.constraints);
     return r;
   };
   const double step = parameter.pair.step;
@@ -139,8 +135,6 @@ void Sensitivities::go_on_from(const MeshedState& at) {
   system_ = at.system.get();
   state_ = at.state;
   meshes_ = nullptr;
-  for (Parameter& parameter : parameters_)
-    parameter.differs = differing_elements(*parameter.more, *parameter.less, at.state);
 }
 
 void Sensitivities::begins(const MeshedState& drawn) {
@@ -172,7 +166,6 @@ void Sensitivities::rests(const MeshedState& at) {
     parameter.less = at_rest_like(at, parameter.pair.less.model);
     for (const BeamSystem* each : {parameter.more.get(), parameter.less.get()})
       if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
-    parameter.differs = differing_elements(*parameter.more, *parameter.less, at.state);
     const Difference change = residual_change(parameter, at.state, 0);
     Vector rhs(n + m);
     rhs << -change.dynamics, -change.constraints;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fem/comparison/virtual_work.h"
+#include "fem/element/element_batch.h"
 #include "fem/mesh/drawn_coordinates.h"
 
 namespace nurbeam {
@@ -49,6 +50,13 @@ void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eig
 
 }  // namespace
 
+// The elements of one beam: those whose forces are found side by side, and the indices of the others.
+template <int D>
+struct Assembly<D>::Walk {
+  std::vector<ElementBatch<D>> batches;
+  std::vector<int> others;
+};
+
 // Takes the tangent matrices of one force.
 template <int D>
 struct Assembly<D>::Sink {
@@ -74,9 +82,28 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_)) {
+  batch_elements();
   bind_constraints(held);
   bind_forces();
   build_pattern();
+}
+
+template <int D>
+Assembly<D>::~Assembly() = default;
+
+template <int D>
+void Assembly<D>::batch_elements() {
+  walks_.resize(model_->beams.size());
+  for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
+    const MeshElement<D>& e = elements_[i];
+    auto& [batches, others] = walks_[e.beam];
+    if (e.twist || !ElementBatch<D>::takes(e.element)) {
+      others.push_back(i);
+      continue;
+    }
+    if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
+    batches.back().add(e.element, e.dofs, e.slope_offset);
+  }
 }
 
 template <int D>
@@ -345,28 +372,13 @@ void Assembly<D>::carry_bodies(State& state) const {
 template <int D>
 void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                            Eigen::Ref<Eigen::VectorXd> constraints) const {
-  sum_residual(
-      state, [](int) { return true; }, dynamics, constraints);
-}
-
-template <int D>
-void Assembly<D>::residual(const State& state, const std::vector<bool>& among,
-                           Eigen::Ref<Eigen::VectorXd> dynamics,
-                           Eigen::Ref<Eigen::VectorXd> constraints) const {
-  sum_residual(
-      state, [&](int element) { return among[element]; }, dynamics, constraints);
-}
-
-template <int D>
-template <class Among>
-void Assembly<D>::sum_residual(const State& state, const Among& among, Eigen::Ref<Eigen::VectorXd> dynamics,
-                               Eigen::Ref<Eigen::VectorXd> constraints) const {
   const MeshedBeams<D> at = beams();
   dynamics.setZero();
   for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
     const Vector load = line_load(b, state);
-    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
-      if (!among(i)) continue;
+    for (const ElementBatch<D>& batch : walks_[b].batches)
+      batch.add_forces(state, load, free_strain(elements_[mesh_.first_span[b]], state), dynamics.data());
+    for (const int i : walks_[b].others) {
       const MeshElement<D>& e = elements_[i];
       const ElementVector<D> f = element_force(e, state, load);
       for (int k = 0; k < element_size<D>; ++k)

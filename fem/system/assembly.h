@@ -18,7 +18,6 @@ namespace nurbeam {
 template <int D>
 class Assembly final : public SecondOrderSystem {
  public:
-  static constexpr int dimension = D;
   using Vector = Eigen::Matrix<double, D, 1>;
 
   /// `held`: joints whose place is held at its value in the plan.
@@ -26,6 +25,7 @@ class Assembly final : public SecondOrderSystem {
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
+  ~Assembly() override;
 
   const std::shared_ptr<const BeamModel>& model() const { return model_; }
   const Mesh& mesh() const { return mesh_; }
@@ -69,9 +69,6 @@ class Assembly final : public SecondOrderSystem {
   int constraint_count() const override { return constraint_count_; }
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
-  /// The same without the forces of the elements that are not `among`.
-  void residual(const State& state, const std::vector<bool>& among, Eigen::Ref<Eigen::VectorXd> dynamics,
-                Eigen::Ref<Eigen::VectorXd> constraints) const;
   Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
@@ -93,22 +90,22 @@ class Assembly final : public SecondOrderSystem {
     Block block;
     std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
   };
+  struct Walk;
   struct Sink;
 
+  void batch_elements();
   void bind_constraints(const std::vector<bool>& held);
   void bind_forces();
   void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
-  template <class Among>
-  void sum_residual(const State& state, const Among& among, Eigen::Ref<Eigen::VectorXd> dynamics,
-                    Eigen::Ref<Eigen::VectorXd> constraints) const;
   Vector line_load(int beam, const State& state) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
 
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;
   std::vector<MeshElement<D>> elements_;
+  std::vector<Walk> walks_;  // of each beam
   std::vector<BoundConstraint<D>> constraints_;
   std::vector<BoundForce<D>> forces_;
 

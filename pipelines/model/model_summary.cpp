@@ -39,20 +39,6 @@ std::string name_of(WeightRule rule) {
   return {};
 }
 
-std::string name_of(CaseAnalysis::Type type) {
-  switch (type) {
-    case CaseAnalysis::Type::dynamic:
-      return "dynamic";
-    case CaseAnalysis::Type::statics:
-      return "static";
-    case CaseAnalysis::Type::modes:
-      return "modes";
-    case CaseAnalysis::Type::buckling:
-      return "buckling";
-  }
-  return {};
-}
-
 double drawn_tension(const BeamProperties& p) { return 0 - p.free_strain.of_tension * p.axial_stiffness; }
 
 Json to_json(const Beam& beam, const BeamSource& source) {
@@ -193,6 +179,20 @@ Json to_json(const LineTorque& load, const BuiltModel& built) {
 }
 
 }  // namespace
+
+std::string name_of(CaseAnalysis::Type type) {
+  switch (type) {
+    case CaseAnalysis::Type::dynamic:
+      return "dynamic";
+    case CaseAnalysis::Type::statics:
+      return "static";
+    case CaseAnalysis::Type::modes:
+      return "modes";
+    case CaseAnalysis::Type::buckling:
+      return "buckling";
+  }
+  return {};
+}
 
 std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   const BeamModel& model = built.model;

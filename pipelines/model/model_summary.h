@@ -6,6 +6,9 @@
 
 namespace nurbeam {
 
+/// As the case file has it.
+std::string name_of(CaseAnalysis::Type type);
+
 /// The model as it stood at the start of a run, as a JSON object: dimension, plane_normal (planar models;
 /// else null), gravity, and lists of beams, bodies, supports, joints and loads. Keys name the units, vectors
 /// are in world coordinates, lengths along a beam in reference arc length. `outward` of a support points away

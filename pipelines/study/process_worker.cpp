@@ -145,7 +145,9 @@ std::optional<Variant> ProcessWorker::take() {
 
 int serve_variants(const StudyFile& study, const StudyCase* study_case) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  signal(SIGINT, SIG_IGN);  // the study ends its processes
+  pollfd study_end{STDIN_FILENO, 0, 0};
+  if (poll(&study_end, 1, 0) > 0 && (study_end.revents & POLLHUP)) return 1;  // it ended before that
+  signal(SIGINT, SIG_IGN);                                                    // the study ends its processes
   std::string line;
   while (std::getline(std::cin, line)) {
     const Variant task = variant_of(line);

@@ -9,7 +9,8 @@ namespace nurbeam {
 
 namespace {
 
-constexpr std::size_t block = 32;  // variants of a simulation that run together
+// At most so many variants of a simulation run together: few where it may end after each such block.
+constexpr std::size_t long_block = 1024, short_block = 32;
 
 // What is over the threshold, in units of `scale`. Differences are taken over a thousandth of the scatter:
 // runs are not exact to the last digit.
@@ -70,9 +71,11 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
 ReliabilityResult simulated(const StudyReliability& reliability, const OT::RandomVector& event,
                             const OT::WeightedExperiment& experiment) {
   OT::ProbabilitySimulationAlgorithm algorithm(event, experiment);
-  algorithm.setBlockSize(std::min<std::size_t>(block, static_cast<std::size_t>(reliability.count)));
-  algorithm.setMaximumOuterSampling(
-      std::max<std::size_t>(1, static_cast<std::size_t>(reliability.count) / algorithm.getBlockSize()));
+  const auto count = static_cast<std::size_t>(reliability.count);
+  const std::size_t longest = reliability.coefficient_of_variation > 0 ? short_block : long_block;
+  const std::size_t blocks = (count + longest - 1) / longest;
+  algorithm.setBlockSize(count / blocks);
+  algorithm.setMaximumOuterSampling(blocks);
   algorithm.setMaximumCoefficientOfVariation(reliability.coefficient_of_variation);
   algorithm.run();
   const OT::ProbabilitySimulationResult result = algorithm.getResult();

@@ -28,11 +28,28 @@ struct ReadyStudy {
   std::optional<StudyCase> study_case;
 };
 
+// What is wrong with a study besides what its file alone shows: beams, control points, columns.
+void tell_of_case(StudyFile study, std::ostream& err) {
+  if (!study.case_file) return;
+  const StudyCaseReport of_case = read_study_case(study);
+  print_diagnostics(err, of_case.diagnostics);
+  for (StudyVariable& variable : study.variables) {  // the case as it stands: their values may be wrong
+    variable.target.reset();
+    variable.derived.reset();
+  }
+  study.refinements.clear();
+  const StudyCaseReport plain = read_study_case(study);
+  if (plain.value) print_diagnostics(err, check_quantities(study, &*plain.value));
+}
+
 /// Nothing, with its errors printed, where it cannot run.
 std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ostream& err) {
   StudyFileReport read = read_study_file(file);
   print_diagnostics(err, read.diagnostics);
-  if (!read.value) return {};
+  if (!read.value) {
+    if (read.with_errors) tell_of_case(std::move(*read.with_errors), err);
+    return {};
+  }
   ReadyStudy ready{.study = std::move(*read.value)};
   if (ready.study.case_file) {
     StudyCaseReport of_case = read_study_case(ready.study);

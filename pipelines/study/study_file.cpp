@@ -239,7 +239,7 @@ StudyFileReport read_study_file(const std::filesystem::path& file) {
     StudyReader(*json, study, findings).read();
   }
   StudyFileReport report;
-  if (!findings.has_errors()) report.value = std::move(study);
+  (findings.has_errors() ? report.with_errors : report.value) = std::move(study);
   report.diagnostics = findings.take();
   return report;
 }

@@ -167,6 +167,8 @@ struct StudyFile {
 struct StudyFileReport {
   std::optional<StudyFile> value;
   std::vector<Diagnostic> diagnostics;
+  std::optional<StudyFile> with_errors =
+      {};  ///< instead, as far as it could be read, to look for more errors
 };
 
 /// Reads and checks a study file, all errors at once, each with its JSON path; the case is not read.

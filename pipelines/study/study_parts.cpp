@@ -1,6 +1,7 @@
 #include "pipelines/study/study_parts.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_overrides.h"
@@ -30,13 +31,14 @@ std::vector<double> StudyPartReader::all_measured(const Json& values, Dimension 
                                                   const std::string& path) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < values.size(); ++i)
-    numbers.push_back(measured(values[i], dimension, child(path, i)).value_or(0));
+    numbers.push_back(
+        measured(values[i], dimension, child(path, i)).value_or(std::numeric_limits<double>::quiet_NaN()));
   return numbers;
 }
 
 void StudyPartReader::check_increasing(const std::vector<double>& values, const std::string& path) {
   for (std::size_t i = 0; i + 1 < values.size(); ++i)
-    if (!(values[i] < values[i + 1]))
+    if (values[i] >= values[i + 1])  // what is no number has its own message
       return findings_.error(path, text_of(values[i], all_digits) + " is not below " +
                                        text_of(values[i + 1], all_digits) + "; values must increase");
 }

@@ -198,7 +198,7 @@ class StudyTaskReader : StudyPartReader {
           "what is known before");
     std::size_t measured = 0;
     for (const auto& observation : calibration.observations) measured += observation.times.size();
-    if (measured <= free)
+    if (measured <= free && calibration.observations.size() == json["observations"].size())
       findings_.error("calibrate.observations", "has " + std::to_string(measured) + " values for " +
                                                     std::to_string(free) + " variables; more are needed");
     return calibration;

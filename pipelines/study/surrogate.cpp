@@ -40,20 +40,23 @@ Fitted chaos_of(const StudyFile& study, int degree, const OT::Sample& x, const O
   return fitted;
 }
 
+/// Of parts of the extents: the lengths of correlation are looked for from one start, the same for all
+/// variables.
 Fitted kriging_of(const OT::Sample& x, const OT::Sample& y) {
   const std::size_t inputs = x.getDimension();
+  OT::Point extent = x.getMax() - x.getMin();
+  OT::SquareMatrix scale(inputs);
+  for (std::size_t i = 0; i < inputs; ++i) scale(i, i) = 1 / std::max(extent[i], 1e-300);
+  const OT::LinearFunction parts(x.getMin(), OT::Point(inputs), scale);
   OT::MaternModel covariance(inputs);
   covariance.setNu(2.5);
-  OT::KrigingAlgorithm algorithm(x, y, covariance, OT::ConstantBasisFactory(inputs).build());
-  const OT::Point extent = x.getMax() - x.getMin();
-  OT::Point lower(inputs), upper(inputs);
-  for (std::size_t i = 0; i < inputs; ++i) {
-    lower[i] = 0.02 * extent[i];
-    upper[i] = 20 * extent[i];
-  }
-  algorithm.setOptimizationBounds(OT::Interval(lower, upper));
+  covariance.setScale(OT::Point(inputs, 0.5));
+  OT::KrigingAlgorithm algorithm(parts(x), y, covariance, OT::ConstantBasisFactory(inputs).build());
+  algorithm.setOptimizationBounds(OT::Interval(OT::Point(inputs, 0.02), OT::Point(inputs, 20)));
+  algorithm.setOptimizationAlgorithm(
+      OT::NLopt("LN_COBYLA"));  // the default's search along lines fails at times
   algorithm.run();
-  return {algorithm.getResult().getMetaModel()};
+  return {OT::ComposedFunction(algorithm.getResult().getMetaModel(), parts)};
 }
 
 }  // namespace

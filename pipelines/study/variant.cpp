@@ -246,11 +246,15 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
     std::vector<std::string> known = names_of(study.variables);
     for (const HistoryColumn& column : history_columns(snapshot_names(*built.value)))
       known.push_back(column_name(column));
-    for (const StudyQuantity& quantity : study.quantities)
+    std::string seen;  // of an observation, which is a quantity at each of its times
+    for (const StudyQuantity& quantity : study.quantities) {
+      if (quantity.observed && quantity.path == seen) continue;
+      seen = quantity.path;
       for (const std::string& name : quantity.value.names())
         if (std::find(known.begin(), known.end(), name) == known.end())
           findings.error(quantity.path + ".value",
                          "a run of this case has no column " + in_quotes(name) + known_names(name, known));
+    }
     if (!findings.has_errors()) check_kinds(study, findings);
     if (!findings.has_errors() && study.derivatives)
       check_derivatives(study, *study_case, nominal, simulation_options(*read.value), findings);

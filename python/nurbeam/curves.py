@@ -71,6 +71,8 @@ class Curve:
     ):
         points = _points(control_points, "control points")
         n = len(points)
+        if n < 2:
+            raise ValueError(f"{n} control point(s); a curve has at least 2")
         p = min(3, n - 1) if degree is None else int(degree)
         if knots is None:
             inner = np.linspace(0, 1, n - p + 1)[1:-1] if n > p else np.empty(0)
@@ -147,9 +149,12 @@ class Curve:
         u = np.asarray(parameter, dtype=float)
         return self._nurbs.points(u.ravel()).reshape(u.shape + (3,))
 
-    def derivatives(self, parameter: float, n: int = 1) -> Array:
-        """The point and its first n derivatives by the parameter, (n + 1, 3)."""
-        return self._nurbs.derivatives(float(parameter), n)
+    def derivatives(self, parameter: npt.ArrayLike, n: int = 1) -> Array:
+        """The point and its first n derivatives by the parameter: (n + 1, 3) for one, (..., n + 1, 3) for an array of them
+        [m]."""
+        u = np.asarray(parameter, dtype=float)
+        found = [self._nurbs.derivatives(float(each), n) for each in u.ravel()]
+        return np.array(found).reshape(u.shape + (n + 1, 3))
 
     def sample(self, count: int = 200) -> Array:
         """Points at `count` equally spaced parameters, (count, 3) [m]."""

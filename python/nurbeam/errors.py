@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import difflib
 import warnings
-from typing import TYPE_CHECKING, Iterable, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
 
 if TYPE_CHECKING:
     from .results import Results
+
+T = TypeVar("T")
 
 __all__ = ["Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding"]
 
@@ -67,6 +69,17 @@ def tell(findings: Iterable[Finding], stacklevel: int = 3) -> None:
     for finding in findings:
         if finding.severity == "warning":
             warnings.warn(CaseWarning(str(finding)), stacklevel=stacklevel + 1)
+
+
+class ByName(Dict[str, T]):
+    """Things by their names; a KeyError for a wrong one says which there are."""
+
+    def __init__(self, what: str, things: Mapping[str, T]):
+        super().__init__(things)
+        self._what = what
+
+    def __missing__(self, name: str) -> T:
+        raise KeyError(unknown(self._what, name, self))
 
 
 def unknown(what: str, name: object, known: Iterable[str]) -> str:

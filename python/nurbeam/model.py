@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -92,7 +93,21 @@ def _json(value: Any) -> Any:
         return os.fspath(value)
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_json(item) for item in value]
-    return value
+    if value is None or isinstance(value, (str, int, float)):
+        return value
+    raise TypeError(f"{value!r} is nothing that a case can hold; expected a number, a text, a list or a mapping, or for a "
+                    "beam or a body its name or what add_beam and add_body have returned")
+
+
+def _not_finite(value: Any, path: str = "") -> list[Finding]:
+    """The numbers of a case that are none."""
+    if isinstance(value, dict):
+        return [f for key, item in value.items() for f in _not_finite(item, f"{path}.{key}" if path else key)]
+    if isinstance(value, list):
+        return [f for i, item in enumerate(value) for f in _not_finite(item, f"{path}[{i}]")]
+    if isinstance(value, float) and not math.isfinite(value):
+        return [Finding("error", path, f"is {value}; expected a finite number")]
+    return []
 
 
 def _place(at: Any) -> Any:
@@ -316,6 +331,7 @@ class Model:
         holds."""
         if self._laws or self._motions:
             raise Error("the model has forces or motions by functions, which a case file cannot hold")
+        self._require_finite(self.case)
         with open(file, "w", encoding="utf-8") as stream:
             json.dump(self.case, stream, indent=2)
             stream.write("\n")
@@ -333,7 +349,12 @@ class Model:
             case["output"] = {**case.get("output", {}), "every": _json(every)}
         if self._laws:
             case["laws"] = [law for law, _ in self._laws]
+        self._require_finite(case)
         return json.dumps(case)
+
+    def _require_finite(self, case: dict[str, Any]) -> None:
+        if wrong := _not_finite(case):
+            raise CaseError([Finding(f.severity, f"{self._file}: {f.where}", f.message) for f in wrong])
 
     def _built(self, analysis: Mapping[str, Any], every: Quantity | None = None) -> tuple[_core.BuiltCase, list[Finding]]:
         built, plain = _core.build(self._text(analysis, every), self._file)
@@ -343,7 +364,7 @@ class Model:
         return built, findings
 
     def _functions(self) -> tuple[list[Force], list[MotionLaw]]:
-        return [function for _, function in self._laws], self._motions
+        return [function for _, function in self._laws], list(self._motions)
 
     def _by_function(self, motion: Any) -> dict[str, Any]:
         """The keys of a motion, which may be a function."""
@@ -397,7 +418,7 @@ class Model:
                 raise RunError(report["status"], results)
             return results
         with progress_bar(built, progress) as told:
-            return Simulation(_core.LiveRun(built, self._functions(), None), built).run(told)
+            return Simulation(_core.LiveRun.begin(built, self._functions(), None), built).run(told)
 
     def _run_into(
         self, built: _core.BuiltCase, out: str | os.PathLike[str], resume: bool, progress: bool | None
@@ -431,7 +452,9 @@ class Model:
         tell(findings)
         if built.analysis in ("modes", "buckling"):
             raise ValueError(f'there are no steps to take in an analysis of the type "{built.analysis}"; use run')
-        return Simulation(_core.LiveRun(built, self._functions(), start._core if start else None), built)
+        if start is not None and not isinstance(start, Checkpoint):
+            raise TypeError(f"start is {start!r}; expected a Checkpoint: simulation.checkpoint or Checkpoint.load(file)")
+        return Simulation(_core.LiveRun.begin(built, self._functions(), start._core if start else None), built)
 
     def system(self, **analysis: Any) -> System:
         """The equations of motion of the model as drawn; those of other states are `simulation.system`."""

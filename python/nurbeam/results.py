@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from .curves import Curve, write
-from .errors import Error, unknown
+from .errors import ByName, Error, unknown
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -199,17 +199,17 @@ class Snapshot:
     def beams(self) -> dict[str, BeamShape]:
         """By name."""
         names = self._frame.recording.beams
-        return {name: BeamShape(self._frame, i, name) for i, name in enumerate(names)}
+        return ByName("beam", {name: BeamShape(self._frame, i, name) for i, name in enumerate(names)})
 
     @property
     def bodies(self) -> dict[str, Motion]:
         """By name."""
-        return {name: Motion(*motion) for name, motion in self._frame.bodies().items()}
+        return ByName("body", {name: Motion(*motion) for name, motion in self._frame.bodies().items()})
 
     @property
     def probes(self) -> dict[str, Motion]:
         """By name."""
-        return {name: Motion(*motion) for name, motion in self._frame.probes().items()}
+        return ByName("probe", {name: Motion(*motion) for name, motion in self._frame.probes().items()})
 
     def __getitem__(self, name: str) -> float:
         """One value of the histories: `snapshot["energy.total"]`."""
@@ -324,6 +324,8 @@ class Results(Sequence[Snapshot]):
     def at(self, time: float) -> Snapshot:
         """The snapshot nearest to a time [s]. ValueError outside the times of the run."""
         times = self.times
+        if not isinstance(time, (int, float, np.number)):
+            raise TypeError(f"the time is {time!r}; expected a number in seconds")
         if len(times) == 0 or not times[0] * (1 - 1e-9) <= time <= times[-1] * (1 + 1e-9):
             span = f"from {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else "none"
             raise ValueError(f"time {time} s is not among those of the run, {span}")

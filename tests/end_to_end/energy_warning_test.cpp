@@ -35,6 +35,18 @@ TEST(EnergyOfTheMesh, IsNeverKeptByOpeningAJoint) {
   EXPECT_NEAR(fine.last("energy.total [J]"), fine.value(0, "energy.total [J]"), 1e-2);
 }
 
+TEST(Seam, IsPassedByANodeWithAKink) {
+  // The drawing of the ring has a break at its seam, which gives way to the joint: the joint's node becomes
+  // the last of the mesh instead of the first.
+  const CaseRun run = run_case("kinked_joint_over_seam.json");
+  EXPECT_EQ(run.code, 0) << run.messages;
+  EXPECT_LT(run.last("body 1.s [m]"), 0.6172);
+  EXPECT_GT(run.last("body 1.s [m]"), 0.4);
+  const double moves = run.last("energy.kinetic [J]");
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"),
+              5e-2 * moves);  // high frequencies are damped
+}
+
 TEST(EnergyWarning, DoesNotRingOverRoundOff) {
   const CaseRun run = run_case("d_rest_false_warning.json");
   ASSERT_EQ(run.code, 0) << run.messages;

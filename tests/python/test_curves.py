@@ -38,6 +38,14 @@ def test_derivatives_are_the_limit_of_differences():
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.01)
 
 
+def test_derivatives_at_many_parameters_are_those_at_each():
+    curve = nb.Curve.arc([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1])
+    u = np.array([[0.1, 0.2, 0.3], [0.5, 0.6, 1.0]])
+    found = curve.derivatives(u, 2)
+    assert found.shape == (2, 3, 3, 3)
+    assert np.array_equal(found[1, 0], curve.derivatives(0.5, 2)) and np.array_equal(found[..., 0, :], curve(u))
+
+
 def test_inserted_knots_leave_the_curve_as_it_is():
     curve = nb.Curve(np.random.default_rng(1).normal(size=(7, 3)), weights=[1, 2, 0.5, 1, 1, 3, 1])
     finer = curve.insert_knot(0.4, 2).insert_knot(0.1)
@@ -81,6 +89,8 @@ def test_the_closest_point_is_where_no_other_is_nearer(degree):
 def test_what_is_no_curve_says_why():
     with pytest.raises(ValueError, match=r"shape \(3,\); expected \(n, 3\)"):
         nb.Curve([1, 2, 3])
+    with pytest.raises(ValueError, match="1 control point"):
+        nb.Curve([[1, 2, 3]])
     with pytest.raises(ValueError, match="weight"):
         nb.Curve([[0, 0, 0], [1, 0, 0]], weights=[1, -1])
     with pytest.raises(ValueError, match="must both be|both must be its radius"):

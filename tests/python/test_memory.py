@@ -6,7 +6,7 @@ import weakref
 from pathlib import Path
 
 import pytest
-from models import straight_cantilever
+from models import bead_on_a_wire, straight_cantilever
 
 import nurbeam as nb
 
@@ -63,6 +63,32 @@ def test_functions_are_dropped_with_what_holds_them():
     assert held() is not None  # the equations hold it still
     system.residual()
     del system
+    gc.collect()
+    assert held() is None
+
+
+class Follower:
+    """A force and a motion that know what they act in."""
+
+    simulation = system = model = None
+
+    def __call__(self, t, position=None, velocity=None):
+        return (0.0, 0.0, 0.0) if position is not None else 1.0
+
+
+@pytest.mark.parametrize("kept", ["simulation", "system", "model"])
+def test_functions_that_refer_back_go_with_what_holds_them(kept):
+    law = Follower()
+    held = weakref.ref(law)
+    model = bead_on_a_wire(motion=law)
+    model.add_force(law, beam="wire", at="end")
+    simulation = model.simulate(end_time=0.01, step=1e-3)
+    simulation.step()
+    setattr(law, kept, {"simulation": simulation, "system": simulation.system, "model": model}[kept])
+    law = model = None
+    gc.collect()
+    assert held() is not None and simulation.step()
+    simulation = None
     gc.collect()
     assert held() is None
 

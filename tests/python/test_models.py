@@ -97,6 +97,18 @@ def test_wrong_models_say_all_that_is_wrong():
     assert all(finding.severity == "error" for finding in caught.value.findings)
 
 
+def test_what_no_case_can_hold_is_refused_with_its_place():
+    model = straight_cantilever()
+    with pytest.raises(TypeError, match="Curve of degree.* for a beam or a body its name"):
+        model.add_load(nb.Curve.line([0, 0, 0], [1, 0, 0]), at="end", force=[0, 0, 1])
+    with pytest.raises(TypeError, match="start is 3; expected a Checkpoint"):
+        model.simulate(end_time=1, step=1e-2, start=3)
+    model.add_load("rod", at="end", force=[0, np.nan, 0])
+    for use in (lambda: model.run(type="static"), lambda: model.save("case.json")):
+        with pytest.raises(nb.CaseError, match=r"model: loads\[0\].force\[1\]: is nan; expected a finite number"):
+            use()
+
+
 def test_the_messages_are_those_of_the_command_line(command, tmp_path):
     model = straight_cantilever()
     model.set("beams.rod.elements.count", 0)

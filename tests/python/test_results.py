@@ -36,6 +36,8 @@ def test_snapshots_are_a_sequence(results):
         results[5]
     with pytest.raises(ValueError, match="not among those of the run, from 0 to 0.2 s"):
         results.at(0.3)
+    with pytest.raises(TypeError, match="the time is '0.1 s'; expected a number in seconds"):
+        results.at("0.1 s")
     assert results.at(0.06).time == pytest.approx(0.05)
 
 
@@ -51,6 +53,10 @@ def test_beams_hold_their_shape_and_what_they_carry(results):
     assert set(beam.fields) >= {"axial_force", "bending_moment", "stress", "velocity"}
     with pytest.raises(KeyError, match="did you mean"):
         beam.field("bending_momnet")
+    with pytest.raises(KeyError, match='there is no beam "wier"; did you mean "wire"'):
+        results[-1].beams["wier"]
+    with pytest.raises(KeyError, match='there is no probe "center".*Known: "middle"'):
+        results[-1].probes["center"]
 
 
 def test_snapshots_know_single_values(results):

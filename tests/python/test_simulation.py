@@ -181,27 +181,42 @@ def test_a_simulation_belongs_to_one_thread_at_a_time():
 
 
 INTERRUPTED = """
-import sys, threading, time, os, signal
+import os, signal, sys, threading, time
 sys.path.insert(0, {tests!r})
-from models import straight_cantilever
-model = straight_cantilever(tip=[0, -1, 0], elements=40)
-threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-start = time.monotonic()
+from models import bending_stiffness, straight_cantilever
+import nurbeam as nb
+
+# Rolled up to five turns: one equilibrium, of a great many iterations.
+roll = straight_cantilever(elements=3000)
+roll.add_load("rod", at="end", moment=[0, 0, 10 * 3.1416 * bending_stiffness()])
+rod = straight_cantilever(tip=[0, -1, 0], elements=40)
+many = straight_cantilever(elements=3000)
+sent = []
+
+def interrupt():
+    sent.append(time.monotonic())
+    os.kill(os.getpid(), signal.SIGINT)
+
+threading.Timer(1.0, interrupt).start()
 try:
     {what}
 except KeyboardInterrupt:
-    print("interrupted after", time.monotonic() - start)
+    print("interrupted after", time.monotonic() - sent[0])
 """
-
 
 @pytest.mark.parametrize(
     "what",
     [
-        "model.run(end_time=1e4, step=1e-3)",
-        "model.run(end_time=1e4, step=1e-3, out={out!r})",
-        "list(model.simulate(end_time=1e4, step=1e-3))",
-        "model.run(type='static', load_steps=10000)",
-        "[model.modes(count=20) for _ in range(100000)]",
+        "rod.run(end_time=1e4, step=1e-3)",
+        "rod.run(end_time=1e4, step=1e-3, out={out!r})",
+        "list(rod.simulate(end_time=1e4, step=1e-3))",
+        "rod.run(type='static', load_steps=10000)",
+        "roll.run(type='static')",
+        "roll.run(type='static', out={out!r})",
+        "roll.run(end_time=1, step=1e-3, initial='equilibrium')",
+        "roll.run(type='modes')",
+        "many.modes(count=300)",
+        "[rod.modes(count=20) for _ in range(100000)]",
     ],
 )
 def test_control_c_ends_a_run_at_once(what, tmp_path):

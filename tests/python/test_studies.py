@@ -1,7 +1,14 @@
 """Studies from Python."""
 
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
+from models import straight_cantilever
 
 import nurbeam as nb
 
@@ -39,3 +46,47 @@ def test_what_is_wrong_is_a_list_of_findings(tmp_path):
     assert "has 2 numbers for 3 variables" in messages
     with pytest.raises(KeyError, match='did you mean "x1"'):
         nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path)["x11"]
+
+
+def children(process):
+    """The ids of all processes that it has begun, and theirs."""
+    listed = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process)], capture_output=True, text=True).stdout.split()
+    return [int(child) for child in listed] + [below for child in listed for below in children(child)]
+
+
+def runs(process):
+    """Whether it is more than an entry in the list of processes."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def test_control_c_ends_a_study_and_all_its_processes(tmp_path):
+    model = straight_cantilever(tip=[0, -1, 0])
+    model.add_probe("tip", "rod", "end")
+    model.set("analysis", {"end_time": 1000, "step": 1e-3})
+    model.save(tmp_path / "case.json")
+    study = {"nurbeam_study": 1, "case": str(tmp_path / "case.json"), "plan": {"grid": [4]},
+             "variables": [{"name": "end", "path": "analysis.end_time", "range": [1000, 2000]}],
+             "quantities": [{"name": "y", "value": "last(tip.y)"}]}
+    code = f"""
+import nurbeam as nb
+try:
+    nb.study({study!r}, out={str(tmp_path / "out")!r}, jobs=2)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    began = time.monotonic()
+    while len(begun := children(process.pid)) < 3 and time.monotonic() < began + 30 and process.poll() is None:
+        time.sleep(0.05)
+    sent = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    said, wrong = process.communicate(timeout=30)
+    assert said == "interrupted\n", wrong
+    assert time.monotonic() - sent < 5
+    assert len(begun) >= 3  # the study and two that run variants
+    while any(map(runs, begun)) and time.monotonic() < sent + 5:
+        time.sleep(0.05)
+    assert not [pid for pid in begun if runs(pid)]

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import nurbeam as nb
 
 PACKAGE = Path(nb.__file__).resolve().parent
@@ -17,9 +19,14 @@ def mypy(*arguments, cwd, **environment):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_the_package_is_typed(tmp_path):
-    mypy("mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path), "-p", "nurbeam", cwd=tmp_path,
-         MYPYPATH=str(PACKAGE.parent))
+@pytest.fixture(scope="module")
+def checked(tmp_path_factory):
+    """The words that check a program strictly; what numpy's types are is found once for all."""
+    return ["mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path_factory.mktemp("cache"))]
+
+
+def test_the_package_is_typed(tmp_path, checked):
+    mypy(*checked, "-p", "nurbeam", cwd=tmp_path, MYPYPATH=str(PACKAGE.parent))
 
 
 def test_the_stubs_of_the_compiled_part_are_those_of_the_module(tmp_path):
@@ -31,15 +38,14 @@ def test_the_stubs_of_the_compiled_part_are_those_of_the_module(tmp_path):
          cwd=tmp_path, MYPYPATH=str(PACKAGE.parent))
 
 
-def test_a_users_program_is_checked(tmp_path):
+def test_a_users_program_is_checked(tmp_path, checked):
     (tmp_path / "program.py").write_text(
         "import nurbeam as nb\n"
         "curve = nb.Curve.line([0, 0, 0], [1, 0, 0])\n"
         "reveal_type(curve.length)\n"
         "nb.Model().run(end_tme=1)\n"
     )
-    done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "c"),
-                           "program.py"], capture_output=True, text=True, cwd=tmp_path,
+    done = subprocess.run([sys.executable, "-m", *checked, "program.py"], capture_output=True, text=True, cwd=tmp_path,
                           env={**os.environ, "MYPYPATH": str(PACKAGE.parent)})
     assert 'Revealed type is "builtins.float"' in done.stdout, done.stdout
 

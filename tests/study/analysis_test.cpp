@@ -61,6 +61,16 @@ TEST(Surrogate, OfIshigamisFunctionHasItsSobolIndices) {
   EXPECT_NEAR(chaos.total_order[2], 0.2437, 0.01);
 }
 
+// A modulus and a radius: numbers of 1e11 and of 0.01.
+TEST(Surrogate, ByKrigingAnswersWhateverTheUnits) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "E", "range": [1e11, 3e11]}, {"name": "r", "range": [0.005, 0.02]}],
+    "quantities": [{"name": "y", "value": "E / 1e11 * sin(300 * r)"}],
+    "plan": {"latin_hypercube": {"count": 100}}, "surrogate": {"type": "kriging"}})json");
+  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  EXPECT_GE(make_surrogates(study, *study.surrogate, points, evaluated(study, points))[0].q2, 0.99);
+}
+
 TEST(Surrogate, ThatHasMoreTermsThanRowsIsRefused) {
   const StudyFile study = study_of(
       ishigami_head + R"json("plan": {"latin_hypercube": {"count": 50}}, "surrogate": {"degree": 9}})json");
@@ -140,6 +150,25 @@ TEST(Reliability, BySimulationIsWithinItsDeviation) {
     EXPECT_NEAR(result.probability, exact, 4 * *result.coefficient_of_variation * exact) << method;
     EXPECT_LE(*result.coefficient_of_variation, 0.12) << method;
   }
+}
+
+TEST(Reliability, BySimulationRunsAsManyAsAskedForOrUntilItIsSure) {
+  const auto runs = [](const std::string& more) {
+    const StudyFile study = study_of(linear_head + R"json("reliability": {"quantity": "margin", "below": 4,
+      "method": "monte_carlo", "count": 2000)json" +
+                                     more + "}}");
+    std::size_t count = 0;
+    failure_probability(study, std::get<StudyReliability>(study.task), [&](const StudyPoints& points) {
+      count += points.size();
+      return evaluated(study, points);
+    });
+    return count;
+  };
+  EXPECT_EQ(runs(""), 2000U);
+  const std::size_t until_sure =
+      runs(R"(, "coefficient_of_variation": 0.1)");  // sqrt((1 - p) / (p n)), p = 0.34
+  EXPECT_GE(until_sure, 120U);
+  EXPECT_LE(until_sure, 300U);
 }
 
 TEST(Optimum, HoldsItsConstraints) {

@@ -164,6 +164,12 @@ def bad_files_are_refused():
                                       "range": [0, 1]}], "constraints": [], "plan": {"grid": 2}}
     done = run(write(scratch / "bad", broken), "--out", scratch / "bad/out", expected=2)
     assert "variables[0]: the case has no beam \"baem\"; did you mean \"beam\"?" in done.stderr, done.stderr
+    wrong = {**STUDY, "constraints": ["ryse < 1"], "variables": broken["variables"], "plan": {"grid": [2, 2]},
+             "quantities": [{"name": "q", "value": "max(tipp.x)"}]}
+    done = run(write(scratch / "bad", wrong), "--out", scratch / "bad/out", expected=2)
+    for place in ("constraints[0]: there is no variable \"ryse\"", "plan.grid: has 2 numbers",
+                  "variables[0]: the case has no beam", "quantities[0].value: a run of this case has no column"):
+        assert place in done.stderr, (place, done.stderr)
     run(scratch / "bad/nothing.json", expected=2)
     run(study, "--out", scratch / "bad/none", "--resume", expected=2)
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})

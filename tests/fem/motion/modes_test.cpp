@@ -102,6 +102,23 @@ BeamModel loaded(double q, double force, double s = 1, bool follower = false) {
   return model;
 }
 
+TEST(Modes, AreInterruptedAmongTheIterationsForEigenvaluesToo) {
+  std::mt19937 random(3);
+  const auto model = std::make_shared<const BeamModel>(testing::joined_model(random, 2));
+  for (const bool about_equilibrium : {true, false}) {
+    const ModesOptions options{.count = 6, .about_equilibrium = about_equilibrium};
+    int questions = 0;
+    ASSERT_EQ(find_modes(model, options, [&] { return ++questions == 0; }).modes.size(), 6u);
+    ASSERT_GT(questions, 10);
+    for (int at = 1; at <= questions; at += questions - 1) {
+      int asked = 0;
+      const ModesReport found = find_modes(model, options, [&] { return ++asked == at; });
+      EXPECT_TRUE(found.rest.interrupted && !found.rest.failure && found.modes.empty());
+      EXPECT_EQ(asked, at);
+    }
+  }
+}
+
 TEST(Modes, OfAColumnThatIsTooHeavyAreRefusedAsUnstable) {
   EXPECT_FALSE(modes_of(column(7.8).build(), {.count = 1}).rest.failure);  // q L^3/EI = 7.837
   const ModesReport heavy = modes_of(column(7.9).build(), {.count = 1});

@@ -96,5 +96,45 @@ TEST(SimulationTest, WhatAForceThrowsArrivesAndTheMotionGoesOnFromItsLastStep) {
   EXPECT_EQ(simulation.report().status, SimulationStatus::done);
 }
 
+// An observer that interrupts at a question, which are counted.
+SimulationObserver interrupting(int& questions, int at) {
+  SimulationObserver observer;
+  observer.interrupted = [&questions, at] { return ++questions == at; };
+  return observer;
+}
+
+TEST(SimulationTest, AnInterruptionEndsASearchForRestAtItsNextIteration) {
+  for (const bool statics : {true, false}) {
+    SimulationOptions options = twenty_steps();
+    options.statics = statics;
+    options.start_from_equilibrium = true;
+    int questions = 0;
+    simulate(swinging_cantilever(), {}, options, interrupting(questions, -1));
+    ASSERT_GT(questions, 5);
+    questions = 0;
+    Simulation simulation(swinging_cantilever(), {}, options, interrupting(questions, 3));
+    EXPECT_FALSE(simulation.advance());
+    EXPECT_FALSE(simulation.advance());
+    EXPECT_EQ(questions, 3);
+    EXPECT_EQ(simulation.report().status, SimulationStatus::interrupted);
+  }
+}
+
+TEST(SimulationTest, WhatAForceThrowsEndsASearchForRest) {
+  struct Refusal {};
+  auto model = std::make_shared<BeamModel>(*swinging_cantilever());
+  model->forces.push_back(
+      CustomForce{{CustomForce::Attachment::to_beam(0, 1)},
+                  [](double, const Eigen::Matrix3Xd&, const Eigen::Matrix3Xd&) -> CustomForce::Response {
+                    throw Refusal{};
+                  }});
+  SimulationOptions options = twenty_steps();
+  options.start_from_equilibrium = true;
+  Simulation simulation(model, {}, options);
+  EXPECT_THROW(simulation.advance(), Refusal);
+  EXPECT_FALSE(simulation.advance());
+  EXPECT_EQ(simulation.report().status, SimulationStatus::interrupted);
+}
+
 }  // namespace
 }  // namespace nurbeam

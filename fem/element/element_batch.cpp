@@ -1,0 +1,253 @@
+// The forces of many fixed elements at once, for the widest registers that the processor has.
+#include "fem/element/element_batch.h"
+
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define NURBEAM_FOR_EVERY_PROCESSOR [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#else
+#define NURBEAM_FOR_EVERY_PROCESSOR
+#endif
+// So that each of them has all of it.
+#define NURBEAM_WITHIN [[gnu::always_inline]] inline
+
+namespace nurbeam {
+
+namespace {
+
+using Lanes8 = ElementLanes;
+
+NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, const Lanes8& b) { return {a.of + b.of}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, const Lanes8& b) { return {a.of - b.of}; }
+NURBEAM_WITHIN Lanes8 operator*(const Lanes8& a, const Lanes8& b) { return {a.of * b.of}; }
+NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, const Lanes8& b) { return {a.of / b.of}; }
+NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, double b) { return {a.of + b}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, double b) { return {a.of - b}; }
+NURBEAM_WITHIN Lanes8 operator*(double a, const Lanes8& b) { return {a * b.of}; }
+NURBEAM_WITHIN Lanes8 operator/(double a, const Lanes8& b) { return {a / b.of}; }
+NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, double b) { return {a.of / b}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a) { return {-a.of}; }
+NURBEAM_WITHIN void operator+=(Lanes8& a, const Lanes8& b) { a.of += b.of; }
+NURBEAM_WITHIN void operator-=(Lanes8& a, const Lanes8& b) { a.of -= b.of; }
+NURBEAM_WITHIN void operator*=(Lanes8& a, const Lanes8& b) { a.of *= b.of; }
+
+template <int D>
+using LaneVector = std::array<Lanes8, D>;
+
+template <int D>
+NURBEAM_WITHIN Lanes8 dot(const LaneVector<D>& a, const LaneVector<D>& b) {
+  Lanes8 sum = a[0] * b[0];
+  for (int d = 1; d < D; ++d) sum += a[d] * b[d];
+  return sum;
+}
+
+NURBEAM_WITHIN Lanes8 square_root(const Lanes8& a) {
+  Lanes8 root = a;
+  for (int i = 0; i < static_cast<int>(sizeof(a) / sizeof(double)); ++i) root.of[i] = __builtin_sqrt(a.of[i]);
+  return root;
+}
+
+// As CurvatureLanes has it.
+template <int D>
+struct Curvature {
+  Lanes8 value;
+  LaneVector<D> by_rs, by_rss;
+
+  NURBEAM_WITHIN Curvature(const LaneVector<D>& rs, const LaneVector<D>& rss, bool material) {
+    const Lanes8 A = dot<D>(rs, rs);
+    if constexpr (D == 2) {
+      const double twice_m = material ? 2 : 3;
+      const Lanes8 p = material ? 1 / A : 1 / (A * square_root(A));
+      value = p * (rs[0] * rss[1] - rs[1] * rss[0]);
+      const Lanes8 along = twice_m * value / A;
+      by_rs = {p * rss[1] - along * rs[0], -p * rss[0] - along * rs[1]};
+      by_rss = {-p * rs[1], p * rs[0]};
+    } else {
+      const double m = material ? 2 : 3;
+      const Lanes8 G = dot<D>(rss, rss), F = dot<D>(rs, rss);
+      const Lanes8 p = material ? 1 / (A * A) : 1 / (A * A * A);
+      const Lanes8 square = p * (A * G - F * F);
+      value = square_root(square + curvature_rounding * curvature_rounding);
+      const Lanes8 q = p / value, along = m * square / (A * value);
+      for (int d = 0; d < D; ++d) {
+        by_rs[d] = q * (G * rs[d] - F * rss[d]) - along * rs[d];
+        by_rss[d] = q * (A * rss[d] - F * rs[d]);
+      }
+    }
+  }
+
+  NURBEAM_WITHIN Lanes8 rate(const LaneVector<D>& rs_rate, const LaneVector<D>& rss_rate) const {
+    return dot<D>(by_rs, rs_rate) + dot<D>(by_rss, rss_rate);
+  }
+};
+
+}  // namespace
+
+// What add_forces does, to be compiled for each processor. The formulas are those of fixed_forces.cpp.
+template <int D>
+struct ElementBatch<D>::Kernel {
+  const ElementBatch& batch;
+  const BeamProperties& beam;
+
+  // sum_k e_k S_k.
+  NURBEAM_WITHIN static LaneVector<D> combination(const Nodes& e, const std::array<Lanes8, 4>& S) {
+    LaneVector<D> sum;
+    for (int d = 0; d < D; ++d) sum[d] = e[0][d] * S[0] + e[1][d] * S[1] + e[2][d] * S[2] + e[3][d] * S[3];
+    return sum;
+  }
+
+  // sum_l e_l M_lk for the columns of a symmetric M.
+  NURBEAM_WITHIN static Nodes product(const Nodes& e, const std::array<std::array<Lanes8, 4>, 4>& M) {
+    Nodes product;
+    for (int k = 0; k < 4; ++k) product[k] = combination(e, M[k]);
+    return product;
+  }
+
+  NURBEAM_WITHIN static void add(const Lanes8& factor, const Nodes& term, Nodes& sum) {
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < D; ++d) sum[k][d] += factor * term[k][d];
+  }
+
+  NURBEAM_WITHIN void add_point_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
+    const double EA = beam.pointwise_axial_stiffness(), EI = beam.axis_bending_stiffness();
+    const double c = beam.damping;
+    const bool material = beam.curvature == CurvatureMeasure::material;
+    for (const Point& p : batch.points_) {
+      const LaneVector<D> rs = combination(e, p.S1), rss = combination(e, p.S2);
+      const Curvature<D> K(rs, rss, material);
+      Lanes8 moment = EI * (K.value - p.kappa0), stretching = {};
+      if (EA > 0) stretching = EA * ((dot<D>(rs, rs) - 1) / 2 - p.eps0);
+      if (c > 0) {
+        const LaneVector<D> rs_rate = combination(e_rate, p.S1);
+        moment += c * EI * K.rate(rs_rate, combination(e_rate, p.S2));
+        if (EA > 0) stretching += c * EA * dot<D>(rs, rs_rate);
+      }
+      moment *= p.weight;
+      stretching *= p.weight;
+      for (int d = 0; d < D; ++d) {
+        const Lanes8 on_rs = moment * K.by_rs[d] + stretching * rs[d], on_rss = moment * K.by_rss[d];
+        for (int k = 0; k < 4; ++k) force[k][d] += on_rs * p.S1[k] + on_rss * p.S2[k];
+      }
+    }
+  }
+
+  // The assumed axial strain, its damping and that of the tension (BeamElement::TautViscosity).
+  NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, double free_strain,
+                                       Nodes& force) const {
+    const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
+    if (!assumed && !(beam.tension_damping > 0)) return;
+    Nodes from_start = e;
+    for (int d = 0; d < D; ++d) {
+      from_start[0][d] = Lanes8{};
+      from_start[2][d] -= e[0][d];
+    }
+    const Nodes I_e = product(from_start, batch.stretch_);
+    const Lanes8 l = batch.length_;
+    Lanes8 I = {};
+    for (int k = 1; k < 4; ++k) I += dot<D>(from_start[k], I_e[k]);
+    I = (I - l) / 2 - batch.strain0_[0] - free_strain * l;
+    if (beam.tension_damping > 0) {
+      const double factor = beam.tension_damping * beam.axial_stiffness;
+      const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
+      add(eta, product(e_rate, batch.stretch_), force);
+    }
+    if (!assumed) return;
+    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
+    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
+    const double EA = beam.axial_stiffness, viscosity = beam.damping * EA;
+    const Lanes8 c0 = I / l, c1 = (at_b - at_a) / 2, c2 = (at_a + at_b) / 2 - c0;
+    Lanes8 on_I = EA * (c0 - c2 / 5), on_a = EA * l * (c2 / 10 - c1 / 6), on_b = EA * l * (c2 / 10 + c1 / 6);
+    if (viscosity > 0) {
+      Lanes8 I_rate = {};
+      for (int k = 0; k < 4; ++k) I_rate += dot<D>(I_e[k], e_rate[k]);
+      const Lanes8 a_rate = dot<D>(e[1], e_rate[1]), b_rate = dot<D>(e[3], e_rate[3]);
+      on_I += viscosity * (1.2 / l * I_rate - 0.1 * (a_rate + b_rate));
+      on_a += viscosity * (l * (2. / 15 * a_rate - b_rate / 30) - 0.1 * I_rate);
+      on_b += viscosity * (l * (2. / 15 * b_rate - a_rate / 30) - 0.1 * I_rate);
+    }
+    add(on_I, I_e, force);
+    for (int d = 0; d < D; ++d) {
+      force[1][d] += on_a * e[1][d];
+      force[3][d] += on_b * e[3][d];
+    }
+  }
+
+  NURBEAM_WITHIN Nodes gathered(const double* values) const {
+    Nodes nodes;
+    for (int k = 0; k < nodal; ++k)
+      for (int i = 0; i < lanes; ++i) nodes[k / D][k % D].of[i] = values[batch.dofs_[k][i]];
+    return nodes;
+  }
+
+  NURBEAM_WITHIN void add_forces(const State& state, const Vector& load, double free_strain,
+                                 double* forces) const {
+    Nodes e = gathered(state.q.data()), e_rate = {};
+    for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
+    if (beam.is_damped()) e_rate = gathered(state.v.data());
+    Nodes force = product(gathered(state.a.data()), batch.mass_);
+    if (beam.mass_damping > 0) {
+      const Nodes momentum = product(e_rate, batch.mass_);
+      for (int k = 0; k < 4; ++k)
+        for (int d = 0; d < D; ++d) force[k][d] += beam.mass_damping * momentum[k][d];
+    }
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < D; ++d) force[k][d] -= load[d] * batch.load_factor_[k];
+    add_point_forces(e, e_rate, force);
+    add_axial_forces(e, e_rate, free_strain, force);
+    for (int i = 0; i < batch.count_; ++i)
+      for (int k = 0; k < nodal; ++k) forces[batch.dofs_[k][i]] += force[k / D][k % D].of[i];
+  }
+};
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::add_forces(const State& state, const Vector& load,
+                                                             double free_strain, double* forces) const {
+  Kernel{*this, *properties_}.add_forces(state, load, free_strain, forces);
+}
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
+                                                             double free_strain, double* forces) const {
+  Kernel{*this, *properties_}.add_forces(state, load, free_strain, forces);
+}
+
+template <int D>
+bool ElementBatch<D>::takes(const BeamElement<D>& element) {
+  return element.fixed() && element.packs_.size() == 1;
+}
+
+template <int D>
+ElementBatch<D>::ElementBatch(const BeamProperties& properties) : properties_(&properties) {}
+
+template <int D>
+void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
+                          const Vector& slope_offset) {
+  const PointPack& pack = element.packs_.front();
+  // The last element fills the lanes beyond it.
+  for (int i = count_; i < lanes; ++i) {
+    for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];
+    for (int d = 0; d < D; ++d) slope_offset_[d].of[i] = slope_offset[d];
+    for (int g = 0; g < points; ++g) {
+      for (int k = 0; k < 4; ++k) {
+        points_[g].S1[k].of[i] = pack.S1[k][g];
+        points_[g].S2[k].of[i] = pack.S2[k][g];
+      }
+      points_[g].weight.of[i] = pack.weight[g];
+      points_[g].kappa0.of[i] = pack.kappa0[g];
+      points_[g].eps0.of[i] = pack.eps0[g];
+    }
+    for (int k = 0; k < 4; ++k) {
+      for (int l = 0; l < 4; ++l) {
+        mass_[k][l].of[i] = element.mass_(k, l);
+        stretch_[k][l].of[i] = element.stretch_(k, l);
+      }
+      load_factor_[k].of[i] = element.load_factor_[k];
+    }
+    for (int k = 0; k < 3; ++k) strain0_[k].of[i] = element.strain0_[k];
+    length_.of[i] = element.length_;
+  }
+  ++count_;
+}
+
+template class ElementBatch<2>;
+template class ElementBatch<3>;
+
+}  // namespace nurbeam

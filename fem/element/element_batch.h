@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+
+#include "fem/element/beam_element.h"
+#include "solver/state.h"
+
+namespace nurbeam {
+
+/// One number of each of eight elements, side by side. Aligned for the widest registers, which the type of
+/// its numbers is not where the processor is not known to have them.
+struct alignas(8 * sizeof(double)) ElementLanes {
+  double __attribute__((vector_size(8 * sizeof(double)))) of = {};
+};
+
+/// Up to eight elements of one beam whose ends are fixed, each on one part of the drawing, and their forces
+/// all at once: those of BeamElement::force, added up in another order. Compiled for several processors, of
+/// which the present one is found when the program starts; the bits are the same on all of them.
+template <int D>
+class ElementBatch {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  static constexpr int lanes = 8, points = GaussRule::size, nodal = ElementLayout<D>::nodal;
+
+  /// Whether it can take an element: one with fixed ends, on one part.
+  static bool takes(const BeamElement<D>& element);
+
+  /// Without elements; `properties` must outlive it.
+  explicit ElementBatch(const BeamProperties& properties);
+  bool is_full() const { return count_ == lanes; }
+  /// Adds an element of the same properties; `dofs`: its global coordinates; `slope_offset`: of the slope at
+  /// its end B from what stands there. Precondition: takes(element), !is_full().
+  void add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
+           const Vector& slope_offset);
+
+  /// Adds the forces of the elements to those of all coordinates. `load`: as BeamElement::force has it;
+  /// `free_strain`: as ElementState has it.
+  void add_forces(const State& state, const Vector& load, double free_strain, double* forces) const;
+
+ private:
+  /// Numbers of the nodes, by column of ElementNodes and direction.
+  using Nodes = std::array<std::array<ElementLanes, D>, 4>;
+  struct Point {
+    std::array<ElementLanes, 4> S1, S2;
+    ElementLanes weight, kappa0, eps0;
+  };
+  struct Kernel;
+
+  const BeamProperties* properties_;
+  int count_ = 0;
+  std::array<std::array<int, lanes>, nodal> dofs_ = {};
+  std::array<ElementLanes, D> slope_offset_ = {};
+  std::array<Point, points> points_ = {};
+  std::array<std::array<ElementLanes, 4>, 4> mass_ = {}, stretch_ = {};  ///< of BeamElement
+  std::array<ElementLanes, 4> load_factor_ = {};
+  std::array<ElementLanes, 3> strain0_ = {};
+  ElementLanes length_ = {};
+};
+
+}  // namespace nurbeam

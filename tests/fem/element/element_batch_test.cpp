@@ -1,0 +1,72 @@
+#include "fem/element/element_batch.h"
+
+#include <gtest/gtest.h>
+
+#include "fem/mesh/mesh_elements.h"
+#include "fem/system/assembly.h"
+#include "tests/fem/random_models.h"
+
+namespace nurbeam {
+namespace {
+
+template <int D>
+void check_batches(const BeamProperties& properties, int seed) {
+  std::mt19937 random(seed);
+  const BeamModel model = testing::one_beam(testing::uneven_axis(random, D), D, properties, 11, {});
+  const BeamSystem system(model);
+  State state = testing::disturbed_state(system, random);
+  state.t = 0.3;
+  const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::LinSpaced(0.7, -1.3);
+  const auto& elements = system.assembly<D>()->elements();
+  Eigen::VectorXd one_by_one = Eigen::VectorXd::Zero(system.coordinate_count()), batched = one_by_one;
+  std::vector<ElementBatch<D>> batches;
+  for (const MeshElement<D>& e : elements) {
+    ASSERT_TRUE(ElementBatch<D>::takes(e.element));
+    const ElementVector<D> force = e.element.force(gather<D>(e, state), load);
+    for (int k = 0; k < ElementLayout<D>::nodal; ++k) one_by_one[e.dofs[k]] += force[k];
+    if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
+    batches.back().add(e.element, e.dofs, e.slope_offset);
+  }
+  EXPECT_EQ(batches.size(), 2u);
+  for (const ElementBatch<D>& batch : batches)
+    batch.add_forces(state, load, free_strain(elements[0], state), batched.data());
+  EXPECT_LT((batched - one_by_one).norm(), 1e-13 * one_by_one.norm());
+  EXPECT_GT(one_by_one.norm(), 1);
+}
+
+template <int D>
+void check_all_kinds() {
+  int seed = 40;
+  for (const AxialStrain strain : {AxialStrain::pointwise, AxialStrain::ends_and_mean})
+    for (const CurvatureMeasure curvature : {CurvatureMeasure::spatial, CurvatureMeasure::material})
+      for (const bool damped : {false, true}) {
+        BeamProperties properties(300, 2, 0.7, damped ? 0.02 : 0, {});
+        properties.curvature = curvature;
+        properties.axial_strain = strain;
+        if (damped) {
+          properties.mass_damping = 0.4;
+          properties.tension_damping = 0.3;
+        }
+        if (strain == AxialStrain::ends_and_mean) properties.free_strain.constant = 0.01;
+        check_batches<D>(properties, ++seed);
+      }
+}
+
+TEST(ElementBatch, HasTheForcesOfItsElementsInThePlane) { check_all_kinds<2>(); }
+TEST(ElementBatch, HasTheForcesOfItsElementsInSpace) { check_all_kinds<3>(); }
+
+TEST(ElementBatch, TakesNoElementWhoseEndsMove) {
+  std::mt19937 random(3);
+  BeamModel model = testing::one_beam(testing::uneven_axis(random, 2), 2, {300, 2, 0.7, 0, {}}, 5, {});
+  testing::add_slider(model, 1, 0.3 * model.beams[0].curve.length());
+  const BeamSystem system(model);
+  int moving = 0;
+  for (const MeshElement<2>& e : system.assembly<2>()->elements()) {
+    moving += !e.element.fixed();
+    EXPECT_EQ(ElementBatch<2>::takes(e.element), e.element.fixed());
+  }
+  EXPECT_EQ(moving, 2);
+}
+
+}  // namespace
+}  // namespace nurbeam
