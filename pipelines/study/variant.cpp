@@ -11,6 +11,7 @@
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/model/model_snapshot.h"
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/gradient.h"
 #include "pipelines/study/histories.h"
