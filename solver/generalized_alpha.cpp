@@ -16,7 +16,6 @@ constexpr double good_contraction = 0.1;  ///< of the corrections, for which a m
 constexpr int many_corrections = 3;       ///< in one step, after which a matrix is taken anew
 constexpr double longest_use = 50;        ///< of a matrix, in steps
 constexpr double same_step = 1e-6;        ///< relative difference that a matrix does not feel
-constexpr double largest_rescaling = 4;   ///< of the step, beyond which the method starts afresh
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 

@@ -37,6 +37,16 @@ struct GeneralizedAlpha {
 /// on a time should divide the rest evenly rather than take one tiny step.
 class GeneralizedAlphaIntegrator final : public Integrator {
  public:
+  struct Parameters {
+    double alpha_m;
+    double alpha_f;
+    double beta;
+    double gamma;
+    double position_error;  ///< of one step, in units of h^3 d3q/dt3
+  };
+  static Parameters parameters(double rho_infinity);
+  static constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
+
   /// `start` must be consistent (a and lambda too); the method's own acceleration variable is set to a.
   /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range and for a
   /// start of the wrong size.
@@ -56,15 +66,6 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   [[nodiscard]] StepReport advance(double step) override;
 
  private:
-  struct Parameters {
-    double alpha_m;
-    double alpha_f;
-    double beta;
-    double gamma;
-    double position_error;  ///< of one step, in units of h^3 d3q/dt3
-  };
-  static Parameters parameters(double rho_infinity);
-
   StepReport advance_within(double step, int max_halvings, double tolerance);
   StepStatus attempt(double step, StepReport& report);
   void predict(double step);

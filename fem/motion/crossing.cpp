@@ -25,12 +25,6 @@ std::optional<double> crossed_place(const BeamSystem& system, int joint, double 
   return std::nullopt;
 }
 
-// How far the body is beyond the place; negative before it [m].
-double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing) {
-  const double s = *place(system, state, crossing.joint);
-  return crossing.forward ? s - crossing.s : crossing.s - s;
-}
-
 }  // namespace
 
 std::optional<Crossing> first_crossing(const BeamSystem& system, const State& before, const State& after) {
@@ -78,6 +72,11 @@ bool is_held(const BeamModel& model, const Crossing& end) {
 
 double landing_tolerance(const BeamModel& model, int joint) {
   return 1e-10 * model.beam_of(model.joints[joint]).curve.length();
+}
+
+double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing) {
+  const double s = *place(system, state, crossing.joint);
+  return crossing.forward ? s - crossing.s : crossing.s - s;
 }
 
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,

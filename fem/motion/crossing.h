@@ -31,6 +31,9 @@ bool is_held(const BeamModel& model, const Crossing& end);
 /// A body that lands does so nearer to its place than this [m].
 double landing_tolerance(const BeamModel& model, int joint);
 
+/// How far the body is beyond the place; negative before it [m].
+double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing);
+
 /// The state to which a step of another length leads, for which the body lands just before the place.
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
              const Crossing& crossing);

@@ -222,6 +222,17 @@ MeshPlan present_plan(const BeamSystem& system, const State& state) {
   return plan;
 }
 
+MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& state) {
+  MeshPlan plan = plan_at(system, state);
+  plan.beams = like.beams;
+  plan.modes = like.modes;
+  plan.held = like.held;
+  plan.closed = like.closed;
+  carry_weights(system, state, plan);
+  carry_sections(system, state, plan);
+  return plan;
+}
+
 NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control) {
   NextPlan next;
   next.plan = plan_at(system, state);

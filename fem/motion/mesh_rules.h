@@ -28,6 +28,10 @@ struct NextPlan {
 /// The plan of the present mesh with the joints where they are now.
 MeshPlan present_plan(const BeamSystem& system, const State& state);
 
+/// The plan of the present mesh with other nodes, joints carried in other modes, held, and stops closed, as
+/// in `like`, the plan of a neighbouring model.
+MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& state);
+
 /// Applies the rule of the paper near each joint: where an element beside the moving node is longer than max
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
 /// (unless it is a beam end, a hinge or a corner, or permanent). Permanent nodes stay: the joint passes them,

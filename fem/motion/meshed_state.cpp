@@ -29,7 +29,7 @@ MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
   return {std::move(system), std::move(state)};
 }
 
-MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
+MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest, double accuracy) {
   const BeamModel& model = at.system->model();
   const bool exact = at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change);
   const std::vector<bool> held(model.joints.size(), at_rest);
@@ -40,7 +40,7 @@ MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest
     if (close_constraints(*to, closed_enough(*at.system, at.state), carried))
       moved = Transferred{std::move(carried), {}};
   } else {
-    moved = projected(*at.system, at.state, *to);
+    moved = projected(*at.system, at.state, *to, accuracy);
   }
   if (!moved)
     return {Failure{.kind = Failure::Kind::projection, .time = at.state.t, .places = places_of(at)}, {}};

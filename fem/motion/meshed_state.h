@@ -22,8 +22,9 @@ struct MeshChangeReport {
 };
 
 /// Goes on on the mesh that length control asks for. `at_rest`: joints are held there, and there are no
-/// velocities to project.
-[[nodiscard]] MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
+/// velocities to project. `accuracy`: of projected().
+[[nodiscard]] MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest,
+                                           double accuracy = kept_energy);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
 /// than that can be.

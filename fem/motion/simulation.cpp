@@ -28,6 +28,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double neighbours_accuracy =
+    1e-14;  // of kept energy, where differences are taken of what comes out
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -51,6 +54,7 @@ struct Simulation::Implementation {
       next_output_ = from->snapshots;
     } else {
       at_ = MeshedState::drawn(model_);
+      if (observer_.follower) observer_.follower->begins(at_);
       report_.strain_noise = strain_noise();
       step_ = options_.step.value_or(step_);
     }
@@ -158,6 +162,7 @@ struct Simulation::Implementation {
     const bool found = phase_ == Phase::start
                            ? find_lengths() && book(find_rest(at_, options_.length_control, asked))
                            : book(find_next_rest(at_, times[next_output_], options_.length_control, asked));
+    if (found && observer_.follower) observer_.follower->rests(at_);
     if (found) take_snapshot();
     ++next_output_;
     phase_ = found && next_output_ < times.size() ? Phase::rest : Phase::ended;
@@ -195,12 +200,10 @@ struct Simulation::Implementation {
     if (options_.start_from_equilibrium) {
       if (!find_lengths()) return false;
       if (!book(find_start(at_, options_.length_control, observer_.interrupted))) return false;
-      at_.system = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
-      at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
+      if (observer_.follower) observer_.follower->rests(at_);
+      change(&replan);
     }
-    start_moving(*at_.system, at_.state);
-    if (project_velocities(*at_.system, at_.state).status != ConsistencyStatus::done)
-      return fail(Failure::Kind::initial_velocities);
+    if (!change(&take_first_velocities)) return fail(Failure::Kind::initial_velocities);
     if (no_memory(*model_).size() > 0 &&
         !(start_memory(at_, shortest_time()) && start_contacts(at_, shortest_time())))
       return fail(Failure::Kind::mass_matrix);
@@ -231,6 +234,29 @@ struct Simulation::Implementation {
     seconds_ = report_.motion_seconds + report_.length_control_seconds;
   }
 
+  // --- What happens to a state, and to those of neighbouring models that follow
+
+  template <class Change>
+  bool change(const Change& change) {
+    const bool done = change(at_);
+    follow(change);
+    return done;
+  }
+  // What has led to the present state.
+  template <class Change>
+  void follow(const Change& change) const {
+    if (observer_.follower) observer_.follower->changes(at_, change);
+  }
+  static bool replan(MeshedState& at) {
+    at.system = std::make_unique<BeamSystem>(at.system->shared_model(), present_plan(*at.system, at.state));
+    at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
+    return true;
+  }
+  static bool take_first_velocities(MeshedState& at) {
+    start_moving(*at.system, at.state);
+    return project_velocities(*at.system, at.state).status == ConsistencyStatus::done;
+  }
+
   // Shorter than this nothing is followed: the steps of a method for stiff systems.
   double shortest_time() const {
     return std::holds_alternative<GeneralizedAlpha>(options_.integrator) ? step_ : 0;
@@ -238,8 +264,10 @@ struct Simulation::Implementation {
 
   // New integrator from at_.state, with consistent accelerations.
   bool restart() {
-    const ConsistencyStatus status = make_accelerations_smooth(*at_.system, shortest_time(), at_.state);
-    if (status != ConsistencyStatus::done) return fail(Failure::Kind::mass_matrix);
+    const bool consistent = change([time = shortest_time()](MeshedState& at) {
+      return make_accelerations_smooth(*at.system, time, at.state) == ConsistencyStatus::done;
+    });
+    if (!consistent) return fail(Failure::Kind::mass_matrix);
     integrator_ = start_integrator(options_.integrator, *at_.system, at_.state);
     restarted_ = true;
     return true;
@@ -302,7 +330,7 @@ struct Simulation::Implementation {
     // A kink that an output time cannot be told from comes first: it would be passed by.
     const double kink = next_kink(), target = kink <= output + resolution() ? kink : output;
     const double rest = target - at_.state.t;
-    if (!take_step(rest / std::max(1.0, std::ceil(rest / step_ - 1e-9)))) return end_early();
+    if (!take_step(rest / std::max(1.0, std::ceil(rest / step_ - 1e-9)), rest)) return end_early();
     if (std::abs(at_.state.t - target) < resolution()) at_.state.t = target;
     if (at_.state.t == kink && !(pass_kink() && release_bodies())) return end_early();
     write_due();
@@ -312,9 +340,9 @@ struct Simulation::Implementation {
     end_at_end_time();
   }
 
-  // One accepted step and what follows from it; `nothing_leaves` a hard stop in it. Returns false when the
-  // run cannot go on.
-  bool take_step(double step, bool nothing_leaves = false) {
+  // One accepted step, on the way to a time after `rest`, and what follows from it; `nothing_leaves` a hard
+  // stop in it. Returns false when the run cannot go on.
+  bool take_step(double step, double rest, bool nothing_leaves = false) {
     const State before = at_.state;
     const IntegratorHistory history = integrator_->history();
     const StepReport taken = step_keeping_energy(before, history, step);
@@ -341,8 +369,11 @@ struct Simulation::Implementation {
     if (event && at_.state.t == before.t) {
       if (!pass_event(*event, true)) return false;
       // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
-      return !rests_by(*event) || take_step(step, true);
+      return !rests_by(*event) || take_step(step, rest, true);
     }
+    if (observer_.follower)
+      observer_.follower->steps({before, history, at_.state, at_.state.t != end, rest,
+                                 distance_to(ending ? ending : crossing, event, before)});
     const double length = at_.state.t == end ? taken.step : at_.state.t - before.t;
     last_record_ = {at_.state.t, length, taken.newton_iterations, taken.rejected};
     steps_.push_back(last_record_);
@@ -358,10 +389,35 @@ struct Simulation::Implementation {
     return report_.status == SimulationStatus::done && recentre_sections();
   }
 
+  // Of what a step has been landed at, for states of neighbouring models too; empty where it has not.
+  std::function<double(const BeamSystem&, const State&)> distance_to(const std::optional<Crossing>& crossing,
+                                                                     const std::optional<StepEvent>& event,
+                                                                     const State& before) const {
+    if (crossing)
+      return [this, crossing](const BeamSystem& system, const State& state) {
+        return distance_beyond(system, state, in_model(*crossing, system.model()));
+      };
+    if (event)
+      return [event, &before](const BeamSystem& system, const State& state) {
+        return std::visit([&](const auto& e) { return beyond(system, before, state, e); }, *event);
+      };
+    return {};
+  }
+
+  // The same crossing in a neighbouring model.
+  Crossing in_model(Crossing crossing, const BeamModel& model) const {
+    const int beam = model_->joints[crossing.joint].beam;
+    crossing.s = corresponding_place(model_->beams[beam], crossing.s, model.beams[beam]);
+    return crossing;
+  }
+
   // Exchanges the charts of sections that have turned far; whether the run goes on.
   bool recentre_sections() {
     if (!recentring_due(*at_.system, at_.state)) return true;
-    at_ = recentred(*at_.system, at_.state);
+    change([](MeshedState& at) {
+      at = recentred(*at.system, at.state);
+      return true;
+    });
     if (!restart()) return false;
     at_.state = integrator_->state();
     return true;
@@ -416,7 +472,10 @@ struct Simulation::Implementation {
     }
     if (jumping < 0) return true;
     const double before = energy(*at_.system, at_.state).mechanical();
-    if (project_velocities(*at_.system, at_.state, shortest_time()).status != ConsistencyStatus::done)
+    const bool projected = change([time = shortest_time()](MeshedState& at) {
+      return project_velocities(*at.system, at.state, time).status == ConsistencyStatus::done;
+    });
+    if (!projected)
       return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = jumping});
     input_ += energy(*at_.system, at_.state).mechanical() - before;
     return settle(joints_with_friction(*at_.system), false) && restart();
@@ -434,14 +493,24 @@ struct Simulation::Implementation {
         events.push_back(event_before(at_, EventKind::released, j));
       }
     if (events.empty()) return true;
-    at_.system = std::make_unique<BeamSystem>(model_, std::move(plan));
-    at_.state.lambda = Eigen::VectorXd::Zero(at_.system->constraint_count());
+    change([&plan](MeshedState& at) {
+      at.system =
+          std::make_unique<BeamSystem>(at.system->shared_model(), plan_like(plan, *at.system, at.state));
+      at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
+      return true;
+    });
     if (!settle(released, true) || !restart()) return false;
     for (RunEvent& event : events) {
       finish_event(at_, event);
-      report_.events.push_back(std::move(event));
+      note(std::move(event));
     }
     return true;
+  }
+
+  // Writes an event down.
+  void note(RunEvent event) {
+    if (observer_.follower) observer_.follower->happens(event);
+    report_.events.push_back(std::move(event));
   }
 
   // Repeats the step that was taken so that it ends just before a place.
@@ -483,21 +552,30 @@ struct Simulation::Implementation {
           Failure{.kind = Failure::Kind::bodies_meet, .time = at_.state.t, .places = places_of(at_)});
     if (const auto* taut = std::get_if<TautEvent>(&event)) {
       apply(at_, *taut);
+      follow([&](MeshedState& at) {
+        apply(at, *taut);
+        return true;
+      });
       return restart();
     }
     RunEvent happened = event_before(at_, EventKind::slides, joint_of(*model_, event));
-    const std::optional<EventKind> kind =
-        contact ? apply(at_, *contact, shortest_time(), at_once)
-                : apply(at_, std::get<FrictionChange>(event), shortest_time(), at_once);
+    const auto pass = [&](MeshedState& at) {
+      return contact ? apply(at, *contact, shortest_time(), at_once)
+                     : apply(at, std::get<FrictionChange>(event), shortest_time(), at_once);
+    };
+    const std::optional<EventKind> kind = pass(at_);
     if (!kind) return fail(Failure::Kind::mass_matrix);
+    follow([&](MeshedState& at) { return pass(at) == kind; });
     happened.kind = *kind;
     dissipated_ += happened.energy_before - energy(*at_.system, at_.state).mechanical();
     if (!restart()) return false;
     finish_event(at_, happened);
-    if (at_once && happened.kind == EventKind::rests_at_stop && has_just_left(happened))
+    // A follower has been told that it left.
+    if (at_once && happened.kind == EventKind::rests_at_stop && has_just_left(happened) &&
+        !observer_.follower)
       report_.events.pop_back();
     else
-      report_.events.push_back(std::move(happened));
+      note(std::move(happened));
     return true;
   }
 
@@ -514,8 +592,9 @@ struct Simulation::Implementation {
       if (located && std::holds_alternative<FrictionChange>(*located) && joint_of(*model_, *located) == j)
         continue;
       const bool sticks = sliding_way(*at_.system, at_.state, j) == 0;
-      report_.events.push_back(event_before(at_, sticks ? EventKind::sticks : EventKind::slides, j));
-      finish_event(at_, report_.events.back());
+      RunEvent event = event_before(at_, sticks ? EventKind::sticks : EventKind::slides, j);
+      finish_event(at_, event);
+      note(std::move(event));
     }
   }
 
@@ -602,24 +681,30 @@ struct Simulation::Implementation {
 
   // Goes on beyond a place that a joint has landed at: a point in the next element.
   bool step_over(const Crossing& crossing) {
-    const double beyond = landing_tolerance(*model_, crossing.joint);
-    at_.state.q[at_.system->mesh().joints[crossing.joint].place] =
-        crossing.s + (crossing.forward ? beyond : -beyond);
-    auto next = std::make_unique<BeamSystem>(model_, present_plan(*at_.system, at_.state));
-    if (!model_->joints[crossing.joint].follows_section) {
-      // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
-      State moved = interpolated(*at_.system, at_.state, *next);
-      at_ = {std::move(next), std::move(moved)};
-      return restart();
-    }
-    // Curvature and twist jump from element to element, and with them the motion of a body that follows the
-    // section: an impact.
-    std::optional<Transferred> moved = projected(*at_.system, at_.state, *next);
-    if (!moved)
+    const bool follows_section = model_->joints[crossing.joint].follows_section;
+    const auto go_over = [&](MeshedState& at) {
+      const double beyond = landing_tolerance(*model_, crossing.joint);
+      at.state.q[at.system->mesh().joints[crossing.joint].place] =
+          in_model(crossing, at.system->model()).s + (crossing.forward ? beyond : -beyond);
+      auto next = std::make_unique<BeamSystem>(at.system->shared_model(), present_plan(*at.system, at.state));
+      if (!follows_section) {
+        // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
+        State moved = interpolated(*at.system, at.state, *next);
+        at = {std::move(next), std::move(moved)};
+        return true;
+      }
+      // Curvature and twist jump from element to element, and with them the motion of a body that follows the
+      // section: an impact.
+      const double accuracy = &at == &at_ ? kept_energy : neighbours_accuracy;
+      std::optional<Transferred> moved = projected(*at.system, at.state, *next, accuracy);
+      if (!moved) return false;
+      at = {std::move(next), std::move(moved->state)};
+      return true;
+    };
+    const double before = follows_section ? energy(*at_.system, at_.state).mechanical() : 0;
+    if (!change(go_over))
       return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = crossing.joint});
-    const double before = energy(*at_.system, at_.state).mechanical();
-    at_ = {std::move(next), std::move(moved->state)};
-    dissipated_ += before - energy(*at_.system, at_.state).mechanical();
+    if (follows_section) dissipated_ += before - energy(*at_.system, at_.state).mechanical();
     return restart();
   }
 
@@ -627,26 +712,32 @@ struct Simulation::Implementation {
     const int joint = ending.joint;
     const bool leaves = model_->joints[joint].leave_at_end && !is_held(*model_, ending);
     RunEvent event = event_before(at_, leaves ? EventKind::left_beam : EventKind::stopped_at_end, joint);
-    MeshPlan plan = present_plan(*at_.system, at_.state);
-    plan.places[joint] = ending.s;
-    plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
-    if (leaves) {
-      plan.spins.resize(model_->joints.size());
-      plan.spins[joint] = body_motions(*at_.system, at_.state).spins[joint];
-    }
-    auto next = std::make_unique<BeamSystem>(model_, std::move(plan));
-    State moved = interpolated(*at_.system, at_.state, *next);
-    if (!leaves) {
-      moved.q[next->mesh().joints[joint].place] = ending.s;
-      if (project_velocities(*next, moved, shortest_time()).status != ConsistencyStatus::done)
-        return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = joint});
-    }
-    at_ = {std::move(next), std::move(moved)};
+    const bool ended = change(
+        [&](MeshedState& at) { return end_sliding(at, in_model(ending, at.system->model()), leaves); });
+    if (!ended) return goes_on(Failure{.kind = Failure::Kind::impact, .time = at_.state.t, .joint = joint});
     if (!restart()) return false;
     finish_event(at_, event);
     // In the impact, or what friction stored.
     if (!leaves || model_->joints[joint].friction) dissipated_ += event.energy_before - event.energy_after;
-    report_.events.push_back(std::move(event));
+    note(std::move(event));
+    return true;
+  }
+  bool end_sliding(MeshedState& at, const Crossing& ending, bool leaves) const {
+    const int joint = ending.joint;
+    MeshPlan plan = present_plan(*at.system, at.state);
+    plan.places[joint] = ending.s;
+    plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
+    if (leaves) {
+      plan.spins.resize(model_->joints.size());
+      plan.spins[joint] = body_motions(*at.system, at.state).spins[joint];
+    }
+    auto next = std::make_unique<BeamSystem>(at.system->shared_model(), std::move(plan));
+    State moved = interpolated(*at.system, at.state, *next);
+    if (!leaves) {
+      moved.q[next->mesh().joints[joint].place] = ending.s;
+      if (project_velocities(*next, moved, shortest_time()).status != ConsistencyStatus::done) return false;
+    }
+    at = {std::move(next), std::move(moved)};
     return true;
   }
 
@@ -670,7 +761,12 @@ struct Simulation::Implementation {
     const MeshPlan plan = at_.system->mesh().plan;
     const State state = at_.state;
     const MeshChangeReport changed = change_mesh(at_, next, false);
-    if (!goes_on(changed.failure) || !restart()) return false;
+    if (!goes_on(changed.failure)) return false;
+    follow([&next](MeshedState& at) {
+      const NextPlan same{next.change, next.joint, plan_like(next.plan, *at.system, at.state)};
+      return !change_mesh(at, same, false, neighbours_accuracy).failure;
+    });
+    if (!restart()) return false;
     at_.state = integrator_->state();
     event.support_impulse = support_impulse(at_, changed.impulse);
     finish_event(at_, event);
@@ -678,7 +774,7 @@ struct Simulation::Implementation {
       at_ = {std::make_unique<BeamSystem>(model_, plan), state};
       return false;
     }
-    report_.events.push_back(std::move(event));
+    note(std::move(event));
     if (observed) observer_.mesh_changed(report_.events.back(), before, record_beams(*at_.system, at_.state));
     report_.length_control_seconds += seconds_since(start);
     return true;
@@ -739,6 +835,7 @@ struct Simulation::Implementation {
     }
     last_written_ = at_.state.t;
     if (observer_.snapshot) observer_.snapshot(snapshot);
+    if (observer_.follower) observer_.follower->records(at_, restarted_);
   }
 
   std::shared_ptr<const BeamModel> model_;

@@ -7,6 +7,7 @@
 #include "fem/motion/checkpoint.h"
 #include "fem/motion/integrators.h"
 #include "fem/motion/mesh_rules.h"
+#include "fem/motion/run_follower.h"
 #include "fem/motion/simulation_report.h"
 #include "fem/motion/snapshot.h"
 #include "fem/system/beam_system.h"
@@ -36,6 +37,7 @@ struct SimulationObserver {
   std::function<bool()> checkpoint_due = nullptr;  ///< asked after every step
   /// Takes checkpoints (`inputs` left empty): those asked for, and the last one.
   std::function<void(const Checkpoint&)> checkpoint = nullptr;
+  RunFollower* follower = nullptr;  ///< of a run that has not been interrupted
 };
 
 /// A run that is taken step by step: from the drawn shape of a model, or from equilibrium, to its end. All is

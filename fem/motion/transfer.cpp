@@ -45,10 +45,10 @@ class Remap {
   // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
   // axial strain that the old ones had not, and where these cannot bring it, their neighbours too, ring by
   // ring.
-  void keep_energy(Transferred& next) const {
+  void keep_energy(Transferred& next, double accuracy) const {
     const SystemEnergy old = energy(from_, state_);
     const double enough =
-        1e-10 * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
+        accuracy * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
     const auto excess = [&](const State& x) { return energy(to_, x).mechanical() - old.mechanical(); };
     double e = excess(next.state);
     constexpr int most_rings = 4;
@@ -307,10 +307,11 @@ double closed_enough(const BeamSystem& from, const State& state) {
   return std::max(open_constraints(from, state), 1e-12 * state.q.lpNorm<Eigen::Infinity>());
 }
 
-std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to) {
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                     double accuracy) {
   const Remap remap(from, state, to);
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
-  if (next) remap.keep_energy(*next);
+  if (next) remap.keep_energy(*next, accuracy);
   return next;
 }
 

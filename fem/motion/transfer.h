@@ -22,12 +22,16 @@ struct Transferred {
 /// as they were, or round-off.
 double closed_enough(const BeamSystem& from, const State& state);
 
+/// To what part of the kinetic and strain energy the energy is kept where nothing else is said.
+inline constexpr double kept_energy = 1e-10;
+
 /// The same for a mesh that cannot hold the motion exactly: velocities are the L2 projection of the material
 /// velocity field, and the nodes of new elements, if need be their neighbours too, move so that the total
 /// energy is kept: by the least displacements, in the mass norm, that bring it back. As interpolated, a
 /// merged element carries axial strain that the two had not (Ding & Ouyang choose weights instead, Eqs.
 /// 31-38). Such moves open no constraint. Where the energy cannot be reached it comes as near as they bring
 /// it. Returns nullopt when the projection is singular or the constraints cannot be closed.
-std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                     double accuracy = kept_energy);
 
 }  // namespace nurbeam

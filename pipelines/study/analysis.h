@@ -15,6 +15,9 @@ using StudyPoints = std::vector<std::vector<double>>;
 /// Throws StudyInterrupted.
 using StudyEvaluation = std::function<StudyPoints(const StudyPoints& points)>;
 
+/// The derivatives of the quantities of the variant at a point; empty where it is not done. Throws likewise.
+using StudyDerivatives = std::function<StudyGradient(const std::vector<double>& point)>;
+
 struct StudyInterrupted {};
 
 /// Keeps OpenTURNS from writing to the terminal: what matters of its warnings stands in the answers.
@@ -48,9 +51,10 @@ struct ReliabilityResult {
   std::vector<double> importance = {};           ///< of each free variable there, their sum is 1
   int not_done = 0;  ///< variants that are not done: a simulation counts them as ones that do not fail
 };
-/// Throws std::runtime_error where the method does not end.
+/// With derivatives where they are given. Throws std::runtime_error where the method does not end.
 ReliabilityResult failure_probability(const StudyFile& study, const StudyReliability& reliability,
-                                      const StudyEvaluation& evaluate);
+                                      const StudyEvaluation& evaluate,
+                                      const StudyDerivatives& derivatives = {});
 
 struct OptimumResult {
   /// One point, or those of the Pareto front.
@@ -59,9 +63,10 @@ struct OptimumResult {
   std::vector<double>
       history;  ///< the best objective so far that holds the constraints, after each variant; NaN before
 };
-/// Throws std::runtime_error where no variant holds the constraints.
+/// With derivatives where they are given. Throws std::runtime_error where no variant holds the
+/// constraints.
 OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
-                           const StudyEvaluation& evaluate);
+                           const StudyEvaluation& evaluate, const StudyDerivatives& derivatives = {});
 
 /// What a calibration found.
 struct CalibrationResult {

@@ -67,6 +67,28 @@ class VariantsFunction : public OT::EvaluationImplementation {
   Transform f_;
 };
 
+class VariantsGradient : public OT::GradientImplementation {
+ public:
+  VariantsGradient(std::size_t inputs, std::size_t outputs, StudyDerivatives gradient)
+      : inputs_(inputs), outputs_(outputs), gradient_(std::move(gradient)) {}
+
+  VariantsGradient* clone() const override { return new VariantsGradient(*this); }
+  OT::UnsignedInteger getInputDimension() const override { return inputs_; }
+  OT::UnsignedInteger getOutputDimension() const override { return outputs_; }
+
+  OT::Matrix gradient(const OT::Point& x) const override {
+    const StudyGradient rows = gradient_(from_point(x));
+    OT::Matrix result(inputs_, outputs_);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (std::size_t i = 0; i < inputs_; ++i) result(i, k) = rows[k][i];
+    return result;
+  }
+
+ private:
+  std::size_t inputs_, outputs_;
+  StudyDerivatives gradient_;
+};
+
 }  // namespace
 
 void silence_openturns() { OT::Log::Show(OT::Log::NONE); }
@@ -98,8 +120,11 @@ StudyPoints from_sample(const OT::Sample& sample) {
 }
 
 OT::Function study_function(const StudyFile& study, const StudyEvaluation& evaluate, std::size_t outputs,
-                            VariantsFunction::Transform f) {
-  return OT::Function(VariantsFunction(study.free_variables().size(), outputs, evaluate, std::move(f)));
+                            VariantsFunction::Transform f, const StudyDerivatives& gradient) {
+  const std::size_t inputs = study.free_variables().size();
+  OT::Function function(VariantsFunction(inputs, outputs, evaluate, std::move(f)));
+  if (gradient) function.setGradient(VariantsGradient(inputs, outputs, gradient));
+  return function;
 }
 
 std::size_t quantity_index(const StudyFile& study, const std::string& name) {

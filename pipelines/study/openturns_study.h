@@ -15,11 +15,13 @@ std::vector<double> from_point(const OT::Point& point);
 StudyPoints from_sample(const OT::Sample& sample);
 
 /// `f` of the quantities (none where the variant is not done) and the point, as a function of the point:
-/// variants run in batches, as they are asked for.
+/// variants run in batches, as they are asked for. `gradient`: the derivatives of each output by the point;
+/// where it is none, differences are taken.
 OT::Function study_function(const StudyFile& study, const StudyEvaluation& evaluate, std::size_t outputs,
                             std::function<std::vector<double>(const std::vector<double>& quantities,
                                                               const std::vector<double>& point)>
-                                f);
+                                f,
+                            const StudyDerivatives& gradient = {});
 
 /// The place of a quantity in the rows.
 std::size_t quantity_index(const StudyFile& study, const std::string& name);

@@ -55,9 +55,11 @@ class Goal {
 /// lengths and moduli weigh the same, and never leaves them.
 class Search {
  public:
-  Search(const StudyFile& study, const StudyEvaluation& evaluate, const Goal& goal)
+  Search(const StudyFile& study, const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
+         const Goal& goal)
       : study_(study),
         evaluate_(evaluate),
+        derivatives_(derivatives),
         goal_(goal),
         range_(joint_distribution(study).getRange()),
         least_margins_(goal.constraints(), -1.0) {}
@@ -81,6 +83,19 @@ class Search {
     for (std::size_t i = 0; i < parts.size(); ++i) result[i] = quantities_[indices_.at(point_of(parts[i]))];
     return result;
   }
+  /// The objectives and the margins by the parts; none of a variant that is not done.
+  StudyGradient objective_gradient(const std::vector<double>& part) {
+    return gradient(
+        part, [&](const std::vector<double>& quantities,
+                  const std::vector<double>&) { return goal_.objectives(quantities); });
+  }
+  StudyGradient margin_gradient(const std::vector<double>& part) {
+    return gradient(
+        part, [&](const std::vector<double>& quantities,
+                  const std::vector<double>& point) { return goal_.margins(quantities, point); });
+  }
+  bool has_derivatives() const { return static_cast<bool>(derivatives_); }
+
   bool stopped() const { return stopped_ != nullptr; }
   void throw_if_stopped() const {
     if (stopped_) std::rethrow_exception(stopped_);
@@ -107,6 +122,35 @@ class Search {
   const StudyPoints& quantities() const { return quantities_; }
 
  private:
+  /// Of f(quantities, point), by the chain rule: a row for each value of f.
+  template <class Function>
+  StudyGradient gradient(const std::vector<double>& part, const Function& f) {
+    const std::vector<double> quantities = this->quantities({part}).front(), point = point_of(part);
+    StudyGradient of_quantities;
+    try {
+      if (stopped_ || quantities.empty()) return {};
+      of_quantities = derivatives_(point);
+    } catch (...) {
+      stopped_ = std::current_exception();
+      return {};
+    }
+    StudyGradient rows;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      constexpr double step = 1e-4;  // of the range
+      const double width = range_.getUpperBound()[i] - range_.getLowerBound()[i];
+      const auto moved = [&](double by) {
+        std::vector<double> q = quantities, x = point;
+        for (std::size_t k = 0; k < q.size(); ++k) q[k] += by * width * of_quantities[k][i];
+        x[i] += by * width;
+        return f(q, x);
+      };
+      const std::vector<double> more = moved(step), less = moved(-step);
+      rows.resize(more.size(), std::vector<double>(part.size()));
+      for (std::size_t k = 0; k < rows.size(); ++k) rows[k][i] = (more[k] - less[k]) / (2 * step);
+    }
+    return rows;
+  }
+
   std::vector<double> point_of(const std::vector<double>& parts) const {
     std::vector<double> point;
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -144,6 +188,7 @@ class Search {
 
   const StudyFile& study_;
   const StudyEvaluation& evaluate_;
+  const StudyDerivatives& derivatives_;
   const Goal& goal_;
   OT::Interval range_;
   std::map<std::vector<double>, std::size_t> indices_;  // of points, in the order in which they ran
@@ -155,19 +200,26 @@ class Search {
 
 OT::OptimizationProblem problem_of(const StudyFile& study, const StudyOptimum& optimum, Search& search) {
   const StudyEvaluation evaluate = [&search](const StudyPoints& parts) { return search.quantities(parts); };
-  const OT::Function objective =
-      study_function(study, evaluate, optimum.objectives.size(),
-                     [&search](const std::vector<double>& quantities, const std::vector<double>&) {
-                       return search.objectives(quantities);
-                     });
+  StudyDerivatives of_objectives, of_margins;
+  if (search.has_derivatives()) {
+    of_objectives = [&search](const std::vector<double>& part) { return search.objective_gradient(part); };
+    of_margins = [&search](const std::vector<double>& part) { return search.margin_gradient(part); };
+  }
+  const OT::Function objective = study_function(
+      study, evaluate, optimum.objectives.size(),
+      [&search](const std::vector<double>& quantities, const std::vector<double>&) {
+        return search.objectives(quantities);
+      },
+      of_objectives);
   OT::OptimizationProblem problem(objective);
   problem.setBounds(OT::Interval(study.free_variables().size()));
   if (!optimum.constraints.empty())
-    problem.setInequalityConstraint(
-        study_function(study, evaluate, optimum.constraints.size(),
-                       [&search](const std::vector<double>& quantities, const std::vector<double>& part) {
-                         return search.margins(quantities, part);
-                       }));
+    problem.setInequalityConstraint(study_function(
+        study, evaluate, optimum.constraints.size(),
+        [&search](const std::vector<double>& quantities, const std::vector<double>& part) {
+          return search.margins(quantities, part);
+        },
+        of_margins));
   return problem;
 }
 
@@ -249,9 +301,9 @@ OptimumResult best_of(const Search& search, const Goal& goal) {
 }  // namespace
 
 OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
-                           const StudyEvaluation& evaluate) {
+                           const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
   const Goal goal(study, optimum);
-  Search search(study, evaluate, goal);
+  Search search(study, evaluate, derivatives, goal);
   try {
     OT::OptimizationAlgorithm algorithm =
         algorithm_of(study, optimum, problem_of(study, optimum, search), search);

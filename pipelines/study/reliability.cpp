@@ -15,32 +15,38 @@ constexpr std::size_t long_block = 1024, short_block = 32;
 // What is over the threshold, in units of `scale`. Differences are taken over a thousandth of the scatter:
 // runs are not exact to the last digit.
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
-                             const StudyEvaluation& evaluate, double scale) {
+                             const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
+                             double scale) {
   const std::size_t k = quantity_index(study, reliability.quantity);
   const double threshold = reliability.threshold;
+  StudyDerivatives gradient;
+  if (derivatives)
+    gradient = [&derivatives, k, scale](const std::vector<double>& point) {
+      StudyGradient all = derivatives(point);
+      if (all.empty()) return all;
+      for (double& by : all[k]) by /= scale;
+      return StudyGradient{all[k]};
+    };
   OT::Function f = study_function(
       study, evaluate, 1,
       [k, threshold, scale](const std::vector<double>& quantities, const std::vector<double>&) {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
         return std::vector<double>{quantities.empty() ? none : (quantities[k] - threshold) / scale};
-      });
+      },
+      gradient);
   const OT::Distribution joint = joint_distribution(study);
-  f.setGradient(OT::CenteredFiniteDifferenceGradient(1e-3 * joint.getStandardDeviation(), f.getEvaluation()));
+  if (!derivatives)
+    f.setGradient(
+        OT::CenteredFiniteDifferenceGradient(1e-3 * joint.getStandardDeviation(), f.getEvaluation()));
   const OT::CompositeRandomVector output(f, OT::RandomVector(joint));
   return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), 0.0)
                                  : OT::ThresholdEvent(output, OT::Less(), 0.0);
 }
 
-std::vector<double> nominal_point(const StudyFile& study) {
-  std::vector<double> point;
-  for (const std::size_t i : study.free_variables()) point.push_back(study.variables[i].nominal);
-  return point;
-}
-
 // How far the quantity is from its threshold where FORM begins; 1 where that is not known.
 double scale_of(const StudyFile& study, const StudyReliability& reliability,
                 const StudyEvaluation& evaluate) {
-  const std::vector<double> quantities = evaluate({nominal_point(study)}).front();
+  const std::vector<double> quantities = evaluate({study.nominal()}).front();
   if (quantities.empty()) return 1;
   const double margin =
       std::abs(quantities[quantity_index(study, reliability.quantity)] - reliability.threshold);
@@ -57,7 +63,7 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
   search.setMaximumRelativeError(tolerance);
   search.setMaximumResidualError(tolerance);
   search.setMaximumConstraintError(tolerance);
-  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(nominal_point(study)));
+  OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(study.nominal()));
   form.run();
   return form.getResult();
 }
@@ -80,7 +86,7 @@ ReliabilityResult simulated(const StudyReliability& reliability, const OT::Rando
 }  // namespace
 
 ReliabilityResult failure_probability(const StudyFile& study, const StudyReliability& reliability,
-                                      const StudyEvaluation& evaluate) {
+                                      const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
   using Method = StudyReliability::Method;
   OT::RandomGenerator::SetSeed(study.seed);
   int not_done = 0;
@@ -92,7 +98,7 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
   };
   const bool searches = reliability.method != Method::monte_carlo;
   const double scale = searches ? scale_of(study, reliability, counted) : 1;
-  const OT::RandomVector event = limit_event(study, reliability, counted, scale);
+  const OT::RandomVector event = limit_event(study, reliability, counted, derivatives, scale);
   if (!searches) {
     ReliabilityResult result = simulated(reliability, event, OT::MonteCarloExperiment());
     result.not_done = not_done;

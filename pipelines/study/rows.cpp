@@ -35,11 +35,11 @@ std::vector<double> numbers_of(const Json& list) {
 }  // namespace
 
 std::string line_of(const Variant& variant) {
-  return Json{{"number", variant.number},          {"values", variant.values},
-              {"status", name_of(variant.status)}, {"reason", variant.reason},
-              {"quantities", variant.quantities},  {"seconds", variant.seconds}}
-             .dump(-1, ' ', false, Json::error_handler_t::replace) +
-         "\n";
+  Json json = {{"number", variant.number},          {"values", variant.values},
+               {"status", name_of(variant.status)}, {"reason", variant.reason},
+               {"quantities", variant.quantities},  {"seconds", variant.seconds}};
+  if (!variant.gradient.empty()) json["gradient"] = variant.gradient;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Variant variant_of(const std::string& line) {
@@ -52,6 +52,7 @@ Variant variant_of(const std::string& line) {
             .status = *status,
             .reason = json.at("reason").get<std::string>(),
             .quantities = numbers_of(json.at("quantities")),
+            .gradient = json.value("gradient", std::vector<std::vector<double>>{}),
             .seconds = json.at("seconds").get<double>()};
   } catch (const Json::exception& problem) {
     throw std::runtime_error(std::string("is no variant: ") + problem.what());

@@ -68,10 +68,7 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
 std::string digest_of(const ReadyStudy& ready) {
   std::string text = std::string(NURBEAM_VERSION) + "\n" + ready.study.json + "\n";
   if (ready.study_case) {
-    std::vector<double> nominal;
-    for (const std::size_t i : ready.study.free_variables())
-      nominal.push_back(ready.study.variables[i].nominal);
-    text += ready.study_case->variant(ready.study.variables, all_values(ready.study, nominal));
+    text += ready.study_case->variant(ready.study.variables, all_values(ready.study, ready.study.nominal()));
     for (const auto& input : ready.study_case->inputs()) text += sha256_of_file(input) + "\n";
   }
   return sha256_of_text(text);
@@ -211,9 +208,7 @@ int study_check_command(const StudyOptions& options, std::ostream& out, std::ost
       out << "  " << i << "  " << text_of(Eigen::Vector3d(points.col(i).head<3>() / points(3, i)), 6)
           << "  weight " << text_of(points(3, i), 6) << "\n";
   }
-  std::vector<double> nominal;
-  for (const std::size_t i : study.free_variables()) nominal.push_back(study.variables[i].nominal);
-  const Variant variant = run_variant(study, study_case, 0, all_values(study, nominal));
+  const Variant variant = run_variant(study, study_case, 0, all_values(study, study.nominal()));
   out << "the nominal variant: " << name_of(variant.status) << ", in " << text_of(variant.seconds, 3)
       << " s\n";
   for (std::size_t k = 0; k < variant.quantities.size(); ++k)

@@ -221,6 +221,12 @@ std::vector<std::size_t> StudyFile::free_variables() const {
   return free;
 }
 
+std::vector<double> StudyFile::nominal() const {
+  std::vector<double> values;
+  for (const std::size_t i : free_variables()) values.push_back(variables[i].nominal);
+  return values;
+}
+
 StudyFileReport read_study_file(const std::filesystem::path& file) {
   Findings findings(file.string());
   auto json = read_json(file, findings);

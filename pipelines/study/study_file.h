@@ -47,6 +47,9 @@ struct CurveTransform {
   Eigen::Vector3d about = Eigen::Vector3d::Zero();      ///< [m]
 };
 
+/// Derivatives of quantities, a row for each, by the free variables.
+using StudyGradient = std::vector<std::vector<double>>;
+
 using StudyTarget = std::variant<CasePaths, ControlPointCoordinate, ControlPointWeight, CurveTransform>;
 
 /// Knots that are put into the curve of a beam, which stays as it is but gets as many control points more.
@@ -152,9 +155,12 @@ struct StudyFile {
   std::optional<StudySurrogate> surrogate = {};
   unsigned seed = 1;
   std::optional<double> time_limit = {};  ///< of one variant, in wall time [s]
+  bool derivatives = false;               ///< variants come with derivatives of the quantities
 
   /// Indices of the variables that are not derived.
   std::vector<std::size_t> free_variables() const;
+  /// Their nominal values.
+  std::vector<double> nominal() const;
 };
 
 /// A study file and everything that is wrong with it; `value` is empty when any diagnostic is an error.

@@ -97,13 +97,16 @@ Shape plan() {
   const Shape levels = integer({.lower = 1, .upper = 1e6});
   return object(
       {{"list", array(array(measured(), 1), 1), "rows with the values of the variables, in their order"},
+       {"gradient", either(choice({"nominal"}), array(array(measured(), 1), 1)),
+        "the variant of the nominal values, or rows as of a list: quantities with their derivatives by the "
+        "variables"},
        {"grid", either(levels, array(levels, 1)),
         "so many values of each variable from end to end of its range, all combined; one number, or one "
         "for each variable"},
        {"latin_hypercube", counted("number of variants", 1), "stratified in each variable"},
        {"sobol", counted("number of variants", 1), "the low-discrepancy sequence"},
        {"monte_carlo", counted("number of variants", 1), "independent draws"}},
-      {{{"list", "grid", "latin_hypercube", "sobol", "monte_carlo"}, required}});
+      {{{"list", "gradient", "grid", "latin_hypercube", "sobol", "monte_carlo"}, required}});
 }
 
 Shape sensitivity() {
@@ -114,6 +117,12 @@ Shape sensitivity() {
                   "level of the intervals; 0.95 when omitted"}});
 }
 
+Shape derivatives() { return choice({"tangents", "differences"}); }
+constexpr const char* about_derivatives =
+    "tangents when omitted: variants come with derivatives that go along with their runs; differences: of "
+    "variants, two more for each variable. Of what friction, stops and methods other than generalized-alpha "
+    "do there are only these";
+
 Shape reliability() {
   return object(
       {{"quantity", name(), "whose limit is looked at", required},
@@ -121,6 +130,7 @@ Shape reliability() {
        {"below", measured(), "the variant fails where it is below this"},
        {"method", choice({"form", "importance_sampling", "monte_carlo"}), "form when omitted"},
        {"count", integer({.lower = 10, .upper = 1e8}), "most variants of a simulation; 1000 when omitted"},
+       {"derivatives", derivatives(), about_derivatives},
        {"coefficient_of_variation", quantity(Dimension::number, {.lower = 0, .upper = 1}),
         "a simulation ends where that of the probability is below this; when omitted at the count"}},
       {{{"above", "below"}, required}});
@@ -133,6 +143,7 @@ Shape optimum() {
                   "expressions over quantities and variables that must hold, such as \"speed <= 10\""},
                  {"method", choice({"cobyla", "nelder_mead", "gradient", "genetic"}),
                   "cobyla when omitted; genetic for several objectives"},
+                 {"derivatives", derivatives(), about_derivatives},
                  {"evaluations", integer({.lower = 1, .upper = 1e6}), "most variants; 100 when omitted"},
                  {"tolerance", quantity(Dimension::number, {.lower = 1e-12, .upper = 0.5}),
                   "of the variables, as a part of their ranges; 1e-4 when omitted"}});

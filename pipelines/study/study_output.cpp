@@ -47,6 +47,20 @@ Json to_json(const SobolIndices::Index& index) {
 
 Json answer_json(const StudyFile&, std::monostate) { return nullptr; }
 
+// The derivatives of each variant: of each quantity, by each free variable.
+Json answer_json(const StudyFile& study, const GradientResult& result) {
+  Json json = {{"gradients", Json::array()}};
+  const std::vector<std::size_t> free = study.free_variables();
+  for (const Variant& variant : result.variants) {
+    Json gradient;
+    for (std::size_t k = 0; k < variant.gradient.size(); ++k)
+      for (std::size_t i = 0; i < free.size(); ++i)
+        gradient[study.quantities[k].name][study.variables[free[i]].name] = variant.gradient[k][i];
+    json["gradients"].push_back({{"number", variant.number}, {"gradient", gradient}});
+  }
+  return json;
+}
+
 Json answer_json(const StudyFile& study, const SensitivityResult& result) {
   Json json = {{"rows_left_out", result.rows_left_out}};
   const std::vector<std::size_t> free = study.free_variables();
@@ -117,6 +131,17 @@ Json to_json(const StudyFile& study, const SurrogateResult& surrogate) {
 }
 
 void tell(std::ostream&, const StudyFile&, std::monostate) {}
+
+void tell(std::ostream& out, const StudyFile& study, const GradientResult& result) {
+  const std::vector<std::size_t> free = study.free_variables();
+  for (const Variant& variant : result.variants)
+    for (std::size_t k = 0; k < variant.gradient.size(); ++k) {
+      const StudyQuantity& quantity = study.quantities[k];
+      out << quantity.name << " = " << text_of(variant.quantities[k], 8) << " " << quantity.unit << "\n";
+      for (std::size_t i = 0; i < free.size(); ++i)
+        out << "  by " << study.variables[free[i]].name << "  " << text_of(variant.gradient[k][i], 8) << "\n";
+    }
+}
 
 void tell(std::ostream& out, const StudyFile& study, const SensitivityResult& result) {
   const std::vector<std::size_t> free = study.free_variables();

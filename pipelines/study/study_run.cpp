@@ -45,6 +45,17 @@ class VariantSource {
     return quantities;
   }
 
+  /// The derivatives of the variant at a point; none where it is not done.
+  StudyGradient derivatives(const std::vector<double>& point) {
+    const std::vector<double> values = all_values(study_, point);
+    const auto there = [&] {
+      return std::find_if(variants_.begin(), variants_.end(),
+                          [&](const Variant& variant) { return variant.values == values; });
+    };
+    if (there() == variants_.end()) evaluate({point});
+    return there()->gradient;
+  }
+
   const std::vector<Variant>& variants() const { return variants_; }
   /// Those that have ended, of a study that was interrupted.
   std::vector<Variant> ended() const {
@@ -115,6 +126,13 @@ std::vector<SurrogateResult> surrogates_of(const StudyFile& study, const std::ve
   return make_surrogates(study, *study.surrogate, inputs, outputs);
 }
 
+std::vector<Variant> done(const std::vector<Variant>& variants) {
+  std::vector<Variant> done;
+  for (const Variant& variant : variants)
+    if (variant.status == VariantStatus::done) done.push_back(variant);
+  return done;
+}
+
 }  // namespace
 
 std::size_t expected_variants(const StudyFile& study) {
@@ -137,6 +155,9 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
                       const StudyObserver& observer) {
   VariantSource source(study, engine, rows, observer);
   const StudyEvaluation evaluate = [&](const StudyPoints& points) { return source.evaluate(points); };
+  StudyDerivatives derivatives;
+  if (study.derivatives)
+    derivatives = [&](const std::vector<double>& point) { return source.derivatives(point); };
   StudyResult result;
   try {
     std::visit(
@@ -144,14 +165,15 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
           using Task = std::decay_t<decltype(task)>;
           if constexpr (std::is_same_v<Task, StudyPlan>) {
             evaluate(plan_points(study, task));
+            if (study.derivatives) result.answer = GradientResult{done(source.variants())};
             if (study.surrogate) result.surrogates = surrogates_of(study, source.variants());
           }
           if constexpr (std::is_same_v<Task, StudySensitivity>)
             result.answer = sobol_indices(study, task, evaluate);
           if constexpr (std::is_same_v<Task, StudyReliability>)
-            result.answer = failure_probability(study, task, evaluate);
+            result.answer = failure_probability(study, task, evaluate, derivatives);
           if constexpr (std::is_same_v<Task, StudyOptimum>)
-            result.answer = find_optimum(study, task, evaluate);
+            result.answer = find_optimum(study, task, evaluate, derivatives);
           if constexpr (std::is_same_v<Task, StudyCalibration>)
             result.answer = calibrate(study, task, evaluate);
         },

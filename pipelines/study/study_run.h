@@ -25,8 +25,13 @@ struct StudyObserver {
   std::function<void(const StudyProgress&)> progress = [](const StudyProgress&) {};
 };
 
-using StudyAnswer =
-    std::variant<std::monostate, SensitivityResult, ReliabilityResult, OptimumResult, CalibrationResult>;
+/// The variants of a plan that are done, with their derivatives.
+struct GradientResult {
+  std::vector<Variant> variants;
+};
+
+using StudyAnswer = std::variant<std::monostate, GradientResult, SensitivityResult, ReliabilityResult,
+                                 OptimumResult, CalibrationResult>;
 
 /// What came out of a study.
 struct StudyResult {

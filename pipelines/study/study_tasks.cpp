@@ -36,7 +36,14 @@ class StudyTaskReader : StudyPartReader {
     using Way = StudyPlan::Kind;
     StudyPlan plan;
     const std::size_t free = study_.free_variables().size();
-    if (has(json, "list")) read_list(json["list"], plan);
+    if (has(json, "list")) read_list(json["list"], "plan.list", plan);
+    if (has(json, "gradient")) {
+      study_.derivatives = true;
+      if (json["gradient"].is_array())
+        read_list(json["gradient"], "plan.gradient", plan);
+      else
+        plan.rows = {study_.nominal()};
+    }
     if (has(json, "grid")) {
       plan.kind = Way::grid;
       if (json["grid"].is_array())
@@ -65,10 +72,10 @@ class StudyTaskReader : StudyPartReader {
     return plan;
   }
 
-  void read_list(const Json& rows, StudyPlan& plan) {
+  void read_list(const Json& rows, const std::string& where, StudyPlan& plan) {
     const std::vector<std::size_t> free = study_.free_variables();
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      const std::string path = child("plan.list", r);
+      const std::string path = child(where, r);
       if (rows[r].is_null()) continue;
       if (rows[r].size() != free.size()) {
         findings_.error(path, "has " + std::to_string(rows[r].size()) + " values for " +
@@ -121,6 +128,7 @@ class StudyTaskReader : StudyPartReader {
                               {{"form", Method::form},
                                {"importance_sampling", Method::importance_sampling},
                                {"monte_carlo", Method::monte_carlo}});
+    study_.derivatives = read_derivatives(json, "reliability", r.method == Method::form);
     r.count = static_cast<int>(number(json, "count", 1000));
     r.coefficient_of_variation = number(json, "coefficient_of_variation", 0);
     return r;
@@ -155,10 +163,18 @@ class StudyTaskReader : StudyPartReader {
         findings_.error("optimise.method", "with several objectives it must be \"genetic\"");
       optimum.method = Method::genetic;
     }
+    study_.derivatives = read_derivatives(json, "optimise", optimum.method == Method::gradient);
     optimum.evaluations = static_cast<int>(number(json, "evaluations", 100));
     optimum.tolerance = number(json, "tolerance", 1e-4);
     check_bounded("optimise");
     return optimum;
+  }
+
+  // Whether variants come with derivatives, of a method that `needs` them or not.
+  bool read_derivatives(const Json& json, const std::string& path, bool needs) {
+    if (!needs && has(json, "derivatives"))
+      findings_.error(child(path, "derivatives"), "has no use: the method takes no derivatives");
+    return needs && (!has(json, "derivatives") || text(json, "derivatives") == "tangents");
   }
 
   StudyCalibration read_calibration(const Json& json) {

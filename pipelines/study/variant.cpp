@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -14,8 +12,9 @@
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/model/model_snapshot.h"
-#include "pipelines/results/history_columns.h"
 #include "pipelines/run/simulation_plan.h"
+#include "pipelines/study/gradient.h"
+#include "pipelines/study/histories.h"
 
 namespace nurbeam {
 
@@ -25,84 +24,6 @@ constexpr std::pair<VariantStatus, const char*> status_names[] = {
     {VariantStatus::done, "done"},           {VariantStatus::rejected, "rejected"},
     {VariantStatus::refused, "refused"},     {VariantStatus::failed, "failed"},
     {VariantStatus::timed_out, "timed out"}, {VariantStatus::crashed, "crashed"}};
-
-std::string column_name(const HistoryColumn& column) { return column.name + "." + column.quantity; }
-
-/// The histories that a study asks for, of one run.
-class Histories {
- public:
-  Histories(const StudyFile& study, const BuiltModel& built) : frame_(built.frame) {
-    std::vector<std::string> wanted;
-    for (const StudyQuantity& quantity : study.quantities)
-      for (const std::string& name : quantity.value.names()) wanted.push_back(name);
-    for (HistoryColumn& column : history_columns(snapshot_names(built)))
-      if (std::find(wanted.begin(), wanted.end(), column_name(column)) != wanted.end())
-        columns_.push_back(std::move(column));
-    values_.resize(columns_.size());
-  }
-
-  void add(const Snapshot& local) {
-    const Snapshot snapshot = to_world(frame_, local);
-    times_.push_back(snapshot.time);
-    for (std::size_t i = 0; i < columns_.size(); ++i) values_[i].push_back(columns_[i].value(snapshot));
-  }
-
-  const std::vector<double>& times() const { return times_; }
-  const std::vector<double>* find(const std::string& name) const {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (column_name(columns_[i]) == name) return &values_[i];
-    return nullptr;
-  }
-
- private:
-  const ModelFrame& frame_;
-  std::vector<HistoryColumn> columns_;
-  std::vector<double> times_;
-  std::vector<std::vector<double>> values_;
-};
-
-/// The kinds of events by the words of run.json, and shorter ones.
-std::optional<EventKind> event_kind(const std::string& name) {
-  static const std::map<std::string, EventKind> kinds = [] {
-    std::map<std::string, EventKind> all = {{"leaves", EventKind::left_beam},
-                                            {"stops", EventKind::stopped_at_end}};
-    for (const EventKind kind :
-         {EventKind::split, EventKind::merge, EventKind::becomes_point, EventKind::becomes_node,
-          EventKind::left_beam, EventKind::stopped_at_end, EventKind::released})
-      all.emplace(name_of(kind), kind);
-    return all;
-  }();
-  const auto found = kinds.find(name);
-  return found == kinds.end() ? std::nullopt : std::optional(found->second);
-}
-
-double first_event(const std::vector<RunEvent>& events, const BeamModel& model, const std::string& kind,
-                   const std::string& of) {
-  const std::optional<EventKind> wanted = event_kind(kind);
-  if (!wanted)
-    throw std::invalid_argument("there is no event " + in_quotes(kind) +
-                                "; leaves, stops, released, split, merge are");
-  for (const RunEvent& event : events) {
-    const bool body = event.body >= 0 && model.bodies[static_cast<std::size_t>(event.body)].name == of;
-    const bool beam = event.beam >= 0 && model.beams[static_cast<std::size_t>(event.beam)].name == of;
-    if (event.kind == *wanted && (body || beam)) return event.time;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::optional<double> value_of(const StudyFile& study, const std::vector<double>& values,
-                               const std::string& name) {
-  for (std::size_t i = 0; i < study.variables.size(); ++i)
-    if (study.variables[i].name == name) return values[i];
-  return {};
-}
-
-ExpressionScope scope_of_variables(const StudyFile& study, const std::vector<double>& values) {
-  return {.value = [&](const std::string& name) -> ExpressionValue {
-    if (const auto value = value_of(study, values, name)) return *value;
-    throw std::invalid_argument("there is no variable " + in_quotes(name));
-  }};
-}
 
 void fill_quantities(const StudyFile& study, const ExpressionScope& scope, Variant& variant) {
   for (const StudyQuantity& quantity : study.quantities) {
@@ -194,23 +115,32 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
     too_long = study.time_limit && taken.count() > *study.time_limit;
     return too_long;
   };
-  const SimulationReport run =
-      simulate(built.value->model, probe_places(*built.value), simulation_options(*read.value), observer);
+  const SimulationOptions options = simulation_options(*read.value);
+  std::optional<VariantGradient> gradient;
+  if (study.derivatives) {
+    gradient.emplace(study, study_case, variant.values, options);
+    observer.follower = &gradient->follower();
+  }
+  const SimulationReport run = simulate(built.value->model, probe_places(*built.value), options, observer);
   if (too_long)
     return end(variant, VariantStatus::timed_out, "took longer than " + text_of(*study.time_limit) + " s");
   if (run.status != SimulationStatus::done)
     return end(variant, VariantStatus::failed, outcome_text(run, built.value->model));
-  const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
-                                if (const auto value = value_of(study, variant.values, name)) return *value;
-                                if (const auto* history = histories.find(name)) return *history;
-                                throw std::invalid_argument("there is no column " + in_quotes(name));
-                              },
-                              .event_time =
-                                  [&](const std::string& kind, const std::string& of) {
-                                    return first_event(run.events, built.value->model, kind, of);
-                                  },
-                              .times = histories.times()};
+  const ExpressionScope scope =
+      scope_of_run(study, variant.values, histories, built.value->model, run.events);
   fill_quantities(study, scope, variant);
+  if (gradient && variant.status == VariantStatus::done)
+    variant.gradient = gradient->of_quantities(built.value->model, histories, run.events);
+}
+
+// Of a study of formulas.
+void fill_formulas(const StudyFile& study, Variant& variant) {
+  fill_quantities(study, scope_of_variables(study, variant.values), variant);
+  if (!study.derivatives || variant.status != VariantStatus::done) return;
+  for (const StudyQuantity& quantity : study.quantities)
+    variant.gradient.push_back(differences(study, variant.values, [&](const std::vector<double>& values) {
+      return quantity.value.number(scope_of_variables(study, values));
+    }));
 }
 
 // Of a study whose nominal variant cannot be: the others may.
@@ -228,7 +158,7 @@ void check_kinds(const StudyFile& study, Findings& findings) {
         return variable ? ExpressionValue(1.0) : ExpressionValue(std::vector<double>{1, 2});
       },
       .event_time = [](const std::string& kind,
-                       const std::string& of) { return first_event({}, {}, kind, of); },
+                       const std::string& of) { return static_cast<double>(first_event({}, {}, kind, of)); },
       .times = {0, 1}};
   for (const StudyQuantity& quantity : study.quantities) {
     try {
@@ -236,6 +166,23 @@ void check_kinds(const StudyFile& study, Findings& findings) {
     } catch (const std::invalid_argument& problem) {
       findings.error(quantity.path + ".value", in_quotes(quantity.value.text()) + ": " + problem.what());
     }
+  }
+}
+
+// What takes sums over the run has none: its tangent does not go along.
+void check_derivatives(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
+                       const SimulationOptions& options, Findings& findings) {
+  for (const StudyQuantity& quantity : study.quantities)
+    for (const std::string& name : quantity.value.names())
+      if (name == "energy.total" || name == "energy.dissipated" || name == "energy.input")
+        findings.error(quantity.path + ".value",
+                       in_quotes(name) +
+                           " has no derivative here; take \"derivatives\": \"differences\", or a "
+                           "method without derivatives");
+  try {
+    const VariantGradient gradient(study, study_case, values, options);
+  } catch (const std::invalid_argument& problem) {
+    findings.error("variables", problem.what());
   }
 }
 
@@ -276,7 +223,7 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
       if (study_case)
         simulate_variant(study, *study_case, variant);
       else
-        fill_quantities(study, scope, variant);
+        fill_formulas(study, variant);
     }
   } catch (const std::invalid_argument& problem) {
     end(variant, VariantStatus::refused, problem.what());
@@ -289,12 +236,11 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
 
 std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase* study_case) {
   if (!study_case) return {};
-  std::vector<double> nominal;
-  for (const std::size_t i : study.free_variables()) nominal.push_back(study.variables[i].nominal);
+  const std::vector<double> nominal = all_values(study, study.nominal());
   Findings findings(study.path.string());
   try {
     const CaseFileReport read =
-        read_case_text(study_case->variant(study.variables, all_values(study, nominal)), study_case->file());
+        read_case_text(study_case->variant(study.variables, nominal), study_case->file());
     if (!read.value) return {unchecked(study, first_error(read.diagnostics))};
     const BuildReport built = build_model(*read.value);
     if (!built.value) return {unchecked(study, first_error(built.diagnostics))};
@@ -311,6 +257,8 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
                          "a run of this case has no column " + in_quotes(name) + known_names(name, known));
     }
     if (!findings.has_errors()) check_kinds(study, findings);
+    if (!findings.has_errors() && study.derivatives)
+      check_derivatives(study, *study_case, nominal, simulation_options(*read.value), findings);
   } catch (const std::invalid_argument& problem) {
     return {unchecked(study, problem.what())};
   }

@@ -29,6 +29,7 @@ struct Variant {
   VariantStatus status = VariantStatus::done;
   std::string reason = {};              ///< empty where it is done
   std::vector<double> quantities = {};  ///< in their order; empty where it is not done
+  StudyGradient gradient = {};          ///< where the study asks for derivatives, and it is done
   double seconds = 0;                   ///< wall time
 };
 

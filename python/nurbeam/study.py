@@ -31,7 +31,7 @@ class Study(Mapping[str, Array]):
     NaN where a variant is not done.
 
     `statuses` and `reasons` say how each variant ended; `answer` is what the study found: Sobol indices, a probability, the
-    best variants; None for a plan.
+    best variants, derivatives of quantities; None for another plan.
     """
 
     def __init__(self, directory: str | os.PathLike[str]):

@@ -18,7 +18,7 @@ set(python_may_include python pipelines cad_import fem nurbs solver)
 set(nurbs_floors . smooth)
 set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
-set(fem_floors . material element comparison structure mesh constraints forces model system motion)
+set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
 set(python_floors .)
 set(pipelines_floors diagnostics case section model results report run verification papers study command)
 

@@ -14,22 +14,23 @@ nurbeam, scratch = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 samples = Path(__file__).resolve().parents[2] / "samples/studies"
 
 
-def run(name, **changes):
-    """The answer of a sample, its keys changed (task={key: value})."""
+def run(name, out=None, **changes):
+    """The answer of a sample, its keys changed (task={key: value}) or another plan, written to the directory `out`."""
+    out = out or name
     text = "\n".join(line for line in (samples / f"{name}.json").read_text().splitlines()
                      if not line.lstrip().startswith("//"))
     study = json.loads(text)
     for task, keys in changes.items():
-        study[task].update(keys)
+        study[task] = keys if task == "plan" else {**study[task], **keys}
     study["case"] = str((samples / study["case"]).resolve())
     for observation in study.get("calibrate", {}).get("observations", []):
         observation["measured"]["file"] = str(samples / observation["measured"]["file"])
     scratch.mkdir(parents=True, exist_ok=True)
-    file = scratch / f"{name}.json"
+    file = scratch / f"{out}.json"
     file.write_text(json.dumps(study))
-    done = subprocess.run([nurbeam, "study", file, "--out", scratch / name, "--quiet"], capture_output=True, text=True)
+    done = subprocess.run([nurbeam, "study", file, "--out", scratch / out, "--quiet"], capture_output=True, text=True)
     assert done.returncode == 0, (name, done.stdout, done.stderr)
-    return json.loads((scratch / name / "study.json").read_text())["answer"]
+    return json.loads((scratch / out / "study.json").read_text())["answer"]
 
 
 def rows(name):
@@ -64,6 +65,28 @@ def the_rail_is_as_fast_as_the_cycloid():
     print(f"brachistochrone: {best:.5f} s, cycloid {cycloid:.5f} s; within 1 % after {within} of {len(history)} variants")
     assert cycloid * (1 - 1e-4) <= best <= 1.001 * cycloid, best
     assert history[0] > 1.15 * cycloid, "it begins as a straight line"
+
+
+def the_rail_is_found_in_a_tenth_of_the_runs_along_derivatives():
+    cycloid = math.pi / math.sqrt(9.81)
+    counts = {}
+    for derivatives in ("tangents", "differences"):
+        history = run("brachistochrone", out=derivatives, optimise={"method": "gradient", "derivatives": derivatives})["history"]
+        counts[derivatives] = next(i + 1 for i, best in enumerate(history) if best is not None and best < 1.01 * cycloid)
+    print("variants until within 1 % of the cycloid:", counts)
+    assert 10 * counts["tangents"] <= counts["differences"], counts
+
+
+def the_falling_beam_has_the_derivatives_that_differences_tend_to():
+    by = run("falling_beam_gradient")["gradients"][0]["gradient"]["leaves"]
+    nominal = {"E": 20e6, "density": 7200, "mass": 0.8, "end": 1}
+    for name, step in (("density", 0.012), ("mass", 2e-6)):  # the mesh changes after the same steps
+        run("falling_beam_gradient", out="neighbours",
+            plan={"list": [list({**nominal, name: nominal[name] + sign * step}.values()) for sign in (1, -1)]})
+        more, less = (float(row["leaves [s]"]) for row in rows("neighbours"))
+        difference = (more - less) / (2 * step)
+        print(f"falling beam by {name}: {by[name]:.8g}, differences {difference:.8g}")
+        assert abs(difference / by[name] - 1) < 1e-4
 
 
 def the_arch_is_the_inverted_catenary():
@@ -119,6 +142,8 @@ def the_time_depends_on_what_it_should():
 
 shutil.rmtree(scratch, ignore_errors=True)
 the_rail_is_as_fast_as_the_cycloid()
+the_rail_is_found_in_a_tenth_of_the_runs_along_derivatives()
+the_falling_beam_has_the_derivatives_that_differences_tend_to()
 the_arch_is_the_inverted_catenary()
 the_zip_line_holds_its_limits()
 the_rod_is_the_one_that_was_filmed()

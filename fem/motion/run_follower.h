@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+
+#include "fem/motion/meshed_state.h"
+#include "fem/motion/run_event.h"
+#include "solver/integrator.h"
+
+namespace nurbeam {
+
+/// One step of a run as it has been accepted.
+struct FollowedStep {
+  const State& before;
+  const IntegratorHistory& history;  ///< at `before`
+  const State& after;
+  bool repeated;  ///< as by Integrator::repeat
+  double rest;    ///< from `before` to the time of the run that steps lead to [s]
+  /// Of a step that ends at an event: what is zero there but for a constant, of a state of this model or of a
+  /// neighbouring one; else empty.
+  std::function<double(const BeamSystem&, const State&)> beyond;
+};
+
+/// Is told how each state of a run comes from the one before, so that neighbouring motions can go along: all
+/// that the run decides, as when the mesh changes and for how long a step is, is decided for them too.
+class RunFollower {
+ public:
+  virtual ~RunFollower() = default;
+  /// The run begins with the shape as it is drawn.
+  virtual void begins(const MeshedState& drawn) = 0;
+  /// The state is at rest, on the mesh that the search for it has ended with.
+  virtual void rests(const MeshedState& at) = 0;
+  /// A step has been taken on the present mesh.
+  virtual void steps(const FollowedStep& step) = 0;
+  /// Something else has led to `at`: what does the same to the state of a neighbouring model, and returns
+  /// whether it could. The integrator starts afresh from here.
+  virtual void changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) = 0;
+  /// It is an event, at the present time.
+  virtual void happens(const RunEvent& event) = 0;
+  /// A snapshot is taken of `recorded`, with accelerations and multipliers `of_the_moment`, or as the steps
+  /// have them.
+  virtual void records(const MeshedState& at, bool of_the_moment) = 0;
+};
+
+/// The same place on a beam of a neighbouring model: home nodes correspond, and places between two of them in
+/// proportion [m].
+double corresponding_place(const Beam& beam, double s, const Beam& neighbour);
+
+}  // namespace nurbeam

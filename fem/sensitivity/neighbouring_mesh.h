@@ -1,0 +1,21 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "fem/motion/meshed_state.h"
+
+namespace nurbeam {
+
+/// Whether two systems have the same nodes and coordinates: that of a model and of a neighbouring one.
+bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
+
+/// The joints whose places a system holds, but for those whose motion is prescribed.
+std::vector<bool> held_joints(const BeamSystem& system);
+
+/// The system of a neighbouring model on the mesh of a rest: with the same nodes, and joints held at the
+/// corresponding places. Throws std::runtime_error where sections have other charts than the drawing's, or
+/// elements constant weights.
+std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
+                                         const std::shared_ptr<const BeamModel>& model);
+
+}  // namespace nurbeam

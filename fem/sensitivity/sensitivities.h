@@ -1,0 +1,82 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "fem/motion/run_follower.h"
+#include "fem/motion/simulation.h"
+#include "solver/step_tangent.h"
+
+/// Derivatives of a run by parameters of its model.
+namespace nurbeam {
+
+/// A model with another value of a parameter, and where it is to be recorded.
+struct Neighbour {
+  std::shared_ptr<const BeamModel> model;
+  std::vector<ProbePlace> probes;
+};
+
+/// A parameter: the models in which it is greater and less by a step.
+struct NeighbourPair {
+  Neighbour more, less;
+  double step;  ///< of the parameter's own unit
+};
+
+/// Carries the derivatives of a motion, or of a rest, by parameters of its model along with the run: a
+/// tangent for each.
+///
+///   - At rest: K dq + G'dlambda = -dR, G dq = -dg.
+///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end.
+///   - Over all else, as a change of the mesh or an impact: half the difference of what the same does to the
+///     states q +- step dq/dp of the neighbours.
+///   - A step that lands on an event is longer by dh, for which the event stays where it is: beyond(end + dh
+///     d(end)/dh) = 0; times of what comes after are later by as much, and later steps shorter, so that the
+///     next time of the run is met again.
+///
+/// dR is half the difference of the residual of the neighbours at the state of the run. What a run decides -
+/// steps of its error control, when the mesh changes - is the same for the neighbours: derivatives are those
+/// of the discrete motion with these decisions.
+class Sensitivities final : public RunFollower {
+ public:
+  /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
+  /// what has no tangent: friction, buffers, connectors whose length is found.
+  Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters);
+  ~Sensitivities() override;
+
+  /// Derivatives of the time of each event of the run, in order, by each parameter [s]; NaN where steps
+  /// decide when: of changes of the mesh.
+  const std::vector<std::vector<double>>& event_times() const { return event_times_; }
+
+  /// At the time of snapshot `record` of the run, counted from 0, those of the models in which a parameter is
+  /// greater and less, of states step dq/dp away. Throws std::runtime_error where these have no
+  /// accelerations.
+  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter) const;
+
+  void begins(const MeshedState& drawn) override;
+  void rests(const MeshedState& at) override;
+  void steps(const FollowedStep& step) override;
+  void changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) override;
+  void happens(const RunEvent& event) override;
+  void records(const MeshedState& at, bool of_the_moment) override;
+
+ private:
+  struct Parameter;
+  struct Difference;
+  struct Meshes;
+  struct Record;
+
+  void go_on_from(const MeshedState& at);
+  Difference residual_change(const Parameter& parameter, const State& at, double time) const;
+
+  GeneralizedAlpha settings_;
+  bool begins_at_rest_;
+  std::vector<Parameter> parameters_;
+  const BeamSystem* system_ = nullptr;
+  State state_;  // of the run
+  std::vector<std::vector<double>> event_times_;
+  std::vector<Record> records_;
+  std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,163 @@
+#include "pipelines/study/gradient.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/run/simulation_plan.h"
+#include "pipelines/study/variant.h"
+
+namespace nurbeam {
+
+namespace {
+
+std::vector<double> free_values(const StudyFile& study, const std::vector<double>& values) {
+  std::vector<double> free;
+  for (const std::size_t i : study.free_variables()) free.push_back(values[i]);
+  return free;
+}
+
+/// The values of all variables where free variable k is changed.
+std::vector<double> changed(const StudyFile& study, const std::vector<double>& values, std::size_t k,
+                            double by) {
+  std::vector<double> free = free_values(study, values);
+  free[k] += by;
+  return all_values(study, free);
+}
+
+/// The stored times at which histories have a part in the quantities.
+std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vector<double>& values,
+                                          const Histories& histories, const BeamModel& model,
+                                          const std::vector<RunEvent>& events) {
+  const auto quantities = [&](const Histories& of) {
+    std::vector<double> all;
+    for (const StudyQuantity& quantity : study.quantities)
+      all.push_back(quantity.value.number(scope_of_run(study, values, of, model, events)));
+    return all;
+  };
+  constexpr double little = 1e-6;
+  const std::vector<double> present = quantities(histories);
+  std::vector<std::size_t> times;
+  for (std::size_t i = 0; i < histories.times().size(); ++i) {
+    Histories more = histories, less = histories;
+    more.nudge(i, little);
+    less.nudge(i, -little);
+    if (quantities(more) != present || quantities(less) != present) times.push_back(i);
+  }
+  return times;
+}
+
+bool same_times(const SimulationOptions& a, const SimulationOptions& b) {
+  return a.end_time == b.end_time && a.step == b.step && a.output_times == b.output_times;
+}
+
+}  // namespace
+
+double derivative_step(const StudyVariable& variable, double value) {
+  constexpr double part = 1e-5;
+  using Kind = StudyDistribution::Kind;
+  const Kind kind = variable.distribution.kind;
+  const std::vector<double>& p = variable.distribution.parameters;
+  const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
+  return part * std::clamp(std::abs(value), 0.1 * width, width);
+}
+
+std::vector<double> differences(const StudyFile& study, const std::vector<double>& values,
+                                const std::function<double(const std::vector<double>&)>& f) {
+  std::vector<double> result;
+  const std::vector<std::size_t> free = study.free_variables();
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const double step = derivative_step(study.variables[free[k]], values[free[k]]);
+    result.push_back((f(changed(study, values, k, step)) - f(changed(study, values, k, -step))) / (2 * step));
+  }
+  return result;
+}
+
+struct VariantGradient::NeighbouringRun {
+  std::vector<double> values;
+  std::unique_ptr<const BuiltModel> built;
+  Histories histories;
+
+  NeighbouringRun(const StudyFile& study, const StudyCase& study_case, std::vector<double> of,
+                  const SimulationOptions& options)
+      : values(std::move(of)), built(build(study, study_case, values, options)), histories(study, *built) {}
+
+  Neighbour neighbour() const {
+    return {std::make_shared<const BeamModel>(built->model), probe_places(*built)};
+  }
+
+  static std::unique_ptr<const BuiltModel> build(const StudyFile& study, const StudyCase& study_case,
+                                                 const std::vector<double>& values,
+                                                 const SimulationOptions& options) {
+    const CaseFileReport read =
+        read_case_text(study_case.variant(study.variables, values), study_case.file());
+    if (!read.value) throw std::invalid_argument("a neighbouring variant is no case");
+    if (!same_times(options, simulation_options(*read.value)))
+      throw std::invalid_argument("variables that change the times of a run have no derivative");
+    BuildReport report = build_model(*read.value);
+    if (!report.value) throw std::invalid_argument("a neighbouring variant has no model");
+    return std::make_unique<const BuiltModel>(std::move(*report.value));
+  }
+};
+
+struct VariantGradient::Pair {
+  NeighbouringRun more, less;
+  double step;
+};
+
+VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_case,
+                                 const std::vector<double>& values, const SimulationOptions& options)
+    : study_(study), values_(values) {
+  const std::vector<std::size_t> free = study.free_variables();
+  std::vector<NeighbourPair> neighbours;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const StudyVariable& variable = study.variables[free[k]];
+    const double step = derivative_step(variable, values[free[k]]);
+    try {
+      pairs_.push_back({{study, study_case, changed(study, values, k, step), options},
+                        {study, study_case, changed(study, values, k, -step), options},
+                        step});
+    } catch (const std::invalid_argument& problem) {
+      throw std::invalid_argument("no derivative by " + in_quotes(variable.name) + ": " + problem.what());
+    }
+    neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
+  }
+  sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours));
+}
+
+VariantGradient::~VariantGradient() = default;
+
+StudyGradient VariantGradient::of_quantities(const BeamModel& model, const Histories& histories,
+                                             const std::vector<RunEvent>& events) {
+  const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model, events);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    pairs_[k].more.histories.begin_as(histories);
+    pairs_[k].less.histories.begin_as(histories);
+    for (const std::size_t time : times) {
+      const auto& [more, less] = sensitivities_->neighbours(time, k);
+      pairs_[k].more.histories.replace(time, more);
+      pairs_[k].less.histories.replace(time, less);
+    }
+  }
+  StudyGradient gradient;
+  for (const StudyQuantity& quantity : study_.quantities) {
+    std::vector<double> row;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const auto value = [&](const NeighbouringRun& run, double change) {
+        std::vector<RunEvent> moved = events;
+        for (std::size_t i = 0; i < events.size(); ++i)
+          moved[i].time += change * sensitivities_->event_times()[i][k];
+        return quantity.value.number(scope_of_run(study_, run.values, run.histories, model, moved));
+      };
+      const Pair& pair = pairs_[k];
+      row.push_back((value(pair.more, pair.step) - value(pair.less, -pair.step)) / (2 * pair.step));
+      if (!std::isfinite(row.back()))
+        throw std::invalid_argument("the quantity " + in_quotes(quantity.name) + " has no derivative");
+    }
+    gradient.push_back(std::move(row));
+  }
+  return gradient;
+}
+
+}  // namespace nurbeam

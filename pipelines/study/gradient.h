@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "fem/sensitivity/sensitivities.h"
+#include "pipelines/study/histories.h"
+#include "pipelines/study/study_case.h"
+
+namespace nurbeam {
+
+/// By how much a variable is changed for a derivative.
+double derivative_step(const StudyVariable& variable, double value);
+
+/// f(more) - f(less) over 2 step, for each free variable: of the values of all variables around those of a
+/// variant.
+std::vector<double> differences(const StudyFile& study, const std::vector<double>& values,
+                                const std::function<double(const std::vector<double>& values)>& f);
+
+/// The neighbours of a variant, a pair for each free variable, that go along with its run.
+class VariantGradient {
+ public:
+  /// `options`: of the run. Throws std::invalid_argument where there are no such neighbours.
+  VariantGradient(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
+                  const SimulationOptions& options);
+  ~VariantGradient();
+
+  RunFollower& follower() { return *sensitivities_; }
+  /// After the run, which had these histories and events. Throws std::invalid_argument for a quantity without
+  /// a derivative.
+  StudyGradient of_quantities(const BeamModel& model, const Histories& histories,
+                              const std::vector<RunEvent>& events);
+
+ private:
+  struct NeighbouringRun;
+  struct Pair;
+
+  const StudyFile& study_;
+  const std::vector<double> values_;
+  std::vector<Pair> pairs_;
+  std::unique_ptr<Sensitivities> sensitivities_;
+};
+
+}  // namespace nurbeam

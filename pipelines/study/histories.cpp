@@ -1,0 +1,123 @@
+#include "pipelines/study/histories.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/model/model_snapshot.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// The kinds of events by the words of run.json, and shorter ones.
+std::optional<EventKind> event_kind(const std::string& name) {
+  static const std::map<std::string, EventKind> kinds = [] {
+    std::map<std::string, EventKind> all = {{"leaves", EventKind::left_beam},
+                                            {"stops", EventKind::stopped_at_end}};
+    for (const EventKind kind :
+         {EventKind::split, EventKind::merge, EventKind::becomes_point, EventKind::becomes_node,
+          EventKind::left_beam, EventKind::stopped_at_end, EventKind::released})
+      all.emplace(name_of(kind), kind);
+    return all;
+  }();
+  const auto found = kinds.find(name);
+  return found == kinds.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<double> value_of(const StudyFile& study, const std::vector<double>& values,
+                               const std::string& name) {
+  for (std::size_t i = 0; i < study.variables.size(); ++i)
+    if (study.variables[i].name == name) return values[i];
+  return {};
+}
+
+}  // namespace
+
+std::string column_name(const HistoryColumn& column) { return column.name + "." + column.quantity; }
+
+Histories::Histories(const StudyFile& study, const BuiltModel& built) : frame_(built.frame) {
+  std::vector<std::string> wanted;
+  for (const StudyQuantity& quantity : study.quantities)
+    for (const std::string& name : quantity.value.names()) wanted.push_back(name);
+  for (HistoryColumn& column : history_columns(snapshot_names(built)))
+    if (std::find(wanted.begin(), wanted.end(), column_name(column)) != wanted.end())
+      columns_.push_back(std::move(column));
+  values_.resize(columns_.size());
+}
+
+void Histories::add(const Snapshot& local) {
+  const Snapshot snapshot = to_world(frame_, local);
+  times_.push_back(snapshot.time);
+  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i].push_back(columns_[i].value(snapshot));
+}
+
+void Histories::begin_as(const Histories& other) {
+  times_ = other.times_;
+  values_ = other.values_;
+}
+
+void Histories::replace(std::size_t time, const Snapshot& local) {
+  const Snapshot snapshot = to_world(frame_, local);
+  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i][time] = columns_[i].value(snapshot);
+}
+
+void Histories::nudge(std::size_t time, double part) {
+  for (std::vector<double>& column : values_) {
+    double largest = 0;
+    for (const double value : column) largest = std::fmax(largest, std::abs(value));
+    column[time] += part * largest;
+  }
+}
+
+const std::vector<double>* Histories::find(const std::string& name) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (column_name(columns_[i]) == name) return &values_[i];
+  return nullptr;
+}
+
+std::size_t first_event(const std::vector<RunEvent>& events, const BeamModel& model, const std::string& kind,
+                        const std::string& of) {
+  const std::optional<EventKind> wanted = event_kind(kind);
+  if (!wanted)
+    throw std::invalid_argument("there is no event " + in_quotes(kind) +
+                                "; leaves, stops, released, split, merge are");
+  std::size_t i = 0;
+  for (; i < events.size(); ++i) {
+    const RunEvent& event = events[i];
+    const bool body = event.body >= 0 && model.bodies[static_cast<std::size_t>(event.body)].name == of;
+    const bool beam = event.beam >= 0 && model.beams[static_cast<std::size_t>(event.beam)].name == of;
+    if (event.kind == *wanted && (body || beam)) break;
+  }
+  return i;
+}
+
+ExpressionScope scope_of_variables(const StudyFile& study, const std::vector<double>& values) {
+  return {.value = [&](const std::string& name) -> ExpressionValue {
+    if (const auto value = value_of(study, values, name)) return *value;
+    throw std::invalid_argument("there is no variable " + in_quotes(name));
+  }};
+}
+
+ExpressionScope scope_of_run(const StudyFile& study, const std::vector<double>& values,
+                             const Histories& histories, const BeamModel& model,
+                             const std::vector<RunEvent>& events) {
+  return {.value = [&](const std::string& name) -> ExpressionValue {
+            if (const auto value = value_of(study, values, name)) return *value;
+            if (const auto* history = histories.find(name)) return *history;
+            throw std::invalid_argument("there is no column " + in_quotes(name));
+          },
+          .event_time =
+              [&](const std::string& kind, const std::string& of) {
+                const std::size_t i = first_event(events, model, kind, of);
+                return i < events.size() ? events[i].time : std::numeric_limits<double>::quiet_NaN();
+              },
+          .times = histories.times()};
+}
+
+}  // namespace nurbeam
