@@ -343,7 +343,9 @@ VerifyResult bridge() {
   }
   // Its spring's force is what accelerates it.
   const std::vector<double> all_times = even_times(of.length / of.speed - 1e-3, 360);
-  const auto order = [](const AtCrossing& a, const AtCrossing& b) { return a.acceleration < b.acceleration; };
+  const auto order = [](const AtCrossing& one, const AtCrossing& other) {
+    return one.acceleration < other.acceleration;
+  };
   const std::vector<AtCrossing> along_the_way = crossing_by_modes(of, all_times);
   const auto [least, greatest] = std::minmax_element(along_the_way.begin(), along_the_way.end(), order);
   double lowest = 0, highest = 0;
