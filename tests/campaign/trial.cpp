@@ -281,8 +281,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   trial.report = simulate(model, probes, options, observer);
   if (options.statics && trial.report.status == SimulationStatus::done) {
     MeshedState at = MeshedState::drawn(model);
-    if (!find_rest(at, options.length_control, {}).failure)
-      trial.imbalance = imbalance(*at.system, at.state);
+    if (!find_rest(at, options.length_control, {}).failure) trial.imbalance = imbalance(*at.system, at.state);
   }
   return trial;
 }
