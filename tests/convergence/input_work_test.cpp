@@ -48,9 +48,10 @@ class InputWork : public ::testing::TestWithParam<Driven> {};
 
 TEST_P(InputWork, KeepsTheBalanceToTheOrderOfTheStep) {
   const BeamModel model = GetParam().model();
-  const double coarse = departure(model, 4e-4), fine = departure(model, 2e-4);
-  EXPECT_LT(fine, 1e-3);
-  EXPECT_GT(coarse / fine, 3) << coarse << ", " << fine;
+  // Over two halvings: departures of a millionth are irregular from one to the next.
+  const double coarse = departure(model, 4e-4), fine = departure(model, 1e-4);
+  EXPECT_LT(fine, 3e-4);
+  EXPECT_GT(coarse / fine, 9) << coarse << ", " << fine;
 }
 
 const TimeTable ramp{{0, 0}, {0.1, 1}, {0.2, 0.5}};
