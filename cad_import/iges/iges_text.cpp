@@ -100,7 +100,8 @@ std::string text(const Handle(IGESData_IGESModel) & model) {
   const Handle(IGESData_Protocol) protocol = IGESSelect_WorkLibrary::DefineProtocol();
   IGESData_BasicEditor(model, protocol).ComputeStatus();
   IGESData_IGESWriter out(model);
-  out.FloatWriter().SetFormat("%.17E");
+  // 17 digits, which give a number back; with one more OpenCASCADE overruns its buffer at "-1.2...E-101".
+  out.FloatWriter().SetFormat("%.16E");
   out.FloatWriter().SetZeroSuppress(Standard_False);
   out.SendModel(protocol);
   std::ostringstream stream;

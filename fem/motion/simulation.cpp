@@ -646,9 +646,10 @@ struct Simulation::Implementation {
     return (damped() ? dissipated_between(from, to) : 0) + lost_energy(*at_.system, from, to);
   }
 
-  // Of what the accelerations of a restart leave out of balance (make_accelerations_smooth): transients that
-  // the step does not follow, of which the trapezoidal rule takes half.
+  // Of what the accelerations of a restart leave out of balance (make_accelerations_smooth), where damping
+  // ends it: transients that the step does not follow, of which the trapezoidal rule takes half.
   double unbalanced_work(const State& from, const State& to) const {
+    if (!damped()) return 0;
     Eigen::VectorXd dynamics(at_.system->coordinate_count()), closed(at_.system->constraint_count());
     at_.system->residual(from, dynamics, closed);
     return dynamics.dot(to.q - from.q) / 2;
