@@ -84,7 +84,7 @@ def rows_of(out):
 
 def survives_kills():
     longer = json.loads(json.dumps(CASE))
-    longer["analysis"]["end_time"] = 0.2
+    longer["analysis"]["end_time"] = 0.8
     study = write(scratch / "kills", {**STUDY, "plan": {"latin_hypercube": {"count": 300}}}, longer)
     run(study, "--out", scratch / "kills/whole", "--jobs", "2")
     expected = table(scratch / "kills/whole")
