@@ -649,7 +649,13 @@ struct Simulation::Implementation {
   // Of what the accelerations of a restart leave out of balance (make_accelerations_smooth), where damping
   // ends it: transients that the step does not follow, of which the trapezoidal rule takes half.
   double unbalanced_work(const State& from, const State& to) const {
-    if (!damped()) return 0;
+    const auto& stops = model_->stops;
+    const auto& connectors = model_->connectors;
+    const bool in_buffers = std::any_of(
+        stops.begin(), stops.end(), [](const Stop& stop) { return stop.buffer && stop.buffer->damping > 0; });
+    const bool in_connectors =
+        std::any_of(connectors.begin(), connectors.end(), [](const Connector& c) { return c.damping > 0; });
+    if (!damped() && !in_buffers && !in_connectors) return 0;
     Eigen::VectorXd dynamics(at_.system->coordinate_count()), closed(at_.system->constraint_count());
     at_.system->residual(from, dynamics, closed);
     return dynamics.dot(to.q - from.q) / 2;
