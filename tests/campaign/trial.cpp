@@ -99,8 +99,7 @@ Vector3d mass_damping_force(const BeamSystem& system, const State& state) {
     const MeshSpan& span = system.mesh().spans[i];
     const BeamProperties& beam = system.model().beams[span.beam].properties;
     if (beam.mass_damping == 0) continue;
-    const double a = span.place_a < 0 ? span.s_a : state.q[span.place_a];
-    const double b = span.place_b < 0 ? span.s_b : state.q[span.place_b];
+    const double a = span.start(state.q), b = span.end(state.q);  // of rings on one turn
     for (int d = 0; d < 3; ++d)
       force[d] -= beam.mass_damping * beam.mass_per_length *
                   gauss([&](double s) { return material_point_in(system, state, i, s).velocity[d]; }, a, b);
