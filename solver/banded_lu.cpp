@@ -94,31 +94,38 @@ void BandedLu::analyse(const Matrix& pattern) {
   padded_ = (n + block - 1) / block * block;
   width_ = 3 * half_bandwidth_ + 2 * block;
   height_ = half_bandwidth_ + 2 * block;
-}
-
-void BandedLu::fill_band(const Matrix& matrix) {
-  const auto n = unknown_.size(), padded = static_cast<std::size_t>(padded_);
-  scale_.assign(n, 0);
-  for (int column = 0; column < matrix.cols(); ++column)
-    for (Matrix::InnerIterator entry(matrix, column); entry; ++entry)
-      scale_[place_[entry.row()]] = std::max(scale_[place_[entry.row()]], std::abs(entry.value()));
-  for (double& scale : scale_) scale = scale > 0 ? 1 / scale : 1;
-  band_.assign(padded * static_cast<std::size_t>(width_), 0);
-  ends_.assign(padded, 0);
-  for (int column = 0; column < matrix.cols(); ++column)
-    for (Matrix::InnerIterator entry(matrix, column); entry; ++entry) {
-      const int i = place_[entry.row()], j = place_[column];
-      row(i)[j - i + half_bandwidth_] = scale_[i] * entry.value();
-      ends_[i] = std::max(ends_[i], j + 1);
-    }
-  for (int i = static_cast<int>(n); i < padded_; ++i) {
-    row(i)[half_bandwidth_] = 1;
-    ends_[i] = i + 1;
-  }
+  const auto padded = static_cast<std::size_t>(padded_);
+  first_ends_.resize(padded);
+  for (int k = 0; k < padded_; ++k) first_ends_[k] = k + 1;
+  for (int i = 0; i < n; ++i)
+    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j)
+      first_ends_[place_[*j]] = std::max(first_ends_[place_[*j]], place_[i] + 1);
+  scale_.resize(static_cast<std::size_t>(n));
+  band_.resize(padded * static_cast<std::size_t>(width_));
   lower_.assign(padded * static_cast<std::size_t>(height_), 0);
   pivots_.resize(padded);
   inverse_.resize(padded);
   y_.assign(padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block), 0);
+}
+
+void BandedLu::fill_band(const Matrix& matrix) {
+  const int n = static_cast<int>(unknown_.size());
+  std::fill(band_.begin(), band_.end(), 0);
+  for (int column = 0; column < n; ++column) {
+    const int j = place_[column] + half_bandwidth_;
+    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
+      const int i = place_[matrix.innerIndexPtr()[k]];
+      row(i)[j - i] = matrix.valuePtr()[k];
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    Eigen::Map<Eigen::ArrayXd> entries(row(i), 2 * half_bandwidth_ + 1);
+    const double largest = entries.abs().maxCoeff();
+    scale_[i] = largest > 0 ? 1 / largest : 1;
+    entries *= scale_[i];
+  }
+  for (int i = n; i < padded_; ++i) row(i)[half_bandwidth_] = 1;
+  ends_ = first_ends_;
 }
 
 // The row below that takes the place: the one that is there if it is not much less than the largest, since
@@ -160,8 +167,8 @@ double BandedLu::factorise(const Matrix& matrix) {
     const int length = ends_[k] - k, last = std::min(padded_ - 1, k + b);
     for (int i = k + 1; i <= last; ++i) {
       double* below = row(i) + k - i + b;
-      if (below[0] == 0) continue;
       const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
+      if (factor == 0) continue;
       for (int j = 1; j < length; j += block) Four(below + j) -= factor * ConstFour(upper + j);
       ends_[i] = std::max(ends_[i], ends_[k]);
     }
@@ -177,6 +184,35 @@ void BandedLu::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
   for (int k = padded_ - block; k >= 0; k -= block) substitute(k);
   x.resize(n);
   for (int k = 0; k < n; ++k) x[unknown_[k]] = y_[k];
+}
+
+void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const {
+  const int n = static_cast<int>(unknown_.size()), p = static_cast<int>(unknowns.size());
+  columns.resize(n, p);
+  std::vector<Eigen::Array4d> y(y_.size());
+  for (int first = 0; first < p; first += block) {
+    const int last = std::min(p, first + block);
+    std::fill(y.begin(), y.end(), Eigen::Array4d::Zero());
+    int start = padded_;
+    for (int j = first; j < last; ++j) {
+      const int k = place_[unknowns[j]];
+      y[k][j - first] = scale_[k];
+      start = std::min(start, k);
+    }
+    // An exchange brings a row up by no more than the band.
+    for (int k = std::max(0, start - half_bandwidth_); k < padded_; ++k) {
+      std::swap(y[k], y[pivots_[k]]);
+      const double* m = lower_.data() + static_cast<std::size_t>(k) * height_;
+      for (int i = 0; i < half_bandwidth_; ++i) y[k + 1 + i] -= m[i] * y[k];
+    }
+    for (int k = padded_ - 1; k >= 0; --k) {
+      const double* u = row(k) + half_bandwidth_;
+      for (int i = 1; i < ends_[k] - k; ++i) y[k] -= u[i] * y[k + i];
+      y[k] *= inverse_[k];
+    }
+    for (int j = first; j < last; ++j)
+      for (int k = 0; k < n; ++k) columns(unknown_[k], j) = y[k][j - first];
+  }
 }
 
 // Takes a block of unknowns out of the right-hand sides below it.

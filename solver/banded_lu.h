@@ -18,6 +18,8 @@ class BandedLu {
   double factorise(const Eigen::SparseMatrix<double>& matrix);
   /// x with matrix x = rhs.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
+  /// (n x p) the columns of the inverse that belong to p unknowns, side by side.
+  void solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const;
 
  private:
   double* row(int i) { return band_.data() + static_cast<std::size_t>(i) * width_; }
@@ -38,7 +40,8 @@ class BandedLu {
   std::vector<double> inverse_;    ///< of each pivot
   std::vector<double> scale_;      ///< of each row of the matrix
   std::vector<int> pivots_;        ///< row that was brought to each place
-  std::vector<int> ends_;          ///< one past the last column of each row of U
+  std::vector<int> first_ends_;    ///< one past the last column of each row of the pattern
+  std::vector<int> ends_;          ///< the same of what is left to eliminate, then of U
   mutable std::vector<double> y_;  ///< of solve
 };
 

@@ -11,11 +11,13 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;      ///< of the step under error control
-constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
-constexpr int many_corrections = 3;       ///< in one step, after which a matrix is taken anew
-constexpr double longest_use = 50;        ///< of a matrix, in steps
-constexpr double same_step = 1e-6;        ///< relative difference that a matrix does not feel
+constexpr double largest_growth = 2;        ///< of the step under error control
+constexpr double good_contraction = 0.1;    ///< of the corrections, for which a matrix is kept
+constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
+constexpr double to_spare = 5;              ///< of what is foretold so
+constexpr int many_corrections = 3;         ///< in one step, after which a matrix is taken anew
+constexpr double longest_use = 50;          ///< of a matrix, in steps
+constexpr double same_step = 1e-6;          ///< relative difference that a matrix does not feel
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -44,14 +46,18 @@ class Convergence {
   /// Takes the norm of a residual and of the correction that answered it; both have one tolerance.
   bool reached(double residual, double correction, double tolerance) {
     contraction_ = correction / correction_;
-    const double last = correction_;
+    const double last = correction_, balance = residual / residual_;
     correction_ = correction;
+    residual_ = residual;
     const bool small = correction <= tolerance;
     if (!std::isfinite(last)) return false;
     // Where forces are in balance, one more correction takes what is left; what would be left of that is
     // foretold by the last two.
     const bool foretold = contracts() && contraction_ * correction <= tolerance;
     if (residual <= tolerance && (small || foretold)) return true;
+    // Where both are quickly brought down, the balance is foretold as well, with much to spare.
+    const double rate = std::max(balance, contraction_);
+    if (foretold && rate <= quick_contraction && to_spare * rate * residual <= tolerance) return true;
     // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
     // its own round-off.
     return small && last <= tolerance && !contracts();
@@ -61,6 +67,7 @@ class Convergence {
 
  private:
   double correction_ = std::numeric_limits<double>::infinity();
+  double residual_ = std::numeric_limits<double>::infinity();
   double contraction_ = 0;
 };
 
@@ -165,16 +172,19 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     evaluate_residual(step);
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
-    if (!linearise(linearisation_ ? linearisation_
-                                  : std::make_shared<Linearisation>(Linearisation{trial_, step})))
+    const bool is_kept = linearisation_ != nullptr;
+    if (!linearise(is_kept ? linearisation_ : std::make_shared<Linearisation>(Linearisation{trial_, step})))
       return StepStatus::singular_matrix;
+    if (is_kept && i == 0 && !renew_moving_part()) return StepStatus::singular_matrix;
     report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
     if (!all_finite(trial_)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
-    if (!convergence.contracts() || (done && i > many_corrections)) linearisation_ = nullptr;
+    // What is below the tolerance may be round-off, which nothing contracts.
+    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
+    if (stale || (done && i > many_corrections)) linearisation_ = nullptr;
     if (done) return StepStatus::converged;
   }
   return StepStatus::not_converged;
@@ -190,19 +200,33 @@ bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> 
   linearisation_ = std::move(at);
   if (factorised_ == linearisation_) return true;
   factorised_ = nullptr;
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const double h = linearisation_->step;
-  const TangentWeights weights{.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
-                               .damping = gamma * h / mass_scale_,
-                               .stiffness = beta * h * h / mass_scale_};
+  const TangentWeights weights = weights_of(linearisation_->step);
   system_->tangent(linearisation_->state, weights, kkt_);
-  if (!solver_.factorise(kkt_)) {
+  if (!solver_.factorise(kkt_, system_->moving_unknowns())) {
     linearisation_ = nullptr;
     return false;
   }
+  system_->moving_tangent(linearisation_->state, weights, moving_part_);
   measure_reference();
   factorised_ = linearisation_;
   return true;
+}
+
+/// Makes the moving part of the matrix that of the trial state. False where the matrix is singular then.
+bool GeneralizedAlphaIntegrator::renew_moving_part() {
+  if (moving_part_.size() == 0) return true;
+  system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
+  moved_part_ -= moving_part_;
+  if (solver_.update(moved_part_)) return true;
+  linearisation_ = factorised_ = nullptr;
+  return false;
+}
+
+TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  return {.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
+          .damping = gamma * step / mass_scale_,
+          .stiffness = beta * step * step / mass_scale_};
 }
 
 /// The trial state whose true acceleration and multipliers are those of the last state.

@@ -85,6 +85,17 @@ void KktSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
     x = implementation_->klu.solve(rhs);
 }
 
+void KktSolver::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const {
+  const auto p = static_cast<Eigen::Index>(unknowns.size());
+  if (implementation_->is_banded) {
+    implementation_->band.solve_units(unknowns, columns);
+    return;
+  }
+  columns.setZero(implementation_->klu.rows(), p);
+  for (Eigen::Index j = 0; j < p; ++j) columns(unknowns[static_cast<std::size_t>(j)], j) = 1;
+  columns = implementation_->klu.solve(columns);
+}
+
 Eigen::VectorXd KktSolver::solve(const Eigen::VectorXd& rhs) const {
   Eigen::VectorXd x;
   solve(rhs, x);

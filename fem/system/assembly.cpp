@@ -86,6 +86,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   bind_constraints(held);
   bind_forces();
   build_pattern();
+  choose_moving_part();
 }
 
 template <int D>
@@ -111,8 +112,9 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
   const MeshedBeams<D> at = beams();
   const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
   const auto add = [&](auto&& constraint) {
-    constraint_blocks_.push_back({constraint_count_, {constraint.dofs(), {}}, {}, {}});
-    constraint_count_ += constraint.rows;
+    const int rows = constraint.rows;
+    constraint_blocks_.push_back({constraint_count_, rows, {constraint.dofs(), {}}, {}, {}});
+    constraint_count_ += rows;
     constraints_.emplace_back(std::move(constraint));
   };
   for (const Constraint& constraint : model_->constraints) {
@@ -121,6 +123,7 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
     constraint_rows_.push_back({first, constraint_count_ - first});
   }
   place_rows_.resize(model_->joints.size());
+  first_joint_constraint_ = static_cast<int>(constraints_.size());
   for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
     const bool is_held = j < static_cast<int>(held.size()) && held[j];
     body_rows_.push_back(constraint_count_);
@@ -130,6 +133,7 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
       add(std::move(constraint));
     });
   }
+  last_joint_constraint_ = static_cast<int>(constraints_.size());
   for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i) {
     const bool rests = mesh_.plan.is_closed(i) && is_in_place(mesh_, model_->stops[i]);
     contact_rows_.push_back(rests ? constraint_count_ : -1);
@@ -212,15 +216,10 @@ void Assembly<D>::build_pattern() {
     force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
     add_pairs(force_blocks_.back().dofs);
   }
-  const auto rows_of = [&](std::size_t c) {
-    return std::visit([](const auto& constraint) { return static_cast<int>(constraint.rows); },
-                      constraints_[c]);
-  };
-  for (std::size_t c = 0; c < constraints_.size(); ++c) {
-    const ConstraintBlock& block = constraint_blocks_[c];
-    add_pairs(block.block.dofs);
-    for (int r = block.row; r < block.row + rows_of(c); ++r)
-      for (int dof : block.block.dofs) {
+  for (const auto& [row, rows, block, gradient_values, transposed_values] : constraint_blocks_) {
+    add_pairs(block.dofs);
+    for (int r = row; r < row + rows; ++r)
+      for (int dof : block.dofs) {
         if (dof < 0) continue;
         entries.emplace_back(n + r, dof, 0.0);
         entries.emplace_back(dof, n + r, 0.0);
@@ -231,22 +230,77 @@ void Assembly<D>::build_pattern() {
   pattern_.setFromTriplets(entries.begin(), entries.end());
   pattern_.makeCompressed();
 
-  const auto locate = [&](Block& block) {
-    for (int j : block.dofs)
-      for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? value_index(pattern_, i, j) : -1);
+  const auto index_of = [&](int i, int j) { return value_index(pattern_, i, j); };
+  for (Block& block : element_blocks_) locate(block, index_of);
+  for (Block& block : twist_blocks_) locate(block, index_of);
+  for (Block& block : force_blocks_) locate(block, index_of);
+  for (ConstraintBlock& block : constraint_blocks_) locate(block, index_of);
+}
+
+// Puts down where the values of a block are; `index_of` gives that of a row and a column.
+template <int D>
+template <class IndexOf>
+void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
+  block.values.clear();
+  for (int j : block.dofs)
+    for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? index_of(i, j) : -1);
+}
+
+template <int D>
+template <class IndexOf>
+void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const {
+  const int n = mesh_.coordinate_count;
+  locate(block.block, index_of);
+  block.gradient_values.clear();
+  block.transposed_values.clear();
+  for (int dof : block.block.dofs)
+    for (int r = block.row; r < block.row + block.rows; ++r) {
+      block.gradient_values.push_back(dof >= 0 ? index_of(n + r, dof) : -1);
+      block.transposed_values.push_back(dof >= 0 ? index_of(dof, n + r) : -1);
+    }
+}
+
+template <int D>
+void Assembly<D>::choose_moving_part() {
+  constexpr int smallest_share = 4;  // of all unknowns, for which a part is kept apart
+  const auto add_unknowns = [&](const std::vector<int>& dofs) {
+    for (const int dof : dofs)
+      if (dof >= 0) moving_.unknowns.push_back(dof);
   };
-  for (Block& block : element_blocks_) locate(block);
-  for (Block& block : twist_blocks_) locate(block);
-  for (Block& block : force_blocks_) locate(block);
-  for (std::size_t c = 0; c < constraints_.size(); ++c) {
-    ConstraintBlock& block = constraint_blocks_[c];
-    locate(block.block);
-    for (int dof : block.block.dofs)
-      for (int r = block.row; r < block.row + rows_of(c); ++r) {
-        block.gradient_values.push_back(dof >= 0 ? value_index(pattern_, n + r, dof) : -1);
-        block.transposed_values.push_back(dof >= 0 ? value_index(pattern_, dof, n + r) : -1);
-      }
+  for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
+    if (elements_[i].element.fixed()) continue;
+    moving_.elements.push_back(i);
+    moving_.element_blocks.push_back(element_blocks_[i]);
+    moving_.twist_blocks.push_back(twist_blocks_[i]);
+    add_unknowns(element_blocks_[i].dofs);
+    add_unknowns(twist_blocks_[i].dofs);
   }
+  for (int i = first_joint_constraint_; i < last_joint_constraint_; ++i) {
+    if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
+      continue;
+    const ConstraintBlock& block = constraint_blocks_[i];
+    moving_.constraints.push_back(i);
+    moving_.constraint_blocks.push_back(block);
+    add_unknowns(block.block.dofs);
+    for (int r = block.row; r < block.row + block.rows; ++r)
+      moving_.unknowns.push_back(mesh_.coordinate_count + r);
+  }
+  std::vector<int>& unknowns = moving_.unknowns;
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  if (smallest_share * static_cast<int>(unknowns.size()) > mesh_.coordinate_count + constraint_count_) {
+    moving_ = {};
+    return;
+  }
+  const auto place_of = [&](int unknown) {
+    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  };
+  const auto index_of = [&](int i, int j) {
+    return place_of(i) + place_of(j) * static_cast<int>(unknowns.size());
+  };
+  for (Block& block : moving_.element_blocks) locate(block, index_of);
+  for (Block& block : moving_.twist_blocks) locate(block, index_of);
+  for (ConstraintBlock& block : moving_.constraint_blocks) locate(block, index_of);
 }
 
 template <int D>
@@ -410,6 +464,43 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
 }
 
 template <int D>
+void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
+                                      const Block& block, const Block& twist_block, double* values) const {
+  const MeshElement<D>& e = elements_[i];
+  const ElementState<D> x = gather<D>(e, state);
+  scatter(block.values, element_size<D>,
+          is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
+          values);
+  if constexpr (D == 3)
+    if (e.twist)
+      scatter(twist_block.values, TwistLayout::size, e.twist->element.tangent(gather_twist(e, state), w),
+              values);
+}
+
+template <int D>
+void Assembly<D>::add_constraint_tangent(int i, const State& state, const TangentWeights& w,
+                                         const ConstraintBlock& block, double* values) const {
+  const MeshedBeams<D> at = beams();
+  std::visit(
+      [&](const auto& c) {
+        typename ConstraintTerms<D>::Multipliers y = ConstraintTerms<D>::Multipliers::Zero();
+        y.head(c.rows) = state.lambda.segment(block.row, c.rows);
+        const ConstraintTerms<D> terms = c.terms(at, state, &y);
+        if constexpr (!is_linear<std::decay_t<decltype(c)>>())
+          if (w.stiffness != 0)
+            scatter(block.block.values, block.block.dofs.size(), w.stiffness * terms.hessian, values);
+        for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
+          for (int r = 0; r < c.rows; ++r, ++v)
+            if (block.gradient_values[v] >= 0) {
+              const double g = terms.gradient(r, static_cast<Eigen::Index>(k));
+              values[block.gradient_values[v]] += g;
+              values[block.transposed_values[v]] += g;
+            }
+      },
+      constraints_[i]);
+}
+
+template <int D>
 void Assembly<D>::tangent(const State& state, const TangentWeights& w,
                           Eigen::SparseMatrix<double>& kkt) const {
   const MeshedBeams<D> at = beams();
@@ -418,17 +509,8 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
   const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
   for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
     const Vector load = line_load(b, state);
-    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
-      const MeshElement<D>& e = elements_[i];
-      const ElementState<D> x = gather<D>(e, state);
-      scatter(element_blocks_[i].values, element_size<D>,
-              is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
-              values);
-      if constexpr (D == 3)
-        if (e.twist)
-          scatter(twist_blocks_[i].values, TwistLayout::size,
-                  e.twist->element.tangent(gather_twist(e, state), w), values);
-    }
+    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i)
+      add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
   }
   for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
     const Sink sink{element_blocks_, twist_blocks_, force_blocks_[i], values};
@@ -441,26 +523,19 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
         },
         forces_[i]);
   }
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const ConstraintBlock& block = constraint_blocks_[i];
-    std::visit(
-        [&](const auto& c) {
-          typename ConstraintTerms<D>::Multipliers y = ConstraintTerms<D>::Multipliers::Zero();
-          y.head(c.rows) = state.lambda.segment(block.row, c.rows);
-          const ConstraintTerms<D> terms = c.terms(at, state, &y);
-          if constexpr (!is_linear<std::decay_t<decltype(c)>>())
-            if (w.stiffness != 0)
-              scatter(block.block.values, block.block.dofs.size(), w.stiffness * terms.hessian, values);
-          for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
-            for (int r = 0; r < c.rows; ++r, ++v)
-              if (block.gradient_values[v] >= 0) {
-                const double g = terms.gradient(r, static_cast<Eigen::Index>(k));
-                values[block.gradient_values[v]] += g;
-                values[block.transposed_values[v]] += g;
-              }
-        },
-        constraints_[i]);
-  }
+  for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
+    add_constraint_tangent(i, state, w, constraint_blocks_[i], values);
+}
+
+template <int D>
+void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {
+  const auto size = static_cast<Eigen::Index>(moving_.unknowns.size());
+  part.setZero(size, size);
+  for (std::size_t k = 0; k < moving_.elements.size(); ++k)
+    add_element_tangent(moving_.elements[k], state, line_load(elements_[moving_.elements[k]].beam, state), w,
+                        moving_.element_blocks[k], moving_.twist_blocks[k], part.data());
+  for (std::size_t k = 0; k < moving_.constraints.size(); ++k)
+    add_constraint_tangent(moving_.constraints[k], state, w, moving_.constraint_blocks[k], part.data());
 }
 
 template <int D>
