@@ -75,32 +75,35 @@ int end_of_component(const Neighbours& neighbours, int start, Walks& walks) {
 
 }  // namespace
 
-void BandedLu::analyse(const Matrix& pattern) {
+BandOrder::BandOrder(const Matrix& pattern) {
   const Neighbours neighbours(pattern);
   const int n = neighbours.size();
   Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
-  unknown_.clear();
   for (int i = 0; i < n; ++i)
     if (walks.last[i] == 0)
-      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown_);
-  std::reverse(unknown_.begin(), unknown_.end());
-  place_.resize(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) place_[unknown_[k]] = k;
-  half_bandwidth_ = 0;
+      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown);
+  std::reverse(unknown.begin(), unknown.end());
+  place.resize(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) place[unknown[k]] = k;
+  ends.resize(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) ends[k] = k + 1;
   for (int i = 0; i < n; ++i)
-    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j)
-      half_bandwidth_ = std::max(half_bandwidth_, std::abs(place_[i] - place_[*j]));
+    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j) {
+      half_bandwidth = std::max(half_bandwidth, std::abs(place[i] - place[*j]));
+      ends[place[*j]] = std::max(ends[place[*j]], place[i] + 1);
+    }
+}
+
+void BandedLu::take(std::shared_ptr<const BandOrder> order) {
+  order_ = std::move(order);
+  half_bandwidth_ = order_->half_bandwidth;
+  const auto n = order_->unknown.size();
   // All is done by blocks of four; what they reach beyond the band is zero.
-  padded_ = (n + block - 1) / block * block;
+  padded_ = (static_cast<int>(n) + block - 1) / block * block;
   width_ = 3 * half_bandwidth_ + 2 * block;
   height_ = half_bandwidth_ + 2 * block;
   const auto padded = static_cast<std::size_t>(padded_);
-  first_ends_.resize(padded);
-  for (int k = 0; k < padded_; ++k) first_ends_[k] = k + 1;
-  for (int i = 0; i < n; ++i)
-    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j)
-      first_ends_[place_[*j]] = std::max(first_ends_[place_[*j]], place_[i] + 1);
-  scale_.resize(static_cast<std::size_t>(n));
+  scale_.resize(n);
   band_.resize(padded * static_cast<std::size_t>(width_));
   lower_.assign(padded * static_cast<std::size_t>(height_), 0);
   pivots_.resize(padded);
@@ -109,12 +112,12 @@ void BandedLu::analyse(const Matrix& pattern) {
 }
 
 void BandedLu::fill_band(const Matrix& matrix) {
-  const int n = static_cast<int>(unknown_.size());
+  const int n = static_cast<int>(order_->unknown.size());
   std::fill(band_.begin(), band_.end(), 0);
   for (int column = 0; column < n; ++column) {
-    const int j = place_[column] + half_bandwidth_;
+    const int j = order_->place[column] + half_bandwidth_;
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
-      const int i = place_[matrix.innerIndexPtr()[k]];
+      const int i = order_->place[matrix.innerIndexPtr()[k]];
       row(i)[j - i] = matrix.valuePtr()[k];
     }
   }
@@ -124,8 +127,11 @@ void BandedLu::fill_band(const Matrix& matrix) {
     scale_[i] = largest > 0 ? 1 / largest : 1;
     entries *= scale_[i];
   }
-  for (int i = n; i < padded_; ++i) row(i)[half_bandwidth_] = 1;
-  ends_ = first_ends_;
+  ends_ = order_->ends;
+  for (int i = n; i < padded_; ++i) {
+    row(i)[half_bandwidth_] = 1;
+    ends_.push_back(i + 1);
+  }
 }
 
 // The row below that takes the place: the one that is there if it is not much less than the largest, since
@@ -159,7 +165,7 @@ double BandedLu::factorise(const Matrix& matrix) {
     const double pivot = upper[0];
     if (pivot == 0) return 0;
     inverse_[k] = 1 / pivot;
-    if (k < static_cast<int>(unknown_.size())) {
+    if (k < static_cast<int>(order_->unknown.size())) {
       smallest = std::min(smallest, std::abs(pivot));
       largest = std::max(largest, std::abs(pivot));
     }
@@ -177,17 +183,17 @@ double BandedLu::factorise(const Matrix& matrix) {
 }
 
 void BandedLu::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
-  const int n = static_cast<int>(unknown_.size());
-  for (int k = 0; k < n; ++k) y_[k] = scale_[k] * rhs[unknown_[k]];
+  const int n = static_cast<int>(order_->unknown.size());
+  for (int k = 0; k < n; ++k) y_[k] = scale_[k] * rhs[order_->unknown[k]];
   std::fill(y_.begin() + n, y_.end(), 0);
   for (int k = 0; k < padded_; k += block) eliminate(k);
   for (int k = padded_ - block; k >= 0; k -= block) substitute(k);
   x.resize(n);
-  for (int k = 0; k < n; ++k) x[unknown_[k]] = y_[k];
+  for (int k = 0; k < n; ++k) x[order_->unknown[k]] = y_[k];
 }
 
 void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const {
-  const int n = static_cast<int>(unknown_.size()), p = static_cast<int>(unknowns.size());
+  const int n = static_cast<int>(order_->unknown.size()), p = static_cast<int>(unknowns.size());
   columns.resize(n, p);
   std::vector<Eigen::Array4d> y(y_.size());
   for (int first = 0; first < p; first += block) {
@@ -195,7 +201,7 @@ void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& co
     std::fill(y.begin(), y.end(), Eigen::Array4d::Zero());
     int start = padded_;
     for (int j = first; j < last; ++j) {
-      const int k = place_[unknowns[j]];
+      const int k = order_->place[unknowns[j]];
       y[k][j - first] = scale_[k];
       start = std::min(start, k);
     }
@@ -211,7 +217,7 @@ void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& co
       y[k] *= inverse_[k];
     }
     for (int j = first; j < last; ++j)
-      for (int k = 0; k < n; ++k) columns(unknown_[k], j) = y[k][j - first];
+      for (int k = 0; k < n; ++k) columns(order_->unknown[k], j) = y[k][j - first];
   }
 }
 

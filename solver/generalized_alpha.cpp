@@ -141,6 +141,7 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
   if (!(step > 0) || !(limit > 0)) return report;
   double h = std::min(step, limit);
   scale_ = system_->coordinate_scale();
+  inverse_scale_ = scale_.cwiseInverse();
   for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
@@ -172,15 +173,15 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     evaluate_residual(step);
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
-    const bool is_kept = linearisation_ != nullptr;
-    if (!linearise(is_kept ? linearisation_ : std::make_shared<Linearisation>(Linearisation{trial_, step})))
+    const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
+    if (!is_kept && !linearise(std::make_shared<Linearisation>(Linearisation{trial_, step})))
       return StepStatus::singular_matrix;
-    if (is_kept && i == 0 && !renew_moving_part()) return StepStatus::singular_matrix;
-    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
+    report.residual_norm = residual_.cwiseProduct(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
-    if (!all_finite(trial_)) return StepStatus::not_converged;
+    if (!correction_.allFinite()) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
-    const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+    const double correction =
+        correction_.head(scale_.size()).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
     const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
@@ -217,9 +218,7 @@ bool GeneralizedAlphaIntegrator::renew_moving_part() {
   if (moving_part_.size() == 0) return true;
   system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
   moved_part_ -= moving_part_;
-  if (solver_.update(moved_part_)) return true;
-  linearisation_ = factorised_ = nullptr;
-  return false;
+  return solver_.update(moved_part_);
 }
 
 TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
@@ -257,7 +256,7 @@ void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
 
 /// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
 /// rows: what the accelerations move the constraint in the step. Both: the round-off of the matrix times the
-/// unknowns, weighted so that it passes the tolerance. All where the matrix was taken.
+/// unknowns, weighted so that it passes the tolerance. All where the matrix was taken; its inverse.
 void GeneralizedAlphaIntegrator::measure_reference() {
   const State& at = linearisation_->state;
   const Eigen::Index n = at.q.size();
@@ -286,7 +285,8 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   }
   const double work =
       scale_.cwiseProduct(force.cwiseAbs().cwiseMax(constraint_force.cwiseAbs())).lpNorm<Eigen::Infinity>();
-  reference_.head(n) += scaling / mass_scale_ * work * scale_.cwiseInverse();
+  reference_.head(n) += scaling / mass_scale_ * work * inverse_scale_;
+  reference_ = reference_.cwiseInverse();
 }
 
 /// One Newton correction of the trial state: of q directly, of v, a and alg as the method's formulas follow
@@ -309,7 +309,7 @@ void GeneralizedAlphaIntegrator::correct(double step) {
 double GeneralizedAlphaIntegrator::local_error(double step) const {
   const Eigen::VectorXd change = trial_algorithmic_ - start_algorithmic_;
   return std::abs(parameters_.position_error) * step * step *
-         change.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+         change.cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
 }
 
 /// A proportional-integral controller for a local error of third degree; no growth right after a rejection.

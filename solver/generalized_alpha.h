@@ -102,9 +102,10 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   Eigen::VectorXd trial_algorithmic_;
   Eigen::VectorXd residual_;    ///< (n+m) scaled
   Eigen::VectorXd correction_;  ///< (n+m) scaled
-  Eigen::VectorXd reference_;   ///< (n+m) what the scaled residual is compared with, where factorised_ is
-  Eigen::VectorXd scale_;       ///< (n) coordinate scale
-  Eigen::MatrixXd moved_part_;  ///< what the moving part is by now more than in kkt_
+  Eigen::VectorXd
+      reference_;  ///< (n+m) inverse of what the scaled residual is compared with, where factorised_ is
+  Eigen::VectorXd scale_, inverse_scale_;  ///< (n) of the coordinates
+  Eigen::MatrixXd moved_part_;             ///< what the moving part is by now more than in kkt_
 };
 
 }  // namespace nurbeam

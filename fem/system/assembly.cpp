@@ -50,11 +50,12 @@ void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eig
 
 }  // namespace
 
-// The elements of one beam: those whose forces are found side by side, and the indices of the others.
+// The elements of one beam: those whose forces are found side by side, with their indices in the order of the
+// batches, and the indices of the others.
 template <int D>
 struct Assembly<D>::Walk {
   std::vector<ElementBatch<D>> batches;
-  std::vector<int> others;
+  std::vector<int> batched, others;
 };
 
 // Takes the tangent matrices of one force.
@@ -97,13 +98,14 @@ void Assembly<D>::batch_elements() {
   walks_.resize(model_->beams.size());
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
-    auto& [batches, others] = walks_[e.beam];
+    auto& [batches, batched, others] = walks_[e.beam];
     if (e.twist || !ElementBatch<D>::takes(e.element)) {
       others.push_back(i);
       continue;
     }
     if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
     batches.back().add(e.element, e.dofs, e.slope_offset);
+    batched.push_back(i);
   }
 }
 
@@ -477,6 +479,26 @@ void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& l
               values);
 }
 
+// Of all batches of a beam.
+template <int D>
+void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
+                                     double* values) const {
+  constexpr int nodal = ElementLayout<D>::nodal;
+  const auto& [batches, batched, others] = walks_[beam];
+  if (batches.empty()) return;  // a guide has no elements
+  const double strain = free_strain(elements_[mesh_.first_span[beam]], state);
+  auto index = batched.begin();
+  typename ElementBatch<D>::Tangents K;
+  for (const ElementBatch<D>& batch : batches) {
+    batch.tangents(state, strain, w, K);
+    for (int lane = 0; lane < batch.count(); ++lane, ++index) {
+      const int* position = element_blocks_[*index].values.data();
+      for (int j = 0; j < nodal; ++j)
+        for (int i = 0; i < nodal; ++i) values[position[j * element_size<D> + i]] += K[j][i].of[lane];
+    }
+  }
+}
+
 template <int D>
 void Assembly<D>::add_constraint_tangent(int i, const State& state, const TangentWeights& w,
                                          const ConstraintBlock& block, double* values) const {
@@ -509,8 +531,14 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
   const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
   for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
     const Vector load = line_load(b, state);
-    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i)
+    const auto add_one = [&](int i) {
       add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
+    };
+    if (model_->beams[b].properties.is_damped())
+      std::for_each(walks_[b].batched.begin(), walks_[b].batched.end(), add_one);
+    else
+      add_batch_tangents(b, state, w, values);
+    std::for_each(walks_[b].others.begin(), walks_[b].others.end(), add_one);
   }
   for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
     const Sink sink{element_blocks_, twist_blocks_, force_blocks_[i], values};

@@ -117,6 +117,7 @@ class Assembly final : public SecondOrderSystem {
   Vector line_load(int beam, const State& state) const;
   void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
                            const Block& block, const Block& twist_block, double* values) const;
+  void add_batch_tangents(int beam, const State& state, const TangentWeights& w, double* values) const;
   void add_constraint_tangent(int i, const State& state, const TangentWeights& w,
                               const ConstraintBlock& block, double* values) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
