@@ -370,23 +370,30 @@ void Assembly<D>::carry_bodies(State& state) const {
 }
 
 template <int D>
-void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
-                           Eigen::Ref<Eigen::VectorXd> constraints) const {
+int Assembly<D>::part_count(int beam) const {
+  return static_cast<int>(walks_[beam].batches.size() + walks_[beam].others.size());
+}
+
+// Batches come first.
+template <int D>
+void Assembly<D>::add_part(int beam, int part, const State& state, const Vector& load,
+                           Eigen::Ref<Eigen::VectorXd> dynamics) const {
+  const auto& [batches, others] = walks_[beam];
+  const int batch_count = static_cast<int>(batches.size());
+  if (part < batch_count)
+    return batches[part].add_forces(state, load, free_strain_of(beam, state), dynamics.data());
+  const MeshElement<D>& e = elements_[others[part - batch_count]];
+  const ElementVector<D> f = element_force(e, state, load);
+  for (int k = 0; k < element_size<D>; ++k)
+    if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
+  if constexpr (D == 3)
+    if (e.twist) add_twist_force(e, state, dynamics);
+}
+
+template <int D>
+void Assembly<D>::add_forces_and_constraints(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                                             Eigen::Ref<Eigen::VectorXd> constraints) const {
   const MeshedBeams<D> at = beams();
-  dynamics.setZero();
-  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
-    const Vector load = line_load(b, state);
-    for (const ElementBatch<D>& batch : walks_[b].batches)
-      batch.add_forces(state, load, free_strain(elements_[mesh_.first_span[b]], state), dynamics.data());
-    for (const int i : walks_[b].others) {
-      const MeshElement<D>& e = elements_[i];
-      const ElementVector<D> f = element_force(e, state, load);
-      for (int k = 0; k < element_size<D>; ++k)
-        if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
-      if constexpr (D == 3)
-        if (e.twist) add_twist_force(e, state, dynamics);
-    }
-  }
   for (const BoundForce<D>& force : forces_)
     std::visit(
         [&](const auto& f) {
@@ -407,6 +414,64 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
         dynamics[block.block.dofs[k]] +=
             terms.gradient.col(static_cast<Eigen::Index>(k)).dot(state.lambda.segment(block.row, rows));
   }
+}
+
+template <int D>
+void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                           Eigen::Ref<Eigen::VectorXd> constraints) const {
+  dynamics.setZero();
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    const Vector load = line_load(b, state);
+    for (int part = 0; part < part_count(b); ++part) add_part(b, part, state, load, dynamics);
+  }
+  add_forces_and_constraints(state, dynamics, constraints);
+}
+
+template <int D>
+std::vector<bool> Assembly<D>::parts_unlike(const Assembly& other, const State& state) const {
+  constexpr double rounding = 1e-12;
+  for (std::size_t b = 0; b < walks_.size(); ++b)
+    if (walks_[b].others != other.walks_[b].others ||
+        walks_[b].batches.size() != other.walks_[b].batches.size())
+      return {};
+  std::vector<bool> unlike;
+  Eigen::VectorXd own(mesh_.coordinate_count), others(mesh_.coordinate_count);
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b)
+    for (int part = 0; part < part_count(b); ++part) {
+      const int i = part - static_cast<int>(walks_[b].batches.size());
+      unlike.push_back(i >= 0 && !elements_[walks_[b].others[i]].element.fixed());
+      if (unlike.back()) continue;
+      own.setZero();
+      others.setZero();
+      add_part(b, part, state, Vector::Ones(), own);
+      other.add_part(b, part, state, Vector::Ones(), others);
+      unlike.back() = !((own - others).norm() <= rounding * own.norm());
+    }
+  return unlike;
+}
+
+template <int D>
+void Assembly<D>::residuals(const Assembly& other, const std::vector<bool>& unlike, const State& state,
+                            const State& other_state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                            Eigen::Ref<Eigen::VectorXd> constraints,
+                            Eigen::Ref<Eigen::VectorXd> other_dynamics,
+                            Eigen::Ref<Eigen::VectorXd> other_constraints) const {
+  dynamics.setZero();
+  other_dynamics.setZero();
+  int first = 0;
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    if (part_count(b) == 0) continue;
+    const Vector load = line_load(b, state), other_load = other.line_load(b, other_state);
+    const bool all = unlike.empty() || load != other_load ||
+                     free_strain_of(b, state) != other.free_strain_of(b, other_state);
+    for (int part = 0; part < part_count(b); ++part)
+      if (all || unlike[first + part]) add_part(b, part, state, load, dynamics);
+    for (int part = 0; part < other.part_count(b); ++part)
+      if (all || unlike[first + part]) other.add_part(b, part, other_state, other_load, other_dynamics);
+    first += part_count(b);
+  }
+  add_forces_and_constraints(state, dynamics, constraints);
+  other.add_forces_and_constraints(other_state, other_dynamics, other_constraints);
 }
 
 template <int D>

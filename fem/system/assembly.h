@@ -55,6 +55,16 @@ class Assembly final : public SecondOrderSystem {
   std::pair<double, double> length_and_force(int i, const State& state) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
+  /// Which parts of the walk over elements, in its order, answer otherwise to a state than those of `other`,
+  /// a system of the same mesh, apart from loads and free strains: to round-off; always those whose ends
+  /// move. Empty where the parts of the two do not correspond.
+  std::vector<bool> parts_unlike(const Assembly& other, const State& state) const;
+  /// The residual at `state` and that of `other` at `other_state`, both without what comes from parts that
+  /// are not `unlike`, as parts_unlike has found them, and has the same loads and free strains.
+  void residuals(const Assembly& other, const std::vector<bool>& unlike, const State& state,
+                 const State& other_state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                 Eigen::Ref<Eigen::VectorXd> constraints, Eigen::Ref<Eigen::VectorXd> other_dynamics,
+                 Eigen::Ref<Eigen::VectorXd> other_constraints) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
   /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
@@ -101,6 +111,14 @@ class Assembly final : public SecondOrderSystem {
   void build_pattern();
   Vector line_load(int beam, const State& state) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
+  double free_strain_of(int beam, const State& state) const {
+    return free_strain(elements_[mesh_.first_span[beam]], state);
+  }
+  int part_count(int beam) const;
+  void add_part(int beam, int part, const State& state, const Vector& load,
+                Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  void add_forces_and_constraints(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                                  Eigen::Ref<Eigen::VectorXd> constraints) const;
 
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;
