@@ -2,10 +2,37 @@
 
 namespace nurbeam {
 
-MotionTangent MotionTangent::zero(int coordinates, int constraints) {
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(coordinates);
-  return {
-      {.t = 0, .q = none, .v = none, .a = none, .lambda = Eigen::VectorXd::Zero(constraints)}, none, none, 0};
+MotionTangents MotionTangents::zero(Eigen::Index coordinates, Eigen::Index constraints,
+                                    Eigen::Index parameters) {
+  const Matrix none = Matrix::Zero(coordinates, parameters);
+  const Eigen::RowVectorXd zeros = Eigen::RowVectorXd::Zero(parameters);
+  return {zeros, zeros, none, none, none, Matrix::Zero(constraints, parameters), none, none};
+}
+
+State MotionTangents::of(Eigen::Index parameter) const {
+  return {.t = t[parameter],
+          .q = q.col(parameter),
+          .v = v.col(parameter),
+          .a = a.col(parameter),
+          .lambda = lambda.col(parameter)};
+}
+
+void MotionTangents::move(Eigen::Index parameter, const State& tangent, double part) {
+  t[parameter] += part * tangent.t;
+  q.col(parameter) += part * tangent.q;
+  v.col(parameter) += part * tangent.v;
+  a.col(parameter) += part * tangent.a;
+  lambda.col(parameter) += part * tangent.lambda;
+}
+
+void MotionTangents::start_afresh(Eigen::Index parameter, const State& tangent) {
+  t[parameter] = tangent.t;
+  last_step[parameter] = 0;
+  q.col(parameter) = tangent.q;
+  v.col(parameter) = tangent.v;
+  a.col(parameter) = algorithmic_acceleration.col(parameter) = tangent.a;
+  lambda.col(parameter) = tangent.lambda;
+  jerk.col(parameter).setZero();
 }
 
 StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system,
@@ -40,47 +67,72 @@ StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSyst
   regular_ = solver_.factorise(kkt);
 }
 
-MotionTangent StepTangent::end(const MotionTangent& start, double step, const Eigen::VectorXd& dynamics,
-                               const Eigen::VectorXd& constraints) const {
+MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVectorXd& step,
+                                const Matrix& dynamics, const Matrix& constraints) const {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const State& from = start.state;
-  const Eigen::Index n = from.q.size(), m = from.lambda.size();
-  Eigen::VectorXd alg = start_ == Start::afresh ? from.a : start.algorithmic_acceleration;
-  if (start_ == Start::moved)
-    alg += (alpha_m - alpha_f) * ((step - start.last_step) * jerk_ + (h_ - last_step_) * start.jerk);
+  const Eigen::Index n = start.q.rows(), m = start.lambda.rows(), parameters = start.parameters();
+  Matrix alg = start_ == Start::afresh ? start.a : start.algorithmic_acceleration;
+  if (start_ == Start::moved) {
+    alg += (alpha_m - alpha_f) * (h_ - last_step_) * start.jerk;
+    alg.noalias() += (alpha_m - alpha_f) * jerk_ * (step - start.last_step);
+  }
 
   // With the algorithmic acceleration at the end as it is.
-  MotionTangent end;
-  end.state.t = from.t + step;
-  end.state.q = from.q + h_ * from.v + h_ * h_ * (0.5 - beta) * alg +
-                step * (before_.v + 2 * h_ * ((0.5 - beta) * start_algorithmic_ + beta * end_algorithmic_));
-  end.state.v =
-      from.v + h_ * (1 - gamma) * alg + step * ((1 - gamma) * start_algorithmic_ + gamma * end_algorithmic_);
-  end.state.a = (alpha_m * alg - alpha_f * from.a) / (1 - alpha_f);
+  MotionTangents end = MotionTangents::zero(n, m, parameters);
+  end.t = start.t + step;
+  end.q = start.q + h_ * start.v + h_ * h_ * (0.5 - beta) * alg;
+  end.v = start.v + h_ * (1 - gamma) * alg;
+  end.a = (alpha_m * alg - alpha_f * start.a) / (1 - alpha_f);
+  const bool other_length = !step.isZero(0);
+  if (other_length) {
+    end.q.noalias() +=
+        (before_.v + 2 * h_ * ((0.5 - beta) * start_algorithmic_ + beta * end_algorithmic_)) * step;
+    end.v.noalias() += ((1 - gamma) * start_algorithmic_ + gamma * end_algorithmic_) * step;
+  }
 
   // The correction of q for which the residual stays zero, and what follows it.
-  const auto padded = [&](const Eigen::VectorXd& x) {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(n + m);
-    all.head(n) = x;
-    return all;
-  };
-  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n + m);
-  rhs -= stiffness_ * padded(end.state.q);
-  rhs.head(n) -= (damping_ * padded(end.state.v) + mass_ * padded(end.state.a)).head(n) + dynamics;
-  rhs.tail(m) -= constraints;
-  rhs.head(n) *= beta * h_ * h_ / mass_scale_;
-  const Eigen::VectorXd x = solver_.solve(rhs);
-  const auto dq = x.head(n);
+  Matrix rhs = -residual_of(end);
+  rhs.topRows(n) -= dynamics;
+  rhs.bottomRows(m) -= constraints;
+  rhs.topRows(n) *= beta * h_ * h_ / mass_scale_;
+  const Matrix x = solve(rhs);
+  const auto dq = x.topRows(n);
   const double acceleration = 1 / (beta * h_ * h_);
   end.algorithmic_acceleration = acceleration * dq;
-  end.state.q += dq;
-  end.state.v += gamma * h_ * end.algorithmic_acceleration;
-  end.state.a += (1 - alpha_m) / (1 - alpha_f) * end.algorithmic_acceleration;
-  end.state.lambda = mass_scale_ * acceleration * x.tail(m);
-  end.jerk =
-      (end.algorithmic_acceleration - alg) / h_ - step / (h_ * h_) * (end_algorithmic_ - start_algorithmic_);
+  end.q += dq;
+  end.v += gamma * h_ * end.algorithmic_acceleration;
+  end.a += (1 - alpha_m) / (1 - alpha_f) * end.algorithmic_acceleration;
+  end.lambda = mass_scale_ * acceleration * x.bottomRows(m);
+  end.jerk = (end.algorithmic_acceleration - alg) / h_;
+  if (other_length) end.jerk.noalias() -= (end_algorithmic_ - start_algorithmic_) / (h_ * h_) * step;
   end.last_step = step;
   return end;
+}
+
+// M a + D v + K q with the rows of constraints, G q, of all parameters.
+StepTangent::Matrix StepTangent::residual_of(const MotionTangents& end) const {
+  const Eigen::Index n = end.q.rows();
+  Matrix sum = Matrix::Zero(n + end.lambda.rows(), end.parameters());
+  for (Eigen::Index column = 0; column < n; ++column)
+    for (int k = stiffness_.outerIndexPtr()[column]; k < stiffness_.outerIndexPtr()[column + 1]; ++k) {
+      const int row = stiffness_.innerIndexPtr()[k];
+      sum.row(row) += stiffness_.valuePtr()[k] * end.q.row(column);
+      if (row >= n) continue;
+      if (const double d = damping_.valuePtr()[k]; d != 0) sum.row(row) += d * end.v.row(column);
+      if (const double m = mass_.valuePtr()[k]; m != 0) sum.row(row) += m * end.a.row(column);
+    }
+  return sum;
+}
+
+StepTangent::Matrix StepTangent::solve(const Matrix& rhs) const {
+  Matrix x(rhs.rows(), rhs.cols());
+  Eigen::VectorXd right, left;
+  for (Eigen::Index parameter = 0; parameter < rhs.cols(); ++parameter) {
+    right = rhs.col(parameter);
+    solver_.solve(right, left);
+    x.col(parameter) = left;
+  }
+  return x;
 }
 
 }  // namespace nurbeam

@@ -117,7 +117,7 @@ template <int D>
 ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const {
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   ElementMatrix<D> K = ElementMatrix<D>::Zero();
-  const bool mass_alone = w.stiffness == 0 && w.damping == 0;
+  const bool mass_alone = w.stiffness == 0 && (w.damping == 0 || !properties_->is_damped());
   for (const PointPack& pack : packs_) {
     if (mass_alone || !strains_at_points(*properties_)) break;
     for (int g = 0; g < PointPack::points; ++g) {

@@ -98,9 +98,8 @@ std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& stat
   return records;
 }
 
-ProbeRecord record_probe(const BeamSystem& system, const State& state,
-                         const std::vector<SpanResultants>& carried, const std::vector<BeamRecord>& beams,
-                         const ProbePlace& probe) {
+// Without its section.
+ProbeRecord record_place(const BeamSystem& system, const State& state, const ProbePlace& probe) {
   const MaterialPoint<3> p = material_point(system, state, probe.beam, probe.s);
   ProbeRecord record;
   record.position = p.r;
@@ -108,10 +107,18 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state,
   if (system.model().beams[probe.beam].rigid) {
     record.section.curvature = p.rss.norm();
     record.section.stress = SectionRecord::no_number;
-    return record;
+  } else {
+    record.displacement = p.r - system.model().beams[probe.beam].curve.position(probe.s);
   }
+  return record;
+}
+
+ProbeRecord record_probe(const BeamSystem& system, const State& state,
+                         const std::vector<SpanResultants>& carried, const std::vector<BeamRecord>& beams,
+                         const ProbePlace& probe) {
+  ProbeRecord record = record_place(system, state, probe);
+  if (system.model().beams[probe.beam].rigid) return record;
   const int span = find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
-  record.displacement = p.r - system.model().beams[probe.beam].curve.position(probe.s);
   record.section = section_at(system, state, span, carried[span], probe.s);
   record.section.twist += beams[probe.beam].elements[span - system.mesh().first_span[probe.beam]].twist[0];
   return record;
@@ -135,15 +142,19 @@ std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& stat
   return record_beams(system, state, stress_resultants(system, state));
 }
 
-Snapshot record_snapshot(const BeamSystem& system, const State& state,
-                         const std::vector<ProbePlace>& probes) {
+Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
+                         const SnapshotContents& contents) {
   const BeamModel& model = system.model();
   Snapshot snapshot;
   snapshot.time = state.t;
-  const std::vector<SpanResultants> carried = stress_resultants(system, state);
-  snapshot.beams = record_beams(system, state, carried);
+  std::vector<SpanResultants> carried;
+  if (contents.beams || contents.sections) {
+    carried = stress_resultants(system, state);
+    snapshot.beams = record_beams(system, state, carried);
+  }
   for (const ProbePlace& probe : probes)
-    snapshot.probes.push_back(record_probe(system, state, carried, snapshot.beams, probe));
+    snapshot.probes.push_back(contents.sections ? record_probe(system, state, carried, snapshot.beams, probe)
+                                                : record_place(system, state, probe));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
@@ -163,6 +174,7 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state,
     const auto [length, force] = length_and_force(system, state, i);
     snapshot.connectors.push_back({length, force});
   }
+  if (!contents.energy) return snapshot;
   const SystemEnergy e = energy(system, state);
   snapshot.energy = {.kinetic = e.kinetic,
                      .gravity = e.gravity,

@@ -108,11 +108,19 @@ struct SnapshotNames {
   bool friction = false, springs = false;
 };
 
+/// What a snapshot is taken of, besides points, bodies, reactions and connectors.
+struct SnapshotContents {
+  bool beams = true;
+  bool sections = true;  ///< of probes: else their SectionRecord says nothing
+  bool energy = true;
+};
+
 /// The beams of a state.
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state);
 
 /// A state with its beams, bodies, probes and energies (dissipated: none), in the model's own coordinates;
-/// what is known of steps is left empty.
-Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes);
+/// what is known of steps is left empty, as is what is not among `contents`.
+Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
+                         const SnapshotContents& contents = {});
 
 }  // namespace nurbeam

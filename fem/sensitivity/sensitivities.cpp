@@ -10,6 +10,7 @@
 #include "fem/motion/free_lengths.h"
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
+#include "fem/sensitivity/residual_difference.h"
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
@@ -40,6 +41,11 @@ State rate(const State& more, const State& less, double step) {
           .lambda = per * (more.lambda - less.lambda)};
 }
 
+State still(Eigen::Index coordinates, Eigen::Index constraints) {
+  const Vector none = Vector::Zero(coordinates);
+  return {.t = 0, .q = none, .v = none, .a = none, .lambda = Vector::Zero(constraints)};
+}
+
 void check_tangents(const BeamModel& model) {
   if (no_memory(model).size() > 0)
     throw std::invalid_argument(
@@ -59,12 +65,12 @@ void check_tangents(const BeamModel& model) {
 struct Sensitivities::Parameter {
   NeighbourPair pair;
   std::unique_ptr<BeamSystem> more = nullptr, less = nullptr;
-  MotionTangent tangent = {};
+  std::optional<ResidualDifference> difference = {};  // of these
 
-  // What `change` makes of the neighbours of a state.
-  void change(const State& from, const std::function<bool(MeshedState&)>& change) {
-    MeshedState above{std::move(more), moved(from, tangent.state, pair.step)},
-        below{std::move(less), moved(from, tangent.state, -pair.step)};
+  // The tangent after what `change` makes of the neighbours of a state.
+  State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change) {
+    MeshedState above{std::move(more), moved(from, tangent, pair.step)},
+        below{std::move(less), moved(from, tangent, -pair.step)};
     if (!change(above) || !change(below))
       throw std::runtime_error(
           "a derivative cannot follow the run through an event at t = " + text_of(from.t) + " s");
@@ -73,20 +79,8 @@ struct Sensitivities::Parameter {
     if (above.state.q.size() != below.state.q.size() ||
         above.state.lambda.size() != below.state.lambda.size())
       not_alike("what happens at an event changes");
-    start_afresh(rate(above.state, below.state, pair.step));
+    return rate(above.state, below.state, pair.step);
   }
-
-  // As an integrator does.
-  void start_afresh(State tangent_state) {
-    tangent.algorithmic_acceleration = tangent_state.a;
-    tangent.jerk = Vector::Zero(tangent_state.q.size());
-    tangent.last_step = 0;
-    tangent.state = std::move(tangent_state);
-  }
-};
-
-struct Sensitivities::Difference {
-  Vector dynamics, constraints;
 };
 
 // Of the neighbours of all parameters; and the joints that they hold.
@@ -98,8 +92,14 @@ struct Sensitivities::Meshes {
 struct Sensitivities::Record {
   State state;
   bool of_the_moment;
-  std::vector<State> tangents;
+  MotionTangents tangents;
   std::shared_ptr<const Meshes> meshes;
+};
+
+// By the length of a step that lands on an event: the tangent, and of the distance to it.
+struct Sensitivities::Longer {
+  State tangent;
+  double approach;
 };
 
 Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters)
@@ -116,29 +116,40 @@ Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<Neigh
 
 Sensitivities::~Sensitivities() = default;
 
-// Half the difference of the residual of the neighbours at a state whose time changes too.
-Sensitivities::Difference Sensitivities::residual_change(const Parameter& parameter, const State& at,
-                                                         double time) const {
-  const auto residual = [&](const BeamSystem& system, double part) {
-    State state = at;
-    state.t += part * time;
-    Difference r{Vector(at.q.size()), Vector(at.lambda.size())};
-    system.residual(state, r.dynamics, r.constraints);
-    return r;
-  };
-  const double step = parameter.pair.step;
-  const Difference more = residual(*parameter.more, step), less = residual(*parameter.less, -step);
-  return {(more.dynamics - less.dynamics) / (2 * step), (more.constraints - less.constraints) / (2 * step)};
+// With these tangents by each parameter.
+void Sensitivities::start_afresh(const MeshedState& at, const std::vector<State>& tangents) {
+  tangents_ = MotionTangents::zero(at.state.q.size(), at.state.lambda.size(),
+                                   static_cast<Eigen::Index>(tangents.size()));
+  for (std::size_t k = 0; k < tangents.size(); ++k)
+    tangents_.start_afresh(static_cast<Eigen::Index>(k), tangents[k]);
+  dynamics_ = tangents_.q;
+  constraints_ = tangents_.lambda;
+  go_on_from(at);
 }
 
 void Sensitivities::go_on_from(const MeshedState& at) {
   system_ = at.system.get();
   state_ = at.state;
   meshes_ = nullptr;
+  for (Parameter& parameter : parameters_)
+    parameter.difference.emplace(*parameter.more, *parameter.less, at.state);
+}
+
+// Into the columns of dynamics_ and constraints_, at a state whose time changes too.
+void Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
+  Vector dynamics(at.q.size()), constraints(at.lambda.size());
+  for (Eigen::Index k = 0; k < time.size(); ++k) {
+    Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    parameter.difference->find(at, parameter.pair.step, time[k], dynamics, constraints);
+    dynamics_.col(k) = dynamics;
+    constraints_.col(k) = constraints;
+    work_.residuals += 2 * parameter.difference->share();
+  }
 }
 
 void Sensitivities::begins(const MeshedState& drawn) {
   const std::vector<double> kinks = kink_times(drawn.system->model());
+  std::vector<State> rates;
   for (Parameter& parameter : parameters_) {
     for (const Neighbour* each : {&parameter.pair.more, &parameter.pair.less})
       if (kink_times(*each->model) != kinks) not_alike("the times of tables or releases change");
@@ -147,11 +158,11 @@ void Sensitivities::begins(const MeshedState& drawn) {
                 less = MeshedState::drawn(parameter.pair.less.model);
     for (const MeshedState* each : {&more, &less})
       if (!same_mesh(*drawn.system, *each->system)) not_alike("the mesh changes");
-    parameter.start_afresh(rate(more.state, less.state, parameter.pair.step));
+    rates.push_back(rate(more.state, less.state, parameter.pair.step));
     parameter.more = std::move(more.system);
     parameter.less = std::move(less.system);
   }
-  if (!begins_at_rest_) go_on_from(drawn);
+  if (!begins_at_rest_) start_afresh(drawn, rates);
 }
 
 void Sensitivities::rests(const MeshedState& at) {
@@ -159,6 +170,7 @@ void Sensitivities::rests(const MeshedState& at) {
   Eigen::SparseMatrix<double> stiffness = at.system->tangent_pattern();
   at.system->tangent(at.state, {.stiffness = 1}, stiffness);
   const EquilibratedKkt kkt(stiffness, n);
+  ++work_.tangents;
   if (!kkt.regular())
     throw std::runtime_error("an equilibrium has no derivative where its tangent is singular");
   for (Parameter& parameter : parameters_) {
@@ -166,69 +178,79 @@ void Sensitivities::rests(const MeshedState& at) {
     parameter.less = at_rest_like(at, parameter.pair.less.model);
     for (const BeamSystem* each : {parameter.more.get(), parameter.less.get()})
       if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
-    const Difference change = residual_change(parameter, at.state, 0);
-    Vector rhs(n + m);
-    rhs << -change.dynamics, -change.constraints;
-    const Vector x = kkt.solve(rhs);
-    parameter.start_afresh(
-        {.t = 0, .q = x.head(n), .v = Vector::Zero(n), .a = Vector::Zero(n), .lambda = x.tail(m)});
   }
-  go_on_from(at);
+  start_afresh(at, std::vector<State>(parameters_.size(), still(n, m)));
+  find_residual_changes(at.state, tangents_.t);
+  Vector rhs(n + m);
+  for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
+    rhs << -dynamics_.col(k), -constraints_.col(k);
+    const Vector x = kkt.solve(rhs);
+    State tangent = still(n, m);
+    tangent.q = x.head(n);
+    tangent.lambda = x.tail(m);
+    tangents_.start_afresh(k, tangent);
+    ++work_.solves;
+  }
+}
+
+Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step, const StepTangent& tangent) const {
+  const double h = step.after.t - step.before.t, shift = 1e-4 * h;
+  const Eigen::Index n = step.after.q.size(), m = step.after.lambda.size();
+  State later = step.after, sooner = step.after;
+  later.t += shift;
+  sooner.t -= shift;
+  Vector more(n), less(n), more_constraints(m), less_constraints(m);
+  system_->residual(later, more, more_constraints);
+  system_->residual(sooner, less, less_constraints);
+  const State longer =
+      tangent
+          .end(MotionTangents::zero(n, m, 1), Eigen::RowVectorXd::Ones(1), (more - less) / (2 * shift),
+               (more_constraints - less_constraints) / (2 * shift))
+          .of(0);
+  const double beyond = step.beyond(*system_, moved(step.after, longer, shift)) -
+                        step.beyond(*system_, moved(step.after, longer, -shift));
+  return {longer, beyond / (2 * shift)};
 }
 
 void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
   const StepTangent tangent(settings_, *system_, step.before, step.history, step.after, step.repeated);
+  ++work_.tangents;
   if (!tangent.regular())
     throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
-  const double shift = 1e-4;  // of the step, for derivatives by time
-  MotionTangent longer;       // by the step's length
-  double approach = 0;
-  const auto beyond = [&](const BeamSystem& system, const State& along, double part) {
-    return step.beyond(system, moved(step.after, along, part));
-  };
+  Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(tangents_.parameters());  // of the step's length
+  if (!step.beyond) change = -h / step.rest * tangents_.t;
+  find_residual_changes(step.after, tangents_.t + change);
+  tangents_ = tangent.end(tangents_, change, dynamics_, constraints_);
+  work_.solves += tangents_.parameters();
   if (step.beyond) {
-    const int n = system_->coordinate_count(), m = system_->constraint_count();
-    State later = step.after, sooner = step.after;
-    later.t += shift * h;
-    sooner.t -= shift * h;
-    Vector more(n), less(n), more_constraints(m), less_constraints(m);
-    system_->residual(later, more, more_constraints);
-    system_->residual(sooner, less, less_constraints);
-    longer = tangent.end(MotionTangent::zero(n, m), 1, (more - less) / (2 * shift * h),
-                         (more_constraints - less_constraints) / (2 * shift * h));
-    approach = (beyond(*system_, longer.state, shift * h) - beyond(*system_, longer.state, -shift * h)) /
-               (2 * shift * h);
-  }
-  for (Parameter& parameter : parameters_) {
-    const MotionTangent& start = parameter.tangent;
-    const double change = step.beyond ? 0 : -start.state.t * h / step.rest;  // of the step's length
-    const Difference residual = residual_change(parameter, step.after, start.state.t + change);
-    MotionTangent end = tangent.end(start, change, residual.dynamics, residual.constraints);
-    if (step.beyond) {
+    const Longer longer = by_length(step, tangent);
+    for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
+      const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
       const double p = parameter.pair.step;
-      const double late = -(beyond(*parameter.more, end.state, p) - beyond(*parameter.less, end.state, -p)) /
-                          (2 * p) / approach;
-      end.state = moved(end.state, longer.state, late);
+      const State end = tangents_.of(k);
+      const double late = -(step.beyond(*parameter.more, moved(step.after, end, p)) -
+                            step.beyond(*parameter.less, moved(step.after, end, -p))) /
+                          (2 * p) / longer.approach;
+      tangents_.move(k, longer.tangent, late);
     }
-    parameter.tangent = std::move(end);
   }
   state_ = step.after;
 }
 
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {
-  for (Parameter& parameter : parameters_) {
-    parameter.change(state_, change);
-    if (!same_mesh(*at.system, *parameter.more)) not_alike("what happens at an event changes");
+  std::vector<State> tangents;
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    tangents.push_back(parameters_[k].change(state_, tangents_.of(static_cast<Eigen::Index>(k)), change));
+    if (!same_mesh(*at.system, *parameters_[k].more)) not_alike("what happens at an event changes");
   }
-  go_on_from(at);
+  start_afresh(at, tangents);
 }
 
 void Sensitivities::happens(const RunEvent& event) {
   const bool of_mesh = event.kind <= EventKind::becomes_node;
-  std::vector<double> rates;
-  for (const Parameter& parameter : parameters_)
-    rates.push_back(of_mesh ? std::numeric_limits<double>::quiet_NaN() : parameter.tangent.state.t);
+  std::vector<double> rates(parameters_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!of_mesh) Eigen::RowVectorXd::Map(rates.data(), tangents_.parameters()) = tangents_.t;
   event_times_.push_back(std::move(rates));
 }
 
@@ -240,23 +262,26 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
     meshes->held = held_joints(*at.system);
     meshes_ = std::move(meshes);
   }
-  Record record{at.state, of_the_moment, {}, meshes_};
-  for (const Parameter& parameter : parameters_) record.tangents.push_back(parameter.tangent.state);
-  records_.push_back(std::move(record));
+  MotionTangents tangents = tangents_;
+  for (MotionTangents::Matrix* of_steps : {&tangents.algorithmic_acceleration, &tangents.jerk})
+    of_steps->resize(0, 0);
+  records_.push_back({at.state, of_the_moment, std::move(tangents), meshes_});
 }
 
-std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter) const {
+std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter,
+                                                        const SnapshotContents& contents) const {
   const Record& of = records_[record];
   const NeighbourPair& pair = parameters_[parameter].pair;
+  const State tangent = of.tangents.of(static_cast<Eigen::Index>(parameter));
   const bool present = of.meshes == meshes_;
   const auto snapshot = [&](const Neighbour& neighbour, const BeamSystem* now, const MeshPlan& plan,
                             double part) {
     std::optional<BeamSystem> then;
     const BeamSystem& system = present ? *now : then.emplace(neighbour.model, plan, of.meshes->held);
-    State state = moved(of.state, of.tangents[parameter], part);
+    State state = moved(of.state, tangent, part);
     if (of.of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
-    return record_snapshot(system, state, neighbour.probes);
+    return record_snapshot(system, state, neighbour.probes, contents);
   };
   const auto& [plan_of_more, plan_of_less] = of.meshes->plans[parameter];
   const Parameter& at_end = parameters_[parameter];

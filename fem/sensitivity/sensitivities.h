@@ -24,7 +24,7 @@ struct NeighbourPair {
 };
 
 /// Carries the derivatives of a motion, or of a rest, by parameters of its model along with the run: a
-/// tangent for each.
+/// tangent for each, of all at once.
 ///
 ///   - At rest: K dq + G'dlambda = -dR, G dq = -dg.
 ///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end.
@@ -34,9 +34,9 @@ struct NeighbourPair {
 ///     d(end)/dh) = 0; times of what comes after are later by as much, and later steps shorter, so that the
 ///     next time of the run is met again.
 ///
-/// dR is half the difference of the residual of the neighbours at the state of the run. What a run decides -
-/// steps of its error control, when the mesh changes - is the same for the neighbours: derivatives are those
-/// of the discrete motion with these decisions.
+/// dR is half the difference of the residual of the neighbours at the state of the run, where they differ.
+/// What a run decides - steps of its error control, when the mesh changes - is the same for the neighbours:
+/// derivatives are those of the discrete motion with these decisions.
 class Sensitivities final : public RunFollower {
  public:
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
@@ -48,10 +48,19 @@ class Sensitivities final : public RunFollower {
   /// decide when: of changes of the mesh.
   const std::vector<std::vector<double>>& event_times() const { return event_times_; }
 
+  /// What derivatives have cost, apart from changes of the mesh.
+  struct Work {
+    long tangents = 0;     ///< taken and factorised: one for each step
+    long solves = 0;       ///< with them
+    double residuals = 0;  ///< of whole systems
+  };
+  const Work& work() const { return work_; }
+
   /// At the time of snapshot `record` of the run, counted from 0, those of the models in which a parameter is
-  /// greater and less, of states step dq/dp away. Throws std::runtime_error where these have no
-  /// accelerations.
-  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter) const;
+  /// greater and less, of states step dq/dp away, with these contents. Throws std::runtime_error where these
+  /// have no accelerations.
+  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter,
+                                           const SnapshotContents& contents) const;
 
   void begins(const MeshedState& drawn) override;
   void rests(const MeshedState& at) override;
@@ -62,18 +71,23 @@ class Sensitivities final : public RunFollower {
 
  private:
   struct Parameter;
-  struct Difference;
   struct Meshes;
   struct Record;
+  struct Longer;
 
+  void start_afresh(const MeshedState& at, const std::vector<State>& tangents);
   void go_on_from(const MeshedState& at);
-  Difference residual_change(const Parameter& parameter, const State& at, double time) const;
+  void find_residual_changes(const State& at, const Eigen::RowVectorXd& time);
+  Longer by_length(const FollowedStep& step, const StepTangent& tangent) const;
 
   GeneralizedAlpha settings_;
   bool begins_at_rest_;
   std::vector<Parameter> parameters_;
+  MotionTangents tangents_;
+  MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
   const BeamSystem* system_ = nullptr;
   State state_;  // of the run
+  Work work_;
   std::vector<std::vector<double>> event_times_;
   std::vector<Record> records_;
   std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change

@@ -5,10 +5,17 @@
 #include <vector>
 
 #include "fem/constraints/constraint.h"
+#include "fem/element/element_batch.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
+
+/// Whether a constraint's gradient is the same in all states.
+template <class Constraint>
+constexpr bool is_linear() {
+  return requires { requires Constraint::linear; };
+}
 
 /// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
 /// elements.
@@ -25,7 +32,6 @@ class Assembly final : public SecondOrderSystem {
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
-  ~Assembly() override;
 
   const std::shared_ptr<const BeamModel>& model() const { return model_; }
   const Mesh& mesh() const { return mesh_; }
@@ -55,6 +61,16 @@ class Assembly final : public SecondOrderSystem {
   std::pair<double, double> length_and_force(int i, const State& state) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
+  /// Which parts of the walk over elements, in its order, answer otherwise to a state than those of `other`,
+  /// a system of the same mesh, apart from loads and free strains: to round-off; always those whose ends
+  /// move. Empty where the parts of the two do not correspond.
+  std::vector<bool> parts_unlike(const Assembly& other, const State& state) const;
+  /// The residual at `state` and that of `other` at `other_state`, both without what comes from parts that
+  /// are not `unlike`, as parts_unlike has found them, and has the same loads and free strains.
+  void residuals(const Assembly& other, const std::vector<bool>& unlike, const State& state,
+                 const State& other_state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                 Eigen::Ref<Eigen::VectorXd> constraints, Eigen::Ref<Eigen::VectorXd> other_dynamics,
+                 Eigen::Ref<Eigen::VectorXd> other_constraints) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
   /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
@@ -100,7 +116,12 @@ class Assembly final : public SecondOrderSystem {
     std::vector<Block> element_blocks, twist_blocks;  // of these elements
     std::vector<ConstraintBlock> constraint_blocks;   // of these constraints
   };
-  struct Walk;
+  // The elements of one beam: those whose forces are found side by side, with their indices in the order of
+  // the batches, and the indices of the others.
+  struct Walk {
+    std::vector<ElementBatch<D>> batches;
+    std::vector<int> batched, others;
+  };
   struct Sink;
 
   void batch_elements();
@@ -121,6 +142,14 @@ class Assembly final : public SecondOrderSystem {
   void add_constraint_tangent(int i, const State& state, const TangentWeights& w,
                               const ConstraintBlock& block, double* values) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
+  double free_strain_of(int beam, const State& state) const {
+    return free_strain(elements_[mesh_.first_span[beam]], state);
+  }
+  int part_count(int beam) const;
+  void add_part(int beam, int part, const State& state, const Vector& load,
+                Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  void add_forces_and_constraints(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                                  Eigen::Ref<Eigen::VectorXd> constraints) const;
 
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;

@@ -15,13 +15,20 @@ class Columns {
  public:
   explicit Columns(std::vector<HistoryColumn>& columns) : columns_(columns) {}
 
-  void of(const char* kind, std::size_t index, const std::string& name) {
+  void of(const std::string& kind, std::size_t index, const std::string& name) {
+    contents_ = {.beams = kind == "beam", .sections = false, .energy = kind == "energy"};
     kind_ = kind;
     index_ = index;
     name_ = name;
   }
   void add(const std::string& quantity, const char* unit, std::function<double(const Snapshot&)> value) {
-    columns_.push_back({kind_, index_, name_, quantity, unit, std::move(value)});
+    columns_.push_back({kind_, index_, name_, quantity, unit, std::move(value), contents_});
+  }
+  // Of the section of a probe.
+  void add_section(const SectionPart& part) {
+    contents_.sections = true;
+    const std::size_t i = index_;
+    add(part.column, part.unit, [i, &part](const Snapshot& f) { return f.probes[i].section.*part.value; });
   }
   // before + "x", ...: of a vector that get(frame) gives.
   template <class Get>
@@ -41,6 +48,7 @@ class Columns {
   std::vector<HistoryColumn>& columns_;
   std::string kind_, name_;
   std::size_t index_ = 0;
+  SnapshotContents contents_;
 };
 
 void add_motion(const SnapshotNames& names, Columns& columns) {
@@ -68,9 +76,7 @@ void add_forces(const SnapshotNames& names, Columns& columns) {
   for (std::size_t i = 0; i < names.probes.size(); ++i) {
     columns.of("probe", i, names.probes[i]);
     columns.add_vector("u", "m", [i](const Snapshot& f) { return f.probes[i].displacement; });
-    for (const SectionPart& part : section_parts)
-      columns.add(part.column, part.unit,
-                  [i, &part](const Snapshot& f) { return f.probes[i].section.*part.value; });
+    for (const SectionPart& part : section_parts) columns.add_section(part);
   }
   for (std::size_t i = 0; i < names.bodies.size(); ++i) {
     columns.of("body", i, names.bodies[i]);
@@ -95,9 +101,7 @@ void add_forces(const SnapshotNames& names, Columns& columns) {
 void add_own_axes(const SnapshotNames& names, Columns& columns) {
   for (std::size_t i = 0; i < names.probes.size(); ++i) {
     columns.of("probe", i, names.probes[i]);
-    for (const SectionPart& part : own_axes_parts)
-      columns.add(part.column, part.unit,
-                  [i, &part](const Snapshot& f) { return f.probes[i].section.*part.value; });
+    for (const SectionPart& part : own_axes_parts) columns.add_section(part);
   }
   for (std::size_t i = 0; i < names.beams.size(); ++i) {
     columns.of("beam", i, names.beams[i]);

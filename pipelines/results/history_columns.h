@@ -14,6 +14,7 @@ struct HistoryColumn {
   std::string name;   ///< of that object; "energy"
   std::string quantity, unit;
   std::function<double(const Snapshot&)> value;  ///< NaN where there is none
+  SnapshotContents contents;                     ///< that it is read from
 
   /// "trolley.x [m]".
   std::string heading() const { return name + "." + quantity + " [" + unit + "]"; }

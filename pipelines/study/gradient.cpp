@@ -39,12 +39,15 @@ std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vec
   constexpr double little = 1e-6;
   const std::vector<double> present = quantities(histories);
   std::vector<std::size_t> times;
-  for (std::size_t i = 0; i < histories.times().size(); ++i) {
-    Histories more = histories, less = histories;
-    more.nudge(i, little);
-    less.nudge(i, -little);
-    if (quantities(more) != present || quantities(less) != present) times.push_back(i);
-  }
+  Histories nudged = histories;
+  const auto counts = [&](std::size_t time, double part) {
+    nudged.nudge(time, part);
+    const bool changes = quantities(nudged) != present;
+    nudged.replace(time, histories);
+    return changes;
+  };
+  for (std::size_t i = 0; i < histories.times().size(); ++i)
+    if (counts(i, little) || counts(i, -little)) times.push_back(i);
   return times;
 }
 
@@ -135,7 +138,7 @@ StudyGradient VariantGradient::of_quantities(const BeamModel& model, const Histo
     pairs_[k].more.histories.begin_as(histories);
     pairs_[k].less.histories.begin_as(histories);
     for (const std::size_t time : times) {
-      const auto& [more, less] = sensitivities_->neighbours(time, k);
+      const auto& [more, less] = sensitivities_->neighbours(time, k, histories.contents());
       pairs_[k].more.histories.replace(time, more);
       pairs_[k].less.histories.replace(time, less);
     }

@@ -67,6 +67,20 @@ void Histories::replace(std::size_t time, const Snapshot& local) {
   for (std::size_t i = 0; i < columns_.size(); ++i) values_[i][time] = columns_[i].value(snapshot);
 }
 
+void Histories::replace(std::size_t time, const Histories& other) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i][time] = other.values_[i][time];
+}
+
+SnapshotContents Histories::contents() const {
+  SnapshotContents all{.beams = false, .sections = false, .energy = false};
+  for (const HistoryColumn& column : columns_) {
+    all.beams |= column.contents.beams;
+    all.sections |= column.contents.sections;
+    all.energy |= column.contents.energy;
+  }
+  return all;
+}
+
 void Histories::nudge(std::size_t time, double part) {
   for (std::vector<double>& column : values_) {
     double largest = 0;

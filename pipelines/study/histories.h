@@ -25,9 +25,13 @@ class Histories {
   void begin_as(const Histories& other);
   /// Those of one time, from a snapshot in the model's own coordinates.
   void replace(std::size_t time, const Snapshot& local);
+  /// Takes those of one time over from another run of the study.
+  void replace(std::size_t time, const Histories& other);
   /// Adds a part of the largest of each to the values of one time.
   void nudge(std::size_t time, double part);
 
+  /// What of a snapshot they are read from.
+  SnapshotContents contents() const;
   const std::vector<double>& times() const { return times_; }
   /// Null where the study does not ask for that column.
   const std::vector<double>* find(const std::string& name) const;

@@ -52,9 +52,11 @@ double error_of(const State& x, const State& y) {
 TEST(StepTangent, IsWhatDifferencesTendToWithTheSquareOfTheirStep) {
   const CartesianPendulum pendulum = pendulum_of(0), more = pendulum_of(1e-6), less = pendulum_of(-1e-6);
   GeneralizedAlphaIntegrator integrator(exact_steps, pendulum, pendulum_start(0));
-  MotionTangent tangent = MotionTangent::zero(2, 1);
-  tangent.state = rate_between(pendulum_start(1e-5), pendulum_start(-1e-5), 1e-5);
-  tangent.algorithmic_acceleration = tangent.state.a;
+  MotionTangents tangents = MotionTangents::zero(2, 1, 2);  // by p and by 3 p
+  const State at_start = rate_between(pendulum_start(1e-5), pendulum_start(-1e-5), 1e-5);
+  tangents.start_afresh(0, at_start);
+  tangents.move(1, at_start, 1.0 / 3);
+  tangents.start_afresh(1, tangents.of(1));
   for (std::size_t i = 0; i < pendulum_steps; ++i) {
     const State before = integrator.state();
     const IntegratorHistory history = integrator.history();
@@ -65,12 +67,23 @@ TEST(StepTangent, IsWhatDifferencesTendToWithTheSquareOfTheirStep) {
     more.residual(integrator.state(), above, constraint_above);
     less.residual(integrator.state(), below, constraint_below);
     const double longer = (length_of_step(i, 1e-3) - length_of_step(i, -1e-3)) / 2e-3;
-    tangent = step.end(tangent, longer, (above - below) / 2e-6, (constraint_above - constraint_below) / 2e-6);
+    const Eigen::RowVector2d parts(1, 1.0 / 3);
+    tangents = step.end(tangents, longer * parts, (above - below) / 2e-6 * parts,
+                        (constraint_above - constraint_below) / 2e-6 * parts);
   }
+  const State tangent = tangents.of(0), third = tangents.of(1);
+  const State zero = MotionTangents::zero(2, 1, 1).of(0);
+  const double size = error_of(tangent, zero);
+  EXPECT_LT(error_of({.t = 3 * third.t,
+                      .q = 3 * third.q,
+                      .v = 3 * third.v,
+                      .a = 3 * third.a,
+                      .lambda = 3 * third.lambda},
+                     tangent),
+            1e-12 * size);
   const auto error = [&](double p) {
-    return error_of(tangent.state, rate_between(pendulum_end(p), pendulum_end(-p), p));
+    return error_of(tangent, rate_between(pendulum_end(p), pendulum_end(-p), p));
   };
-  const double size = error_of(tangent.state, MotionTangent::zero(2, 1).state);
   EXPECT_NEAR(error(8e-3) / error(4e-3), 4, 0.2);
   EXPECT_LT(error(1e-4), 1e-6 * size);
 }
