@@ -23,9 +23,11 @@ Panels finer(const Panels& panels, const Speed& speed) {
   Panels fine{{panels.breaks[0]}, {0}};
   for (std::size_t k = 0; k + 1 < panels.breaks.size(); ++k) {
     const double a = panels.breaks[k], b = panels.breaks[k + 1];
+    double part = 0;
     for (int i = 1; i < parts; ++i) {
       const double u = a + (b - a) * i / parts;
-      fine.integrals.push_back(fine.integrals.back() + gauss_of_5(speed, fine.breaks.back(), u));
+      part += gauss_of_5(speed, fine.breaks.back(), u);
+      fine.integrals.push_back(panels.integrals[k] + part);
       fine.breaks.push_back(u);
     }
     fine.breaks.push_back(b);

@@ -107,6 +107,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   band_.resize(padded * static_cast<std::size_t>(width_));
   lower_.assign(padded * static_cast<std::size_t>(height_), 0);
   pivots_.resize(padded);
+  reach_.resize(padded / block);
   inverse_.resize(padded);
   y_.assign(padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block), 0);
 }
@@ -170,11 +171,14 @@ double BandedLu::factorise(const Matrix& matrix) {
       largest = std::max(largest, std::abs(pivot));
     }
     double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
+    int& reach = reach_[k / block];
+    if (k % block == 0) reach = 0;
     const int length = ends_[k] - k, last = std::min(padded_ - 1, k + b);
     for (int i = k + 1; i <= last; ++i) {
       double* below = row(i) + k - i + b;
       const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
       if (factor == 0) continue;
+      reach = std::max(reach, i);
       for (int j = 1; j < length; j += block) Four(below + j) -= factor * ConstFour(upper + j);
       ends_[i] = std::max(ends_[i], ends_[k]);
     }
@@ -195,7 +199,8 @@ void BandedLu::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
 void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const {
   const int n = static_cast<int>(order_->unknown.size()), p = static_cast<int>(unknowns.size());
   columns.resize(n, p);
-  std::vector<Eigen::Array4d> y(y_.size());
+  std::vector<Eigen::Array4d>& y = four_;
+  y.resize(y_.size());
   for (int first = 0; first < p; first += block) {
     const int last = std::min(p, first + block);
     std::fill(y.begin(), y.end(), Eigen::Array4d::Zero());
@@ -238,7 +243,7 @@ void BandedLu::eliminate(int k) const {
   y[1] -= m[0][0] * y[0];
   y[2] -= m[0][1] * y[0] + m[1][0] * y[1];
   y[3] -= m[0][2] * y[0] + m[1][1] * y[1] + m[2][0] * y[2];
-  for (int i = 0; i < half_bandwidth_; i += block)
+  for (int i = 0; k + block + i <= reach_[k / block]; i += block)
     Four(y + block + i) -= ConstFour(m[0] + i + 3) * y[0] + ConstFour(m[1] + i + 2) * y[1] +
                            ConstFour(m[2] + i + 1) * y[2] + ConstFour(m[3] + i) * y[3];
 }

@@ -49,8 +49,10 @@ class BandedLu {
   std::vector<double> inverse_;    ///< of each pivot
   std::vector<double> scale_;      ///< of each row of the matrix
   std::vector<int> pivots_;        ///< row that was brought to each place
+  std::vector<int> reach_;         ///< last row that a block of four columns of multipliers changes
   std::vector<int> ends_;          ///< one past the last column of each row of what is left, then of U
   mutable std::vector<double> y_;  ///< of solve
+  mutable std::vector<Eigen::Array4d> four_;  ///< of solve_units
 };
 
 }  // namespace nurbeam

@@ -96,6 +96,8 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   jerk_ = Eigen::VectorXd::Zero(n);
   kkt_ = system.tangent_pattern();
   mass_scale_ = mass_scale(system, state_, kkt_);
+  scale_ = system.coordinate_scale();
+  inverse_scale_ = scale_.cwiseInverse();
   trial_ = state_;
   residual_.resize(n + m);
   reference_.resize(n + m);
@@ -140,8 +142,6 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
   const double limit = system_->step_limit(state_);
   if (!(step > 0) || !(limit > 0)) return report;
   double h = std::min(step, limit);
-  scale_ = system_->coordinate_scale();
-  inverse_scale_ = scale_.cwiseInverse();
   for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
@@ -174,8 +174,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
     const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
-    if (!is_kept && !linearise(std::make_shared<Linearisation>(Linearisation{trial_, step})))
-      return StepStatus::singular_matrix;
+    if (!is_kept && !linearise(trial_point(step))) return StepStatus::singular_matrix;
     report.residual_norm = residual_.cwiseProduct(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
     if (!correction_.allFinite()) return StepStatus::not_converged;
@@ -211,6 +210,15 @@ bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> 
   measure_reference();
   factorised_ = linearisation_;
   return true;
+}
+
+/// The trial state as the place of a new matrix.
+std::shared_ptr<const Linearisation> GeneralizedAlphaIntegrator::trial_point(double step) {
+  linearisation_ = factorised_ = nullptr;
+  if (spare_.use_count() != 1) spare_ = std::make_shared<Linearisation>();
+  spare_->state = trial_;
+  spare_->step = step;
+  return spare_;
 }
 
 /// Makes the moving part of the matrix that of the trial state. False where the matrix is singular then.
@@ -263,12 +271,12 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   const Eigen::Index m = at.lambda.size();
   const double scaling = parameters_.beta * linearisation_->step * linearisation_->step;
   const double floor = round_off / settings_.newton_tolerance;
-  State unaccelerated = at;
-  unaccelerated.a.setZero();
-  unaccelerated.lambda.setZero();
-  Eigen::VectorXd force(n), constraints(m);
-  system_->residual(unaccelerated, force, constraints);
-  Eigen::VectorXd constraint_force = Eigen::VectorXd::Zero(n);
+  unaccelerated_ = at;
+  unaccelerated_.a.setZero();
+  unaccelerated_.lambda.setZero();
+  force_.resize(n + m);
+  system_->residual(unaccelerated_, force_.head(n), force_.tail(m));
+  constraint_force_.setZero(n);
   reference_.setConstant(std::numeric_limits<double>::min());
   for (Eigen::Index column = 0; column < n + m; ++column) {
     const bool is_multiplier = column >= n;
@@ -280,11 +288,11 @@ void GeneralizedAlphaIntegrator::measure_reference() {
       if (row >= n && !is_multiplier)
         reference_[row] += scaling * std::abs(entry.value() * at.a[column]);
       else if (row < n && is_multiplier)
-        constraint_force[row] += entry.value() * at.lambda[column - n];
+        constraint_force_[row] += entry.value() * at.lambda[column - n];
     }
   }
-  const double work =
-      scale_.cwiseProduct(force.cwiseAbs().cwiseMax(constraint_force.cwiseAbs())).lpNorm<Eigen::Infinity>();
+  const double work = scale_.cwiseProduct(force_.head(n).cwiseAbs().cwiseMax(constraint_force_.cwiseAbs()))
+                          .lpNorm<Eigen::Infinity>();
   reference_.head(n) += scaling / mass_scale_ * work * inverse_scale_;
   reference_ = reference_.cwiseInverse();
 }
@@ -293,8 +301,8 @@ void GeneralizedAlphaIntegrator::measure_reference() {
 /// it.
 void GeneralizedAlphaIntegrator::correct(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  residual_ = -residual_;
   solver_.solve(residual_, correction_);
+  correction_ = -correction_;
   const auto dq = correction_.head(trial_.q.size());
   const double acceleration = 1 / (beta * step * step);
   trial_.q += dq;
@@ -307,9 +315,8 @@ void GeneralizedAlphaIntegrator::correct(double step) {
 /// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate
 /// scale.
 double GeneralizedAlphaIntegrator::local_error(double step) const {
-  const Eigen::VectorXd change = trial_algorithmic_ - start_algorithmic_;
   return std::abs(parameters_.position_error) * step * step *
-         change.cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
+         (trial_algorithmic_ - start_algorithmic_).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
 }
 
 /// A proportional-integral controller for a local error of third degree; no growth right after a rejection.

@@ -73,6 +73,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   bool has_matrix_for(double step) const;
   TangentWeights weights_of(double step) const;
   bool linearise(std::shared_ptr<const Linearisation> at);
+  std::shared_ptr<const Linearisation> trial_point(double step);
   bool renew_moving_part();
   void evaluate_residual(double step);
   void measure_reference();
@@ -92,6 +93,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double mass_scale_ = 1;
   std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
+  std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
   UpdatedKkt solver_;
   Eigen::SparseMatrix<double> kkt_;
   Eigen::MatrixXd moving_part_;  ///< that in kkt_
@@ -100,6 +102,8 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   State trial_;
   Eigen::VectorXd start_algorithmic_;  ///< algorithmic_acceleration_ moved to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
+  State unaccelerated_;  ///< of measure_reference, as are the next two
+  Eigen::VectorXd force_, constraint_force_;
   Eigen::VectorXd residual_;    ///< (n+m) scaled
   Eigen::VectorXd correction_;  ///< (n+m) scaled
   Eigen::VectorXd

@@ -4,14 +4,14 @@ namespace nurbeam {
 
 bool UpdatedKkt::factorise(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& unknowns) {
   unknowns_ = unknowns;
-  columns_.resize(0, 0);
-  is_changed_ = false;
+  has_columns_ = is_changed_ = false;
   return solver_.factorise(matrix);
 }
 
 bool UpdatedKkt::update(const Eigen::MatrixXd& change) {
   const auto p = static_cast<Eigen::Index>(unknowns_.size());
-  if (columns_.size() == 0) solver_.solve_units(unknowns_, columns_);
+  if (!has_columns_) solver_.solve_units(unknowns_, columns_);
+  has_columns_ = true;
   change_ = change;
   core_.setIdentity(p, p);
   for (Eigen::Index j = 0; j < p; ++j)

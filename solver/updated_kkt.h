@@ -23,9 +23,9 @@ class UpdatedKkt {
  private:
   KktSolver solver_;
   std::vector<int> unknowns_;
-  bool is_changed_ = false;
+  bool has_columns_ = false, is_changed_ = false;
   Eigen::MatrixXd change_;   ///< D
-  Eigen::MatrixXd columns_;  ///< Z (n x p); none before the first change
+  Eigen::MatrixXd columns_;  ///< Z (n x p), once something has changed
   Eigen::MatrixXd core_;     ///< 1 + D E'Z
   Eigen::PartialPivLU<Eigen::MatrixXd> inner_;
   mutable Eigen::VectorXd at_part_, taken_;  ///< of solve

@@ -120,7 +120,9 @@ void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const 
 
 template <int D>
 void Assembly<D>::choose_moving_part() {
-  constexpr int smallest_share = 4;  // of all unknowns, for which a part is kept apart
+  // A part is kept apart where it is a small share of all unknowns, and where dense work on it takes less
+  // than the elimination of all.
+  constexpr double smallest_share = 4, most_work = 500;
   const auto add_unknowns = [&](const std::vector<int>& dofs) {
     for (const int dof : dofs)
       if (dof >= 0) moving_.unknowns.push_back(dof);
@@ -146,7 +148,9 @@ void Assembly<D>::choose_moving_part() {
   std::vector<int>& unknowns = moving_.unknowns;
   std::sort(unknowns.begin(), unknowns.end());
   unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
-  if (smallest_share * static_cast<int>(unknowns.size()) > mesh_.coordinate_count + constraint_count_) {
+  const double part = static_cast<double>(unknowns.size()),
+               whole = mesh_.coordinate_count + constraint_count_;
+  if (smallest_share * part > whole || part * part * part > most_work * whole) {
     moving_ = {};
     return;
   }
