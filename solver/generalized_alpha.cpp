@@ -14,6 +14,7 @@ namespace {
 constexpr double largest_growth = 2;        ///< of the step under error control
 constexpr double good_contraction = 0.1;    ///< of the corrections, for which a matrix is kept
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
+constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
 constexpr int many_corrections = 3;         ///< in one step, after which a matrix is taken anew
 constexpr double longest_use = 50;          ///< of a matrix, in steps
@@ -55,8 +56,9 @@ class Convergence {
     // foretold by the last two.
     const bool foretold = contracts() && contraction_ * correction <= tolerance;
     if (residual <= tolerance && (small || foretold)) return true;
-    // Where both are quickly brought down, the balance is foretold as well, with much to spare.
-    const double rate = std::max(balance, contraction_);
+    // Where both are quickly brought down, the balance is foretold as well, with much to spare: no quicker
+    // than a kept matrix does it, whatever its first correction has done.
+    const double rate = std::max({balance, contraction_, quickest_kept});
     if (foretold && rate <= quick_contraction && to_spare * rate * residual <= tolerance) return true;
     // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
     // its own round-off.
