@@ -192,8 +192,8 @@ roll = straight_cantilever(elements=3000)
 roll.add_load("rod", at="end", moment=[0, 0, 10 * 3.1416 * bending_stiffness()])
 rod = straight_cantilever(tip=[0, -1, 0], elements=40)
 many = straight_cantilever(elements=3000)
-adapted = straight_cantilever(elements={{"tolerance": 1e-13}})
-adapted.add_load("rod", at="end", moment=[0, 0, 2 * 3.1416 * bending_stiffness()])
+adapted = straight_cantilever(elements={{"tolerance": 1e-9}})
+adapted.add_load("rod", at="end", moment=[0, 0, 6 * 3.1416 * bending_stiffness()])
 sent = []
 
 def interrupt():

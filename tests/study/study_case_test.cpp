@@ -86,7 +86,7 @@ TEST(StudyCase, SaysOfEveryQuantityWhatIsWrongWithIt) {
   const auto quantity = [&](const std::string& name, const std::string& value) {
     read.study.quantities.push_back(read.study.quantities[0]);
     read.study.quantities.back().path = name;
-    read.study.quantities.back().value = Expression(value);
+    read.study.quantities.back().value = Expression::parse(value);
   };
   quantity("column", "max(rail.lenght)");
   quantity("kind", "rail.length");
