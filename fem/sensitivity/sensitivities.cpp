@@ -214,6 +214,8 @@ Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step, const S
 
 void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
+  state_ = step.after;
+  if (h == 0) return;  // what a body that starts at the end of its beam does there
   const StepTangent tangent(settings_, *system_, step.before, step.history, step.after, step.repeated);
   ++work_.tangents;
   if (!tangent.regular())
@@ -235,7 +237,6 @@ void Sensitivities::steps(const FollowedStep& step) {
       tangents_.move(k, longer.tangent, late);
     }
   }
-  state_ = step.after;
 }
 
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {

@@ -311,6 +311,23 @@ TEST(Gradient, OfARideThatBeginsAtRest) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
+// The body stops at the end where it is before the first step.
+TEST(Gradient, OfABodyThatStartsAtTheEndOfItsBeam) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "rod", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": "1 cm"},
+      "material": {"density": 1200, "youngs_modulus": "5 MPa"}, "elements": {"count": 8}}],
+    "bodies": [{"name": "bob", "mass": "200 g"}],
+    "supports": [{"beam": "rod", "at": "start", "type": "pinned"}],
+    "sliding_joints": [{"body": "bob", "beam": "rod", "at": "end", "at_beam_end": "stop"}],
+    "analysis": {"type": "dynamic", "end_time": 0.2, "step": "2 ms"}, "output": {"every": 0.05}})json",
+                 R"json("variables": [
+      {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [3e6, 8e6]},
+      {"name": "mass", "path": "bodies[0].mass", "range": [0.1, 0.3]}],
+    "quantities": [{"name": "z", "value": "at(end, bob.z)"}, {"name": "vx", "value": "at(end, bob.vx)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.004, 1e-4);
+}
+
 TEST(Gradient, OfFormulasIsThatOfTheirExpressions) {
   const StudyFile study = test::study_of(R"json({"nurbeam_study": 1,
     "variables": [{"name": "x", "range": [1, 3]}, {"name": "y", "range": [0, 1]}, {"name": "z", "value": "x * y"}],
