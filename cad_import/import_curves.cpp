@@ -54,6 +54,8 @@ ImportReport report_of(const ChildResult& result, const fs::path& file, const Im
       return error_report(file, "reading it takes longer than the time limit of " +
                                     std::to_string(options.time_limit.count()) +
                                     " s; the file is damaged, or raise time_limit");
+    case ChildResult::Status::interrupted:
+      return error_report(file, "reading it was interrupted");
     case ChildResult::Status::crashed:
       return error_report(file, "the reader crashed on it (" + result.complaint +
                                     "); the file is damaged or too deeply nested; export it again");
@@ -70,9 +72,9 @@ ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
     throw std::invalid_argument("tolerance is " + text_of(options.tolerance) + " m; it must be positive");
   if (const auto reason = unusable(file, options.size_limit_bytes)) return error_report(file, *reason);
   try {
-    return report_of(
-        asked(ReadRequest{file, options.tolerance}, {options.time_limit, options.memory_limit_bytes}), file,
-        options);
+    return report_of(asked(ReadRequest{file, options.tolerance},
+                           {options.time_limit, options.memory_limit_bytes, options.interrupted}),
+                     file, options);
   } catch (const std::exception& e) {
     return error_report(file,
                         std::string("the reader was damaged by it and sent no valid report: ") + e.what());

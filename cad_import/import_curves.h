@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 
 #include "cad_import/report/import_report.h"
 
@@ -13,6 +14,7 @@ struct ImportOptions {
   std::chrono::seconds time_limit{28};                    ///< wall and CPU time
   std::size_t memory_limit_bytes = std::size_t{2} << 30;  ///< address space; 0: no limit (sanitizer builds)
   double tolerance = 1e-7;                                ///< for entities that have no exact NURBS form [m]
+  std::function<bool()> interrupted = {};  ///< asked ten times a second; reading then ends with an error
 };
 
 /// All curves of a STEP, IGES, DXF or BREP file (by its content, not its name): edges of shapes and free

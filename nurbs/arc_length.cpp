@@ -101,6 +101,7 @@ double ArcLengthMap::parameter(double s) const {
   const double a = panels_.breaks[k], b = panels_.breaks[k + 1];
   const double panel_length = panels_.integrals[k + 1] - panels_.integrals[k];
   const double from_a = s - panels_.integrals[k];
+  if (from_a == 0) return a;
 
   // First guess: the cubic u(s) with the right ends and slopes 1 / speed there.
   const double t = from_a / panel_length;

@@ -5,6 +5,7 @@
 #include "cad_import/files/companion_program.h"
 #include "cad_import/import_curves.h"
 #include "python/bindings.h"
+#include "python/interrupts.h"
 
 namespace nurbeam::python {
 
@@ -23,10 +24,12 @@ py::dict facts(const ImportedCurve& curve) {
 // (curves with their facts, the file's unit, findings).
 py::tuple read_curves(const std::filesystem::path& file) {
   ImportReport report;
+  Interrupts interrupts;
   {
     const py::gil_scoped_release others_go_on;
-    report = import_curves(file);
+    report = import_curves(file, {.interrupted = [&] { return interrupts.pending(); }});
   }
+  interrupts.rethrow();
   py::list curves;
   for (const ImportedCurve& curve : report.curves) curves.append(py::make_tuple(curve.curve, facts(curve)));
   return py::make_tuple(curves, report.unit, plain(report.diagnostics));

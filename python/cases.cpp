@@ -2,10 +2,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <functional>
+
 #include "pipelines/case/case_schema.h"
 #include "pipelines/model/model_summary.h"
 #include "python/bindings.h"
 #include "python/built_case.h"
+#include "python/interrupts.h"
 
 namespace nurbeam::python {
 
@@ -21,17 +24,29 @@ std::pair<std::string, PlainFindings> case_json(const std::filesystem::path& fil
 }
 
 // (the case or nothing, findings).
-std::pair<std::shared_ptr<BuiltCase>, PlainFindings> build(const std::string& text,
-                                                           const std::filesystem::path& file) {
-  const py::gil_scoped_release others_go_on;
+using Built = std::pair<std::shared_ptr<BuiltCase>, PlainFindings>;
+
+Built built(const std::string& text, const std::filesystem::path& file,
+            const std::function<bool()>& interrupted) {
   CaseFileReport read = read_case_text(text, file);
   PlainFindings findings = plain(read.diagnostics);
   if (!read.value) return {nullptr, findings};
   auto made = std::make_shared<BuiltCase>();
   made->case_file = std::move(*read.value);
-  made->report = build_model(made->case_file);
+  made->report = build_model(made->case_file, interrupted);
   for (auto& finding : plain(made->report.diagnostics)) findings.push_back(std::move(finding));
   return {made->report.value ? made : nullptr, findings};
+}
+
+Built build(const std::string& text, const std::filesystem::path& file) {
+  Interrupts interrupts;
+  Built result;
+  {
+    const py::gil_scoped_release others_go_on;
+    result = built(text, file, [&] { return interrupts.pending(); });
+  }
+  interrupts.rethrow();
+  return result;
 }
 
 }  // namespace

@@ -35,15 +35,21 @@ void MotionTangents::start_afresh(Eigen::Index parameter, const State& tangent) 
   jerk.col(parameter).setZero();
 }
 
-StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system,
-                         const State& before, const IntegratorHistory& history, const State& after,
-                         bool repeated)
+StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system)
     : parameters_(GeneralizedAlphaIntegrator::parameters(settings.rho_infinity)),
-      before_(before),
-      h_(after.t - before.t),
-      last_step_(repeated ? 0 : history.numbers[0]),
-      mass_scale_(history.numbers[2]),
-      jerk_(history.vectors[1]) {
+      system_(&system),
+      mass_(system.tangent_pattern()),
+      damping_(mass_),
+      stiffness_(mass_),
+      kkt_(mass_) {}
+
+bool StepTangent::take(const State& before, const IntegratorHistory& history, const State& after,
+                       bool repeated) {
+  before_ = before;
+  h_ = after.t - before.t;
+  last_step_ = repeated ? 0 : history.numbers[0];
+  mass_scale_ = history.numbers[2];
+  jerk_ = history.vectors[1];
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
   start_ = last_step_ == 0                                                    ? Start::as_it_is
            : h_ <= GeneralizedAlphaIntegrator::largest_rescaling * last_step_ ? Start::moved
@@ -52,19 +58,19 @@ StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSyst
   if (start_ == Start::moved) start_algorithmic_ += (alpha_m - alpha_f) * (h_ - last_step_) * jerk_;
   end_algorithmic_ =
       ((1 - alpha_f) * after.a + alpha_f * before.a - alpha_m * start_algorithmic_) / (1 - alpha_m);
-  mass_ = damping_ = stiffness_ = system.tangent_pattern();
-  system.tangent(after, {.mass = 1}, mass_);
-  system.tangent(after, {.damping = 1}, damping_);
-  system.tangent(after, {.stiffness = 1}, stiffness_);
-  Eigen::SparseMatrix<double> kkt = stiffness_;
-  for (int column = 0; column < system.coordinate_count(); ++column)
-    for (int k = kkt.outerIndexPtr()[column]; k < kkt.outerIndexPtr()[column + 1]; ++k)
-      if (kkt.innerIndexPtr()[k] < system.coordinate_count())
-        kkt.valuePtr()[k] =
-            ((1 - alpha_m) / (1 - alpha_f) * mass_.valuePtr()[k] + gamma * h_ * damping_.valuePtr()[k] +
-             beta * h_ * h_ * stiffness_.valuePtr()[k]) /
-            mass_scale_;
-  regular_ = solver_.factorise(kkt);
+  system_->tangent(after, {.mass = 1}, mass_);
+  system_->tangent(after, {.damping = 1}, damping_);
+  system_->tangent(after, {.stiffness = 1}, stiffness_);
+  const int n = system_->coordinate_count();
+  for (int column = 0; column < kkt_.cols(); ++column)
+    for (int k = kkt_.outerIndexPtr()[column]; k < kkt_.outerIndexPtr()[column + 1]; ++k)
+      kkt_.valuePtr()[k] =
+          column < n && kkt_.innerIndexPtr()[k] < n
+              ? ((1 - alpha_m) / (1 - alpha_f) * mass_.valuePtr()[k] + gamma * h_ * damping_.valuePtr()[k] +
+                 beta * h_ * h_ * stiffness_.valuePtr()[k]) /
+                    mass_scale_
+              : stiffness_.valuePtr()[k];
+  return solver_.factorise(kkt_);
 }
 
 MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVectorXd& step,

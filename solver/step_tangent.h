@@ -23,21 +23,22 @@ struct MotionTangents {
   void start_afresh(Eigen::Index parameter, const State& tangent);
 };
 
-/// One step of generalized-alpha, linearised where it has ended: the tangents of many parameters from its
-/// start to its end, all with one matrix, which is taken and factorised there.
+/// Steps of generalized-alpha with one system, each linearised where it has ended: the tangents of many
+/// parameters from its start to its end, all with one matrix, which is taken and factorised there.
 class StepTangent {
  public:
   using Matrix = MotionTangents::Matrix;
 
-  /// A step from `before`, with that history, to `after`, which must be converged. `repeated`: as by
-  /// Integrator::repeat.
-  StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system, const State& before,
-              const IntegratorHistory& history, const State& after, bool repeated);
+  /// `system` must outlive it.
+  StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system);
 
-  bool regular() const { return regular_; }
-  /// The tangents at the end of the step, whose length changes by `step`, of each parameter. `dynamics` (n),
+  /// Takes a step from `before`, with that history, to `after`, which must be converged; whether its matrix
+  /// is regular. `repeated`: as by Integrator::repeat.
+  [[nodiscard]] bool take(const State& before, const IntegratorHistory& history, const State& after,
+                          bool repeated);
+  /// The tangents at the end of that step, whose length changes by `step`, of each parameter. `dynamics` (n),
   /// `constraints` (m), a column for each: how the residual at `after` changes with the parameter itself, by
-  /// the system and by t, while q, v, a and lambda stay. Precondition: regular().
+  /// the system and by t, while q, v, a and lambda stay. Precondition: take returned true.
   MotionTangents end(const MotionTangents& start, const Eigen::RowVectorXd& step, const Matrix& dynamics,
                      const Matrix& constraints) const;
 
@@ -48,13 +49,14 @@ class StepTangent {
   Matrix solve(const Matrix& rhs) const;
 
   GeneralizedAlphaIntegrator::Parameters parameters_;
+  const SecondOrderSystem* system_;
   State before_;
-  double h_, last_step_, mass_scale_;
-  Start start_;
+  double h_ = 0, last_step_ = 0, mass_scale_ = 1;
+  Start start_ = Start::as_it_is;
   Eigen::VectorXd jerk_, start_algorithmic_, end_algorithmic_;
   Eigen::SparseMatrix<double> mass_, damping_, stiffness_;  // with G, and dF/dlambda in the last
+  Eigen::SparseMatrix<double> kkt_;
   KktSolver solver_;
-  bool regular_;
 };
 
 }  // namespace nurbeam

@@ -42,12 +42,15 @@ int milliseconds_until(Clock::time_point deadline) {
   return static_cast<int>(std::clamp<std::chrono::milliseconds::rep>(left, 0, 1'000'000));
 }
 
-// Everything up to the end of the stream; false when the deadline passes first.
-bool receive_until(Clock::time_point deadline, int descriptor, std::string& bytes) {
+// Everything up to the end of the stream; false when the deadline passes first or an interruption comes.
+bool receive_until(Clock::time_point deadline, const std::function<bool()>& interrupted, int descriptor,
+                   std::string& bytes) {
+  constexpr int asked_every = 100;  // [ms]
   char buffer[1 << 16];
-  while (Clock::now() < deadline) {
+  while (Clock::now() < deadline && !(interrupted && interrupted())) {
     pollfd ready{descriptor, POLLIN, 0};
-    if (poll(&ready, 1, milliseconds_until(deadline)) <= 0) continue;
+    const int longest = interrupted ? asked_every : milliseconds_until(deadline);
+    if (poll(&ready, 1, std::min(longest, milliseconds_until(deadline))) <= 0) continue;
     const ssize_t count = read(descriptor, buffer, sizeof buffer);
     if (count == 0) return true;
     if (count < 0 && errno != EINTR) return true;
@@ -195,11 +198,12 @@ ChildResult run_program(const std::filesystem::path& program, const std::string&
   childs_end.reset();
   if (error != 0) return {Status::not_started, "", program.string() + ": " + std::strerror(error)};
   std::string bytes;
-  const bool in_time = receive_until(deadline, answer.get(), bytes);
+  const bool in_time = receive_until(deadline, limits.interrupted, answer.get(), bytes);
   answer.reset();
   const int wait_status = in_time ? wait_for_end(child, deadline) : reap(child);
   if (is_complete(bytes)) return result_of(bytes);
-  return in_time ? result_of(wait_status) : ChildResult{Status::timed_out, "", ""};
+  if (in_time) return result_of(wait_status);
+  return {Clock::now() < deadline ? Status::interrupted : Status::timed_out, "", ""};
 }
 
 }  // namespace nurbeam

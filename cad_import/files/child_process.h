@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace nurbeam {
@@ -10,11 +11,13 @@ namespace nurbeam {
 struct ChildLimits {
   std::chrono::seconds time{30};  ///< wall and CPU time
   std::size_t memory_bytes = 0;   ///< address space; 0: no limit
+  /// Asked ten times a second whether nobody waits for the answer any more.
+  std::function<bool()> interrupted = {};
 };
 
 /// How a child process ended, and what it sent.
 struct ChildResult {
-  enum class Status { finished, failed, out_of_memory, timed_out, crashed, not_started };
+  enum class Status { finished, failed, out_of_memory, timed_out, interrupted, crashed, not_started };
 
   Status status;
   std::string output;     ///< its answer when finished

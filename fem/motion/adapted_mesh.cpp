@@ -71,14 +71,16 @@ std::vector<Interval> intervals(const std::vector<int>& nodes, const std::vector
 
 class Adaption {
  public:
-  Adaption(BeamModel& model, const std::vector<std::optional<double>>& tolerances, int most_elements)
-      : model_(model), tolerances_(tolerances), most_elements_(most_elements) {}
+  Adaption(BeamModel& model, const std::vector<std::optional<double>>& tolerances, int most_elements,
+           const std::function<bool()>& interrupted)
+      : model_(model), tolerances_(tolerances), most_elements_(most_elements), interrupted_(interrupted) {}
 
   AdaptedMesh run() {
     constexpr int most_rounds = 12;
     for (int round = 0; round < most_rounds; ++round) {
       result_ = {};
       const MeshedState at = equilibrium();
+      if (result_.interrupted) return result_;
       bool divided = false;
       for (int b = 0; b < static_cast<int>(model_.beams.size()); ++b)
         if (tolerances_[b]) divided = divide(at, b) || divided;
@@ -92,7 +94,9 @@ class Adaption {
   MeshedState equilibrium() {
     const auto model = std::make_shared<const BeamModel>(model_);
     MeshedState at = MeshedState::drawn(model);
-    result_.from_equilibrium = !find_held_equilibrium(at).failure;
+    const RestReport found = find_held_equilibrium(at, interrupted_);
+    result_.interrupted = found.interrupted;
+    result_.from_equilibrium = !found.failure;
     return result_.from_equilibrium ? std::move(at) : MeshedState::drawn(model);
   }
 
@@ -136,14 +140,15 @@ class Adaption {
   BeamModel& model_;
   const std::vector<std::optional<double>>& tolerances_;
   int most_elements_;
+  const std::function<bool()>& interrupted_;
   AdaptedMesh result_;
 };
 
 }  // namespace
 
 AdaptedMesh adapt_mesh(BeamModel& model, const std::vector<std::optional<double>>& tolerances,
-                       int most_elements) {
-  return Adaption(model, tolerances, most_elements).run();
+                       int most_elements, const std::function<bool()>& interrupted) {
+  return Adaption(model, tolerances, most_elements, interrupted).run();
 }
 
 }  // namespace nurbeam

@@ -131,6 +131,7 @@ void Sensitivities::go_on_from(const MeshedState& at) {
   system_ = at.system.get();
   state_ = at.state;
   meshes_ = nullptr;
+  step_.reset();
   for (Parameter& parameter : parameters_)
     parameter.difference.emplace(*parameter.more, *parameter.less, at.state);
 }
@@ -214,17 +215,19 @@ Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step, const S
 
 void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
-  const StepTangent tangent(settings_, *system_, step.before, step.history, step.after, step.repeated);
+  state_ = step.after;
+  if (h == 0) return;  // what a body that starts at the end of its beam does there
+  if (!step_) step_.emplace(settings_, *system_);
   ++work_.tangents;
-  if (!tangent.regular())
+  if (!step_->take(step.before, step.history, step.after, step.repeated))
     throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
   Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(tangents_.parameters());  // of the step's length
   if (!step.beyond) change = -h / step.rest * tangents_.t;
   find_residual_changes(step.after, tangents_.t + change);
-  tangents_ = tangent.end(tangents_, change, dynamics_, constraints_);
+  tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
   work_.solves += tangents_.parameters();
   if (step.beyond) {
-    const Longer longer = by_length(step, tangent);
+    const Longer longer = by_length(step, *step_);
     for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
       const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
       const double p = parameter.pair.step;
@@ -235,7 +238,6 @@ void Sensitivities::steps(const FollowedStep& step) {
       tangents_.move(k, longer.tangent, late);
     }
   }
-  state_ = step.after;
 }
 
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem/motion/run_follower.h"
@@ -83,6 +84,7 @@ class Sensitivities final : public RunFollower {
   GeneralizedAlpha settings_;
   bool begins_at_rest_;
   std::vector<Parameter> parameters_;
+  std::optional<StepTangent> step_;  // with the present system
   MotionTangents tangents_;
   MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
   const BeamSystem* system_ = nullptr;

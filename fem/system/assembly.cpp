@@ -26,9 +26,10 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_)) {
+  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
   batch_elements();
-  bind_constraints(held);
-  bind_forces();
+  bind_constraints(held, drawn);
+  bind_forces(drawn);
   build_pattern();
   choose_moving_part();
 }
@@ -50,9 +51,8 @@ void Assembly<D>::batch_elements() {
 }
 
 template <int D>
-void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
+void Assembly<D>::bind_constraints(const std::vector<bool>& held, const Eigen::VectorXd& drawn) {
   const MeshedBeams<D> at = beams();
-  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
   const auto add = [&](auto&& constraint) {
     const int rows = constraint.rows;
     constraint_blocks_.push_back({constraint_count_, rows, {constraint.dofs(), {}}, {}, {}});
@@ -91,9 +91,8 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held) {
 }
 
 template <int D>
-void Assembly<D>::bind_forces() {
+void Assembly<D>::bind_forces(const Eigen::VectorXd& drawn) {
   const MeshedBeams<D> at = beams();
-  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
   for (int body = 0; body < static_cast<int>(model_->bodies.size()); ++body) {
     forces_.emplace_back(PointMass<D>(at, body));
     if (model_->air.density * model_->bodies[body].drag_area > 0) forces_.emplace_back(BodyDrag<D>(at, body));

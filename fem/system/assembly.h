@@ -125,8 +125,8 @@ class Assembly final : public SecondOrderSystem {
   struct Sink;
 
   void batch_elements();
-  void bind_constraints(const std::vector<bool>& held);
-  void bind_forces();
+  void bind_constraints(const std::vector<bool>& held, const Eigen::VectorXd& drawn);
+  void bind_forces(const Eigen::VectorXd& drawn);
   void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();

@@ -423,7 +423,7 @@ void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
 
 // The elements of beams that name a tolerance instead of a number; nothing where there are none.
 std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamModel& model,
-                                          Findings& findings) {
+                                          const std::function<bool()>& interrupted, Findings& findings) {
   std::vector<std::optional<double>> tolerances;
   std::string path;
   for (const CaseBeam& beam : resolved.beams) {
@@ -431,7 +431,11 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
     if (beam.elements.tolerance && path.empty()) path = beam.path + ".elements.tolerance";
   }
   if (path.empty()) return {};
-  const AdaptedMesh adapted = adapt_mesh(model, tolerances, most_elements);
+  const AdaptedMesh adapted = adapt_mesh(model, tolerances, most_elements, interrupted);
+  if (adapted.interrupted) {
+    findings.error(path, "the search for the number of elements was interrupted");
+    return {};
+  }
   if (!adapted.from_equilibrium)
     findings.warn(
         path,
@@ -445,8 +449,9 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
 }
 
 // Nothing, with errors among the findings, where the case cannot be a model.
-std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findings) {
-  CadFiles files;
+std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::function<bool()>& interrupted,
+                                      Findings& findings) {
+  CadFiles files(interrupted);
   ResolvedCase resolved = resolve_case(case_file, files, findings);
   const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
   if (!findings.has_errors()) check_guides(resolved, findings);
@@ -473,7 +478,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
-  built.adapted = adapt_elements(resolved, built.model, findings);
+  built.adapted = adapt_elements(resolved, built.model, interrupted, findings);
+  if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
@@ -491,10 +497,10 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, Findings& findi
 
 }  // namespace
 
-BuildReport build_model(const CaseFile& case_file) {
+BuildReport build_model(const CaseFile& case_file, const std::function<bool()>& interrupted) {
   Findings findings(case_file.path.string());
   BuildReport report;
-  report.value = built_model(case_file, findings);
+  report.value = built_model(case_file, interrupted, findings);
   report.diagnostics = findings.take();
   return report;
 }

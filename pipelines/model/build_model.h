@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,7 @@ struct BuildReport {
 };
 
 /// Reads the curves of a case and makes its model: axes to segments, plane detection, elements, places.
-BuildReport build_model(const CaseFile& case_file);
+/// `interrupted` is asked while files are read and a mesh is adapted: a model that it ends is an error.
+BuildReport build_model(const CaseFile& case_file, const std::function<bool()>& interrupted = {});
 
 }  // namespace nurbeam

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "cad_import/report/import_report.h"
@@ -11,6 +13,9 @@ namespace nurbeam {
 /// The CAD files that a case names, each read once.
 class CadFiles {
  public:
+  /// `interrupted`: of ImportOptions.
+  explicit CadFiles(std::function<bool()> interrupted = {}) : interrupted_(std::move(interrupted)) {}
+
   /// The curves of a file; what is to be said of it is added to the findings when it is read.
   const ImportReport& read(const std::filesystem::path& file, Findings& findings);
 
@@ -20,6 +25,7 @@ class CadFiles {
   double seconds() const { return seconds_; }
 
  private:
+  std::function<bool()> interrupted_;
   std::map<std::filesystem::path, ImportReport> reports_;
   std::vector<std::filesystem::path> inputs_;
   double seconds_ = 0;

@@ -78,9 +78,10 @@ struct CalibrationResult {
   int evaluations = 0;
 };
 /// By nonlinear least squares, or with what is known before by Gauss' nonlinear calibration; the covariance
-/// is that of the problem linear at the point. Throws std::runtime_error where no point is found.
+/// is that of the problem linear at the point. With derivatives where they are given and known, with
+/// differences of variants elsewhere. Throws std::runtime_error where no point is found.
 CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& calibration,
-                            const StudyEvaluation& evaluate);
+                            const StudyEvaluation& evaluate, const StudyDerivatives& derivatives = {});
 
 /// A function of the variables that stands for one quantity.
 struct SurrogateResult {

@@ -16,8 +16,9 @@ namespace {
 /// deviations.
 class MeasuredRuns {
  public:
-  MeasuredRuns(const StudyFile& study, const StudyCalibration& calibration, const StudyEvaluation& evaluate)
-      : calibration_(calibration), evaluate_(evaluate) {
+  MeasuredRuns(const StudyFile& study, const StudyCalibration& calibration, const StudyEvaluation& evaluate,
+               const StudyDerivatives& derivatives)
+      : calibration_(calibration), evaluate_(evaluate), derivatives_(derivatives) {
     for (const std::size_t i : study.free_variables()) {
       const StudyVariable& variable = study.variables[i];
       const std::vector<double>& p = variable.distribution.parameters;
@@ -50,6 +51,18 @@ class MeasuredRuns {
     return point;
   }
 
+  /// Of a row (number, place), by the place; nothing where there are none.
+  std::vector<double> derivatives(const OT::Point& row) {
+    const std::vector<double> point = point_of({row.begin() + 1, row.end()});
+    if (!gradients_.contains(point)) gradients_[point] = gradient(point);
+    const StudyGradient& of_quantities = gradients_[point];
+    if (of_quantities.empty()) return {};
+    const auto number = static_cast<std::size_t>(std::lround(row[0]));
+    std::vector<double> derivatives;
+    for (std::size_t i = 0; i < unit_.size(); ++i)
+      derivatives.push_back(of_quantities[first_ + number][i] * unit_[i] / sd_[number]);
+    return derivatives;
+  }
   /// Of rows (number, place): each place runs once.
   std::vector<double> values(const OT::Sample& rows) {
     StudyPoints fresh;
@@ -76,6 +89,16 @@ class MeasuredRuns {
     return {row.begin() + 1, row.end()};
   }
 
+  StudyGradient gradient(const std::vector<double>& point) {
+    if (!derivatives_ || stopped_) return {};
+    try {
+      return derivatives_(point);
+    } catch (...) {  // the methods are written in C
+      stopped_ = std::current_exception();
+      return {};
+    }
+  }
+
   void run(const StudyPoints& fresh) {
     if (fresh.empty() || stopped_) return;
     try {
@@ -91,6 +114,8 @@ class MeasuredRuns {
 
   const StudyCalibration& calibration_;
   const StudyEvaluation& evaluate_;
+  const StudyDerivatives& derivatives_;
+  std::map<std::vector<double>, StudyGradient> gradients_;
   std::vector<double> origin_, unit_, measured_, sd_;
   std::size_t first_ = 0;  // of the observed quantities
   std::map<std::vector<double>, std::vector<double>> runs_;
@@ -118,13 +143,32 @@ class MeasuredFunction : public OT::EvaluationImplementation {
   MeasuredRuns* runs_;
 };
 
-// With the variables as parameters. Derivatives are central differences over a thousandth of the unit.
+/// Where runs come without derivatives these are central differences over a thousandth of the unit.
+class MeasuredGradient : public OT::GradientImplementation {
+ public:
+  explicit MeasuredGradient(MeasuredRuns& runs)
+      : runs_(&runs),
+        differences_(OT::Point(runs.variables() + 1, 1e-3), OT::Evaluation(MeasuredFunction(runs))) {}
+  MeasuredGradient* clone() const override { return new MeasuredGradient(*this); }
+  OT::UnsignedInteger getInputDimension() const override { return runs_->variables() + 1; }
+  OT::UnsignedInteger getOutputDimension() const override { return 1; }
+  OT::Matrix gradient(const OT::Point& x) const override {
+    const std::vector<double> derivatives = runs_->derivatives(x);
+    if (derivatives.empty()) return differences_.gradient(x);
+    OT::Matrix result(getInputDimension(), 1);  // by the number: none
+    for (std::size_t i = 0; i < derivatives.size(); ++i) result(i + 1, 0) = derivatives[i];
+    return result;
+  }
+
+ private:
+  MeasuredRuns* runs_;
+  OT::CenteredFiniteDifferenceGradient differences_;
+};
+
+// With the variables as parameters.
 OT::Function model_of(MeasuredRuns& runs) {
-  const MeasuredFunction values(runs);
-  constexpr double step = 1e-3;
-  OT::Function whole(values);
-  whole.setGradient(
-      OT::CenteredFiniteDifferenceGradient(OT::Point(runs.variables() + 1, step), OT::Evaluation(values)));
+  OT::Function whole{MeasuredFunction(runs)};
+  whole.setGradient(MeasuredGradient(runs));
   OT::Indices parameters(runs.variables());
   parameters.fill(1);
   return OT::ParametricFunction(whole, parameters, OT::Point(runs.variables()));
@@ -156,8 +200,8 @@ OT::CalibrationResult calibrated(const MeasuredRuns& runs, const OT::Function& m
 }  // namespace
 
 CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& calibration,
-                            const StudyEvaluation& evaluate) {
-  MeasuredRuns runs(study, calibration, evaluate);
+                            const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
+  MeasuredRuns runs(study, calibration, evaluate, derivatives);
   const OT::Function model = model_of(runs);
   OT::CalibrationResult found;
   try {

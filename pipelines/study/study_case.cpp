@@ -130,8 +130,13 @@ std::map<std::string, StudyCurve> curves_to_move(const StudyFile& study, const C
                            " comes \"from\" its CAD file, which a moved curve has left; give its radius");
         continue;
       }
-      if (!resolved) resolved = resolve_case(case_file, files, findings);
-      if (findings.has_errors()) return curves;
+      if (!resolved) {
+        Findings of_case(case_file.path.string());
+        resolved = resolve_case(case_file, files, of_case);
+        const bool wrong = of_case.has_errors();
+        findings.append(of_case.take());
+        if (wrong) return curves;
+      }
       const auto found = std::find_if(resolved->beams.begin(), resolved->beams.end(),
                                       [&](const CaseBeam& each) { return each.name == *name; });
       if (found == resolved->beams.end()) {

@@ -61,6 +61,8 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
       check_quantities(ready.study, ready.study_case ? &*ready.study_case : nullptr);
   print_diagnostics(err, wrong);
   if (has_errors(wrong)) return {};
+  if (ready.study.derivatives && ready.study.derivatives_where_known)
+    ready.study.derivatives = has_derivatives(ready.study, ready.study_case ? &*ready.study_case : nullptr);
   return ready;
 }
 

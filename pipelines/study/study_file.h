@@ -156,6 +156,7 @@ struct StudyFile {
   unsigned seed = 1;
   std::optional<double> time_limit = {};  ///< of one variant, in wall time [s]
   bool derivatives = false;               ///< variants come with derivatives of the quantities
+  bool derivatives_where_known = false;   ///< and without where there are none
 
   /// Indices of the variables that are not derived.
   std::vector<std::size_t> free_variables() const;

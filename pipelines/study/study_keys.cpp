@@ -156,6 +156,9 @@ Shape calibration() {
               {"sd", quantity(Dimension::number, {.lower = 1e-30, .upper = 1e30}),
                "standard deviation of its noise; 1 when omitted. With ranges only the ratios count"}});
   return object({{"observations", array(observation, 1), "what was measured", required},
+                 {"derivatives", derivatives(),
+                  "tangents: variants come with derivatives that go along with their runs; differences: of "
+                  "variants, two more for each variable. When omitted tangents where there are such"},
                  {"confidence", quantity(Dimension::number, {.lower = 0.5, .upper = 0.999}),
                   "level of the intervals and of the region; 0.95 when omitted"},
                  {"evaluations", integer({.lower = 1, .upper = 1e6}), "most variants; 200 when omitted"}});

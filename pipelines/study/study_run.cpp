@@ -175,7 +175,7 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
           if constexpr (std::is_same_v<Task, StudyOptimum>)
             result.answer = find_optimum(study, task, evaluate, derivatives);
           if constexpr (std::is_same_v<Task, StudyCalibration>)
-            result.answer = calibrate(study, task, evaluate);
+            result.answer = calibrate(study, task, evaluate, derivatives);
         },
         study.task);
   } catch (const StudyInterrupted&) {

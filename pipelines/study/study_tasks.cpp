@@ -180,6 +180,8 @@ class StudyTaskReader : StudyPartReader {
   StudyCalibration read_calibration(const Json& json) {
     StudyCalibration calibration{.confidence = number(json, "confidence", 0.95),
                                  .evaluations = static_cast<int>(number(json, "evaluations", 200))};
+    study_.derivatives = read_derivatives(json, "calibrate", true);
+    study_.derivatives_where_known = !has(json, "derivatives");
     for_each_item(json, "observations", "calibrate", [&](const Json& item, const std::string& path) {
       read_observation(item, path, calibration);
     });

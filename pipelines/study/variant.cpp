@@ -149,23 +149,29 @@ Diagnostic unchecked(const StudyFile& study, const std::string& why) {
           "the nominal variant cannot be built, so the quantities are not checked beforehand: " + why};
 }
 
-// With histories of two times: a quantity must be one number.
-void check_kinds(const StudyFile& study, Findings& findings) {
+// With histories of two times: a quantity must be one number, and the events that it asks for can be.
+void check_kind(const StudyFile& study, const StudyQuantity& quantity, const BeamModel& model,
+                Findings& findings) {
   const std::vector<std::string> variables = names_of(study.variables);
+  std::vector<std::string> known = names_of(model.bodies);
+  for (const std::string& beam : names_of(model.beams)) known.push_back(beam);
   const ExpressionScope scope{
       .value = [&](const std::string& name) -> ExpressionValue {
         const bool variable = std::find(variables.begin(), variables.end(), name) != variables.end();
         return variable ? ExpressionValue(1.0) : ExpressionValue(std::vector<double>{1, 2});
       },
-      .event_time = [](const std::string& kind,
-                       const std::string& of) { return static_cast<double>(first_event({}, {}, kind, of)); },
+      .event_time =
+          [&](const std::string& kind, const std::string& of) {
+            if (std::find(known.begin(), known.end(), of) == known.end())
+              throw std::invalid_argument("the case has no body or beam " + in_quotes(of) +
+                                          known_names(of, known));
+            return static_cast<double>(first_event({}, model, kind, of));
+          },
       .times = {0, 1}};
-  for (const StudyQuantity& quantity : study.quantities) {
-    try {
-      quantity.value.number(scope);
-    } catch (const std::invalid_argument& problem) {
-      findings.error(quantity.path + ".value", in_quotes(quantity.value.text()) + ": " + problem.what());
-    }
+  try {
+    quantity.value.number(scope);
+  } catch (const std::invalid_argument& problem) {
+    findings.error(quantity.path + ".value", in_quotes(quantity.value.text()) + ": " + problem.what());
   }
 }
 
@@ -230,8 +236,29 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
   } catch (const std::exception& problem) {
     end(variant, VariantStatus::failed, problem.what());
   }
+  const bool ran = variant.status == VariantStatus::done || variant.status == VariantStatus::rejected ||
+                   variant.status == VariantStatus::timed_out;
+  if (!ran && study.derivatives && study.derivatives_where_known) {
+    StudyFile plain = study;
+    plain.derivatives = false;
+    variant = run_variant(plain, study_case, number, std::move(variant.values));
+  }
   variant.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return variant;
+}
+
+bool has_derivatives(const StudyFile& study, const StudyCase* study_case) {
+  if (!study_case) return true;
+  const std::vector<double> nominal = all_values(study, study.nominal());
+  Findings findings(study.path.string());
+  try {
+    const VariantModel model = model_of(study, *study_case, nominal);
+    if (!model.problem.empty()) return false;
+    check_derivatives(study, *study_case, nominal, simulation_options(*model.read.value), findings);
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+  return !findings.has_errors();
 }
 
 std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase* study_case) {
@@ -251,13 +278,16 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
     for (const StudyQuantity& quantity : study.quantities) {
       if (quantity.observed && quantity.path == seen) continue;
       seen = quantity.path;
-      for (const std::string& name : quantity.value.names())
-        if (std::find(known.begin(), known.end(), name) == known.end())
-          findings.error(quantity.path + ".value",
-                         "a run of this case has no column " + in_quotes(name) + known_names(name, known));
+      bool complete = true;
+      for (const std::string& name : quantity.value.names()) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        complete = false;
+        findings.error(quantity.path + ".value",
+                       "a run of this case has no column " + in_quotes(name) + known_names(name, known));
+      }
+      if (complete) check_kind(study, quantity, built.value->model, findings);
     }
-    if (!findings.has_errors()) check_kinds(study, findings);
-    if (!findings.has_errors() && study.derivatives)
+    if (!findings.has_errors() && study.derivatives && !study.derivatives_where_known)
       check_derivatives(study, *study_case, nominal, simulation_options(*read.value), findings);
   } catch (const std::invalid_argument& problem) {
     return {unchecked(study, problem.what())};

@@ -41,6 +41,9 @@ std::vector<double> all_values(const StudyFile& study, const std::vector<double>
 Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
                     std::vector<double> values);
 
+/// Whether the nominal variant can be built with derivatives of all quantities.
+bool has_derivatives(const StudyFile& study, const StudyCase* study_case);
+
 /// What is wrong with the quantities of a study, found by building the nominal variant: columns that the run
 /// does not have, histories where a number must be; a warning where that variant cannot be built. Nothing is
 /// run.

@@ -93,5 +93,14 @@ TEST(AdaptedMesh, StopsAtTheMostElements) {
   EXPECT_LE(model.beams[0].home_intervals(), 20);
 }
 
+TEST(AdaptedMesh, EndsWhereItIsInterrupted) {
+  BeamModel model = cantilever(1e6);
+  add_force(model, {0, -10, 0}, 1);
+  int asked = 0;
+  const AdaptedMesh adapted = adapt_mesh(model, {1e-9}, 1000, [&] { return ++asked == 3; });
+  EXPECT_TRUE(adapted.interrupted);
+  EXPECT_EQ(asked, 3);
+}
+
 }  // namespace
 }  // namespace nurbeam

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
+#include "pipelines/model/model_snapshot.h"
+#include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/analysis.h"
 #include "pipelines/study/variant.h"
 #include "tests/study/study_text.h"
@@ -130,6 +133,67 @@ TEST(Gradient, OfAPlaneMotion) {
   expect_gradient(of, 0.004, 1e-5);
 }
 
+/// A cantilever whose axis is a cubic B-spline in even spans: each control point reaches four of them.
+std::string spline_case(int points, int elements, const std::string& analysis) {
+  std::ostringstream knots, control;
+  for (int k = 0; k < points + 4; ++k)
+    knots << (k > 0 ? ", " : "") << std::clamp(k - 3, 0, points - 3) / (points - 3.0);
+  for (int i = 0; i < points; ++i) {
+    const double x = 3.0 * i / (points - 1);
+    control << (i > 0 ? ", [" : "[") << x << ", 0, " << 0.4 * std::sin(1.3 * x) << "]";
+  }
+  return R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
+    "axis": {"nurbs": {"degree": 3, "knots": [)json" +
+         knots.str() + R"json(], "control_points": [)json" + control.str() + R"json(]}},
+    "section": {"radius": "20 mm"}, "material": {"density": 2700, "youngs_modulus": "2 GPa"},
+    "elements": {"count": )json" +
+         std::to_string(elements) + R"json(}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "root"}],
+    "output": {"every": 0.02, "probes": [{"name": "tip", "beam": "beam", "at": "end"}]}, "analysis": )json" +
+         analysis + "}";
+}
+constexpr const char* short_motion = R"json({"type": "dynamic", "end_time": 0.04, "step": "2 ms"})json";
+
+TEST(Gradient, ByControlPointsThatReachOnlySomeElements) {
+  const std::string study = R"json("variables": [
+      {"name": "z3", "control_point": {"beam": "beam", "index": 3, "axis": "z"}, "range": [0.2, 0.6]},
+      {"name": "x8", "control_point": {"beam": "beam", "index": 8, "axis": "x"}, "range": [1.7, 2.1]},
+      {"name": "density", "path": "beams[0].material.density", "range": [2600, 2800]}],
+    "quantities": [{"name": "z", "value": "at(end, tip.z)"}, {"name": "m", "value": "at(end, root.my)"}],
+    "plan": {"grid": 2})json";
+  StudyOfCase motion(spline_case(13, 40, short_motion), study);
+  expect_gradient(motion, 0.004, 1e-5);
+  StudyOfCase rest(spline_case(13, 40, R"json({"type": "static"})json"), study);
+  expect_gradient(rest, 0.004, 1e-6);
+}
+
+// What a run of as many steps takes three or four times: a matrix is taken in each step, and the residuals of
+// few of the elements.
+TEST(Gradient, ByTwentyControlPointsTakesFewEvaluations) {
+  std::ostringstream variables;
+  for (int i = 2; i < 22; ++i)
+    variables << (i > 2 ? ", " : "") << R"json({"name": "z)json" << i
+              << R"json(", "control_point": {"beam": "beam", "axis": "z", "index": )json" << i
+              << R"json(}, "range": [-1, 1]})json";
+  const StudyOfCase of(spline_case(22, 80, short_motion), "\"variables\": [" + variables.str() + R"json(],
+    "quantities": [{"name": "z", "value": "at(end, tip.z)"}], "plan": {"gradient": "nominal"})json");
+  const std::vector<double> values = all_values(of.study, of.nominal());
+  const CaseFileReport read =
+      read_case_text(of.study_case.variant(of.study.variables, values), of.study_case.file());
+  const BuildReport built = build_model(*read.value);
+  const SimulationOptions options = simulation_options(*read.value);
+  VariantGradient gradient(of.study, of.study_case, values, options);
+  SimulationObserver observer;
+  observer.follower = &gradient.follower();
+  const SimulationReport run = simulate(built.value->model, probe_places(*built.value), options, observer);
+  ASSERT_EQ(run.steps, 20);
+  const Sensitivities::Work& work = dynamic_cast<const Sensitivities&>(gradient.follower()).work();
+  EXPECT_EQ(work.tangents, run.steps);
+  EXPECT_EQ(work.solves, 20 * run.steps);
+  EXPECT_LT(work.residuals, 0.4 * (2 * 20 * run.steps));
+  EXPECT_GT(work.residuals, 0.1 * (2 * 20 * run.steps));
+}
+
 const std::string plane_slide = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
     "beams": [{"name": "beam",
       "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1], "weights": [1, 0.9, 1.1, 1],
@@ -245,6 +309,23 @@ TEST(Gradient, OfARideThatBeginsAtRest) {
       {"name": "tension", "value": "at(end, cable.axial_force.max)"}],
     "plan": {"grid": 2})json");
   expect_gradient(of, 1e-4, 1e-4);
+}
+
+// The body stops at the end where it is before the first step.
+TEST(Gradient, OfABodyThatStartsAtTheEndOfItsBeam) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "rod", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": "1 cm"},
+      "material": {"density": 1200, "youngs_modulus": "5 MPa"}, "elements": {"count": 8}}],
+    "bodies": [{"name": "bob", "mass": "200 g"}],
+    "supports": [{"beam": "rod", "at": "start", "type": "pinned"}],
+    "sliding_joints": [{"body": "bob", "beam": "rod", "at": "end", "at_beam_end": "stop"}],
+    "analysis": {"type": "dynamic", "end_time": 0.2, "step": "2 ms"}, "output": {"every": 0.05}})json",
+                 R"json("variables": [
+      {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [3e6, 8e6]},
+      {"name": "mass", "path": "bodies[0].mass", "range": [0.1, 0.3]}],
+    "quantities": [{"name": "z", "value": "at(end, bob.z)"}, {"name": "vx", "value": "at(end, bob.vx)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.004, 1e-4);
 }
 
 TEST(Gradient, OfFormulasIsThatOfTheirExpressions) {

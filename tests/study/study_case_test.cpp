@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "nurbs/knot_vector.h"
+#include "pipelines/study/variant.h"
 #include "tests/pipelines/case_text.h"
 
 namespace nurbeam {
@@ -68,6 +69,36 @@ TEST(StudyCase, RefinedCurvesKeepTheirShapeAndHaveMoreControlPoints) {
   EXPECT_GT((bent.point(0.5) - refined.point(0.5)).norm(), 0.1);
   EXPECT_LE((bent.point(1) - refined.point(1)).norm(), 1e-14);
   EXPECT_LE((bent.point(2) - refined.point(2)).norm(), 1e-14);
+}
+
+TEST(StudyCase, SaysOfEveryVariableWhatIsWrongWithIt) {
+  const ReadCase read = read_with(R"json(
+    {"name": "a", "control_point": {"beam": "rial", "index": 2, "axis": "z"}, "range": [0, 2]},
+    {"name": "b", "weight": {"beam": "rail", "index": 9}, "range": [1, 2]})json");
+  EXPECT_FALSE(read.of_case.value);
+  for (const char* expected : {"variables[0]: the case has no beam \"rial\"; did you mean \"rail\"",
+                               "variables[1]: the curve of beam \"rail\" has 4 control points"})
+    EXPECT_NE(read.messages.find(expected), std::string::npos) << read.messages;
+}
+
+TEST(StudyCase, SaysOfEveryQuantityWhatIsWrongWithIt) {
+  ReadCase read = read_with(one_point);
+  const auto quantity = [&](const std::string& name, const std::string& value) {
+    read.study.quantities.push_back(read.study.quantities[0]);
+    read.study.quantities.back().path = name;
+    read.study.quantities.back().value = Expression::parse(value);
+  };
+  quantity("column", "max(rail.lenght)");
+  quantity("kind", "rail.length");
+  quantity("event", "time(flies, rail)");
+  quantity("body", "time(leaves, rial)");
+  std::string messages;
+  for (const Diagnostic& d : check_quantities(read.study, &*read.of_case.value))
+    messages += d.where + ": " + d.message + "\n";
+  for (const char* expected : {"column.value: a run of this case has no column \"rail.lenght\"",
+                               "kind.value: ", "there is no event \"flies\"",
+                               "the case has no body or beam \"rial\"; did you mean \"rail\""})
+    EXPECT_NE(messages.find(expected), std::string::npos) << messages;
 }
 
 TEST(StudyCase, RefinementsThatCannotBeSaySo) {

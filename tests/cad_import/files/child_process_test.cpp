@@ -60,6 +60,15 @@ TEST(ChildProcess, ASleepingChildEndsAtTheTimeLimitToo) {
   EXPECT_EQ(run("sleep", {std::chrono::seconds(1), 0}).status, Status::timed_out);
 }
 
+TEST(ChildProcess, ASleepingChildEndsWhenItIsInterrupted) {
+  int asked = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(run("sleep", {.interrupted = [&] { return ++asked == 2; }}).status, Status::interrupted);
+  EXPECT_EQ(asked, 2);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+  EXPECT_FALSE(has_children());
+}
+
 TEST(ChildProcess, MemoryBeyondTheLimitIsAResult) {
   if (!can_limit_memory()) GTEST_SKIP() << "built with the address sanitizer";
   EXPECT_EQ(run("large 2147483648", {std::chrono::seconds(10), 1U << 30}).status, Status::out_of_memory);
