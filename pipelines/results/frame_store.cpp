@@ -8,8 +8,8 @@
 namespace nurbeam {
 
 FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& names,
-                       const std::string& title)
-    : file_(NetcdfFile::create(file)),
+                       const std::string& title, bool packed)
+    : file_(NetcdfFile::create(file, packed)),
       probe_count_(names.probes.size()),
       body_count_(names.bodies.size()),
       beam_count_(names.beams.size()),

@@ -9,7 +9,8 @@
 
 namespace nurbeam {
 
-/// Frames in one netCDF-4 file, compressed; every variable carries its unit and a long_name:
+/// Frames in one netCDF-4 file, compressed where it is to stay; every variable carries its unit and a
+/// long_name:
 ///   time(time), step(time), newton_iterations(time), energy_*(time)
 ///   probe_position, probe_velocity (time, probe, xyz); body_position, body_velocity, body_joint_force (time,
 ///   body, xyz); body_s (time, body), the fill value after a body has left; beam_length (time, beam)
@@ -30,7 +31,8 @@ namespace nurbeam {
 class FrameStore {
  public:
   /// Makes the file, without frames. This and the others throw std::runtime_error (file and reason).
-  FrameStore(const std::filesystem::path& file, const SnapshotNames& names, const std::string& title);
+  FrameStore(const std::filesystem::path& file, const SnapshotNames& names, const std::string& title,
+             bool packed);
   /// Appends frames whose vectors fit the names.
   void write(std::span<const Snapshot> frames);
   void close() { file_.close(); }

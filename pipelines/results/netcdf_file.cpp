@@ -41,12 +41,14 @@ NetcdfFile::NetcdfFile(std::filesystem::path file, int id, int status) : file_(s
   throw std::runtime_error(file_.string() + ": " + reason_of(status));
 }
 
-NetcdfFile NetcdfFile::create(const std::filesystem::path& file) {
+NetcdfFile NetcdfFile::create(const std::filesystem::path& file, bool packed) {
   const auto lock = one_at_a_time();
   int id = -1;
   errno = 0;
   const int status = nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
-  return {file, id, status};
+  NetcdfFile created(file, id, status);
+  created.packed_ = packed;
+  return created;
 }
 
 NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
@@ -58,7 +60,10 @@ NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
-    : file_(std::move(other.file_)), id_(std::exchange(other.id_, -1)), texts_(std::move(other.texts_)) {}
+    : file_(std::move(other.file_)),
+      id_(std::exchange(other.id_, -1)),
+      packed_(other.packed_),
+      texts_(std::move(other.texts_)) {}
 
 NetcdfFile::~NetcdfFile() {
   if (id_ < 0) return;
@@ -86,7 +91,7 @@ void NetcdfFile::define(const std::string& name, Type type, const std::vector<st
   for (std::size_t i = 0; i < dimensions.size(); ++i) chunks[i] = i == 0 ? chunk : size(dimensions[i]);
   check(nc_def_var_chunking(id_, variable, NC_CHUNKED, chunks.data()), name);
   constexpr int shuffle = 1, deflate = 1, level = 2;
-  check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
+  if (packed_) check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
   put_meaning(name, unit, long_name);
 }
 

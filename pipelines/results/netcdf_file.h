@@ -18,7 +18,8 @@ class NetcdfFile {
   /// What netCDF holds where nothing was written.
   static const double fill;
 
-  static NetcdfFile create(const std::filesystem::path& file);
+  /// `packed`: with compression.
+  static NetcdfFile create(const std::filesystem::path& file, bool packed = true);
   static NetcdfFile open(const std::filesystem::path& file);
   NetcdfFile(NetcdfFile&& other) noexcept;
   NetcdfFile& operator=(NetcdfFile&&) = delete;
@@ -28,7 +29,8 @@ class NetcdfFile {
   /// A variable without compression, of fixed size: what is read again soon.
   void define_plain(const std::string& name, Type type, const std::vector<std::string>& dimensions,
                     const std::string& unit, const std::string& long_name);
-  /// A compressed variable; `chunk` rows of its first dimension lie together in the file.
+  /// A variable that is compressed where the file is packed; `chunk` rows of its first dimension lie together
+  /// in the file.
   void define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
               const std::string& unit, const std::string& long_name, std::size_t chunk);
   void define_texts(const std::string& name, const std::string& dimension,
@@ -60,6 +62,7 @@ class NetcdfFile {
 
   std::filesystem::path file_;
   int id_;
+  bool packed_ = true;
   /// Defined and not yet put: netCDF writes all it knows of a file where values follow definitions.
   std::vector<std::pair<std::string, std::vector<std::string>>> texts_;
 };

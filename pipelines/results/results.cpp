@@ -53,11 +53,15 @@ std::vector<fs::path> chunks_in(const fs::path& directory) {
   return chunks;
 }
 
+/// What is read again soon is not compressed.
+enum class Use { passing, lasting };
+
 /// Removes its file's temporary name, unless it has been published, when writing fails.
 template <class Write>
-void write_file(const fs::path& file, const SnapshotNames& names, const std::string& title, Write write) {
+void write_file(const fs::path& file, Use use, const SnapshotNames& names, const std::string& title,
+                Write write) {
   try {
-    FrameStore store(temporary_name(file), names, title);
+    FrameStore store(temporary_name(file), names, title, use == Use::lasting);
     write(store);
     store.close();
   } catch (const std::runtime_error&) {
@@ -97,7 +101,7 @@ struct ResultsWriter::Implementation {
 
   void close_chunk() {
     if (open.empty()) return;
-    write_file(chunk_file(directory, chunk_count + 1), names, title,
+    write_file(chunk_file(directory, chunk_count + 1), Use::passing, names, title,
                [&](FrameStore& store) { store.write(open); });
     ++chunk_count;
     open.clear();
@@ -105,11 +109,7 @@ struct ResultsWriter::Implementation {
   }
 
   void merge() {
-    if (chunk_count == 1 && open.empty()) {
-      fs::rename(chunk_file(directory, 1), store_file(directory));
-      return;
-    }
-    write_file(store_file(directory), names, title, [&](FrameStore& store) {
+    write_file(store_file(directory), Use::lasting, names, title, [&](FrameStore& store) {
       for (const fs::path& file : chunks()) {
         const FrameReader chunk(file);
         for_each_batch(chunk, chunk.times().size(), [&](const auto& frames) { store.write(frames); });
@@ -157,7 +157,7 @@ struct ResultsWriter::Implementation {
     const FrameReader reader(from);
     const std::size_t count = std::min(most, reader.times().size());
     if (from != to || count < reader.times().size())
-      write_file(to, names, title, [&](FrameStore& store) {
+      write_file(to, Use::passing, names, title, [&](FrameStore& store) {
         for_each_batch(reader, count, [&](const auto& frames) { store.write(frames); });
       });
     return count;

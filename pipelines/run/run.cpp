@@ -169,13 +169,14 @@ class Run {
     SimulationReport simulated = simulate(built_.model, probe_places(built_), simulation_options(case_),
                                           observer, from_ ? &*from_ : nullptr);
     shown.finish();
+    simulated.motion_seconds = std::max(0.0, simulated.motion_seconds - outputs.seconds());
     return simulated;
   }
 
   void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
     summary_.status = outcome_text(simulated, built_.model);
     summary_.wall_times.output = outputs.seconds();
-    summary_.wall_times.motion = std::max(0.0, simulated.motion_seconds - outputs.seconds());
+    summary_.wall_times.motion = simulated.motion_seconds;
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
                                 outputs.diagnostics().end());
     print_diagnostics(*log_, outputs.diagnostics());

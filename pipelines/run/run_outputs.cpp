@@ -81,15 +81,24 @@ void RunOutputs::write_series(const std::string& name, const std::vector<Snapsho
 bool RunOutputs::checkpoint_due() const { return Clock::now() - last_restart_ >= restart_interval; }
 
 void RunOutputs::write(const Checkpoint& point) {
+  if (!checkpoint_due()) {
+    last_point_ = point;
+    return;
+  }
   timed([&] {
     results_.close_chunk();
     if (paraview_) paraview_->write_index();
     cad_.flush();  // a run that goes on from here has what came before
-    Checkpoint mine = point;
-    mine.inputs = inputs_;
-    write_checkpoint(directory_ / "restart.nc", mine);
-    last_restart_ = Clock::now();
+    put(point);
   });
+}
+
+void RunOutputs::put(const Checkpoint& point) {
+  Checkpoint mine = point;
+  mine.inputs = inputs_;
+  write_checkpoint(directory_ / "restart.nc", mine);
+  last_restart_ = Clock::now();
+  last_point_.reset();
 }
 
 void RunOutputs::finish() {
@@ -97,6 +106,7 @@ void RunOutputs::finish() {
     results_.finish();
     if (paraview_) paraview_->write_index();
     cad_.flush();
+    if (last_point_) put(*last_point_);
   });
 }
 

@@ -30,7 +30,8 @@ class RunOutputs {
   void write_series(const std::string& name, const std::vector<Snapshot>& local);
   /// Whether the last restart point is old enough for another.
   bool checkpoint_due() const;
-  /// Puts all frames so far, and the point, on the disk.
+  /// Puts all frames so far, and the point, on the disk: at once where it is due, else, at the end of a run,
+  /// with finish().
   void write(const Checkpoint& point);
   void finish();
   /// What could not be written into a CAD file; the run goes on.
@@ -47,6 +48,7 @@ class RunOutputs {
   template <class Work>
   void timed(Work work);
   void look_at(const Snapshot& frame);
+  void put(const Checkpoint& point);
 
   const BuiltModel& built_;
   std::filesystem::path directory_;
@@ -55,6 +57,7 @@ class RunOutputs {
   CadOutput cad_;
   std::optional<ParaviewSeries> paraview_;
   Clock::time_point last_restart_ = Clock::now();
+  std::optional<Checkpoint> last_point_;  // for finish()
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;
