@@ -19,7 +19,58 @@ double held_place(const MeshedState& at, int joint, const BeamModel& model) {
   return corresponding_place(drawn.beam_of(own), s, model.beam_of(other));
 }
 
+/// The home nodes between which others may be placed otherwise.
+std::vector<int> dividing(const Beam& beam) {
+  std::vector<int> nodes;
+  for (int h = 0; h <= beam.home_intervals(); ++h) {
+    const HomeNode& node = beam.home[h];
+    if (h == 0 || h == beam.home_intervals() || node.permanent || node.joined || node.kept ||
+        node.kind != NodeKind::smooth || node.hold != Hold::nothing)
+      nodes.push_back(h);
+  }
+  return nodes;
+}
+
+bool alike(const HomeNode& a, const HomeNode& b) {
+  return a.permanent == b.permanent && a.kind == b.kind && a.hold == b.hold && a.joined == b.joined &&
+         a.kept == b.kept;
+}
+
+// Home nodes of `beam` as `drawn` has them.
+std::vector<HomeNode> home_like(const Beam& beam, const Beam& drawn) {
+  const std::vector<int> own = dividing(beam), nodes = dividing(drawn);
+  bool correspond = own.size() == nodes.size();
+  for (std::size_t i = 0; correspond && i < nodes.size(); ++i)
+    correspond = alike(beam.home[own[i]], drawn.home[nodes[i]]);
+  if (!correspond)
+    throw std::runtime_error("a derivative needs neighbouring models of one mesh, and the parts of beam \"" +
+                             beam.name + "\" change with the parameter");
+  std::vector<HomeNode> home{beam.home.front()};
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const double from = drawn.home[nodes[i]].s, to = drawn.home[nodes[i + 1]].s;
+    const HomeNode &own_from = beam.home[own[i]], &own_to = beam.home[own[i + 1]];
+    for (int h = nodes[i] + 1; h < nodes[i + 1]; ++h) {
+      home.push_back(drawn.home[h]);
+      home.back().s = own_from.s + (own_to.s - own_from.s) * (drawn.home[h].s - from) / (to - from);
+    }
+    home.push_back(own_to);
+  }
+  return home;
+}
+
 }  // namespace
+
+std::shared_ptr<const BeamModel> divided_like(std::shared_ptr<const BeamModel> model,
+                                              const BeamModel& drawn) {
+  std::shared_ptr<BeamModel> other;
+  for (std::size_t b = 0; b < model->beams.size() && b < drawn.beams.size(); ++b) {
+    if (dividing(model->beams[b]) == dividing(drawn.beams[b])) continue;
+    if (!other) other = std::make_shared<BeamModel>(*model);
+    other->beams[b].home = home_like(model->beams[b], drawn.beams[b]);
+  }
+  if (other) return other;
+  return model;
+}
 
 bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour) {
   const MeshPlan &plan = system.mesh().plan, &other = neighbour.mesh().plan;

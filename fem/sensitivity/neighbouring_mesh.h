@@ -9,6 +9,11 @@ namespace nurbeam {
 /// Whether two systems have the same nodes and coordinates: that of a model and of a neighbouring one.
 bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
 
+/// A neighbouring model with its beams divided as those of `drawn` are: into as many elements between two
+/// places that no element may cross, in the same proportions. Throws std::runtime_error where these places do
+/// not correspond.
+std::shared_ptr<const BeamModel> divided_like(std::shared_ptr<const BeamModel> model, const BeamModel& drawn);
+
 /// The joints whose places a system holds, but for those whose motion is prescribed.
 std::vector<bool> held_joints(const BeamSystem& system);
 

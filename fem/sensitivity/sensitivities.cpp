@@ -152,8 +152,10 @@ void Sensitivities::begins(const MeshedState& drawn) {
   const std::vector<double> kinks = kink_times(drawn.system->model());
   std::vector<State> rates;
   for (Parameter& parameter : parameters_) {
-    for (const Neighbour* each : {&parameter.pair.more, &parameter.pair.less})
+    for (Neighbour* each : {&parameter.pair.more, &parameter.pair.less}) {
       if (kink_times(*each->model) != kinks) not_alike("the times of tables or releases change");
+      each->model = divided_like(each->model, drawn.system->model());
+    }
     if (begins_at_rest_) continue;
     MeshedState more = MeshedState::drawn(parameter.pair.more.model),
                 less = MeshedState::drawn(parameter.pair.less.model);

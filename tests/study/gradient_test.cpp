@@ -194,6 +194,34 @@ TEST(Gradient, ByTwentyControlPointsTakesFewEvaluations) {
   EXPECT_GT(work.residuals, 0.1 * (2 * 20 * run.steps));
 }
 
+// An arc of a circle in even spans, with fewer elements than three for each: which spans get fewer is decided
+// by round-off, and otherwise in each neighbour.
+TEST(Gradient, OfAMeshThatNeighboursWouldDivideOtherwise) {
+  std::ostringstream control;
+  for (int i = 0; i < 11; ++i)
+    control << (i > 0 ? ", [" : "[") << std::cos(0.25 * i) << ", " << std::sin(0.25 * i) << ", " << 0.05 * i
+            << "]";
+  const std::string beam = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
+    "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1, 1, 1, 1],
+                       "control_points": [)json" +
+                           control.str() + R"json(]}},
+    "section": {"rectangle": [0.04, 0.02]}, "orientation": {"up": [0, 0, 1]},
+    "material": {"density": 2700, "youngs_modulus": "2 GPa", "poissons_ratio": 0.3}, "elements": {"count": 24}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "root"}],
+    "output": {"probes": [{"name": "tip", "beam": "beam", "at": "end"}]}, "analysis": {"type": "static"}})json";
+  const std::string by = R"json("variables": [
+    {"name": "z7", "control_point": {"beam": "beam", "index": 7, "axis": "z"}, "range": [0.25, 0.45], "nominal": 0.35}],
+    "quantities": [{"name": "sag", "value": "at(end, tip.uz)"}], "plan": {"gradient": "nominal"})json";
+  StudyOfCase of(beam, by);
+  // Of another mesh, whose spans are told apart.
+  std::string fine = beam;
+  fine.replace(fine.find("\"count\": 24"), 11, "\"per_segment\": 3");
+  StudyOfCase like(fine, by);
+  const double g = of.run({0.35}, true).gradient[0][0], expected = like.run({0.35}, true).gradient[0][0];
+  EXPECT_NEAR(g, expected, 1e-3 * std::abs(expected));
+  expect_gradient(like, 0.01, 1e-6);
+}
+
 const std::string plane_slide = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
     "beams": [{"name": "beam",
       "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1], "weights": [1, 0.9, 1.1, 1],
