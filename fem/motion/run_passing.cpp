@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/motion/damper_settling.h"
 #include "fem/motion/kinks.h"
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
@@ -84,7 +85,7 @@ bool pass_event(Run& run, const StepEvent& event, bool at_once) {
       apply(at, *taut);
       return true;
     });
-    return run.restart();
+    return settle_damper(run, event) && run.restart();
   }
   RunEvent happened = event_before(run.at, EventKind::slides, joint_of(*run.model, event));
   const auto pass = [&](MeshedState& at) {
@@ -96,7 +97,7 @@ bool pass_event(Run& run, const StepEvent& event, bool at_once) {
   run.follow([&](MeshedState& at) { return pass(at) == kind; });
   happened.kind = *kind;
   run.account.lose(happened.energy_before - run.mechanical_energy());
-  if (!run.restart()) return false;
+  if (!settle_damper(run, event) || !run.restart()) return false;
   finish_event(run.at, happened);
   std::vector<RunEvent>& events = run.report.events;
   // A follower has been told that it left.
