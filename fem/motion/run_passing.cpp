@@ -138,9 +138,8 @@ bool end_sliding(Run& run, const Crossing& ending) {
   if (!ended) return run.fail_in_impact(joint);
   if (!run.restart()) return false;
   finish_event(run.at, event);
-  // In the impact, or what friction stored.
-  if (!leaves || run.model->joints[joint].friction)
-    run.account.lose(event.energy_before - event.energy_after);
+  // In the impact, or what friction and buffers stored.
+  run.account.lose(event.energy_before - event.energy_after);
   run.note(std::move(event));
   return true;
 }

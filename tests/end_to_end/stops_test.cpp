@@ -196,6 +196,17 @@ TEST(StopsRun, ADamperStifferThanTheStepsStopsABodyAndMakesNoEnergy) {
   }
 }
 
+// What a body that leaves the beam had pressed in is lost with it.
+TEST(StopsRun, WhatABufferHoldsWhenItsBodyLeavesTheBeamIsLost) {
+  const StopRun stops = run_stops(one_body(level, 5, R"("at": {"length": 18}, "speed": 5)",
+                                           R"([{"beam": "rail", "at": {"length": 19}, "stiffness": 20}])",
+                                           R"({"end_time": 1, "step": "1 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_EQ(stops.times("left the beam").size(), 1u);
+  EXPECT_NEAR(stops.run.last("energy.dissipated [J]"), 10, 1e-4);
+  EXPECT_LT(total_drift(stops.run), 1e-4);
+}
+
 const char* const two_bodies = R"({"nurbeam": 1,
   "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], [20, 0, 0]]}}],
   "bodies": [{"name": "a", "mass": 2}, {"name": "b", "mass": 6}],
