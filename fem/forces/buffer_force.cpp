@@ -22,9 +22,11 @@ double BufferForce<D>::pressed_in(const MeshedBeams<D>& at, const State& state) 
 template <int D>
 double BufferForce<D>::force(const MeshedBeams<D>& at, const State& state) const {
   const double x = pressed_in(at, state);
-  if (!(x > 0) && !presses(at.structure, state.memory, stop_)) return 0;
+  const BufferContact contact = buffer_contact(at.structure, state.memory, stop_);
+  if (!(x > 0) && contact == BufferContact::away) return 0;
   const Buffer& buffer = *stop(at).buffer;
-  return std::max(0.0, buffer.stiffness * x - buffer.damping * stop_rate(at.mesh, stop(at), state.v));
+  const double N = buffer.stiffness * x - buffer.damping * stop_rate(at.mesh, stop(at), state.v);
+  return contact == BufferContact::pressing ? N : std::max(0.0, N);
 }
 
 template <int D>
@@ -38,7 +40,7 @@ void BufferForce<D>::add_force(const MeshedBeams<D>& at, const State& state,
 template <int D>
 Eigen::Matrix2d BufferForce<D>::tangent(const MeshedBeams<D>& at, const State& state,
                                         const TangentWeights& w) const {
-  if (!(force(at, state) > 0)) return Eigen::Matrix2d::Zero();
+  if (force(at, state) == 0) return Eigen::Matrix2d::Zero();
   const Buffer& buffer = *stop(at).buffer;
   return (w.stiffness * buffer.stiffness + w.damping * buffer.damping) * by_places_ * by_places_.transpose();
 }
@@ -62,7 +64,12 @@ double BufferForce<D>::loss(const MeshedBeams<D>& at, const State& from, const S
 
 template <int D>
 void BufferForce<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const {
-  if (memory.size() > 0) set_presses(at.structure, memory, stop_, pressed_in(at, state) > 0);
+  if (memory.size() == 0) return;
+  const bool let_go = buffer_contact(at.structure, memory, stop_) == BufferContact::let_go;
+  if (!(pressed_in(at, state) > 0))
+    set_buffer_contact(at.structure, memory, stop_, BufferContact::away);
+  else if (force(at, state) > 0 && !(let_go && stop_rate(at.mesh, stop(at), state.v) >= 0))
+    set_buffer_contact(at.structure, memory, stop_, BufferContact::pressing);
 }
 
 template class BufferForce<2>;

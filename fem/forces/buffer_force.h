@@ -7,7 +7,10 @@
 namespace nurbeam {
 
 /// The force of a stop with a buffer along the beam, on the places of one body or two: max(0, k x + c dx/dt)
-/// for x = -d > 0. A body that has come to it presses from the first moment, which State::memory says.
+/// for x = -d > 0. A body that has come to it presses from the first moment, which State::memory says, and
+/// while it does the force goes on below 0 in the trials of a step: the step ends where it comes to 0. With
+/// 0 below, a damper that is stiff against the step would have two answers, one of which throws the body
+/// back.
 template <int D>
 class BufferForce {
  public:

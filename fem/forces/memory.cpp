@@ -41,12 +41,14 @@ void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, in
   memory.segment<of_friction>(first_of_joint(structure, joint)) << of_joint.z, of_joint.s, of_joint.slides;
 }
 
-bool presses(const Structure& structure, const Eigen::VectorXd& memory, int stop) {
-  return memory.size() > 0 && memory[of_stop(structure, stop)] != 0;
+BufferContact buffer_contact(const Structure& structure, const Eigen::VectorXd& memory, int stop) {
+  return memory.size() > 0 ? static_cast<BufferContact>(memory[of_stop(structure, stop)])
+                           : BufferContact::away;
 }
 
-void set_presses(const Structure& structure, Eigen::VectorXd& memory, int stop, bool pressed) {
-  memory[of_stop(structure, stop)] = pressed ? 1 : 0;
+void set_buffer_contact(const Structure& structure, Eigen::VectorXd& memory, int stop,
+                        BufferContact contact) {
+  memory[of_stop(structure, stop)] = static_cast<double>(contact);
 }
 
 bool is_taut(const Structure& structure, const Eigen::VectorXd& memory, int connector) {

@@ -4,8 +4,8 @@
 #include "fem/forces/friction_law.h"
 #include "fem/structure/structure.h"
 
-/// State::memory: three numbers of each joint with friction in turn, then one of each stop: 1 where a body
-/// presses on its buffer; then one of each connector that jumps: 1 where it is taut.
+/// State::memory: three numbers of each joint with friction in turn, then one of each stop, what a body
+/// does to its buffer; then one of each connector that jumps: 1 where it is taut.
 namespace nurbeam {
 
 /// All zero, of a model.
@@ -13,8 +13,10 @@ Eigen::VectorXd no_memory(const Structure& structure);
 FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint);
 void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int joint,
                          const FrictionMemory& of_joint);
-bool presses(const Structure& structure, const Eigen::VectorXd& memory, int stop);
-void set_presses(const Structure& structure, Eigen::VectorXd& memory, int stop, bool pressed);
+/// A body at a buffer: away from it, pressing, or let go by its damper while it is still pressed in.
+enum class BufferContact { away, pressing, let_go };
+BufferContact buffer_contact(const Structure& structure, const Eigen::VectorXd& memory, int stop);
+void set_buffer_contact(const Structure& structure, Eigen::VectorXd& memory, int stop, BufferContact contact);
 bool is_taut(const Structure& structure, const Eigen::VectorXd& memory, int connector);
 void set_taut(const Structure& structure, Eigen::VectorXd& memory, int connector, bool taut);
 

@@ -19,6 +19,7 @@ struct Checkpoint {
   IntegratorHistory history;
   double next_step = 0;                                ///< what error control would take [s]
   double last_step = 0;                                ///< [s]
+  double transient = 0;                                ///< of Run [s]
   bool restarted = false;                              ///< by an event, and no step since
   double dissipated = 0, input = 0, start_energy = 0;  ///< [J]
   std::vector<double> connector_lengths;               ///< free ones, as the run has found them [m]

@@ -33,10 +33,6 @@ double lead(const BeamSystem& system, const State& state, std::pair<int, int> jo
   return *place(system, state, joints.second) - *place(system, state, joints.first);
 }
 
-bool presses_on_buffer(const BeamSystem& system, const State& state, int stop) {
-  return presses(system.model(), state.memory, stop);
-}
-
 double buffer_force(const BeamSystem& system, const State& state, int stop) {
   const Buffer& buffer = *stop_of(system, stop).buffer;
   return -buffer.stiffness * distance(system, state, stop) -
@@ -65,8 +61,10 @@ std::vector<ContactEvent> possible_events(const BeamSystem& system, const State&
   std::vector<ContactEvent> events;
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
     if (!is_in_place(system.mesh(), model.stops[i])) continue;
+    const BufferContact contact = buffer_contact(model, before.memory, i);
+    if (contact == BufferContact::let_go) continue;
     const bool pressed =
-        model.stops[i].buffer ? presses_on_buffer(system, before, i) : system.mesh().plan.is_closed(i);
+        model.stops[i].buffer ? contact == BufferContact::pressing : system.mesh().plan.is_closed(i);
     events.push_back({pressed ? ContactEvent::Kind::leaves : ContactEvent::Kind::hits, i});
   }
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
@@ -185,7 +183,7 @@ bool start_contacts(MeshedState& at, double step) {
     if (!is_in_place(at.system->mesh(), model.stops[i])) continue;
     if (distance(*at.system, at.state, i) > touching(model, model.stops[i].joint)) continue;
     if (model.stops[i].buffer)
-      set_presses(model, at.state.memory, i, true);
+      set_buffer_contact(model, at.state.memory, i, BufferContact::pressing);
     else if (!hit_stop(at, i, step, false))
       return false;
   }
@@ -194,11 +192,11 @@ bool start_contacts(MeshedState& at, double step) {
 
 std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, bool presses) {
   const bool hard = !stop_of(*at.system, event.stop).buffer;
-  // A damped one is left while it is still pressed in, and followed until it is not.
-  if (!hard &&
-      (event.kind == ContactEvent::Kind::hits || stop_of(*at.system, event.stop).buffer->damping == 0))
-    set_presses(at.system->model(), at.state.memory, event.stop, event.kind == ContactEvent::Kind::hits);
-  else if (event.kind == ContactEvent::Kind::hits && !hit_stop(at, event.stop, step, presses))
+  const bool hits = event.kind == ContactEvent::Kind::hits;
+  if (!hard)
+    set_buffer_contact(at.system->model(), at.state.memory, event.stop,
+                       hits ? BufferContact::pressing : BufferContact::let_go);
+  else if (hits && !hit_stop(at, event.stop, step, presses))
     return {};
   if (event.kind == ContactEvent::Kind::leaves && hard) {
     std::vector<bool> closed = closed_contacts(at);

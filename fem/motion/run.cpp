@@ -34,7 +34,8 @@ bool Run::fail_in_impact(int joint) {
 }
 
 double Run::shortest_time() const {
-  return std::holds_alternative<GeneralizedAlpha>(options.integrator) ? step : 0;
+  if (!std::holds_alternative<GeneralizedAlpha>(options.integrator)) return 0;
+  return transient > 0 ? std::min(step, transient) : step;
 }
 
 double Run::resolution() const { return std::max(1e-12 * std::max(1.0, options.end_time), 1e-5 * step); }

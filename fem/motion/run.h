@@ -18,10 +18,12 @@ struct Run {
   MeshedState at = {};
   std::unique_ptr<Integrator> integrator = {};
   double step = 1e-4;      ///< asked for next: fixed, or what error control suggests [s]
+  double transient = 0;    ///< what steps may be at most while a damper that was met settles; 0: any [s]
   bool restarted = false;  ///< and no step since
   EnergyAccount account = {};
   SimulationReport report = {};
-  double last_step = 0;  ///< [s]
+  std::size_t events_at_once = 0;  ///< since time has last gone on
+  double last_step = 0;            ///< [s]
   StepRecord last_record = {};
   std::vector<StepRecord> steps = {};  ///< since the last snapshot
 
@@ -48,7 +50,7 @@ struct Run {
   /// In the impact at the end or a break of a joint's beam.
   bool fail_in_impact(int joint);
 
-  /// Shorter than this nothing is followed: the steps of a method for stiff systems [s].
+  /// Shorter than this nothing is followed: the next step of a method for stiff systems [s].
   double shortest_time() const;
   /// A step much shorter than the others would take the round-off of positions for velocities. What is left
   /// after an event just before an output time is not worth one [s].

@@ -21,7 +21,7 @@ enum class EventKind {
 };
 /// Whether what an event takes from the energy counts as dissipated.
 inline bool is_booked(EventKind kind) {
-  return kind == EventKind::stopped_at_end || kind >= EventKind::sticks;
+  return kind == EventKind::left_beam || kind == EventKind::stopped_at_end || kind >= EventKind::sticks;
 }
 
 /// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/motion/damper_settling.h"
 #include "fem/motion/kinks.h"
 #include "fem/motion/run_events.h"
 #include "fem/motion/sliding_bodies.h"
@@ -84,7 +85,7 @@ bool pass_event(Run& run, const StepEvent& event, bool at_once) {
       apply(at, *taut);
       return true;
     });
-    return run.restart();
+    return settle_damper(run, event) && run.restart();
   }
   RunEvent happened = event_before(run.at, EventKind::slides, joint_of(*run.model, event));
   const auto pass = [&](MeshedState& at) {
@@ -96,7 +97,7 @@ bool pass_event(Run& run, const StepEvent& event, bool at_once) {
   run.follow([&](MeshedState& at) { return pass(at) == kind; });
   happened.kind = *kind;
   run.account.lose(happened.energy_before - run.mechanical_energy());
-  if (!run.restart()) return false;
+  if (!settle_damper(run, event) || !run.restart()) return false;
   finish_event(run.at, happened);
   std::vector<RunEvent>& events = run.report.events;
   // A follower has been told that it left.
@@ -137,9 +138,8 @@ bool end_sliding(Run& run, const Crossing& ending) {
   if (!ended) return run.fail_in_impact(joint);
   if (!run.restart()) return false;
   finish_event(run.at, event);
-  // In the impact, or what friction stored.
-  if (!leaves || run.model->joints[joint].friction)
-    run.account.lose(event.energy_before - event.energy_after);
+  // In the impact, or what friction and buffers stored.
+  run.account.lose(event.energy_before - event.energy_after);
   run.note(std::move(event));
   return true;
 }

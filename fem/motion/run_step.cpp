@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fem/forces/memory.h"
+#include "fem/motion/damper_settling.h"
 #include "fem/motion/run_mesh.h"
 #include "fem/motion/run_passing.h"
 #include "fem/motion/sliding_bodies.h"
@@ -46,6 +47,13 @@ bool has_events(const BeamModel& model) {
              model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.rigid; });
 }
 
+std::size_t kinds_of_event(const BeamModel& model) {
+  return model.joints.size() + model.stops.size() + model.connectors.size();
+}
+
+// That follow each other at one moment before they are taken for one that will never pass.
+std::size_t most_at_once(const BeamModel& model) { return 100 * (1 + kinds_of_event(model)); }
+
 // Repeats a step in which an event happens so that it ends there.
 std::optional<StepEvent> land_on_event(Run& run, const State& before, const IntegratorHistory& history,
                                        bool nothing_leaves) {
@@ -53,9 +61,8 @@ std::optional<StepEvent> land_on_event(Run& run, const State& before, const Inte
   const BeamModel& model = *run.model;
   if (!has_events(model)) return found;
   State& state = run.at.state;
-  const std::size_t most = model.joints.size() + model.stops.size() +
-                           model.connectors.size();  // the first found need not come first
-  for (std::size_t i = 0; i <= most && state.t > before.t; ++i) {
+  // The first found need not come first.
+  for (std::size_t i = 0; i <= kinds_of_event(model) && state.t > before.t; ++i) {
     const std::optional<StepEvent> event = first_event(*run.at.system, before, state, nothing_leaves);
     if (!event) break;
     const State after = state;
@@ -147,13 +154,15 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   MeshedState& at = run.at;
   const State before = at.state;
   const IntegratorHistory history = run.integrator->history();
-  const StepReport taken = step_keeping_energy(run, before, history, step);
+  const StepReport taken =
+      step_keeping_energy(run, before, history, run.transient > 0 ? std::min(step, run.transient) : step);
   run.report.newton_iterations += taken.newton_iterations;
   run.report.rejected_steps += taken.rejected;
   if (taken.status != StepStatus::converged)
     return run.goes_on(Failure{
         .kind = Failure::Kind::step, .time = at.state.t, .places = places_of(at), .step = taken.status});
   if (!run.options.step) run.step = taken.next_step;
+  grow_transient(run);
   ++run.report.steps;
   run.last_step = taken.step;
   at.state = run.integrator->state();
@@ -162,9 +171,15 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   const Landing landing = land(run, before, history, taken.step, nothing_leaves);
   if (landing.event && at.state.t == before.t) {
     if (!pass_event(run, *landing.event, true)) return false;
+    if (++run.events_at_once > most_at_once(*run.model))
+      return run.goes_on(Failure{.kind = Failure::Kind::step,
+                                 .time = at.state.t,
+                                 .places = places_of(at),
+                                 .step = StepStatus::not_converged});
     // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
     return !rests_by(run, *landing.event) || take_step(run, step, rest, true);
   }
+  run.events_at_once = 0;
   if (run.observer.follower)
     run.observer.follower->steps(
         {before, history, at.state, at.state.t != end, rest, distance_to(*run.model, landing, before)});

@@ -101,6 +101,7 @@ struct Simulation::Implementation {
     point.history = run_.integrator->history();
     point.next_step = run_.step;
     point.last_step = run_.last_step;
+    point.transient = run_.transient;
     point.restarted = run_.restarted;
     point.dissipated = run_.account.dissipated();
     point.input = run_.account.input();
@@ -222,6 +223,7 @@ struct Simulation::Implementation {
     run_.integrator->restore(point.state, point.history);
     run_.step = point.next_step;
     run_.last_step = point.last_step;
+    run_.transient = point.transient;
     run_.restarted = point.restarted;
     run_.account = EnergyAccount(point.dissipated, point.input, point.start_energy);
     run_.steps = point.steps;

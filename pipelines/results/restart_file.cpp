@@ -222,6 +222,7 @@ void exchange_numbers(Archive& archive, Checkpoint& p) {
                   slot(point.snapshots);
                   slot(point.next_step);
                   slot(point.last_step);
+                  slot(point.transient);
                   slot(point.restarted);
                   slot(point.dissipated);
                   slot(point.input);

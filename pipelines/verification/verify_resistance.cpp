@@ -163,6 +163,24 @@ VerifyResult hard_stop() {
   return result;
 }
 
+// A damper for which steps of 10 ms are long, c h/m = 5: x = v (exp(-p t) - exp(-q t))/(q - p) until
+// x'' = 0, p and q the roots of m q^2 - c q + k.
+void add_stiff_damper(VerifyResult& result) {
+  const double m = 80, k = 2e4, c = 4e4, v = 3, b = c / (2 * m), q = b + std::sqrt(b * b - k / m),
+               p = k / m / q;
+  BeamModel model = on_guide({line_cubic({0, 0, 0}, {20, 0, 0})}, m, v, 1);
+  model.stops.push_back({.joint = 0, .place = 4, .buffer = Buffer{k, c}});
+  const double deepest = std::log(q / p) / (q - p), away = 2 * deepest;
+  const RunRecord run = run_model(model, {0, 1 + deepest, 1.5}, 0.01);
+  result.add("pressed in at 0.0138 s, c h/m = 5 [m]",
+             v * (std::exp(-p * deepest) - std::exp(-q * deepest)) / (q - p), "overdamped oscillation",
+             run.place(1) - 4, 3e-5);
+  result.add("speed away, c h/m = 5 [m/s]", v * (p * std::exp(-p * away) - q * std::exp(-q * away)) / (q - p),
+             "overdamped oscillation", speed_in(run, 2), 1e-4);
+  result.add("drift of the total energy with its losses, c h/m = 5 [J]", 0, "it is constant",
+             largest_drift(run), 2e-2);
+}
+
 VerifyResult buffer() {
   VerifyResult result;
   const double m = 80, k = 2e4, c = 800, v = 3, b = c / (2 * m), w = std::sqrt(k / m - b * b);
@@ -178,6 +196,7 @@ VerifyResult buffer() {
   result.add("away after [s]", away, "damped oscillation", first_time(run, EventKind::leaves_stop) - 1, 1e-6);
   result.add("speed away [m/s]", -back, "damped oscillation", speed_in(run, 2), 1e-5);
   result.add("drift of the total energy with its losses [J]", 0, "it is constant", largest_drift(run), 1e-2);
+  add_stiff_damper(result);
   return result;
 }
 

@@ -168,6 +168,45 @@ TEST(StopsRun, ABufferThatDoesNotStickLetsTheBodyGoWhereItsForceEnds) {
   EXPECT_GT(total_drift(coarse.run) / total_drift(stops.run), 3);
 }
 
+// x = v (exp(-p t) - exp(-q t))/(q - p), p and q the roots of m q^2 - c q + k: away where m x'' = -(k x + c
+// x') is zero, at q/p exp((p - q) t) = p/q.
+TEST(StopsRun, ADamperStifferThanTheStepsStopsABodyAndMakesNoEnergy) {
+  const double m = 80, k = 2e4, v = 3, h = 0.01;
+  for (const double c : {4e3, 1e4, 4e4, 2e5, 1e7}) {
+    SCOPED_TRACE(c);
+    std::ostringstream stop;
+    stop << R"([{"beam": "rail", "at": {"length": 4}, "stiffness": 20000, "damping": )" << c << "}]";
+    const StopRun stops = run_stops(one_body(level, m, R"("at": {"length": 1}, "speed": 3)", stop.str(),
+                                             R"({"end_time": 1.3, "step": "10 ms"})"));
+    ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+    EXPECT_EQ(stops.run.messages, "");
+    const double b = c / (2 * m), root = std::sqrt(b * b - k / m), q = b + root, p = k / m / q;
+    const auto place = [&](double t) { return v * (std::exp(-p * t) - std::exp(-q * t)) / (q - p); };
+    const double deepest = place(std::log(q / p) / (q - p)), away = 2 * std::log(q / p) / (q - p);
+    double most = 0;
+    for (std::size_t i = 0; i < stops.run.rows.size(); ++i) {
+      most = std::max(most, stops.run.value(i, "bead.s [m]"));
+      EXPECT_LT(stops.run.value(i, "energy.kinetic [J]"), 360 * (1 + 1e-9));
+    }
+    const double back = v * (p * std::exp(-p * away) - q * std::exp(-q * away)) / (q - p);
+    ASSERT_EQ(stops.times("hits a stop").size(), 1u);
+    EXPECT_NEAR(most - 4, deepest, 0.03 * deepest + v * h * 1e-3);
+    EXPECT_NEAR(stops.run.last("bead.vx [m/s]"), -back, 3e-3);
+    EXPECT_LT(total_drift(stops.run), 2e-3 * 360);
+  }
+}
+
+// What a body that leaves the beam had pressed in is lost with it.
+TEST(StopsRun, WhatABufferHoldsWhenItsBodyLeavesTheBeamIsLost) {
+  const StopRun stops = run_stops(one_body(level, 5, R"("at": {"length": 18}, "speed": 5)",
+                                           R"([{"beam": "rail", "at": {"length": 19}, "stiffness": 20}])",
+                                           R"({"end_time": 1, "step": "1 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_EQ(stops.times("left the beam").size(), 1u);
+  EXPECT_NEAR(stops.run.last("energy.dissipated [J]"), 10, 1e-4);
+  EXPECT_LT(total_drift(stops.run), 1e-4);
+}
+
 const char* const two_bodies = R"({"nurbeam": 1,
   "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], [20, 0, 0]]}}],
   "bodies": [{"name": "a", "mass": 2}, {"name": "b", "mass": 6}],
