@@ -77,6 +77,18 @@ void check_solid(const SweptProfile& profile) {
   if (!has_cubics) throw std::invalid_argument("'" + profile.name + "' has a loop without cubics");
 }
 
+WriteCurvesRequest request_for(const CurvesFile& file) {
+  const CadFormat format = written_format(file.path);
+  check_unit(file.path, format, file.unit);
+  if (file.curves.empty())
+    throw std::invalid_argument("no curve to write to " + file.path.string() + "; give at least one");
+  for (const NamedCurve& curve : file.curves) {
+    check_name(curve.name);
+    check_name(curve.part);
+  }
+  return {format, file.curves, file.unit, file.schema};
+}
+
 }  // namespace
 
 CadFormat written_format(const fs::path& file) {
@@ -94,18 +106,27 @@ CadFormat written_format(const fs::path& file) {
 
 std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<NamedCurve>& curves,
                                       LengthUnit unit, StepSchema schema) {
-  const CadFormat format = written_format(file);
-  check_unit(file, format, unit);
-  if (curves.empty())
-    throw std::invalid_argument("no curve to write to " + file.string() + "; give at least one");
-  for (const NamedCurve& curve : curves) {
-    check_name(curve.name);
-    check_name(curve.part);
-  }
-  const ChildResult result = asked(WriteCurvesRequest{format, curves, unit, schema}, {patience});
+  const ChildResult result = asked(request_for({file, curves, unit, schema}), {patience});
   if (result.status != ChildResult::Status::finished)
     return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing")}};
   return write_at_once(file, result.output);
+}
+
+std::vector<Diagnostic> export_curves(const std::vector<CurvesFile>& files) {
+  WriteFilesRequest request;
+  for (const CurvesFile& file : files) request.files.push_back(request_for(file));
+  std::vector<Diagnostic> problems;
+  const auto add = [&](const std::vector<Diagnostic>& found) {
+    problems.insert(problems.end(), found.begin(), found.end());
+  };
+  const ChildResult result = asked(request, {patience});
+  if (result.status == ChildResult::Status::finished) {
+    const std::vector<std::string> texts = texts_from_bytes(result.output);
+    for (std::size_t i = 0; i < files.size(); ++i) add(write_at_once(files[i].path, texts.at(i)));
+  } else {  // one by one, so that what ails one file costs no other
+    for (const CurvesFile& file : files) add(export_curves(file.path, file.curves, file.unit, file.schema));
+  }
+  return problems;
 }
 
 std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<NamedPipe>& pipes,

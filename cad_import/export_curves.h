@@ -23,6 +23,17 @@ CadFormat written_format(const std::filesystem::path& file);
                                                     const std::vector<NamedCurve>& curves, LengthUnit unit,
                                                     StepSchema schema = StepSchema::ap214);
 
+/// One of several files.
+struct CurvesFile {
+  std::filesystem::path path;
+  std::vector<NamedCurve> curves;
+  LengthUnit unit;
+  StepSchema schema = StepSchema::ap214;
+};
+
+/// Writes each of them as export_curves does, with one start of the program that knows CAD files for all.
+[[nodiscard]] std::vector<Diagnostic> export_curves(const std::vector<CurvesFile>& files);
+
 /// Writes each pipe as a solid (its axis swept by a disk or an annulus, ends cut square) under its name, to a
 /// STEP or BREP file, else as export_curves does. Runs of lines and arcs become cylinders and tori; other
 /// faces are B-splines within 1e-6 of the radius. Corners are mitred. When a curve cannot be swept (a bend

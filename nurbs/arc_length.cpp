@@ -17,6 +17,25 @@ std::size_t panel_holding(const std::vector<double>& bounds, double value) {
   return static_cast<std::size_t>(after - bounds.begin()) - 1;
 }
 
+/// Panels on which 5 points integrate to round-off, and a cubic guesses the inverse to 1e-7.
+Panels finer(const Panels& panels, const Speed& speed) {
+  constexpr int parts = 16;
+  Panels fine{{panels.breaks[0]}, {0}};
+  for (std::size_t k = 0; k + 1 < panels.breaks.size(); ++k) {
+    const double a = panels.breaks[k], b = panels.breaks[k + 1];
+    double part = 0;
+    for (int i = 1; i < parts; ++i) {
+      const double u = a + (b - a) * i / parts;
+      part += gauss_of_5(speed, fine.breaks.back(), u);
+      fine.integrals.push_back(panels.integrals[k] + part);
+      fine.breaks.push_back(u);
+    }
+    fine.breaks.push_back(b);
+    fine.integrals.push_back(panels.integrals[k + 1]);
+  }
+  return fine;
+}
+
 /// Where the speed is least, looked for around the slowest break: panels crowd where the speed nearly
 /// vanishes.
 double slowest_place(const Speed& speed, const Panels& panels, const std::vector<double>& break_speeds) {
@@ -57,7 +76,9 @@ double Speed::operator()(double u) const {
 
 double length(const RationalCubic& cubic) { return panels_of(Speed(cubic), 0, 1).integrals.back(); }
 
-ArcLengthMap::ArcLengthMap(const RationalCubic& cubic) : speed_(cubic), panels_(panels_of(speed_, 0, 1)) {
+ArcLengthMap::ArcLengthMap(const RationalCubic& cubic)
+    : speed_(cubic),
+      panels_(speed_.uniform() ? panels_of(speed_, 0, 1) : finer(panels_of(speed_, 0, 1), speed_)) {
   for (const double u : panels_.breaks) break_speeds_.push_back(speed_(u));
   const double u = slowest_place(speed_, panels_, break_speeds_);
   if (speed_(u) > 1e-10 * length()) return;
@@ -70,7 +91,8 @@ ArcLengthMap::ArcLengthMap(const RationalCubic& cubic) : speed_(cubic), panels_(
 
 double ArcLengthMap::arc_length(double u) const {
   const std::size_t k = panel_holding(panels_.breaks, u);
-  return panels_.integrals[k] + gauss(speed_, panels_.breaks[k], u);
+  const double a = panels_.breaks[k], b = panels_.breaks[k + 1];
+  return panels_.integrals[k] + (a <= u && u <= b ? gauss_of_5(speed_, a, u) : gauss(speed_, a, u));
 }
 
 double ArcLengthMap::parameter(double s) const {
@@ -91,15 +113,15 @@ double ArcLengthMap::parameter(double s) const {
   double u =
       inside ? std::clamp(guess, a, b)
              : (t < 0 ? a + from_a / break_speeds_[k] : b + (from_a - panel_length) / break_speeds_[k + 1]);
-  double excess = gauss(speed_, a, u) - from_a;
+  double excess = (inside ? gauss_of_5(speed_, a, u) : gauss(speed_, a, u)) - from_a;
   for (int i = 0; i < 60; ++i) {
     (excess > 0 ? high : low) = u;
     double next = u - excess / speed_(u);
     if (inside && (next < low || next > high)) next = 0.5 * (low + high);
     const double step = std::abs(next - u);
-    if (step <= 1e-9 * (b - a)) return next;
+    if (step <= 1e-7 * (b - a)) return next;
     // Where the step is short, three points integrate it to round-off.
-    excess = step <= 1e-2 * (b - a) ? excess + gauss_of_3(speed_, u, next) : gauss(speed_, a, next) - from_a;
+    excess = step <= 1e-1 * (b - a) ? excess + gauss_of_3(speed_, u, next) : gauss(speed_, a, next) - from_a;
     u = next;
   }
   return u;

@@ -75,50 +75,64 @@ int end_of_component(const Neighbours& neighbours, int start, Walks& walks) {
 
 }  // namespace
 
-void BandedLu::analyse(const Matrix& pattern) {
+BandOrder::BandOrder(const Matrix& pattern) {
   const Neighbours neighbours(pattern);
   const int n = neighbours.size();
   Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
-  unknown_.clear();
   for (int i = 0; i < n; ++i)
     if (walks.last[i] == 0)
-      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown_);
-  std::reverse(unknown_.begin(), unknown_.end());
-  place_.resize(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) place_[unknown_[k]] = k;
-  half_bandwidth_ = 0;
+      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown);
+  std::reverse(unknown.begin(), unknown.end());
+  place.resize(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) place[unknown[k]] = k;
+  ends.resize(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) ends[k] = k + 1;
   for (int i = 0; i < n; ++i)
-    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j)
-      half_bandwidth_ = std::max(half_bandwidth_, std::abs(place_[i] - place_[*j]));
+    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j) {
+      half_bandwidth = std::max(half_bandwidth, std::abs(place[i] - place[*j]));
+      ends[place[*j]] = std::max(ends[place[*j]], place[i] + 1);
+    }
+}
+
+void BandedLu::take(std::shared_ptr<const BandOrder> order) {
+  order_ = std::move(order);
+  half_bandwidth_ = order_->half_bandwidth;
+  const auto n = order_->unknown.size();
   // All is done by blocks of four; what they reach beyond the band is zero.
-  padded_ = (n + block - 1) / block * block;
+  padded_ = (static_cast<int>(n) + block - 1) / block * block;
   width_ = 3 * half_bandwidth_ + 2 * block;
   height_ = half_bandwidth_ + 2 * block;
+  const auto padded = static_cast<std::size_t>(padded_);
+  scale_.resize(n);
+  band_.resize(padded * static_cast<std::size_t>(width_));
+  lower_.assign(padded * static_cast<std::size_t>(height_), 0);
+  pivots_.resize(padded);
+  reach_.resize(padded / block);
+  inverse_.resize(padded);
+  y_.assign(padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block), 0);
 }
 
 void BandedLu::fill_band(const Matrix& matrix) {
-  const auto n = unknown_.size(), padded = static_cast<std::size_t>(padded_);
-  scale_.assign(n, 0);
-  for (int column = 0; column < matrix.cols(); ++column)
-    for (Matrix::InnerIterator entry(matrix, column); entry; ++entry)
-      scale_[place_[entry.row()]] = std::max(scale_[place_[entry.row()]], std::abs(entry.value()));
-  for (double& scale : scale_) scale = scale > 0 ? 1 / scale : 1;
-  band_.assign(padded * static_cast<std::size_t>(width_), 0);
-  ends_.assign(padded, 0);
-  for (int column = 0; column < matrix.cols(); ++column)
-    for (Matrix::InnerIterator entry(matrix, column); entry; ++entry) {
-      const int i = place_[entry.row()], j = place_[column];
-      row(i)[j - i + half_bandwidth_] = scale_[i] * entry.value();
-      ends_[i] = std::max(ends_[i], j + 1);
+  const int n = static_cast<int>(order_->unknown.size());
+  std::fill(band_.begin(), band_.end(), 0);
+  for (int column = 0; column < n; ++column) {
+    const int j = order_->place[column] + half_bandwidth_;
+    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
+      const int i = order_->place[matrix.innerIndexPtr()[k]];
+      row(i)[j - i] = matrix.valuePtr()[k];
     }
-  for (int i = static_cast<int>(n); i < padded_; ++i) {
-    row(i)[half_bandwidth_] = 1;
-    ends_[i] = i + 1;
   }
-  lower_.assign(padded * static_cast<std::size_t>(height_), 0);
-  pivots_.resize(padded);
-  inverse_.resize(padded);
-  y_.assign(padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block), 0);
+  for (int i = 0; i < n; ++i) {
+    Eigen::Map<Eigen::ArrayXd> entries(row(i), 2 * half_bandwidth_ + 1);
+    const double largest = entries.abs().maxCoeff();
+    scale_[i] = largest > 0 ? 1 / largest : 1;
+    entries *= scale_[i];
+  }
+  ends_ = order_->ends;
+  for (int i = n; i < padded_; ++i) {
+    row(i)[half_bandwidth_] = 1;
+    ends_.push_back(i + 1);
+  }
 }
 
 // The row below that takes the place: the one that is there if it is not much less than the largest, since
@@ -152,16 +166,19 @@ double BandedLu::factorise(const Matrix& matrix) {
     const double pivot = upper[0];
     if (pivot == 0) return 0;
     inverse_[k] = 1 / pivot;
-    if (k < static_cast<int>(unknown_.size())) {
+    if (k < static_cast<int>(order_->unknown.size())) {
       smallest = std::min(smallest, std::abs(pivot));
       largest = std::max(largest, std::abs(pivot));
     }
     double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
+    int& reach = reach_[k / block];
+    if (k % block == 0) reach = 0;
     const int length = ends_[k] - k, last = std::min(padded_ - 1, k + b);
     for (int i = k + 1; i <= last; ++i) {
       double* below = row(i) + k - i + b;
-      if (below[0] == 0) continue;
       const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
+      if (factor == 0) continue;
+      reach = std::max(reach, i);
       for (int j = 1; j < length; j += block) Four(below + j) -= factor * ConstFour(upper + j);
       ends_[i] = std::max(ends_[i], ends_[k]);
     }
@@ -170,13 +187,43 @@ double BandedLu::factorise(const Matrix& matrix) {
 }
 
 void BandedLu::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
-  const int n = static_cast<int>(unknown_.size());
-  for (int k = 0; k < n; ++k) y_[k] = scale_[k] * rhs[unknown_[k]];
+  const int n = static_cast<int>(order_->unknown.size());
+  for (int k = 0; k < n; ++k) y_[k] = scale_[k] * rhs[order_->unknown[k]];
   std::fill(y_.begin() + n, y_.end(), 0);
   for (int k = 0; k < padded_; k += block) eliminate(k);
   for (int k = padded_ - block; k >= 0; k -= block) substitute(k);
   x.resize(n);
-  for (int k = 0; k < n; ++k) x[unknown_[k]] = y_[k];
+  for (int k = 0; k < n; ++k) x[order_->unknown[k]] = y_[k];
+}
+
+void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const {
+  const int n = static_cast<int>(order_->unknown.size()), p = static_cast<int>(unknowns.size());
+  columns.resize(n, p);
+  std::vector<Eigen::Array4d>& y = four_;
+  y.resize(y_.size());
+  for (int first = 0; first < p; first += block) {
+    const int last = std::min(p, first + block);
+    std::fill(y.begin(), y.end(), Eigen::Array4d::Zero());
+    int start = padded_;
+    for (int j = first; j < last; ++j) {
+      const int k = order_->place[unknowns[j]];
+      y[k][j - first] = scale_[k];
+      start = std::min(start, k);
+    }
+    // An exchange brings a row up by no more than the band.
+    for (int k = std::max(0, start - half_bandwidth_); k < padded_; ++k) {
+      std::swap(y[k], y[pivots_[k]]);
+      const double* m = lower_.data() + static_cast<std::size_t>(k) * height_;
+      for (int i = 0; i < half_bandwidth_; ++i) y[k + 1 + i] -= m[i] * y[k];
+    }
+    for (int k = padded_ - 1; k >= 0; --k) {
+      const double* u = row(k) + half_bandwidth_;
+      for (int i = 1; i < ends_[k] - k; ++i) y[k] -= u[i] * y[k + i];
+      y[k] *= inverse_[k];
+    }
+    for (int j = first; j < last; ++j)
+      for (int k = 0; k < n; ++k) columns(order_->unknown[k], j) = y[k][j - first];
+  }
 }
 
 // Takes a block of unknowns out of the right-hand sides below it.
@@ -196,7 +243,7 @@ void BandedLu::eliminate(int k) const {
   y[1] -= m[0][0] * y[0];
   y[2] -= m[0][1] * y[0] + m[1][0] * y[1];
   y[3] -= m[0][2] * y[0] + m[1][1] * y[1] + m[2][0] * y[2];
-  for (int i = 0; i < half_bandwidth_; i += block)
+  for (int i = 0; k + block + i <= reach_[k / block]; i += block)
     Four(y + block + i) -= ConstFour(m[0] + i + 3) * y[0] + ConstFour(m[1] + i + 2) * y[1] +
                            ConstFour(m[2] + i + 1) * y[2] + ConstFour(m[3] + i) * y[3];
 }

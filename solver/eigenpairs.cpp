@@ -2,6 +2,7 @@
 
 #include <Spectra/SymEigsSolver.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,18 @@ std::optional<Eigenpairs> find(const Transformed& C, const Vectors& found, int c
   return Eigenpairs{lanczos.eigenvalues(), lanczos.eigenvectors(wanted)};
 }
 
+/// All of a small C, by its columns.
+std::optional<Eigenpairs> all_of(const Transformed& C, const std::function<void()>& between) {
+  Vectors columns(C.size(), C.size());
+  for (int i = 0; i < C.size(); ++i) {
+    between();
+    columns.col(i) = C.times(Vector::Unit(C.size(), i));
+  }
+  const Eigen::SelfAdjointEigenSolver<Vectors> solver((columns + columns.transpose()) / 2);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return Eigenpairs{solver.eigenvalues(), solver.eigenvectors()};
+}
+
 /// All that is known and not zero, the largest first.
 Eigenpairs merged(const Eigenpairs& a, const Eigenpairs& b) {
   Vector values(a.values.size() + b.values.size());
@@ -128,8 +141,16 @@ std::optional<Eigenpairs> largest_eigenpairs(const Matrix& A, const Matrix& kkt,
   const Transformed C(A, kkt);
   if (!C.regular() || C.size() < 2) return std::nullopt;
   Eigenpairs found{Vector(0), Vectors(C.size(), 0)};
+  // Where most are wanted the iteration would look for them among round-off.
+  constexpr int few = 64;
+  const bool dense = C.size() <= few || C.size() <= 3 * count;
+  if (dense) {
+    const std::optional<Eigenpairs> all = all_of(C, between);
+    if (!all) return std::nullopt;
+    found = merged(found, *all);
+  }
   constexpr double same = 1e-9;
-  for (bool missing = true; missing;) {
+  for (bool missing = !dense; missing;) {
     const std::optional<Eigenpairs> more = find(C, found.vectors, count, between);
     if (!more) return std::nullopt;
     const auto known = found.values.size();

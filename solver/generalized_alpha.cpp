@@ -11,11 +11,14 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;      ///< of the step under error control
-constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
-constexpr int many_corrections = 3;       ///< in one step, after which a matrix is taken anew
-constexpr double longest_use = 50;        ///< of a matrix, in steps
-constexpr double same_step = 1e-6;        ///< relative difference that a matrix does not feel
+constexpr double largest_growth = 2;        ///< of the step under error control
+constexpr double good_contraction = 0.1;    ///< of the corrections, for which a matrix is kept
+constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
+constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
+constexpr double to_spare = 5;              ///< of what is foretold so
+constexpr int many_corrections = 3;         ///< in one step, after which a matrix is taken anew
+constexpr double longest_use = 50;          ///< of a matrix, in steps
+constexpr double same_step = 1e-6;          ///< relative difference that a matrix does not feel
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -44,14 +47,19 @@ class Convergence {
   /// Takes the norm of a residual and of the correction that answered it; both have one tolerance.
   bool reached(double residual, double correction, double tolerance) {
     contraction_ = correction / correction_;
-    const double last = correction_;
+    const double last = correction_, balance = residual / residual_;
     correction_ = correction;
+    residual_ = residual;
     const bool small = correction <= tolerance;
     if (!std::isfinite(last)) return false;
     // Where forces are in balance, one more correction takes what is left; what would be left of that is
     // foretold by the last two.
     const bool foretold = contracts() && contraction_ * correction <= tolerance;
     if (residual <= tolerance && (small || foretold)) return true;
+    // Where both are quickly brought down, the balance is foretold as well, with much to spare: no quicker
+    // than a kept matrix does it, whatever its first correction has done.
+    const double rate = std::max({balance, contraction_, quickest_kept});
+    if (foretold && rate <= quick_contraction && to_spare * rate * residual <= tolerance) return true;
     // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
     // its own round-off.
     return small && last <= tolerance && !contracts();
@@ -61,6 +69,7 @@ class Convergence {
 
  private:
   double correction_ = std::numeric_limits<double>::infinity();
+  double residual_ = std::numeric_limits<double>::infinity();
   double contraction_ = 0;
 };
 
@@ -89,6 +98,8 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   jerk_ = Eigen::VectorXd::Zero(n);
   kkt_ = system.tangent_pattern();
   mass_scale_ = mass_scale(system, state_, kkt_);
+  scale_ = system.coordinate_scale();
+  inverse_scale_ = scale_.cwiseInverse();
   trial_ = state_;
   residual_.resize(n + m);
   reference_.resize(n + m);
@@ -133,7 +144,6 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
   const double limit = system_->step_limit(state_);
   if (!(step > 0) || !(limit > 0)) return report;
   double h = std::min(step, limit);
-  scale_ = system_->coordinate_scale();
   for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
@@ -165,16 +175,18 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     evaluate_residual(step);
     if (!residual_.allFinite()) return StepStatus::not_converged;
     ++report.newton_iterations;
-    if (!linearise(linearisation_ ? linearisation_
-                                  : std::make_shared<Linearisation>(Linearisation{trial_, step})))
-      return StepStatus::singular_matrix;
-    report.residual_norm = residual_.cwiseQuotient(reference_).lpNorm<Eigen::Infinity>();
+    const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
+    if (!is_kept && !linearise(trial_point(step))) return StepStatus::singular_matrix;
+    report.residual_norm = residual_.cwiseProduct(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
-    if (!all_finite(trial_)) return StepStatus::not_converged;
+    if (!correction_.allFinite()) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
-    const double correction = correction_.head(scale_.size()).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+    const double correction =
+        correction_.head(scale_.size()).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
-    if (!convergence.contracts() || (done && i > many_corrections)) linearisation_ = nullptr;
+    // What is below the tolerance may be round-off, which nothing contracts.
+    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
+    if (stale || (done && i > many_corrections)) linearisation_ = nullptr;
     if (done) return StepStatus::converged;
   }
   return StepStatus::not_converged;
@@ -190,19 +202,40 @@ bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> 
   linearisation_ = std::move(at);
   if (factorised_ == linearisation_) return true;
   factorised_ = nullptr;
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const double h = linearisation_->step;
-  const TangentWeights weights{.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
-                               .damping = gamma * h / mass_scale_,
-                               .stiffness = beta * h * h / mass_scale_};
+  const TangentWeights weights = weights_of(linearisation_->step);
   system_->tangent(linearisation_->state, weights, kkt_);
-  if (!solver_.factorise(kkt_)) {
+  if (!solver_.factorise(kkt_, system_->moving_unknowns())) {
     linearisation_ = nullptr;
     return false;
   }
+  system_->moving_tangent(linearisation_->state, weights, moving_part_);
   measure_reference();
   factorised_ = linearisation_;
   return true;
+}
+
+/// The trial state as the place of a new matrix.
+std::shared_ptr<const Linearisation> GeneralizedAlphaIntegrator::trial_point(double step) {
+  linearisation_ = factorised_ = nullptr;
+  if (spare_.use_count() != 1) spare_ = std::make_shared<Linearisation>();
+  spare_->state = trial_;
+  spare_->step = step;
+  return spare_;
+}
+
+/// Makes the moving part of the matrix that of the trial state. False where the matrix is singular then.
+bool GeneralizedAlphaIntegrator::renew_moving_part() {
+  if (moving_part_.size() == 0) return true;
+  system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
+  moved_part_ -= moving_part_;
+  return solver_.update(moved_part_);
+}
+
+TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  return {.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
+          .damping = gamma * step / mass_scale_,
+          .stiffness = beta * step * step / mass_scale_};
 }
 
 /// The trial state whose true acceleration and multipliers are those of the last state.
@@ -233,19 +266,19 @@ void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
 
 /// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
 /// rows: what the accelerations move the constraint in the step. Both: the round-off of the matrix times the
-/// unknowns, weighted so that it passes the tolerance. All where the matrix was taken.
+/// unknowns, weighted so that it passes the tolerance. All where the matrix was taken; its inverse.
 void GeneralizedAlphaIntegrator::measure_reference() {
   const State& at = linearisation_->state;
   const Eigen::Index n = at.q.size();
   const Eigen::Index m = at.lambda.size();
   const double scaling = parameters_.beta * linearisation_->step * linearisation_->step;
   const double floor = round_off / settings_.newton_tolerance;
-  State unaccelerated = at;
-  unaccelerated.a.setZero();
-  unaccelerated.lambda.setZero();
-  Eigen::VectorXd force(n), constraints(m);
-  system_->residual(unaccelerated, force, constraints);
-  Eigen::VectorXd constraint_force = Eigen::VectorXd::Zero(n);
+  unaccelerated_ = at;
+  unaccelerated_.a.setZero();
+  unaccelerated_.lambda.setZero();
+  force_.resize(n + m);
+  system_->residual(unaccelerated_, force_.head(n), force_.tail(m));
+  constraint_force_.setZero(n);
   reference_.setConstant(std::numeric_limits<double>::min());
   for (Eigen::Index column = 0; column < n + m; ++column) {
     const bool is_multiplier = column >= n;
@@ -257,20 +290,21 @@ void GeneralizedAlphaIntegrator::measure_reference() {
       if (row >= n && !is_multiplier)
         reference_[row] += scaling * std::abs(entry.value() * at.a[column]);
       else if (row < n && is_multiplier)
-        constraint_force[row] += entry.value() * at.lambda[column - n];
+        constraint_force_[row] += entry.value() * at.lambda[column - n];
     }
   }
-  const double work =
-      scale_.cwiseProduct(force.cwiseAbs().cwiseMax(constraint_force.cwiseAbs())).lpNorm<Eigen::Infinity>();
-  reference_.head(n) += scaling / mass_scale_ * work * scale_.cwiseInverse();
+  const double work = scale_.cwiseProduct(force_.head(n).cwiseAbs().cwiseMax(constraint_force_.cwiseAbs()))
+                          .lpNorm<Eigen::Infinity>();
+  reference_.head(n) += scaling / mass_scale_ * work * inverse_scale_;
+  reference_ = reference_.cwiseInverse();
 }
 
 /// One Newton correction of the trial state: of q directly, of v, a and alg as the method's formulas follow
 /// it.
 void GeneralizedAlphaIntegrator::correct(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  residual_ = -residual_;
   solver_.solve(residual_, correction_);
+  correction_ = -correction_;
   const auto dq = correction_.head(trial_.q.size());
   const double acceleration = 1 / (beta * step * step);
   trial_.q += dq;
@@ -283,9 +317,8 @@ void GeneralizedAlphaIntegrator::correct(double step) {
 /// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate
 /// scale.
 double GeneralizedAlphaIntegrator::local_error(double step) const {
-  const Eigen::VectorXd change = trial_algorithmic_ - start_algorithmic_;
   return std::abs(parameters_.position_error) * step * step *
-         change.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+         (trial_algorithmic_ - start_algorithmic_).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
 }
 
 /// A proportional-integral controller for a local error of third degree; no growth right after a rejection.

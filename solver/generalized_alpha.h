@@ -1,7 +1,7 @@
 #pragma once
 #include "solver/integrator.h"
-#include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
+#include "solver/updated_kkt.h"
 
 namespace nurbeam {
 
@@ -16,7 +16,8 @@ struct GeneralizedAlpha {
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
 /// and the factorised matrix between steps: it is taken anew where a correction is not at least ten times
-/// smaller than the one before, where the step's length changes, and after fifty steps.
+/// smaller than the one before, where the step's length changes, and after fifty steps. The system's moving
+/// part of it is taken anew in every step.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
@@ -70,7 +71,10 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   StepStatus attempt(double step, StepReport& report);
   void predict(double step);
   bool has_matrix_for(double step) const;
+  TangentWeights weights_of(double step) const;
   bool linearise(std::shared_ptr<const Linearisation> at);
+  std::shared_ptr<const Linearisation> trial_point(double step);
+  bool renew_moving_part();
   void evaluate_residual(double step);
   void measure_reference();
   void correct(double step);
@@ -89,17 +93,23 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double mass_scale_ = 1;
   std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
-  KktSolver solver_;
+  std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
+  UpdatedKkt solver_;
   Eigen::SparseMatrix<double> kkt_;
+  Eigen::MatrixXd moving_part_;  ///< that in kkt_
 
   // The attempt under way.
   State trial_;
   Eigen::VectorXd start_algorithmic_;  ///< algorithmic_acceleration_ moved to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
+  State unaccelerated_;  ///< of measure_reference, as are the next two
+  Eigen::VectorXd force_, constraint_force_;
   Eigen::VectorXd residual_;    ///< (n+m) scaled
   Eigen::VectorXd correction_;  ///< (n+m) scaled
-  Eigen::VectorXd reference_;   ///< (n+m) what the scaled residual is compared with, where factorised_ is
-  Eigen::VectorXd scale_;       ///< (n) coordinate scale
+  Eigen::VectorXd
+      reference_;  ///< (n+m) inverse of what the scaled residual is compared with, where factorised_ is
+  Eigen::VectorXd scale_, inverse_scale_;  ///< (n) of the coordinates
+  Eigen::MatrixXd moved_part_;             ///< what the moving part is by now more than in kkt_
 };
 
 }  // namespace nurbeam

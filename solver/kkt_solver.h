@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
 namespace nurbeam {
 
@@ -21,6 +22,8 @@ class KktSolver {
   /// x with matrix x = rhs. Precondition: factorise returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
+  /// (n x p) the columns of the inverse that belong to p unknowns.
+  void solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const;
 
  private:
   struct Implementation;

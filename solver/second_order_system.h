@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <limits>
+#include <vector>
 
 #include "solver/state.h"
 
@@ -37,6 +38,18 @@ class SecondOrderSystem {
   /// are 0.
   virtual void tangent(const State& state, const TangentWeights& w,
                        Eigen::SparseMatrix<double>& kkt) const = 0;
+
+  /// Unknowns, among the n coordinates and then the m multipliers, of a part of the tangent that lasts less
+  /// than the rest: of elements that move over the material. None where all lasts as long or the part is not
+  /// small.
+  virtual const std::vector<int>& moving_unknowns() const {
+    static const std::vector<int> none;
+    return none;
+  }
+  /// (p x p) the share of that part in `tangent`, its rows and columns in the order of moving_unknowns().
+  virtual void moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd& part) const {
+    part.resize(0, 0);
+  }
 
   /// (m) dg/dt at fixed q: a consistent velocity satisfies G v + rate = 0.
   virtual Eigen::VectorXd constraint_rate(const State& state) const = 0;

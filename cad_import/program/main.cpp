@@ -1,6 +1,7 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "cad_import/dxf/dxf_text.h"
 #include "cad_import/files/child_work.h"
@@ -31,6 +32,11 @@ std::string answer(const WriteCurvesRequest& request) {
       return brep_text(request.curves);
   }
   throw std::runtime_error("unknown format");
+}
+std::string answer(const WriteFilesRequest& request) {
+  std::vector<std::string> texts;
+  for (const WriteCurvesRequest& file : request.files) texts.push_back(answer(file));
+  return to_bytes(texts);
 }
 std::string answer(const WriteSolidsRequest& request) {
   return request.format == CadFormat::brep ? brep_solid_text(request.solids)

@@ -96,6 +96,10 @@ void write(ByteWriter& out, const WriteCurvesRequest& request) {
   out.number(static_cast<int>(request.schema));
   write_list(out, request.curves);
 }
+void write(ByteWriter& out, const WriteFilesRequest& request) {
+  out.count(request.files.size());
+  for (const WriteCurvesRequest& file : request.files) write(out, file);
+}
 void write(ByteWriter& out, const WriteSolidsRequest& request) {
   out.number(static_cast<int>(request.format));
   out.number(static_cast<int>(request.unit));
@@ -115,6 +119,13 @@ Choice read_choice(ByteReader& in, Choice last) {
   return static_cast<Choice>(choice);
 }
 
+WriteCurvesRequest read_write_curves(ByteReader& in) {
+  const CadFormat format = read_choice(in, CadFormat::brep);
+  const LengthUnit unit = read_choice(in, LengthUnit::inch);
+  const StepSchema schema = read_choice(in, StepSchema::ap242);
+  return {format, read_list(in, read_named_curve), unit, schema};
+}
+
 }  // namespace
 
 std::string to_bytes(const CadRequest& request) {
@@ -131,12 +142,8 @@ CadRequest request_from_bytes(const std::string& bytes) {
       std::string file = in.text();
       return ReadRequest{std::move(file), in.number<double>()};
     }
-    case 1: {
-      const CadFormat format = read_choice(in, CadFormat::brep);
-      const LengthUnit unit = read_choice(in, LengthUnit::inch);
-      const StepSchema schema = read_choice(in, StepSchema::ap242);
-      return WriteCurvesRequest{format, read_list(in, read_named_curve), unit, schema};
-    }
+    case 1:
+      return read_write_curves(in);
     case 2: {
       const CadFormat format = read_choice(in, CadFormat::brep);
       const LengthUnit unit = read_choice(in, LengthUnit::inch);
@@ -147,9 +154,23 @@ CadRequest request_from_bytes(const std::string& bytes) {
       std::string source = in.text();
       return ExchangeRequest{std::move(source), read_list(in, read_deformed_curve)};
     }
+    case 4:
+      return WriteFilesRequest{read_list(in, read_write_curves)};
     default:
       ByteReader::fail();
   }
+}
+
+std::string to_bytes(const std::vector<std::string>& texts) {
+  ByteWriter out;
+  out.count(texts.size());
+  for (const std::string& text : texts) out.text(text);
+  return std::move(out).bytes();
+}
+
+std::vector<std::string> texts_from_bytes(const std::string& bytes) {
+  ByteReader in(bytes);
+  return read_list(in, [](ByteReader& from) { return from.text(); });
 }
 
 std::string to_bytes(const Exchanged& exchanged) {

@@ -45,7 +45,13 @@ struct ExchangeRequest {
   std::vector<DeformedCurve> curves;
 };
 
-using CadRequest = std::variant<ReadRequest, WriteCurvesRequest, WriteSolidsRequest, ExchangeRequest>;
+/// Answered by the bytes of their texts.
+struct WriteFilesRequest {
+  std::vector<WriteCurvesRequest> files;
+};
+
+using CadRequest =
+    std::variant<ReadRequest, WriteCurvesRequest, WriteSolidsRequest, ExchangeRequest, WriteFilesRequest>;
 
 /// A STEP file with some of its curves exchanged.
 struct Exchanged {
@@ -56,6 +62,10 @@ struct Exchanged {
 std::string to_bytes(const CadRequest& request);
 /// Throws std::runtime_error when the bytes are no request.
 CadRequest request_from_bytes(const std::string& bytes);
+
+std::string to_bytes(const std::vector<std::string>& texts);
+/// Throws std::runtime_error when the bytes are none.
+std::vector<std::string> texts_from_bytes(const std::string& bytes);
 
 std::string to_bytes(const Exchanged& exchanged);
 /// Throws std::runtime_error when the bytes are none.

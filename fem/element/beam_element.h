@@ -101,6 +101,8 @@ class BeamElement {
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
   ElementVector<D> undamped_force(const ElementState<D>& x, const Vector& load) const;
+  ElementMatrix<D> undamped_tangent(const ElementState<D>& x, const Vector& load,
+                                    const TangentWeights& t) const;
   void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0);
   void add_point_forces(const ElementState<D>& x, ElementNodes<D>& force) const;
   void add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const;

@@ -79,9 +79,79 @@ struct Curvature {
   }
 };
 
+// A symmetric matrix in z = (r_s, r_ss).
+template <int D>
+using PairMatrix = std::array<std::array<Lanes8, 2 * D>, 2 * D>;
+
+// c A^-m with A = |r_s|^2, from c, c_z and c_zz, and its own derivatives in z.
+template <int D>
+NURBEAM_WITHIN void scale_by_stretch(const LaneVector<D>& rs, double m, const Lanes8& p, Lanes8& value,
+                                     std::array<Lanes8, 2 * D>& gradient, PairMatrix<D>& hessian) {
+  const Lanes8 i = 1 / dot<D>(rs, rs);
+  value *= p;
+  for (int a = 0; a < 2 * D; ++a) gradient[a] *= p;
+  for (int a = 0; a < 2 * D; ++a)
+    for (int b = 0; b < 2 * D; ++b) {
+      hessian[a][b] *= p;
+      if (a < D) hessian[a][b] -= 2 * m * i * gradient[b] * rs[a];
+      if (b < D) hessian[a][b] -= 2 * m * i * gradient[a] * rs[b];
+      if (a < D && b < D) hessian[a][b] += 4 * m * (m + 1) * value * i * i * rs[a] * rs[b];
+    }
+  for (int a = 0; a < D; ++a) {
+    hessian[a][a] -= 2 * m * i * value;
+    gradient[a] -= 2 * m * i * value * rs[a];
+  }
+}
+
+// d2/dz2 of EI (K - kappa_0)^2/2, times a factor: strain.h has the formulas.
+template <int D>
+NURBEAM_WITHIN PairMatrix<D> bending_hessian(const LaneVector<D>& rs, const LaneVector<D>& rss, bool material,
+                                             double EI, const Lanes8& kappa0, const Lanes8& factor) {
+  PairMatrix<D> H = {};
+  std::array<Lanes8, 2 * D> gradient = {};
+  Lanes8 value;
+  const Lanes8 A = dot<D>(rs, rs);
+  if constexpr (D == 2) {
+    value = rs[0] * rss[1] - rs[1] * rss[0];
+    gradient = {rss[1], -rss[0], -rs[1], rs[0]};
+    H[0][3] = H[3][0] = Lanes8{} + 1.;
+    H[1][2] = H[2][1] = Lanes8{} - 1.;
+    const double m = material ? 1 : 1.5;
+    scale_by_stretch<D>(rs, m, material ? 1 / A : 1 / (A * square_root(A)), value, gradient, H);
+  } else {
+    const Lanes8 G = dot<D>(rss, rss), F = dot<D>(rs, rss);
+    value = A * G - F * F;
+    for (int a = 0; a < D; ++a) {
+      gradient[a] = 2 * (G * rs[a] - F * rss[a]);
+      gradient[D + a] = 2 * (A * rss[a] - F * rs[a]);
+      for (int b = 0; b < D; ++b) {
+        H[a][b] = -2 * rss[a] * rss[b];
+        H[D + a][D + b] = -2 * rs[a] * rs[b];
+        H[a][D + b] = 4 * rs[a] * rss[b] - 2 * rss[a] * rs[b];
+      }
+      H[a][a] += 2 * G;
+      H[D + a][D + a] += 2 * A;
+      H[a][D + a] -= 2 * F;
+    }
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) H[D + b][a] = H[a][D + b];
+    scale_by_stretch<D>(rs, material ? 2 : 3, material ? 1 / (A * A) : 1 / (A * A * A), value, gradient, H);
+    value = square_root(value + curvature_rounding * curvature_rounding);
+    const Lanes8 i = 1 / value;
+    for (int a = 0; a < 2 * D; ++a) gradient[a] *= 0.5 * i;
+    for (int a = 0; a < 2 * D; ++a)
+      for (int b = 0; b < 2 * D; ++b) H[a][b] = (0.5 * H[a][b] - gradient[a] * gradient[b]) * i;
+  }
+  const Lanes8 stiffness = EI * factor, moment = stiffness * (value - kappa0);
+  for (int a = 0; a < 2 * D; ++a)
+    for (int b = 0; b < 2 * D; ++b) H[a][b] = stiffness * gradient[a] * gradient[b] + moment * H[a][b];
+  return H;
+}
+
 }  // namespace
 
-// What add_forces does, to be compiled for each processor. The formulas are those of fixed_forces.cpp.
+// What add_forces and tangents do, to be compiled for each processor. The formulas are those of
+// fixed_forces.cpp.
 template <int D>
 struct ElementBatch<D>::Kernel {
   const ElementBatch& batch;
@@ -195,6 +265,93 @@ struct ElementBatch<D>::Kernel {
     for (int i = 0; i < batch.count_; ++i)
       for (int k = 0; k < nodal; ++k) forces[batch.dofs_[k][i]] += force[k / D][k % D].of[i];
   }
+
+  // The tangent of add_point_forces; the blocks above the diagonal alone.
+  NURBEAM_WITHIN void add_point_tangents(const Nodes& e, double stiffness, Tangents& K) const {
+    const double EA = stiffness * beam.pointwise_axial_stiffness(),
+                 EI = stiffness * beam.axis_bending_stiffness();
+    const bool material = beam.curvature == CurvatureMeasure::material;
+    for (const Point& p : batch.points_) {
+      const LaneVector<D> rs = combination(e, p.S1), rss = combination(e, p.S2);
+      PairMatrix<D> H = bending_hessian<D>(rs, rss, material, EI, p.kappa0, p.weight);
+      if (EA > 0) {
+        const Lanes8 axial = EA * p.weight, stretching = axial * ((dot<D>(rs, rs) - 1) / 2 - p.eps0);
+        for (int a = 0; a < D; ++a) {
+          H[a][a] += stretching;
+          for (int b = 0; b < D; ++b) H[a][b] += axial * rs[a] * rs[b];
+        }
+      }
+      for (int k = 0; k < 4; ++k)
+        for (int b = 0; b < D; ++b) {
+          std::array<Lanes8, 2 * D> by;
+          for (int a = 0; a < 2 * D; ++a) by[a] = p.S1[k] * H[a][b] + p.S2[k] * H[a][D + b];
+          for (int l = 0; l <= k; ++l)
+            for (int a = 0; a < D; ++a) K[k * D + b][l * D + a] += p.S1[l] * by[a] + p.S2[l] * by[D + a];
+        }
+    }
+  }
+
+  // The tangent of the assumed axial strain: as add_point_tangents.
+  NURBEAM_WITHIN void add_axial_tangents(const Nodes& e, double free_strain, double stiffness,
+                                         Tangents& K) const {
+    Nodes from_start = e;
+    for (int d = 0; d < D; ++d) {
+      from_start[0][d] = Lanes8{};
+      from_start[2][d] -= e[0][d];
+    }
+    const Nodes I_e = product(from_start, batch.stretch_);
+    const Lanes8 l = batch.length_;
+    Lanes8 I = {};
+    for (int k = 1; k < 4; ++k) I += dot<D>(from_start[k], I_e[k]);
+    I = (I - l) / 2 - batch.strain0_[0] - free_strain * l;
+    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
+    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
+    const double EA = stiffness * beam.axial_stiffness;
+    const Lanes8 c0 = I / l, c1 = (at_b - at_a) / 2, c2 = (at_a + at_b) / 2 - c0;
+    const Lanes8 on_I = EA * (c0 - c2 / 5), on_a = EA * l * (c2 / 10 - c1 / 6),
+                 on_b = EA * l * (c2 / 10 + c1 / 6);
+    for (int k = 0; k < 4; ++k)
+      for (int m = 0; m <= k; ++m)
+        for (int d = 0; d < D; ++d) K[k * D + d][m * D + d] += on_I * batch.stretch_[k][m];
+    for (int d = 0; d < D; ++d) {
+      K[D + d][D + d] += on_a;
+      K[3 * D + d][3 * D + d] += on_b;
+    }
+    // By I, eps_A and eps_B: H x_q, then x_q' H x_q.
+    const Lanes8 on_ends = 2. / 15 * EA * l, across = -1. / 30 * EA * l, mean = 1.2 * EA / l;
+    for (int k = 0; k < 4; ++k)
+      for (int b = 0; b < D; ++b) {
+        const Lanes8 &by_I = I_e[k][b], by_a = k == 1 ? e[1][b] : Lanes8{},
+                     by_b = k == 3 ? e[3][b] : Lanes8{};
+        const Lanes8 I_k = mean * by_I - 0.1 * EA * (by_a + by_b);
+        const Lanes8 a_k = -0.1 * EA * by_I + on_ends * by_a + across * by_b;
+        const Lanes8 b_k = -0.1 * EA * by_I + on_ends * by_b + across * by_a;
+        for (int m = 0; m <= k; ++m)
+          for (int a = 0; a < D; ++a) {
+            Lanes8& entry = K[k * D + b][m * D + a];
+            entry += I_e[m][a] * I_k;
+            if (m == 1) entry += e[1][a] * a_k;
+            if (m == 3) entry += e[3][a] * b_k;
+          }
+      }
+  }
+
+  NURBEAM_WITHIN void tangents(const State& state, double free_strain, const TangentWeights& w,
+                               Tangents& K) const {
+    Nodes e = gathered(state.q.data());
+    for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
+    for (int k = 0; k < 4; ++k)
+      for (int m = 0; m <= k; ++m)
+        for (int b = 0; b < D; ++b)
+          for (int a = 0; a < D; ++a)
+            K[k * D + b][m * D + a] = a == b ? w.mass * batch.mass_[k][m] : Lanes8{};
+    if (w.stiffness != 0) {
+      add_point_tangents(e, w.stiffness, K);
+      if (beam.axial_strain == AxialStrain::ends_and_mean) add_axial_tangents(e, free_strain, w.stiffness, K);
+    }
+    for (int j = 0; j < nodal; ++j)
+      for (int i = 0; i < j; ++i) K[i][j] = K[j][i];
+  }
 };
 
 template <>
@@ -207,6 +364,18 @@ template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces) const {
   Kernel{*this, *properties_}.add_forces(state, load, free_strain, forces);
+}
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::tangents(const State& state, double free_strain,
+                                                           const TangentWeights& w, Tangents& K) const {
+  Kernel{*this, *properties_}.tangents(state, free_strain, w, K);
+}
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::tangents(const State& state, double free_strain,
+                                                           const TangentWeights& w, Tangents& K) const {
+  Kernel{*this, *properties_}.tangents(state, free_strain, w, K);
 }
 
 template <int D>

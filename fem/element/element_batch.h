@@ -13,8 +13,9 @@ struct alignas(8 * sizeof(double)) ElementLanes {
 };
 
 /// Up to eight elements of one beam whose ends are fixed, each on one part of the drawing, and their forces
-/// all at once: those of BeamElement::force, added up in another order. Compiled for several processors, of
-/// which the present one is found when the program starts; the bits are the same on all of them.
+/// and tangents all at once: those of BeamElement, added up in another order. Compiled for several
+/// processors, of which the present one is found when the program starts; the bits are the same on all of
+/// them.
 template <int D>
 class ElementBatch {
  public:
@@ -27,6 +28,7 @@ class ElementBatch {
   /// Without elements; `properties` must outlive it.
   explicit ElementBatch(const BeamProperties& properties);
   bool is_full() const { return count_ == lanes; }
+  int count() const { return count_; }
   /// Adds an element of the same properties; `dofs`: its global coordinates; `slope_offset`: of the slope at
   /// its end B from what stands there. Precondition: takes(element), !is_full().
   void add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
@@ -35,6 +37,11 @@ class ElementBatch {
   /// Adds the forces of the elements to those of all coordinates. `load`: as BeamElement::force has it;
   /// `free_strain`: as ElementState has it.
   void add_forces(const State& state, const Vector& load, double free_strain, double* forces) const;
+
+  /// Tangents in the coordinates of the nodes, by column and row.
+  using Tangents = std::array<std::array<ElementLanes, nodal>, nodal>;
+  /// Those of BeamElement::tangent. Precondition: the beam is not damped.
+  void tangents(const State& state, double free_strain, const TangentWeights& w, Tangents& K) const;
 
  private:
   /// Numbers of the nodes, by column of ElementNodes and direction.

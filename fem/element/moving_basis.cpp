@@ -26,6 +26,12 @@ Jet curvature_at(const std::array<double, 3>& kappa0, const Jet& s) {
   return Jet(Jet::Coefficients{k0, a * k1, b * k1, a * a * k2 / 2, a * b * k2, b * b * k2 / 2});
 }
 
+void set_curvature(const Jet& kappa0, MovingRows& rows) {
+  rows.kappa0 = kappa0.value();
+  rows.kappa0_first = {kappa0.d(0), kappa0.d(1)};
+  rows.kappa0_second = {kappa0.d(0, 0), kappa0.d(0, 1), kappa0.d(1, 1)};
+}
+
 // l^m, l = b - a.
 Jet power_of_length(double l, int m) {
   const double f = std::pow(l, m), d1 = m * f / l, d2 = (m - 1) * d1 / l / 2, d3 = (m - 2) * d2 / l / 3;
@@ -55,7 +61,7 @@ ChartPlace place_of(const ReferenceCurve& curve, int segment, double s) {
 
 MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b,
                          Derivatives wanted)
-    : curve_(&curve), segment_(chart.segment) {
+    : curve_(&curve), segment_(chart.segment), wanted_(wanted) {
   if (chart.constant_weights) {
     series_.emplace(curve, chart, s_a, s_b);
     return;
@@ -195,7 +201,15 @@ MovingRows MovingBasis::uniform_rows(double x) const {
   rows.rs.first[1] << i * H1, 0, -i * H1, 0;
   rows.rss.first[1] << 2 * i * H2, -i * a2, -2 * i * H2, -i * b2;
   for (MovingRows::Series* series : {&rows.r, &rows.rs, &rows.rss}) series->first[0] = -series->first[1];
-  for (MovingRows::Row& row : rows.r_second) row.setZero();
+  for (MovingRows::Row& row : rows.r.second) row.setZero();
+  if (wanted_ == Derivatives::one) return rows;
+  rows.rs.second[2] << -2 * i * i * H1, 0, 2 * i * i * H1, 0;
+  rows.rss.second[2] << -6 * i * i * H2, 2 * i * i * a2, 6 * i * i * H2, 2 * i * i * b2;
+  for (MovingRows::Series* series : {&rows.rs, &rows.rss}) {
+    series->second[0] = series->second[2];
+    series->second[1] = -series->second[2];
+  }
+  for (MovingRows::Row& row : rows.r_third) row.setZero();
   return rows;
 }
 
@@ -203,28 +217,26 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
   if (uniform_)
     if (const auto [xi, moves_with_ends] = fraction(s); moves_with_ends) {
       MovingRows rows = uniform_rows(xi);
-      if (!has_curvature()) return rows;
-      const Jet kappa0 = curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s);
-      rows.kappa0 = kappa0.value();
-      rows.kappa0_first = {kappa0.d(0), kappa0.d(1)};
+      if (has_curvature())
+        set_curvature(curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s), rows);
       return rows;
     }
-  if (!uniform_ && !series_) return rational_rows(s);
+  if (!uniform_ && !series_ && wanted_ == Derivatives::one) return rational_rows(s);
   const ShapeFunctions<Jet> shape = at(s);
   MovingRows rows;
   const auto copy = [](const std::array<Jet, 4>& jets, MovingRows::Series& series) {
     for (int k = 0; k < 4; ++k) {
       series.value[k] = jets[k].value();
       for (const int end : {0, 1}) series.first[end][k] = jets[k].d(end);
+      for (int m = 0; m < 3; ++m) series.second[m][k] = jets[k].d(m / 2, (m + 1) / 2);
     }
   };
   copy(shape.value, rows.r);
   copy(shape.d1, rows.rs);
   copy(shape.d2, rows.rss);
   for (int k = 0; k < 4; ++k)
-    for (int m = 0; m < 3; ++m) rows.r_second[m][k] = shape.value[k].d(m / 2, (m + 1) / 2);
-  rows.kappa0 = shape.kappa0.value();
-  rows.kappa0_first = {shape.kappa0.d(0), shape.kappa0.d(1)};
+    for (int m = 0; m < 4; ++m) rows.r_third[m][k] = shape.value[k].d(m / 3, m / 2, (m + 2) / 3);
+  set_curvature(shape.kappa0, rows);
   return rows;
 }
 
@@ -244,9 +256,9 @@ MovingRows MovingBasis::rational_rows(const Jet& s) const {
   }
   const auto second = [&](int which) -> MovingRows::Row { return (f.row(0) * data_[which]).transpose(); };
   const auto& along = still.row(2);
-  rows.r_second[0] = second(3) + (2 * a * moved[0].row(1) + a * a * along).transpose();
-  rows.r_second[1] = second(4) + (b * moved[0].row(1) + a * moved[1].row(1) + a * b * along).transpose();
-  rows.r_second[2] = second(5) + (2 * b * moved[1].row(1) + b * b * along).transpose();
+  rows.r.second[0] = second(3) + (2 * a * moved[0].row(1) + a * a * along).transpose();
+  rows.r.second[1] = second(4) + (b * moved[0].row(1) + a * moved[1].row(1) + a * b * along).transpose();
+  rows.r.second[2] = second(5) + (2 * b * moved[1].row(1) + b * b * along).transpose();
   rows.kappa0 = p.kappa0[0];
   rows.kappa0_first = {a * p.kappa0[1], b * p.kappa0[1]};
   return rows;

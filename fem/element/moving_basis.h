@@ -7,17 +7,20 @@
 
 namespace nurbeam {
 
-/// Of the shape functions and their derivatives along s what forces need, one column a shape function.
+/// Of the shape functions and their derivatives along s what forces need, and with two derivatives wanted
+/// what tangents need besides; one column a shape function.
 struct MovingRows {
   using Row = Eigen::Vector4d;
   struct Series {
     Row value;
-    std::array<Row, 2> first;  ///< by the end positions
+    std::array<Row, 2> first;   ///< by the end positions a, b
+    std::array<Row, 3> second;  ///< by aa, ab, bb; of r_s and r_ss for tangents only
   };
   Series r, rs, rss;
-  std::array<Row, 3> r_second;  ///< of r, by aa, ab, bb
-  double kappa0 = 0;            ///< curvature of the drawing [1/m], and its derivatives by the end positions
+  std::array<Row, 4> r_third;  ///< of r, by aaa, aab, abb, bbb; for tangents only
+  double kappa0 = 0;           ///< curvature of the drawing [1/m], and its derivatives by the end positions
   std::array<double, 2> kappa0_first{};
+  std::array<double, 3> kappa0_second{};  ///< for tangents only
 };
 
 /// The shape functions of ElementBasis and their derivatives in the end positions, without series at the
@@ -43,7 +46,7 @@ class MovingBasis {
   /// At a point whose place is linear in the end positions, `s` = value and derivatives. Of the third
   /// derivatives only those of the shape functions themselves are set; of d3 the first ones.
   ShapeFunctions<Jet> at(const Jet& s) const;
-  /// The part of it that forces need.
+  /// The part of it that forces need, and with two derivatives wanted tangents.
   MovingRows rows_at(const Jet& s) const;
 
  private:
@@ -62,6 +65,7 @@ class MovingBasis {
 
   const ReferenceCurve* curve_;
   int segment_;
+  Derivatives wanted_;
   std::optional<Uniform> uniform_;
   double u_a_ = 0, length_ = 0;
   /// (P, Q, R, T) of the four shape functions (columns), by derivative; the last four unset where one is

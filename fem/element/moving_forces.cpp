@@ -87,99 +87,7 @@ class Damping {
   DampingResponse<D> damping_;
 };
 
-// The force of an undamped element, summed over its points by what acts on r, r_s and r_ss: the same as
-// PointInertia, Potential and AxialSums, without their gradients.
-template <int D>
-class ForceSum {
- public:
-  using Vector = Eigen::Matrix<double, D, 1>;
-  using Nodes = ElementNodes<D>;
-
-  ForceSum(const BeamProperties& properties, const ElementState<D>& x, const Vector& load, bool assumed)
-      : properties_(properties), load_(load), assumed_(assumed), motion_(MovingPoint<D>::motion(x)) {
-    force_.setZero();
-    stretch_.setZero();
-  }
-
-  void add(const MovingRows& rows, const Jet& s, const Jet& weight) {
-    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
-    const Vector r = e * rows.r.value, rs = e * rows.rs.value, rss = e * rows.rss.value;
-    const std::array<Vector, 2> r_i{e * rows.r.first[0], e * rows.r.first[1]},
-        rs_i{e * rows.rs.first[0], e * rows.rs.first[1]}, rss_i{e * rows.rss.first[0], e * rows.rss.first[1]};
-    const MovingRows::Row r_rate_row = rows.r.first[0] * w[0] + rows.r.first[1] * w[1];
-    const MovingRows::Row second_row = rows.r_second[0] * (w[0] * w[0]) +
-                                       rows.r_second[1] * (2 * w[0] * w[1]) +
-                                       rows.r_second[2] * (w[1] * w[1]);
-    const double s_rate = s.d(0) * w[0] + s.d(1) * w[1], s_second = s.d(0) * w_rate[0] + s.d(1) * w_rate[1];
-    const double dA = weight.value(), dA_rate = weight.d(0) * w[0] + weight.d(1) * w[1];
-    const double m = properties_.mass_per_length;
-
-    const Vector rs_rate = e_rate * rows.rs.value + rs_i[0] * w[0] + rs_i[1] * w[1];
-    const Vector v = e_rate * rows.r.value + r_i[0] * w[0] + r_i[1] * w[1] - rs * s_rate;
-    const Vector r_second = e_second * rows.r.value + 2 * e_rate * r_rate_row + e * second_row +
-                            r_i[0] * w_rate[0] + r_i[1] * w_rate[1];
-    const Vector momentum_rate = m * (dA * (r_second - rs_rate * s_rate - rs * s_second) + dA_rate * v);
-    const Vector momentum = (m * dA) * v;
-    const ElasticResponse<D> elastic =
-        elastic_response<D, Derivatives::one>(properties_, rs, rss, rows.kappa0);
-
-    const Vector on_r = momentum_rate - dA * load_;
-    const Vector on_rs = s_rate * momentum + dA * elastic.gradient.template head<D>();
-    const Vector on_rss = dA * elastic.gradient.template tail<D>();
-    force_.noalias() += on_r * rows.r.value.transpose();
-    force_.noalias() += on_rs * rows.rs.value.transpose();
-    force_.noalias() += on_rss * rows.rss.value.transpose();
-    const double lagrangian = m * v.squaredNorm() / 2 - elastic.energy.total() + load_.dot(r);
-    const double pull = rs.dot(momentum_rate) + rs_rate.dot(momentum);
-    for (const int i : {0, 1})
-      place_force_[i] += on_r.dot(r_i[i]) + on_rs.dot(rs_i[i]) + on_rss.dot(rss_i[i]) - pull * s.d(i) -
-                         dA * elastic.moment * rows.kappa0_first[i] - lagrangian * weight.d(i);
-    if (!assumed_) return;
-    const double eps = (rs.squaredNorm() - 1) / 2;
-    stretch_integral_ += dA * eps;
-    stretch_.noalias() += (dA * rs) * rows.rs.value.transpose();
-    for (const int i : {0, 1}) place_stretch_[i] += dA * rs.dot(rs_i[i]) + eps * weight.d(i);
-  }
-
-  ElementVector<D> total(const ElementState<D>& x) {
-    using Layout = ElementLayout<D>;
-    ElementVector<D> f;
-    f.template head<4 * D>() = Eigen::Map<const Eigen::Matrix<double, 4 * D, 1>>(force_.data());
-    for (const int i : {0, 1}) f[Layout::place(i)] = place_force_[i];
-    if (!assumed_) return f;
-    AxialSums<D> axial(x.q);
-    axial.y[0] = stretch_integral_;
-    axial.y_q.template block<1, 4 * D>(0, 0) =
-        Eigen::Map<const Eigen::Matrix<double, 1, 4 * D>>(stretch_.data());
-    for (const int i : {0, 1}) axial.y_q(0, Layout::place(i)) = place_stretch_[i];
-    axial.take_out(x.free_strain);
-    axial.add_force(properties_.axial_stiffness, f);
-    return f;
-  }
-
- private:
-  const BeamProperties& properties_;
-  const Vector& load_;
-  bool assumed_;
-  typename MovingPoint<D>::Motion motion_;
-  Nodes force_;
-  std::array<double, 2> place_force_{};
-  double stretch_integral_ = 0;  ///< I of AxialSums, and its gradient
-  Nodes stretch_;
-  std::array<double, 2> place_stretch_{};
-};
-
 }  // namespace
-
-template <int D>
-ElementVector<D> BeamElement<D>::undamped_force(const ElementState<D>& x, const Vector& load) const {
-  using Layout = ElementLayout<D>;
-  const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
-  const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);
-  ForceSum<D> sum(*properties_, x, load, assumes_strain());
-  for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });
-  return sum.total(x);
-}
 
 template <int D>
 ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load) const {
@@ -213,6 +121,7 @@ template <int D>
 ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector& load,
                                          const TangentWeights& t) const {
   if (fixed()) return fixed_tangent(x, t);
+  if (!properties_->is_damped()) return undamped_tangent(x, load, t);
   const auto motion = MovingPoint<D>::motion(x);
   const TautViscosity eta = taut_viscosity(x);
   const bool damped = properties_->damping > 0 || eta.value > 0, assumed = assumes_strain();
@@ -257,8 +166,6 @@ void BeamElement<D>::add_ends(const ElementVector<D>& q, const ElementNodes<D>& 
   }
 }
 
-template ElementVector<2> BeamElement<2>::undamped_force(const ElementState<2>&, const Vector&) const;
-template ElementVector<3> BeamElement<3>::undamped_force(const ElementState<3>&, const Vector&) const;
 template ElementVector<2> BeamElement<2>::force(const ElementState<2>&, const Vector&) const;
 template ElementVector<3> BeamElement<3>::force(const ElementState<3>&, const Vector&) const;
 template ElementMatrix<2> BeamElement<2>::tangent(const ElementState<2>&, const Vector&,

@@ -8,4 +8,10 @@ double corresponding_place(const Beam& beam, double s, const Beam& neighbour) {
   return (1 - part) * neighbour.home_place(h) + part * neighbour.home_place(h + 1);
 }
 
+Crossing corresponding_crossing(Crossing crossing, const BeamModel& model, const BeamModel& neighbour) {
+  const int beam = model.joints[crossing.joint].beam;
+  crossing.s = corresponding_place(model.beams[beam], crossing.s, neighbour.beams[beam]);
+  return crossing;
+}
+
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "fem/motion/crossing.h"
 #include "fem/motion/meshed_state.h"
 #include "fem/motion/run_event.h"
 #include "solver/integrator.h"
@@ -43,5 +44,7 @@ class RunFollower {
 /// The same place on a beam of a neighbouring model: home nodes correspond, and places between two of them in
 /// proportion [m].
 double corresponding_place(const Beam& beam, double s, const Beam& neighbour);
+/// The same crossing in a neighbouring model.
+Crossing corresponding_crossing(Crossing crossing, const BeamModel& model, const BeamModel& neighbour);
 
 }  // namespace nurbeam

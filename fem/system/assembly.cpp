@@ -7,40 +7,11 @@
 #include <limits>
 
 #include "fem/comparison/virtual_work.h"
-#include "fem/element/element_batch.h"
 #include "fem/mesh/drawn_coordinates.h"
 
 namespace nurbeam {
 
 namespace {
-
-int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
-  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
-}
-
-template <class Matrix>
-void scatter(const std::vector<int>& positions, std::size_t n, const Matrix& matrix, double* values) {
-  for (std::size_t j = 0, k = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i, ++k)
-      if (positions[k] >= 0)
-        values[positions[k]] += matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-}
-
-// The coordinates of a bound force in its own block, where it has one.
-template <class Force>
-std::vector<int> own_dofs(const Force& force) {
-  if constexpr (requires { force.dofs(); })
-    return force.dofs();
-  else
-    return {};
-}
-
-template <class Constraint>
-constexpr bool is_linear() {
-  return requires { requires Constraint::linear; };
-}
 
 void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) {
   const TwistLayout::Coordinates f = e.twist->element.force(gather_twist(e, state));
@@ -49,33 +20,6 @@ void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eig
 }
 
 }  // namespace
-
-// The elements of one beam: those whose forces are found side by side, and the indices of the others.
-template <int D>
-struct Assembly<D>::Walk {
-  std::vector<ElementBatch<D>> batches;
-  std::vector<int> others;
-};
-
-// Takes the tangent matrices of one force.
-template <int D>
-struct Assembly<D>::Sink {
-  const std::vector<Block>&element_blocks, &twist_blocks;
-  const Block& own_block;
-  double* values;
-
-  void element(int index, const ElementMatrix<D>& K) const {
-    scatter(element_blocks[index].values, element_size<D>, K, values);
-  }
-  /// In the coordinates of an element with its sections.
-  void twist(int index, const TwistLayout::Matrix& K) const {
-    scatter(twist_blocks[index].values, TwistLayout::size, K, values);
-  }
-  template <class Matrix>
-  void own(const Matrix& K) const {
-    scatter(own_block.values, own_block.dofs.size(), K, values);
-  }
-};
 
 template <int D>
 Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held)
@@ -87,23 +31,22 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   bind_constraints(held, drawn);
   bind_forces(drawn);
   build_pattern();
+  choose_moving_part();
 }
-
-template <int D>
-Assembly<D>::~Assembly() = default;
 
 template <int D>
 void Assembly<D>::batch_elements() {
   walks_.resize(model_->beams.size());
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
-    auto& [batches, others] = walks_[e.beam];
+    auto& [batches, batched, others] = walks_[e.beam];
     if (e.twist || !ElementBatch<D>::takes(e.element)) {
       others.push_back(i);
       continue;
     }
     if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
     batches.back().add(e.element, e.dofs, e.slope_offset);
+    batched.push_back(i);
   }
 }
 
@@ -111,8 +54,9 @@ template <int D>
 void Assembly<D>::bind_constraints(const std::vector<bool>& held, const Eigen::VectorXd& drawn) {
   const MeshedBeams<D> at = beams();
   const auto add = [&](auto&& constraint) {
-    constraint_blocks_.push_back({constraint_count_, {constraint.dofs(), {}}, {}, {}});
-    constraint_count_ += constraint.rows;
+    const int rows = constraint.rows;
+    constraint_blocks_.push_back({constraint_count_, rows, {constraint.dofs(), {}}, {}, {}});
+    constraint_count_ += rows;
     constraints_.emplace_back(std::move(constraint));
   };
   for (const Constraint& constraint : model_->constraints) {
@@ -121,6 +65,7 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held, const Eigen::V
     constraint_rows_.push_back({first, constraint_count_ - first});
   }
   place_rows_.resize(model_->joints.size());
+  first_joint_constraint_ = static_cast<int>(constraints_.size());
   for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
     const bool is_held = j < static_cast<int>(held.size()) && held[j];
     body_rows_.push_back(constraint_count_);
@@ -130,6 +75,7 @@ void Assembly<D>::bind_constraints(const std::vector<bool>& held, const Eigen::V
       add(std::move(constraint));
     });
   }
+  last_joint_constraint_ = static_cast<int>(constraints_.size());
   for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i) {
     const bool rests = mesh_.plan.is_closed(i) && is_in_place(mesh_, model_->stops[i]);
     contact_rows_.push_back(rests ? constraint_count_ : -1);
@@ -188,63 +134,6 @@ void Assembly<D>::bind_roll(int j, const Eigen::VectorXd& drawn) {
       forces_.emplace_back(RollInertia<FollowedNode>(beams(), drawn, j));
     else
       forces_.emplace_back(RollInertia<FollowedPoint>(beams(), drawn, j));
-  }
-}
-
-template <int D>
-void Assembly<D>::build_pattern() {
-  const int n = mesh_.coordinate_count, size = n + constraint_count_;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add_pairs = [&](const std::vector<int>& dofs) {
-    for (int i : dofs)
-      for (int j : dofs)
-        if (i >= 0 && j >= 0) entries.emplace_back(i, j, 0.0);
-  };
-  for (const MeshElement<D>& e : elements_) {
-    element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
-    add_pairs(element_blocks_.back().dofs);
-    twist_blocks_.emplace_back();
-    if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
-    add_pairs(twist_blocks_.back().dofs);
-  }
-  for (const BoundForce<D>& force : forces_) {
-    force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
-    add_pairs(force_blocks_.back().dofs);
-  }
-  const auto rows_of = [&](std::size_t c) {
-    return std::visit([](const auto& constraint) { return static_cast<int>(constraint.rows); },
-                      constraints_[c]);
-  };
-  for (std::size_t c = 0; c < constraints_.size(); ++c) {
-    const ConstraintBlock& block = constraint_blocks_[c];
-    add_pairs(block.block.dofs);
-    for (int r = block.row; r < block.row + rows_of(c); ++r)
-      for (int dof : block.block.dofs) {
-        if (dof < 0) continue;
-        entries.emplace_back(n + r, dof, 0.0);
-        entries.emplace_back(dof, n + r, 0.0);
-      }
-  }
-  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 0.0);
-  pattern_.resize(size, size);
-  pattern_.setFromTriplets(entries.begin(), entries.end());
-  pattern_.makeCompressed();
-
-  const auto locate = [&](Block& block) {
-    for (int j : block.dofs)
-      for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? value_index(pattern_, i, j) : -1);
-  };
-  for (Block& block : element_blocks_) locate(block);
-  for (Block& block : twist_blocks_) locate(block);
-  for (Block& block : force_blocks_) locate(block);
-  for (std::size_t c = 0; c < constraints_.size(); ++c) {
-    ConstraintBlock& block = constraint_blocks_[c];
-    locate(block.block);
-    for (int dof : block.block.dofs)
-      for (int r = block.row; r < block.row + rows_of(c); ++r) {
-        block.gradient_values.push_back(dof >= 0 ? value_index(pattern_, n + r, dof) : -1);
-        block.transposed_values.push_back(dof >= 0 ? value_index(pattern_, dof, n + r) : -1);
-      }
   }
 }
 
@@ -377,7 +266,7 @@ int Assembly<D>::part_count(int beam) const {
 template <int D>
 void Assembly<D>::add_part(int beam, int part, const State& state, const Vector& load,
                            Eigen::Ref<Eigen::VectorXd> dynamics) const {
-  const auto& [batches, others] = walks_[beam];
+  const auto& [batches, batched, others] = walks_[beam];
   const int batch_count = static_cast<int>(batches.size());
   if (part < batch_count)
     return batches[part].add_forces(state, load, free_strain_of(beam, state), dynamics.data());
@@ -471,60 +360,6 @@ void Assembly<D>::residuals(const Assembly& other, const std::vector<bool>& unli
   }
   add_forces_and_constraints(state, dynamics, constraints);
   other.add_forces_and_constraints(other_state, other_dynamics, other_constraints);
-}
-
-template <int D>
-void Assembly<D>::tangent(const State& state, const TangentWeights& w,
-                          Eigen::SparseMatrix<double>& kkt) const {
-  const MeshedBeams<D> at = beams();
-  double* values = kkt.valuePtr();
-  std::fill(values, values + kkt.nonZeros(), 0.0);
-  const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
-  for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
-    const Vector load = line_load(b, state);
-    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i) {
-      const MeshElement<D>& e = elements_[i];
-      const ElementState<D> x = gather<D>(e, state);
-      scatter(element_blocks_[i].values, element_size<D>,
-              is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
-              values);
-      if constexpr (D == 3)
-        if (e.twist)
-          scatter(twist_blocks_[i].values, TwistLayout::size,
-                  e.twist->element.tangent(gather_twist(e, state), w), values);
-    }
-  }
-  for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
-    const Sink sink{element_blocks_, twist_blocks_, force_blocks_[i], values};
-    std::visit(
-        [&](const auto& f) {
-          if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
-            f.template add_tangent<D>(at, state, w, sink);
-          else if constexpr (requires { f.add_tangent(at, state, w, sink); })
-            f.add_tangent(at, state, w, sink);
-        },
-        forces_[i]);
-  }
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const ConstraintBlock& block = constraint_blocks_[i];
-    std::visit(
-        [&](const auto& c) {
-          typename ConstraintTerms<D>::Multipliers y = ConstraintTerms<D>::Multipliers::Zero();
-          y.head(c.rows) = state.lambda.segment(block.row, c.rows);
-          const ConstraintTerms<D> terms = c.terms(at, state, &y);
-          if constexpr (!is_linear<std::decay_t<decltype(c)>>())
-            if (w.stiffness != 0)
-              scatter(block.block.values, block.block.dofs.size(), w.stiffness * terms.hessian, values);
-          for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
-            for (int r = 0; r < c.rows; ++r, ++v)
-              if (block.gradient_values[v] >= 0) {
-                const double g = terms.gradient(r, static_cast<Eigen::Index>(k));
-                values[block.gradient_values[v]] += g;
-                values[block.transposed_values[v]] += g;
-              }
-        },
-        constraints_[i]);
-  }
 }
 
 template <int D>

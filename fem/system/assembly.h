@@ -5,10 +5,17 @@
 #include <vector>
 
 #include "fem/constraints/constraint.h"
+#include "fem/element/element_batch.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
+
+/// Whether a constraint's gradient is the same in all states.
+template <class Constraint>
+constexpr bool is_linear() {
+  return requires { requires Constraint::linear; };
+}
 
 /// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
 /// elements.
@@ -25,7 +32,6 @@ class Assembly final : public SecondOrderSystem {
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
-  ~Assembly() override;
 
   const std::shared_ptr<const BeamModel>& model() const { return model_; }
   const Mesh& mesh() const { return mesh_; }
@@ -81,6 +87,9 @@ class Assembly final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  /// Of elements whose ends move and of the places of joints.
+  const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
+  void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
   Eigen::VectorXd constraint_curvature(const State& state) const override;
   double step_limit(const State& state) const override;
@@ -96,11 +105,23 @@ class Assembly final : public SecondOrderSystem {
     std::vector<int> values;  // dofs.size()^2, column by column; -1 where a dof is -1
   };
   struct ConstraintBlock {
-    int row;
+    int row, rows;
     Block block;
     std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
   };
-  struct Walk;
+  // What of the tangent lasts less than the rest, with positions in a matrix of its own.
+  struct MovingPart {
+    std::vector<int> unknowns;
+    std::vector<int> elements, constraints;
+    std::vector<Block> element_blocks, twist_blocks;  // of these elements
+    std::vector<ConstraintBlock> constraint_blocks;   // of these constraints
+  };
+  // The elements of one beam: those whose forces are found side by side, with their indices in the order of
+  // the batches, and the indices of the others.
+  struct Walk {
+    std::vector<ElementBatch<D>> batches;
+    std::vector<int> batched, others;
+  };
   struct Sink;
 
   void batch_elements();
@@ -109,7 +130,17 @@ class Assembly final : public SecondOrderSystem {
   void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
+  void choose_moving_part();
+  template <class IndexOf>
+  void locate(Block& block, const IndexOf& index_of) const;
+  template <class IndexOf>
+  void locate(ConstraintBlock& block, const IndexOf& index_of) const;
   Vector line_load(int beam, const State& state) const;
+  void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
+                           const Block& block, const Block& twist_block, double* values) const;
+  void add_batch_tangents(int beam, const State& state, const TangentWeights& w, double* values) const;
+  void add_constraint_tangent(int i, const State& state, const TangentWeights& w,
+                              const ConstraintBlock& block, double* values) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
   double free_strain_of(int beam, const State& state) const {
     return free_strain(elements_[mesh_.first_span[beam]], state);
@@ -134,6 +165,8 @@ class Assembly final : public SecondOrderSystem {
   std::vector<Block> element_blocks_, force_blocks_;
   std::vector<Block> twist_blocks_;  // of the elements of beams with torsion, empty for others
   std::vector<ConstraintBlock> constraint_blocks_;
+  int first_joint_constraint_ = 0, last_joint_constraint_ = 0;  // those of sliding joints; one past the last
+  MovingPart moving_;
   Eigen::SparseMatrix<double> pattern_;
 };
 

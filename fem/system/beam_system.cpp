@@ -49,6 +49,10 @@ void BeamSystem::tangent(const State& state, const TangentWeights& w,
                          Eigen::SparseMatrix<double>& kkt) const {
   system_->tangent(state, w, kkt);
 }
+const std::vector<int>& BeamSystem::moving_unknowns() const { return system_->moving_unknowns(); }
+void BeamSystem::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {
+  system_->moving_tangent(state, w, part);
+}
 Eigen::VectorXd BeamSystem::constraint_rate(const State& state) const {
   return system_->constraint_rate(state);
 }

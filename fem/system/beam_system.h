@@ -41,6 +41,8 @@ class BeamSystem final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   Eigen::SparseMatrix<double> tangent_pattern() const override;
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  const std::vector<int>& moving_unknowns() const override;
+  void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
   Eigen::VectorXd constraint_curvature(const State& state) const override;
   double step_limit(const State& state) const override;

@@ -17,6 +17,8 @@ namespace nurbeam {
 
 namespace {
 
+constexpr std::size_t many = 64;  // files that wait
+
 std::string ending_of(const std::string& format) {
   if (format == "iges") return ".igs";
   if (format == "dxf") return ".dxf";
@@ -86,10 +88,10 @@ std::vector<NamedCurve> CadOutput::curves(const Snapshot& frame, CurveParameter 
   return curves;
 }
 
-void CadOutput::write_curves(const Snapshot& frame, const std::filesystem::path& file) const {
-  const LengthUnit unit = parse_length_unit(case_.output.cad_unit);
-  const std::vector<NamedCurve> shapes = curves(frame, case_.output.cad_parameter);
-  for (const Diagnostic& problem : export_curves(file, shapes, unit, case_.output.cad_schema))
+void CadOutput::flush() {
+  if (pending_.empty()) return;
+  const std::vector<CurvesFile> files = std::exchange(pending_, {});
+  for (const Diagnostic& problem : export_curves(files))
     throw std::runtime_error(problem.where + ": " + problem.message);  // every shape can be written so
 }
 
@@ -138,7 +140,7 @@ std::vector<Diagnostic> CadOutput::write_into_source(const Snapshot& frame,
 }
 
 void CadOutput::write(const Snapshot& frame, const std::string& format,
-                      std::vector<Diagnostic>& diagnostics) const {
+                      std::vector<Diagnostic>& diagnostics) {
   const std::filesystem::path name = stem(frame) + ending_of(format), file = directory_ / name;
   std::vector<Diagnostic> found;
   if (format == "step-solid")
@@ -148,7 +150,8 @@ void CadOutput::write(const Snapshot& frame, const std::string& format,
   else if (format == "step-source")
     found = write_into_source(frame, file);
   else
-    write_curves(frame, file);
+    pending_.push_back({file, curves(frame, case_.output.cad_parameter),
+                        parse_length_unit(case_.output.cad_unit), case_.output.cad_schema});
   for (Diagnostic& diagnostic : found) diagnostic.severity = Severity::warning;  // the run goes on
   const auto is_known = [&](const Diagnostic& d) {                               // from an earlier frame
     return std::any_of(diagnostics.begin(), diagnostics.end(),
@@ -162,6 +165,7 @@ void CadOutput::write(const Snapshot& frame, const std::string& format,
 void CadOutput::write(const Snapshot& frame, std::vector<Diagnostic>& diagnostics) {
   if (is_wanted(frame))
     for (const std::string& format : case_.output.cad_formats) write(frame, format, diagnostics);
+  if (pending_.size() >= many) flush();
   ++frame_;
 }
 

@@ -84,6 +84,7 @@ void RunOutputs::write(const Checkpoint& point) {
   timed([&] {
     results_.close_chunk();
     if (paraview_) paraview_->write_index();
+    cad_.flush();  // a run that goes on from here has what came before
     Checkpoint mine = point;
     mine.inputs = inputs_;
     write_checkpoint(directory_ / "restart.nc", mine);
@@ -95,6 +96,7 @@ void RunOutputs::finish() {
   timed([&] {
     results_.finish();
     if (paraview_) paraview_->write_index();
+    cad_.flush();
   });
 }
 

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "fem/system/assembly.h"
+#include "fem/system/initial_state.h"
+#include "solver/consistent.h"
+#include "solver/generalized_alpha.h"
 #include "tests/fem/torsion_models.h"
 
 namespace {
@@ -59,6 +62,32 @@ void check(const auto& make_model) {
   EXPECT_EQ(allocations_in([&] { system.admissible(state); }), 0);
 }
 
+// A body that slides; more elements than move, so that the part that moves is kept apart.
+template <int D>
+void check_steps(double damping) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer counts for itself";
+#endif
+  std::mt19937 random(3);
+  BeamModel model =
+      testing::one_beam(testing::uneven_axis(random, D), D, {300, 2, 0.7, damping, {}}, 30, {{0, true}});
+  testing::add_slider(model, 0.8, 0.33 * model.beams[0].curve.length());
+  model.gravity = {0.3, -1, 0};
+  const BeamSystem system(model);
+  State start = drawn_state(system);
+  start_moving(system, start);
+  ASSERT_EQ(make_accelerations_consistent(system, start), ConsistencyStatus::done);
+  GeneralizedAlphaIntegrator integrator({}, system, start);
+  ASSERT_FALSE(system.moving_unknowns().empty());
+  const auto advance = [&] { EXPECT_EQ(integrator.advance(1e-3).status, StepStatus::converged); };
+  for (int i = 0; i < 120; ++i) advance();
+  // Longer than a matrix is kept.
+  EXPECT_EQ(allocations_in([&] {
+              for (int i = 0; i < 60; ++i) advance();
+            }),
+            0);
+}
+
 #ifndef __SANITIZE_ADDRESS__
 TEST(AllocationCount, SeesBothNewAndEigen) {
   std::vector<double> list;
@@ -71,6 +100,13 @@ TEST(AllocationCount, SeesBothNewAndEigen) {
 TEST(ElementAndAssembly, DoNotAllocateInThePlane) { check<2>(model_with_everything); }
 TEST(ElementAndAssembly, DoNotAllocateInSpace) { check<3>(model_with_everything); }
 TEST(ElementAndAssembly, DoNotAllocateWithTorsion) { check<3>(torsion_model); }
+
+TEST(Steps, DoNotAllocateInThePlane) {
+  for (const double damping : {0.0, 0.02}) check_steps<2>(damping);
+}
+TEST(Steps, DoNotAllocateInSpace) {
+  for (const double damping : {0.0, 0.02}) check_steps<3>(damping);
+}
 
 }  // namespace
 }  // namespace nurbeam

@@ -154,6 +154,32 @@ TEST(ExportCurves, LeavesNoPartOfAFileWhenItFails) {
   EXPECT_EQ(entries(scratch.path()), 1);
 }
 
+TEST(ExportCurves, WritesSeveralFilesAtOnceAsOneByOne) {
+  const ScratchDirectory scratch;
+  const fs::path one = scratch.path() / "one", all = scratch.path() / "all";
+  fs::create_directory(one);
+  fs::create_directory(all);
+  std::vector<CurvesFile> files;
+  for (const char* name : {"a.step", "b.igs", "c.dxf", "d.brep"}) {
+    const std::vector<NamedCurve> curves{{name, quarter_circle(2)}, {"other", quarter_circle(3)}};
+    files.push_back({all / name, curves, LengthUnit::millimetre});
+    ASSERT_TRUE(export_curves(one / name, curves, LengthUnit::millimetre).empty());
+  }
+  files.push_back({scratch.path() / "missing" / "a.igs", files[0].curves, LengthUnit::millimetre});
+  const std::vector<Diagnostic> problems = export_curves(files);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, files.back().path.string());
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto read = import_curves(files[i].path).curves;
+    const auto expected = import_curves(one / files[i].path.filename()).curves;
+    ASSERT_EQ(read.size(), expected.size());
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      EXPECT_EQ(read[k].name, expected[k].name);
+      EXPECT_EQ(read[k].curve.control_points(), expected[k].curve.control_points());
+    }
+  }
+}
+
 TEST(ExportCurves, RefusesAnUnknownExtensionAndNamesTheKnownOnes) {
   try {
     (void)export_curves("curve.dwg", {{"a", quarter_circle(1)}}, LengthUnit::metre);

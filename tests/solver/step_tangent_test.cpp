@@ -80,7 +80,7 @@ TEST(StepTangent, IsWhatDifferencesTendToWithTheSquareOfTheirStep) {
                       .a = 3 * third.a,
                       .lambda = 3 * third.lambda},
                      tangent),
-            1e-12 * size);
+            1e-11 * size);
   const auto error = [&](double p) {
     return error_of(tangent, rate_between(pendulum_end(p), pendulum_end(-p), p));
   };

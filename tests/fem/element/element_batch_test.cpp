@@ -32,6 +32,21 @@ void check_batches(const BeamProperties& properties, int seed) {
     batch.add_forces(state, load, free_strain(elements[0], state), batched.data());
   EXPECT_LT((batched - one_by_one).norm(), 1e-13 * one_by_one.norm());
   EXPECT_GT(one_by_one.norm(), 1);
+  if (properties.is_damped()) return;
+  constexpr int nodal = ElementLayout<D>::nodal;
+  for (const TangentWeights& w : {TangentWeights{.mass = 2}, TangentWeights{.mass = 0.3, .stiffness = 0.7}})
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const ElementMatrix<D> K = elements[k].element.tangent(gather<D>(elements[k], state), load, w);
+      typename ElementBatch<D>::Tangents side_by_side;
+      batches[k / 8].tangents(state, free_strain(elements[k], state), w, side_by_side);
+      double difference = 0;
+      for (int j = 0; j < nodal; ++j)
+        for (int i = 0; i < nodal; ++i)
+          difference = std::max(difference, std::abs(side_by_side[j][i].of[k % 8] - K(i, j)));
+      const double size = K.template topLeftCorner<nodal, nodal>().norm();
+      EXPECT_LT(difference, 1e-12 * size);
+      EXPECT_GT(K.norm(), 0.01);
+    }
 }
 
 template <int D>
@@ -52,8 +67,8 @@ void check_all_kinds() {
       }
 }
 
-TEST(ElementBatch, HasTheForcesOfItsElementsInThePlane) { check_all_kinds<2>(); }
-TEST(ElementBatch, HasTheForcesOfItsElementsInSpace) { check_all_kinds<3>(); }
+TEST(ElementBatch, HasTheForcesAndTangentsOfItsElementsInThePlane) { check_all_kinds<2>(); }
+TEST(ElementBatch, HasTheForcesAndTangentsOfItsElementsInSpace) { check_all_kinds<3>(); }
 
 TEST(ElementBatch, TakesNoElementWhoseEndsMove) {
   std::mt19937 random(3);

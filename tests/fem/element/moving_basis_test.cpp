@@ -30,21 +30,27 @@ void expect_same(const std::array<Jet, 4>& row, const std::array<Jet, 4>& exact,
   }
 }
 
-void expect_rows(const MovingRows& rows, const ShapeFunctions<Jet>& y) {
-  const auto jets = [](const MovingRows::Series& series, const std::array<MovingRows::Row, 3>* second) {
+void expect_rows(const MovingRows& rows, const ShapeFunctions<Jet>& y, Derivatives wanted) {
+  const bool two = wanted == Derivatives::two;
+  const auto jets = [](const MovingRows::Series& series, const std::array<MovingRows::Row, 4>& third,
+                       int degree) {
     std::array<Jet, 4> row;
     for (int k = 0; k < 4; ++k) {
       Jet::Coefficients c{series.value[k], series.first[0][k], series.first[1][k]};
-      if (second) c[3] = (*second)[0][k] / 2, c[4] = (*second)[1][k], c[5] = (*second)[2][k] / 2;
+      if (degree > 1)
+        c[3] = series.second[0][k] / 2, c[4] = series.second[1][k], c[5] = series.second[2][k] / 2;
+      if (degree > 2)
+        c[6] = third[0][k] / 6, c[7] = third[1][k] / 2, c[8] = third[2][k] / 2, c[9] = third[3][k] / 6;
       row[k] = Jet(c);
     }
     return row;
   };
-  expect_same(jets(rows.r, &rows.r_second), y.value, 2, "row of r ");
-  expect_same(jets(rows.rs, nullptr), y.d1, 1, "row of r_s ");
-  expect_same(jets(rows.rss, nullptr), y.d2, 1, "row of r_ss ");
-  const Jet kappa0(Jet::Coefficients{rows.kappa0, rows.kappa0_first[0], rows.kappa0_first[1]});
-  expect_same({kappa0, {}, {}, {}}, {y.kappa0, {}, {}, {}}, 1, "row of kappa0 ");
+  expect_same(jets(rows.r, rows.r_third, two ? 3 : 2), y.value, two ? 3 : 2, "row of r ");
+  expect_same(jets(rows.rs, {}, two ? 2 : 1), y.d1, two ? 2 : 1, "row of r_s ");
+  expect_same(jets(rows.rss, {}, two ? 2 : 1), y.d2, two ? 2 : 1, "row of r_ss ");
+  Jet::Coefficients c{rows.kappa0, rows.kappa0_first[0], rows.kappa0_first[1]};
+  if (two) c[3] = rows.kappa0_second[0] / 2, c[4] = rows.kappa0_second[1], c[5] = rows.kappa0_second[2] / 2;
+  expect_same({Jet(c), {}, {}, {}}, {y.kappa0, {}, {}, {}}, two ? 2 : 1, "row of kappa0 ");
 }
 
 void compare(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b) {
@@ -60,7 +66,8 @@ void compare(const ReferenceCurve& curve, const Chart& chart, double s_a, double
     expect_same(x.d3, y.d3, 1, "d3 ");
     const std::array<Jet, 4> drawn{x.kappa0, {}, {}, {}}, exact{y.kappa0, {}, {}, {}};
     expect_same(drawn, exact, 2, "kappa0 ");
-    expect_rows(MovingBasis(curve, chart, a, b, Derivatives::one).rows_at(s), y);
+    for (const Derivatives wanted : {Derivatives::one, Derivatives::two})
+      expect_rows(MovingBasis(curve, chart, a, b, wanted).rows_at(s), y, wanted);
   }
 }
 

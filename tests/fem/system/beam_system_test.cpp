@@ -113,6 +113,41 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithTorsion) {
     check_tangent<3>(seed, [](std::mt19937& random, int) { return torsion_sliding_model(random, 0); });
 }
 
+// Where places alone differ, whole tangents differ by that of the moving part, and nowhere else.
+void check_moving_part(int seed, int dimension, double damping) {
+  std::mt19937 random(seed);
+  BeamModel model = testing::one_beam(testing::uneven_axis(random, dimension), dimension,
+                                      {300, 2, 0.7, damping, {}}, 40, {{0, true}});
+  const double L = model.beams[0].curve.length();
+  testing::add_slider(model, 0.8, 0.33 * L);
+  testing::add_slider(model, 0.5, 0.7 * L);
+  const BeamSystem system(model);
+  const std::vector<int>& unknowns = system.moving_unknowns();
+  EXPECT_EQ(unknowns.size(), 2u * (3 * 2 * static_cast<unsigned>(dimension) + 1));
+  State state = testing::disturbed_state(system, random);
+  State moved = state;
+  for (const MeshJoint& joint : system.mesh().joints) {
+    moved.q[joint.place] += 0.1 * L / 40;
+    moved.v[joint.place] += 0.3;
+  }
+  const TangentWeights w{.mass = 0.9, .damping = 0.2, .stiffness = 0.05};
+  Eigen::MatrixXd change, before;
+  system.moving_tangent(moved, w, change);
+  system.moving_tangent(state, w, before);
+  change -= before;
+  Eigen::MatrixXd rest =
+      Eigen::MatrixXd(tangent(system, moved, w)) - Eigen::MatrixXd(tangent(system, state, w));
+  EXPECT_GT(rest.norm(), 0.1);
+  const double size = rest.norm();
+  rest(unknowns, unknowns) -= change;
+  EXPECT_LT(rest.norm(), 1e-12 * size);
+}
+
+TEST(BeamSystem, KnowsThePartOfItsTangentThatMoves) {
+  for (const double damping : {0.0, 0.02})
+    for (const int dimension : {2, 3}) check_moving_part(40 + dimension, dimension, damping);
+}
+
 // The roll of a body on a point: where nothing moves over the material its tangent is exact.
 TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithABodyThatRollsOnAPoint) {
   std::mt19937 random(22);

@@ -1,0 +1,133 @@
+#include "fem/motion/energy_account.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/system/observables.h"
+
+namespace nurbeam {
+
+namespace {
+
+bool has_damped_beams(const BeamModel& model) {
+  return std::any_of(
+      model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.properties.is_damped(); });
+}
+
+bool has_dampers(const BeamModel& model) {
+  return std::any_of(
+             model.stops.begin(), model.stops.end(),
+             [](const Stop& stop) { return stop.buffer && stop.buffer->damping > 0; }) ||
+         std::any_of(
+             model.connectors.begin(), model.connectors.end(),
+             [](const Connector& connector) { return connector.damping > 0; });
+}
+
+// Whether energy may come from outside.
+bool is_driven(const BeamModel& m) {
+  return !m.forces.empty() || !m.air.wind.isZero() ||
+         std::any_of(
+             m.joints.begin(), m.joints.end(), [](const auto& joint) { return joint.motion.has_value(); }) ||
+         std::any_of(
+             m.beams.begin(), m.beams.end(),
+             [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); }) ||
+         std::any_of(
+             m.constraints.begin(), m.constraints.end(),
+             [](const Constraint& constraint) {
+               const auto* support = std::get_if<Support>(&constraint);
+               return support && support->motion;
+             });
+}
+
+// Midpoint rule with the mean rates of the step: what a transient shorter than the step does not falsify.
+double dissipated_between(const BeamSystem& system, const State& from, const State& to) {
+  State middle = from;
+  const double h = to.t - from.t;
+  middle.q = (from.q + to.q) / 2;
+  middle.v = (to.q - from.q) / h;
+  return h * energy(system, middle).dissipation;
+}
+
+// Of what the accelerations of a restart leave out of balance (make_accelerations_smooth), where damping
+// ends it: transients that the step does not follow, of which the trapezoidal rule takes half.
+double unbalanced_work(const BeamSystem& system, const State& from, const State& to) {
+  if (!has_damped_beams(system.model()) && !has_dampers(system.model())) return 0;
+  Eigen::VectorXd dynamics(system.coordinate_count()), closed(system.constraint_count());
+  system.residual(from, dynamics, closed);
+  return dynamics.dot(to.q - from.q) / 2;
+}
+
+double lost_in_step(const BeamSystem& system, const State& from, const State& to, bool first) {
+  const double damped = has_damped_beams(system.model()) ? dissipated_between(system, from, to) : 0;
+  return damped + lost_energy(system, from, to) - (first ? unbalanced_work(system, from, to) : 0);
+}
+
+}  // namespace
+
+void EnergyAccount::begin(const BeamSystem& system, const State& state) {
+  start_ = energy(system, state).mechanical() + dissipated_ - input_;
+}
+
+void EnergyAccount::add_step(const BeamSystem& system, const State& before, const State& after, bool first) {
+  if (after.t > before.t) dissipated_ += lost_in_step(system, before, after, first);
+  if (is_driven(system.model())) input_ += input_work(system, before, after);
+}
+
+bool EnergyAccount::creates_energy(const BeamSystem& system, const State& before, const State& after,
+                                   bool first, const SimulationReport& report) {
+  constexpr double most = 0.05, round_off = 1e-10;
+  const bool known = !first && known_.first == before.t;
+  const SystemEnergy old = known ? known_.second : energy(system, before);
+  const SystemEnergy now = energy(system, after);
+  known_ = {after.t, now};
+  double gained = now.mechanical() - old.mechanical();
+  gained += lost_in_step(system, before, after, first);
+  if (is_driven(system.model())) gained -= input_work(system, before, after);
+  const double strain = old.strain(), fallen = std::abs(now.gravity - old.gravity);
+  const double scale = std::max({report.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
+  return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report.strain_noise;
+}
+
+void EnergyAccount::enter(Snapshot& snapshot) const {
+  snapshot.energy.dissipated = dissipated_;
+  snapshot.energy.input = input_;
+  snapshot.energy.total += dissipated_ - input_;
+}
+
+void EnergyAccount::record(const Snapshot& snapshot, SimulationReport& report) {
+  double drift = snapshot.energy.total - start_;
+  report.energy_drift = std::max(report.energy_drift, std::abs(drift));
+  for (const RunEvent& event : report.events)
+    if (!is_booked(event.kind)) drift -= event.energy_after - event.energy_before;
+  report.integration_error = std::max(report.integration_error, std::abs(drift));
+  created_ = drift;
+  report.peak_kinetic_energy = std::max(report.peak_kinetic_energy, snapshot.energy.kinetic);
+  report.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending + snapshot.energy.spring);
+  report.gravity_energy.add(snapshot.energy.gravity);
+}
+
+std::optional<double> EnergyAccount::from_nowhere(const SimulationReport& report) const {
+  if (created_ <= report.energy_scale() + report.energy_round_off()) return {};
+  return created_;
+}
+
+double strain_noise(const BeamModel& model) {
+  double stiffness = 0;
+  for (const Beam& beam : model.beams) stiffness += beam.properties.axial_stiffness * beam.curve.length();
+  return stiffness * 1e-22 / 2;
+}
+
+bool changes_energy(const BeamSystem& system, const State& state, const RunEvent& event,
+                    const SimulationReport& report) {
+  constexpr double most = 1e-3, round_off = 1e-10;
+  const Beam& beam = system.model().beams[event.beam];
+  if (beam.merge != MergeRule::standard || beam.properties.axial_strain == AxialStrain::pointwise)
+    return false;
+  const SystemEnergy now = energy(system, state);
+  const double jump = event.energy_after - event.energy_before;
+  const double moves = std::max(now.kinetic, now.strain());
+  const double allowed = most * moves + round_off * (moves + std::abs(now.gravity)) + report.strain_noise;
+  return !(std::abs(jump) <= allowed);
+}
+
+}  // namespace nurbeam

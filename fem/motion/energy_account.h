@@ -1,0 +1,57 @@
+#pragma once
+#include <optional>
+#include <utility>
+
+#include "fem/motion/simulation_report.h"
+#include "fem/motion/snapshot.h"
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// The books of a run's energy [J]: what it has lost and what has come from outside since its start.
+class EnergyAccount {
+ public:
+  EnergyAccount() = default;
+  /// As a checkpoint has it.
+  EnergyAccount(double dissipated, double input, double start)
+      : dissipated_(dissipated), input_(input), start_(start) {}
+
+  double dissipated() const { return dissipated_; }
+  double input() const { return input_; }
+  double start() const { return start_; }
+
+  /// The motion begins with this state.
+  void begin(const BeamSystem& system, const State& state);
+  void lose(double energy) { dissipated_ += energy; }
+  void take_in(double energy) { input_ += energy; }
+  /// Books what a step loses and takes in; `first` after a restart, whose accelerations are not those of the
+  /// moment.
+  void add_step(const BeamSystem& system, const State& before, const State& after, bool first);
+  /// Whether a step makes more energy than error control leaves: a part of the kinetic and strain energy, or
+  /// of what gravity gave. Asked of one step after the other.
+  bool creates_energy(const BeamSystem& system, const State& before, const State& after, bool first,
+                      const SimulationReport& report);
+
+  /// Writes the books into a snapshot, whose total energy has been the mechanical one.
+  void enter(Snapshot& snapshot) const;
+  /// Takes the errors and the scales of energy in a snapshot down in the report.
+  void record(const Snapshot& snapshot, SimulationReport& report);
+  /// Where all that moves has come from nowhere, what would follow means nothing: the energy that has, up to
+  /// the last snapshot.
+  std::optional<double> from_nowhere(const SimulationReport& report) const;
+
+ private:
+  double dissipated_ = 0, input_ = 0, start_ = 0;
+  double created_ = 0;                             // in the last snapshot, less what events gave
+  std::pair<double, SystemEnergy> known_{-1, {}};  // at a time, since the last restart
+};
+
+/// The energy of strains that are round-off, 1e-11, in all beams [J].
+double strain_noise(const BeamModel& model);
+
+/// A change of the mesh that changes the energy by too much, as its event has it; beams with the elements and
+/// rules of the papers, which are there for comparison, do as they do.
+bool changes_energy(const BeamSystem& system, const State& state, const RunEvent& event,
+                    const SimulationReport& report);
+
+}  // namespace nurbeam

@@ -1,0 +1,44 @@
+#include "fem/motion/run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "fem/system/observables.h"
+#include "solver/consistent.h"
+
+namespace nurbeam {
+
+bool Run::restart() {
+  const bool consistent = change([time = shortest_time()](MeshedState& of) {
+    return make_accelerations_smooth(*of.system, time, of.state) == ConsistencyStatus::done;
+  });
+  if (!consistent) return fail(Failure::Kind::mass_matrix);
+  integrator = start_integrator(options.integrator, *at.system, at.state);
+  restarted = true;
+  return true;
+}
+
+void Run::note(RunEvent event) {
+  if (observer.follower) observer.follower->happens(event);
+  report.events.push_back(std::move(event));
+}
+
+bool Run::goes_on(std::optional<Failure> failure) {
+  if (!failure) return true;
+  report.fail(std::move(*failure));
+  return false;
+}
+
+bool Run::fail_in_impact(int joint) {
+  return goes_on(Failure{.kind = Failure::Kind::impact, .time = at.state.t, .joint = joint});
+}
+
+double Run::shortest_time() const {
+  return std::holds_alternative<GeneralizedAlpha>(options.integrator) ? step : 0;
+}
+
+double Run::resolution() const { return std::max(1e-12 * std::max(1.0, options.end_time), 1e-5 * step); }
+
+double Run::mechanical_energy() const { return energy(*at.system, at.state).mechanical(); }
+
+}  // namespace nurbeam

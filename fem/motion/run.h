@@ -1,0 +1,62 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fem/motion/energy_account.h"
+#include "fem/motion/meshed_state.h"
+#include "fem/motion/simulation_options.h"
+
+namespace nurbeam {
+
+/// A motion at one moment of a simulation: what its steps, events and changes of the mesh share. Functions of
+/// it that return a bool say whether the run goes on; where it does not, the report knows why.
+struct Run {
+  std::shared_ptr<const BeamModel> model;
+  const SimulationOptions options;
+  const SimulationObserver observer;
+  MeshedState at = {};
+  std::unique_ptr<Integrator> integrator = {};
+  double step = 1e-4;      ///< asked for next: fixed, or what error control suggests [s]
+  bool restarted = false;  ///< and no step since
+  EnergyAccount account = {};
+  SimulationReport report = {};
+  double last_step = 0;  ///< [s]
+  StepRecord last_record = {};
+  std::vector<StepRecord> steps = {};  ///< since the last snapshot
+
+  /// Does something to the state, and to those of neighbouring models that follow; whether it could be done
+  /// to the run's own.
+  template <class Change>
+  bool change(const Change& change) {
+    const bool done = change(at);
+    follow(change);
+    return done;
+  }
+  /// Tells a follower what has led to the present state.
+  template <class Change>
+  void follow(const Change& change) const {
+    if (observer.follower) observer.follower->changes(at, change);
+  }
+  /// New integrator from the present state, with consistent accelerations.
+  bool restart();
+  /// Writes an event down.
+  void note(RunEvent event);
+
+  bool goes_on(std::optional<Failure> failure);
+  bool fail(Failure::Kind kind) { return goes_on(Failure{.kind = kind, .time = at.state.t}); }
+  /// In the impact at the end or a break of a joint's beam.
+  bool fail_in_impact(int joint);
+
+  /// Shorter than this nothing is followed: the steps of a method for stiff systems [s].
+  double shortest_time() const;
+  /// A step much shorter than the others would take the round-off of positions for velocities. What is left
+  /// after an event just before an output time is not worth one [s].
+  double resolution() const;
+  double mechanical_energy() const;
+};
+
+/// The accuracy of kept energy where differences are taken of what comes out.
+constexpr double neighbours_accuracy = 1e-14;
+
+}  // namespace nurbeam

@@ -1,0 +1,178 @@
+#include "fem/motion/run_step.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "fem/forces/memory.h"
+#include "fem/motion/run_mesh.h"
+#include "fem/motion/run_passing.h"
+#include "fem/motion/sliding_bodies.h"
+
+namespace nurbeam {
+
+namespace {
+
+// A step of at most that length. Under error control one that creates energy, as a wrong root of a snap
+// does, counts as failed.
+StepReport step_keeping_energy(Run& run, const State& before, const IntegratorHistory& history, double step) {
+  constexpr int most_halvings = 12;
+  StepReport taken = run.integrator->advance(step);
+  for (int i = 0; taken.status == StepStatus::converged && !run.options.step; ++i) {
+    if (!run.account.creates_energy(*run.at.system, before, run.integrator->state(), run.restarted,
+                                    run.report))
+      break;
+    const StepReport refused = taken;
+    run.integrator->restore(before, history);
+    if (i < most_halvings)
+      taken = run.integrator->advance(refused.step / 2);
+    else
+      taken.status = StepStatus::not_converged;
+    taken.newton_iterations += refused.newton_iterations;
+    taken.rejected += refused.rejected + 1;
+  }
+  return taken;
+}
+
+// Repeats the step that was taken so that it ends just before a place.
+void land_at(Run& run, const StepTaken& taken, const Crossing& crossing) {
+  State landing = landed(*run.at.system, *run.integrator, taken, crossing);
+  run.at.state = std::move(landing);
+}
+
+// Friction, stops and connectors, and bodies on guides have events.
+bool has_events(const BeamModel& model) {
+  return no_memory(model).size() > 0 ||
+         std::any_of(
+             model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.rigid; });
+}
+
+// Repeats a step in which an event happens so that it ends there.
+std::optional<StepEvent> land_on_event(Run& run, const State& before, const IntegratorHistory& history,
+                                       bool nothing_leaves) {
+  std::optional<StepEvent> found;
+  const BeamModel& model = *run.model;
+  if (!has_events(model)) return found;
+  State& state = run.at.state;
+  const std::size_t most = model.joints.size() + model.stops.size() +
+                           model.connectors.size();  // the first found need not come first
+  for (std::size_t i = 0; i <= most && state.t > before.t; ++i) {
+    const std::optional<StepEvent> event = first_event(*run.at.system, before, state, nothing_leaves);
+    if (!event) break;
+    const State after = state;
+    state = landed(*run.at.system, *run.integrator, {before, history, after, after.t - before.t}, *event);
+    found = event;
+  }
+  return found;
+}
+
+// Under error control: repeats a step at whose end a change of the mesh is due so that it ends where it
+// falls due. Else when it comes would depend on the steps, and with it how the mesh goes on.
+void land_on_change(Run& run, const StepTaken& taken) {
+  const auto due = [&](const State& state) {
+    return next_plan(*run.at.system, state, run.options.length_control).change != MeshChange::none;
+  };
+  if (!due(taken.after)) return;
+  double before = 0, after = 1;  // in parts of the step
+  while (after - before > 1e-9) {
+    const double middle = (before + after) / 2;
+    (due(between(taken.before, taken.after, middle)) ? after : before) = middle;
+  }
+  constexpr double shortest = 1e-3;
+  if (after < shortest || after > 1 - shortest) return;
+  Integrator& integrator = *run.integrator;
+  const IntegratorHistory whole = integrator.history();
+  // A repeated step misses what was interpolated by a little.
+  for (double miss = 1e-8; miss < 1e-2; miss *= 10) {
+    const double length = (after + miss) * taken.length;
+    if (integrator.repeat(taken.before, taken.history, length).status != StepStatus::converged) break;
+    if (!due(integrator.state())) continue;
+    run.at.state = integrator.state();
+    return;
+  }
+  integrator.restore(run.at.state, whole);
+}
+
+// What a step has been landed at.
+struct Landing {
+  std::optional<Crossing> crossing, ending;  // of a place; of an end of a beam
+  std::optional<StepEvent> event;
+};
+
+Landing land(Run& run, const State& before, const IntegratorHistory& history, double step,
+             bool nothing_leaves) {
+  MeshedState& at = run.at;
+  Landing landing;
+  landing.crossing = first_crossing(*at.system, before, at.state);
+  if (landing.crossing) land_at(run, {before, history, at.state, step}, *landing.crossing);
+  landing.event = land_on_event(run, before, history, nothing_leaves);
+  if (landing.event) landing.crossing.reset();
+  if (landing.crossing) at.state = carried_over(*at.system, std::move(at.state), step, *landing.crossing);
+  landing.ending = end_passed(*at.system, at.state);
+  if (landing.ending) land_at(run, {before, history, at.state, at.state.t - before.t}, *landing.ending);
+  if (!landing.crossing && !landing.event && !landing.ending && !run.options.step)
+    land_on_change(run, {before, history, at.state, step});
+  return landing;
+}
+
+// Of what a step has been landed at, for states of neighbouring models too; empty where it has not.
+std::function<double(const BeamSystem&, const State&)> distance_to(const BeamModel& model,
+                                                                   const Landing& landing,
+                                                                   const State& before) {
+  const auto& crossing = landing.ending ? landing.ending : landing.crossing;
+  if (crossing)
+    return [&model, crossing](const BeamSystem& system, const State& state) {
+      return distance_beyond(system, state, corresponding_crossing(*crossing, model, system.model()));
+    };
+  if (landing.event)
+    return [event = landing.event, &before](const BeamSystem& system, const State& state) {
+      return std::visit([&](const auto& e) { return beyond(system, before, state, e); }, *event);
+    };
+  return {};
+}
+
+// What follows from what a step has been landed at.
+bool pass(Run& run, const Landing& landing, const State& before) {
+  if (landing.ending && !end_sliding(run, *landing.ending)) return false;
+  note_friction(run, before, landing.event);
+  if (landing.crossing && !landing.ending && !step_over(run, *landing.crossing)) return false;
+  if (landing.event && !landing.ending && !pass_event(run, *landing.event, false)) return false;
+  if (!run.goes_on(meeting_bodies(run.at))) return false;
+  settle_mesh(run);
+  return run.report.status == SimulationStatus::done && recentre_sections(run);
+}
+
+}  // namespace
+
+bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
+  MeshedState& at = run.at;
+  const State before = at.state;
+  const IntegratorHistory history = run.integrator->history();
+  const StepReport taken = step_keeping_energy(run, before, history, step);
+  run.report.newton_iterations += taken.newton_iterations;
+  run.report.rejected_steps += taken.rejected;
+  if (taken.status != StepStatus::converged)
+    return run.goes_on(Failure{
+        .kind = Failure::Kind::step, .time = at.state.t, .places = places_of(at), .step = taken.status});
+  if (!run.options.step) run.step = taken.next_step;
+  ++run.report.steps;
+  run.last_step = taken.step;
+  at.state = run.integrator->state();
+  const bool first = std::exchange(run.restarted, false);
+  const double end = at.state.t;
+  const Landing landing = land(run, before, history, taken.step, nothing_leaves);
+  if (landing.event && at.state.t == before.t) {
+    if (!pass_event(run, *landing.event, true)) return false;
+    // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
+    return !rests_by(run, *landing.event) || take_step(run, step, rest, true);
+  }
+  if (run.observer.follower)
+    run.observer.follower->steps(
+        {before, history, at.state, at.state.t != end, rest, distance_to(*run.model, landing, before)});
+  const double length = at.state.t == end ? taken.step : at.state.t - before.t;
+  run.last_record = {at.state.t, length, taken.newton_iterations, taken.rejected};
+  run.steps.push_back(run.last_record);
+  run.account.add_step(*at.system, before, at.state, first);
+  return pass(run, landing, before);
+}
+
+}  // namespace nurbeam

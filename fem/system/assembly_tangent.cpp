@@ -1,0 +1,278 @@
+// The tangents of an assembly and where their entries are.
+#include <algorithm>
+#include <cmath>
+
+#include "fem/comparison/virtual_work.h"
+#include "fem/system/assembly.h"
+
+namespace nurbeam {
+
+namespace {
+
+int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
+  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
+}
+
+template <class Matrix>
+void scatter(const std::vector<int>& positions, std::size_t n, const Matrix& matrix, double* values) {
+  for (std::size_t j = 0, k = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i, ++k)
+      if (positions[k] >= 0)
+        values[positions[k]] += matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
+// The coordinates of a bound force in its own block, where it has one.
+template <class Force>
+std::vector<int> own_dofs(const Force& force) {
+  if constexpr (requires { force.dofs(); })
+    return force.dofs();
+  else
+    return {};
+}
+
+}  // namespace
+
+// Takes the tangent matrices of one force.
+template <int D>
+struct Assembly<D>::Sink {
+  const std::vector<Block>&element_blocks, &twist_blocks;
+  const Block& own_block;
+  double* values;
+
+  void element(int index, const ElementMatrix<D>& K) const {
+    scatter(element_blocks[index].values, element_size<D>, K, values);
+  }
+  /// In the coordinates of an element with its sections.
+  void twist(int index, const TwistLayout::Matrix& K) const {
+    scatter(twist_blocks[index].values, TwistLayout::size, K, values);
+  }
+  template <class Matrix>
+  void own(const Matrix& K) const {
+    scatter(own_block.values, own_block.dofs.size(), K, values);
+  }
+};
+
+template <int D>
+void Assembly<D>::build_pattern() {
+  const int n = mesh_.coordinate_count, size = n + constraint_count_;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add_pairs = [&](const std::vector<int>& dofs) {
+    for (int i : dofs)
+      for (int j : dofs)
+        if (i >= 0 && j >= 0) entries.emplace_back(i, j, 0.0);
+  };
+  for (const MeshElement<D>& e : elements_) {
+    element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
+    add_pairs(element_blocks_.back().dofs);
+    twist_blocks_.emplace_back();
+    if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
+    add_pairs(twist_blocks_.back().dofs);
+  }
+  for (const BoundForce<D>& force : forces_) {
+    force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
+    add_pairs(force_blocks_.back().dofs);
+  }
+  for (const auto& [row, rows, block, gradient_values, transposed_values] : constraint_blocks_) {
+    add_pairs(block.dofs);
+    for (int r = row; r < row + rows; ++r)
+      for (int dof : block.dofs) {
+        if (dof < 0) continue;
+        entries.emplace_back(n + r, dof, 0.0);
+        entries.emplace_back(dof, n + r, 0.0);
+      }
+  }
+  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 0.0);
+  pattern_.resize(size, size);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+  pattern_.makeCompressed();
+
+  const auto index_of = [&](int i, int j) { return value_index(pattern_, i, j); };
+  for (Block& block : element_blocks_) locate(block, index_of);
+  for (Block& block : twist_blocks_) locate(block, index_of);
+  for (Block& block : force_blocks_) locate(block, index_of);
+  for (ConstraintBlock& block : constraint_blocks_) locate(block, index_of);
+}
+
+// Puts down where the values of a block are; `index_of` gives that of a row and a column.
+template <int D>
+template <class IndexOf>
+void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
+  block.values.clear();
+  for (int j : block.dofs)
+    for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? index_of(i, j) : -1);
+}
+
+template <int D>
+template <class IndexOf>
+void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const {
+  const int n = mesh_.coordinate_count;
+  locate(block.block, index_of);
+  block.gradient_values.clear();
+  block.transposed_values.clear();
+  for (int dof : block.block.dofs)
+    for (int r = block.row; r < block.row + block.rows; ++r) {
+      block.gradient_values.push_back(dof >= 0 ? index_of(n + r, dof) : -1);
+      block.transposed_values.push_back(dof >= 0 ? index_of(dof, n + r) : -1);
+    }
+}
+
+template <int D>
+void Assembly<D>::choose_moving_part() {
+  // A part is kept apart where it is a small share of all unknowns, and where dense work on it takes less
+  // than the elimination of all.
+  constexpr double smallest_share = 4, most_work = 500;
+  const auto add_unknowns = [&](const std::vector<int>& dofs) {
+    for (const int dof : dofs)
+      if (dof >= 0) moving_.unknowns.push_back(dof);
+  };
+  for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
+    if (elements_[i].element.fixed()) continue;
+    moving_.elements.push_back(i);
+    moving_.element_blocks.push_back(element_blocks_[i]);
+    moving_.twist_blocks.push_back(twist_blocks_[i]);
+    add_unknowns(element_blocks_[i].dofs);
+    add_unknowns(twist_blocks_[i].dofs);
+  }
+  for (int i = first_joint_constraint_; i < last_joint_constraint_; ++i) {
+    if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
+      continue;
+    const ConstraintBlock& block = constraint_blocks_[i];
+    moving_.constraints.push_back(i);
+    moving_.constraint_blocks.push_back(block);
+    add_unknowns(block.block.dofs);
+    for (int r = block.row; r < block.row + block.rows; ++r)
+      moving_.unknowns.push_back(mesh_.coordinate_count + r);
+  }
+  std::vector<int>& unknowns = moving_.unknowns;
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  const double part = static_cast<double>(unknowns.size()),
+               whole = mesh_.coordinate_count + constraint_count_;
+  if (smallest_share * part > whole || part * part * part > most_work * whole) {
+    moving_ = {};
+    return;
+  }
+  const auto place_of = [&](int unknown) {
+    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  };
+  const auto index_of = [&](int i, int j) {
+    return place_of(i) + place_of(j) * static_cast<int>(unknowns.size());
+  };
+  for (Block& block : moving_.element_blocks) locate(block, index_of);
+  for (Block& block : moving_.twist_blocks) locate(block, index_of);
+  for (ConstraintBlock& block : moving_.constraint_blocks) locate(block, index_of);
+}
+
+template <int D>
+void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
+                                      const Block& block, const Block& twist_block, double* values) const {
+  const MeshElement<D>& e = elements_[i];
+  const ElementState<D> x = gather<D>(e, state);
+  scatter(block.values, element_size<D>,
+          is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
+          values);
+  if constexpr (D == 3)
+    if (e.twist)
+      scatter(twist_block.values, TwistLayout::size, e.twist->element.tangent(gather_twist(e, state), w),
+              values);
+}
+
+// Of all batches of a beam.
+template <int D>
+void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
+                                     double* values) const {
+  constexpr int nodal = ElementLayout<D>::nodal;
+  const auto& [batches, batched, others] = walks_[beam];
+  if (batches.empty()) return;  // a guide has no elements
+  const double strain = free_strain_of(beam, state);
+  auto index = batched.begin();
+  typename ElementBatch<D>::Tangents K;
+  for (const ElementBatch<D>& batch : batches) {
+    batch.tangents(state, strain, w, K);
+    for (int lane = 0; lane < batch.count(); ++lane, ++index) {
+      const int* position = element_blocks_[*index].values.data();
+      for (int j = 0; j < nodal; ++j)
+        for (int i = 0; i < nodal; ++i) values[position[j * element_size<D> + i]] += K[j][i].of[lane];
+    }
+  }
+}
+
+template <int D>
+void Assembly<D>::add_constraint_tangent(int i, const State& state, const TangentWeights& w,
+                                         const ConstraintBlock& block, double* values) const {
+  const MeshedBeams<D> at = beams();
+  std::visit(
+      [&](const auto& c) {
+        typename ConstraintTerms<D>::Multipliers y = ConstraintTerms<D>::Multipliers::Zero();
+        y.head(c.rows) = state.lambda.segment(block.row, c.rows);
+        const ConstraintTerms<D> terms = c.terms(at, state, &y);
+        if constexpr (!is_linear<std::decay_t<decltype(c)>>())
+          if (w.stiffness != 0)
+            scatter(block.block.values, block.block.dofs.size(), w.stiffness * terms.hessian, values);
+        for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
+          for (int r = 0; r < c.rows; ++r, ++v)
+            if (block.gradient_values[v] >= 0) {
+              const double g = terms.gradient(r, static_cast<Eigen::Index>(k));
+              values[block.gradient_values[v]] += g;
+              values[block.transposed_values[v]] += g;
+            }
+      },
+      constraints_[i]);
+}
+
+template <int D>
+void Assembly<D>::tangent(const State& state, const TangentWeights& w,
+                          Eigen::SparseMatrix<double>& kkt) const {
+  const MeshedBeams<D> at = beams();
+  double* values = kkt.valuePtr();
+  std::fill(values, values + kkt.nonZeros(), 0.0);
+  const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
+  for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
+    const Vector load = line_load(b, state);
+    const auto add_one = [&](int i) {
+      add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
+    };
+    if (model_->beams[b].properties.is_damped())
+      std::for_each(walks_[b].batched.begin(), walks_[b].batched.end(), add_one);
+    else
+      add_batch_tangents(b, state, w, values);
+    std::for_each(walks_[b].others.begin(), walks_[b].others.end(), add_one);
+  }
+  for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
+    const Sink sink{element_blocks_, twist_blocks_, force_blocks_[i], values};
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
+            f.template add_tangent<D>(at, state, w, sink);
+          else if constexpr (requires { f.add_tangent(at, state, w, sink); })
+            f.add_tangent(at, state, w, sink);
+        },
+        forces_[i]);
+  }
+  for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
+    add_constraint_tangent(i, state, w, constraint_blocks_[i], values);
+}
+
+template <int D>
+void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {
+  const auto size = static_cast<Eigen::Index>(moving_.unknowns.size());
+  part.setZero(size, size);
+  for (std::size_t k = 0; k < moving_.elements.size(); ++k)
+    add_element_tangent(moving_.elements[k], state, line_load(elements_[moving_.elements[k]].beam, state), w,
+                        moving_.element_blocks[k], moving_.twist_blocks[k], part.data());
+  for (std::size_t k = 0; k < moving_.constraints.size(); ++k)
+    add_constraint_tangent(moving_.constraints[k], state, w, moving_.constraint_blocks[k], part.data());
+}
+
+template void Assembly<2>::build_pattern();
+template void Assembly<3>::build_pattern();
+template void Assembly<2>::choose_moving_part();
+template void Assembly<3>::choose_moving_part();
+template void Assembly<2>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
+template void Assembly<3>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
+template void Assembly<2>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
+template void Assembly<3>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
+
+}  // namespace nurbeam
