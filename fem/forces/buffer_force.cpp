@@ -23,8 +23,9 @@ template <int D>
 double BufferForce<D>::force(const MeshedBeams<D>& at, const State& state) const {
   const double x = pressed_in(at, state);
   const BufferContact contact = buffer_contact(at.structure, state.memory, stop_);
-  if (!(x > 0) && contact == BufferContact::away) return 0;
   const Buffer& buffer = *stop(at).buffer;
+  // One that begins a step away has no damper in it: within a step nothing jumps.
+  if (contact == BufferContact::away) return std::max(0.0, buffer.stiffness * x);
   const double N = buffer.stiffness * x - buffer.damping * stop_rate(at.mesh, stop(at), state.v);
   return contact == BufferContact::pressing ? N : std::max(0.0, N);
 }
@@ -42,7 +43,9 @@ Eigen::Matrix2d BufferForce<D>::tangent(const MeshedBeams<D>& at, const State& s
                                         const TangentWeights& w) const {
   if (force(at, state) == 0) return Eigen::Matrix2d::Zero();
   const Buffer& buffer = *stop(at).buffer;
-  return (w.stiffness * buffer.stiffness + w.damping * buffer.damping) * by_places_ * by_places_.transpose();
+  const bool away = buffer_contact(at.structure, state.memory, stop_) == BufferContact::away;
+  return (w.stiffness * buffer.stiffness + (away ? 0 : w.damping * buffer.damping)) * by_places_ *
+         by_places_.transpose();
 }
 
 template <int D>
@@ -65,8 +68,9 @@ double BufferForce<D>::loss(const MeshedBeams<D>& at, const State& from, const S
 template <int D>
 void BufferForce<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const {
   if (memory.size() == 0) return;
-  const bool let_go = buffer_contact(at.structure, memory, stop_) == BufferContact::let_go;
-  if (!(pressed_in(at, state) > 0))
+  const BufferContact contact = buffer_contact(at.structure, memory, stop_);
+  const bool let_go = contact == BufferContact::let_go;
+  if (contact == BufferContact::away || !(pressed_in(at, state) > 0))
     set_buffer_contact(at.structure, memory, stop_, BufferContact::away);
   else if (force(at, state) > 0 && !(let_go && stop_rate(at.mesh, stop(at), state.v) >= 0))
     set_buffer_contact(at.structure, memory, stop_, BufferContact::pressing);

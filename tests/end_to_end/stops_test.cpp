@@ -196,6 +196,19 @@ TEST(StopsRun, ADamperStifferThanTheStepsStopsABodyAndMakesNoEnergy) {
   }
 }
 
+// One that is stiff beyond all measure acts where its body has come to it, and not before.
+TEST(StopsRun, ADamperOfAnySizeIsMetWhereItStands) {
+  const StopRun stops =
+      run_stops(one_body(level, 80, R"("at": {"length": 1}, "speed": 3)",
+                         R"([{"beam": "rail", "at": {"length": 4}, "stiffness": 20000, "damping": 1e12}])",
+                         R"({"end_time": 1.3, "step": "10 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_EQ(stops.times("hits a stop").size(), 1u);
+  EXPECT_NEAR(stops.times("hits a stop")[0], 1, 1e-9);
+  EXPECT_NEAR(stops.run.last("bead.s [m]"), 4, 1e-3);
+  EXPECT_LT(total_drift(stops.run), 0.04 * 360);
+}
+
 // What a body that leaves the beam had pressed in is lost with it.
 TEST(StopsRun, WhatABufferHoldsWhenItsBodyLeavesTheBeamIsLost) {
   const StopRun stops = run_stops(one_body(level, 5, R"("at": {"length": 18}, "speed": 5)",
