@@ -126,21 +126,21 @@ class Run {
     print_diagnostics(*log_, summary_.diagnostics);
   }
 
-  // What asks for an end: the caller, or else the signals while the guard lives.
-  std::function<bool()> interruption(std::optional<InterruptGuard>& guard) const {
+  // What asks for an end: the caller, or else the signals, the second of which ends the program, also while
+  // results are written.
+  std::function<bool()> interruption() {
     if (options_.interrupted) return options_.interrupted;
-    guard.emplace();
-    return [&guard] { return guard->interrupted(); };
+    guard_.emplace();
+    return [this] { return guard_->interrupted(); };
   }
 
   SimulationReport find_modes_into(RunOutputs& outputs) {
-    std::optional<InterruptGuard> guard;
     ModeTable table;
     const ModeShapes shapes{
         .state = [&](const Snapshot& state) { outputs.write(state); },
         .shape = [&](const Snapshot& shape) { outputs.write_shape(shape); },
         .turn = [&](const std::string& name, const auto& frames) { outputs.write_series(name, frames); }};
-    const SimulationReport report = run_modes(case_, built_, interruption(guard), shapes, table);
+    const SimulationReport report = run_modes(case_, built_, interruption(), shapes, table);
     if (report.status != SimulationStatus::done) return report;
     write_mode_table(options_.out / "modes.csv", table);
     for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -155,9 +155,8 @@ class Run {
                    options_.progress ? Progress::Style::quiet : Progress::style_of_stderr(options_.quiet),
                    start_time, case_.analysis.end_time);
     Progress logged(*log_, Progress::Style::lines, start_time, case_.analysis.end_time);
-    std::optional<InterruptGuard> guard;
     SimulationObserver observer;
-    observer.interrupted = interruption(guard);
+    observer.interrupted = interruption();
     observer.progress = [&](const StepRecord& step) {
       shown.update(step);
       logged.update(step);
@@ -213,6 +212,7 @@ class Run {
     summary_.files.erase(std::unique(summary_.files.begin(), summary_.files.end()), summary_.files.end());
   }
 
+  std::optional<InterruptGuard> guard_;
   const CaseFile& case_;
   const BuiltModel& built_;
   const RunOptions& options_;
