@@ -199,32 +199,51 @@ struct ElementBatch<D>::Kernel {
     }
   }
 
-  // The assumed axial strain, its damping and that of the tension (BeamElement::TautViscosity).
-  NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, double free_strain,
-                                       Nodes& force) const {
-    const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
-    if (!assumed && !(beam.tension_damping > 0)) return;
+  struct Stretch {
+    Nodes by_e;       // dI/de
+    Lanes8 integral;  // I, without the strain that carries no force
+  };
+  NURBEAM_WITHIN Stretch stretch(const Nodes& e, double free_strain) const {
     Nodes from_start = e;
     for (int d = 0; d < D; ++d) {
       from_start[0][d] = Lanes8{};
       from_start[2][d] -= e[0][d];
     }
-    const Nodes I_e = product(from_start, batch.stretch_);
+    Stretch stretch{product(from_start, batch.stretch_), {}};
+    for (int k = 1; k < 4; ++k) stretch.integral += dot<D>(from_start[k], stretch.by_e[k]);
     const Lanes8 l = batch.length_;
-    Lanes8 I = {};
-    for (int k = 1; k < 4; ++k) I += dot<D>(from_start[k], I_e[k]);
-    I = (I - l) / 2 - batch.strain0_[0] - free_strain * l;
+    stretch.integral = (stretch.integral - l) / 2 - batch.strain0_[0] - free_strain * l;
+    return stretch;
+  }
+
+  // The gradient of AssumedAxialEnergy in I, eps_A and eps_B.
+  struct AxialStress {
+    Lanes8 on_I, on_a, on_b;
+  };
+  NURBEAM_WITHIN AxialStress axial_stress(const Nodes& e, const Lanes8& I, double EA,
+                                          double free_strain) const {
+    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
+    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
+    const Lanes8 l = batch.length_;
+    const Lanes8 c0 = I / l, c1 = (at_b - at_a) / 2, c2 = (at_a + at_b) / 2 - c0;
+    return {EA * (c0 - c2 / 5), EA * l * (c2 / 10 - c1 / 6), EA * l * (c2 / 10 + c1 / 6)};
+  }
+
+  // The assumed axial strain, its damping and that of the tension (BeamElement::TautViscosity).
+  NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, double free_strain,
+                                       Nodes& force) const {
+    const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
+    if (!assumed && !(beam.tension_damping > 0)) return;
+    const auto [I_e, I] = stretch(e, free_strain);
+    const Lanes8 l = batch.length_;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
       const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
       add(eta, product(e_rate, batch.stretch_), force);
     }
     if (!assumed) return;
-    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
-    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
     const double EA = beam.axial_stiffness, viscosity = beam.damping * EA;
-    const Lanes8 c0 = I / l, c1 = (at_b - at_a) / 2, c2 = (at_a + at_b) / 2 - c0;
-    Lanes8 on_I = EA * (c0 - c2 / 5), on_a = EA * l * (c2 / 10 - c1 / 6), on_b = EA * l * (c2 / 10 + c1 / 6);
+    auto [on_I, on_a, on_b] = axial_stress(e, I, EA, free_strain);
     if (viscosity > 0) {
       Lanes8 I_rate = {};
       for (int k = 0; k < 4; ++k) I_rate += dot<D>(I_e[k], e_rate[k]);
@@ -294,22 +313,10 @@ struct ElementBatch<D>::Kernel {
   // The tangent of the assumed axial strain: as add_point_tangents.
   NURBEAM_WITHIN void add_axial_tangents(const Nodes& e, double free_strain, double stiffness,
                                          Tangents& K) const {
-    Nodes from_start = e;
-    for (int d = 0; d < D; ++d) {
-      from_start[0][d] = Lanes8{};
-      from_start[2][d] -= e[0][d];
-    }
-    const Nodes I_e = product(from_start, batch.stretch_);
+    const auto [I_e, I] = stretch(e, free_strain);
     const Lanes8 l = batch.length_;
-    Lanes8 I = {};
-    for (int k = 1; k < 4; ++k) I += dot<D>(from_start[k], I_e[k]);
-    I = (I - l) / 2 - batch.strain0_[0] - free_strain * l;
-    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
-    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
     const double EA = stiffness * beam.axial_stiffness;
-    const Lanes8 c0 = I / l, c1 = (at_b - at_a) / 2, c2 = (at_a + at_b) / 2 - c0;
-    const Lanes8 on_I = EA * (c0 - c2 / 5), on_a = EA * l * (c2 / 10 - c1 / 6),
-                 on_b = EA * l * (c2 / 10 + c1 / 6);
+    const auto [on_I, on_a, on_b] = axial_stress(e, I, EA, free_strain);
     for (int k = 0; k < 4; ++k)
       for (int m = 0; m <= k; ++m)
         for (int d = 0; d < D; ++d) K[k * D + d][m * D + d] += on_I * batch.stretch_[k][m];
