@@ -228,7 +228,7 @@ bool GeneralizedAlphaIntegrator::renew_moving_part() {
   if (moving_part_.size() == 0) return true;
   system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
   moved_part_ -= moving_part_;
-  return solver_.update(moved_part_);
+  return solver_.renew(moved_part_);
 }
 
 TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {

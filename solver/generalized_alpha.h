@@ -1,7 +1,7 @@
 #pragma once
 #include "solver/integrator.h"
+#include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
-#include "solver/updated_kkt.h"
 
 namespace nurbeam {
 
@@ -94,7 +94,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
-  UpdatedKkt solver_;
+  KktSolver solver_;
   Eigen::SparseMatrix<double> kkt_;
   Eigen::MatrixXd moving_part_;  ///< that in kkt_
 

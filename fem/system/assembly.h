@@ -87,7 +87,7 @@ class Assembly final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
-  /// Of elements whose ends move and of the places of joints.
+  /// Of elements whose ends move and of the places of joints, and what constraints tie to them.
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
@@ -130,6 +130,7 @@ class Assembly final : public SecondOrderSystem {
   void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
+  void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
   template <class IndexOf>
   void locate(Block& block, const IndexOf& index_of) const;

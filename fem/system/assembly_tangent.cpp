@@ -1,6 +1,7 @@
 // The tangents of an assembly and where their entries are.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/comparison/virtual_work.h"
 #include "fem/system/assembly.h"
@@ -118,39 +119,55 @@ void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const 
     }
 }
 
+// Marks all unknowns of constraints that hold one that is marked, and of those that hold one of these: what
+// is left is constrained by itself.
+template <int D>
+void Assembly<D>::mark_constrained(std::vector<bool>& marked) const {
+  const auto touches = [&](const ConstraintBlock& block) {
+    return std::any_of(block.block.dofs.begin(), block.block.dofs.end(),
+                       [&](int dof) { return dof >= 0 && marked[dof]; });
+  };
+  for (bool grows = true; std::exchange(grows, false);)
+    for (const ConstraintBlock& block : constraint_blocks_) {
+      const int first = mesh_.coordinate_count + block.row;
+      if (marked[first] || !touches(block)) continue;
+      grows = true;
+      std::fill_n(marked.begin() + first, block.rows, true);
+      for (const int dof : block.block.dofs)
+        if (dof >= 0) marked[dof] = true;
+    }
+}
+
 template <int D>
 void Assembly<D>::choose_moving_part() {
-  // A part is kept apart where it is a small share of all unknowns, and where dense work on it takes less
-  // than the elimination of all.
-  constexpr double smallest_share = 4, most_work = 500;
-  const auto add_unknowns = [&](const std::vector<int>& dofs) {
+  std::vector<bool> marked(static_cast<std::size_t>(mesh_.coordinate_count + constraint_count_), false);
+  const auto mark = [&](const std::vector<int>& dofs) {
     for (const int dof : dofs)
-      if (dof >= 0) moving_.unknowns.push_back(dof);
+      if (dof >= 0) marked[dof] = true;
   };
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     if (elements_[i].element.fixed()) continue;
     moving_.elements.push_back(i);
     moving_.element_blocks.push_back(element_blocks_[i]);
     moving_.twist_blocks.push_back(twist_blocks_[i]);
-    add_unknowns(element_blocks_[i].dofs);
-    add_unknowns(twist_blocks_[i].dofs);
+    mark(element_blocks_[i].dofs);
+    mark(twist_blocks_[i].dofs);
   }
   for (int i = first_joint_constraint_; i < last_joint_constraint_; ++i) {
     if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
       continue;
-    const ConstraintBlock& block = constraint_blocks_[i];
     moving_.constraints.push_back(i);
-    moving_.constraint_blocks.push_back(block);
-    add_unknowns(block.block.dofs);
-    for (int r = block.row; r < block.row + block.rows; ++r)
-      moving_.unknowns.push_back(mesh_.coordinate_count + r);
+    moving_.constraint_blocks.push_back(constraint_blocks_[i]);
+    mark(constraint_blocks_[i].block.dofs);
   }
+  mark_constrained(marked);
   std::vector<int>& unknowns = moving_.unknowns;
-  std::sort(unknowns.begin(), unknowns.end());
-  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
-  const double part = static_cast<double>(unknowns.size()),
-               whole = mesh_.coordinate_count + constraint_count_;
-  if (smallest_share * part > whole || part * part * part > most_work * whole) {
+  for (int i = 0; i < static_cast<int>(marked.size()); ++i)
+    if (marked[i]) unknowns.push_back(i);
+  // A part is kept apart where dense work on it takes less than the elimination of all.
+  constexpr double most_work = 500;
+  const double part = static_cast<double>(unknowns.size());
+  if (part * part * part > most_work * static_cast<double>(marked.size())) {
     moving_ = {};
     return;
   }
