@@ -62,10 +62,15 @@ int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std:
       ++levels;
       level_end = order.size();
     }
-    const auto first_new = static_cast<std::ptrdiff_t>(order.size());
+    const std::size_t first_new = order.size();
     for (const int* other = neighbours.begin(order[next]); other != neighbours.end(order[next]); ++other)
       if (walks.last[*other] < walks.number) append(*other);
-    std::stable_sort(order.begin() + first_new, order.end(), fewer);
+    // They are few.
+    for (std::size_t i = first_new; i < order.size(); ++i)
+      std::rotate(std::upper_bound(order.begin() + static_cast<std::ptrdiff_t>(first_new),
+                                   order.begin() + static_cast<std::ptrdiff_t>(i), order[i], fewer),
+                  order.begin() + static_cast<std::ptrdiff_t>(i),
+                  order.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   }
   return levels;
 }

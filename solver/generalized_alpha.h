@@ -91,6 +91,8 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double last_step_ = 0;
   double last_error_ = 0;
   double mass_scale_ = 1;
+  int first_corrections_ = 0;                           ///< of the step that took the matrix
+  int more_corrections_ = 0;                            ///< beyond as many, of the steps that kept it
   std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more

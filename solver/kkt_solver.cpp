@@ -3,7 +3,6 @@
 #include <Eigen/KLUSupport>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <memory>
 #include <numeric>
@@ -203,12 +202,10 @@ struct KktSolver::Implementation {
   mutable Eigen::VectorXd rest, part;
 
   void analyse(const Matrix& matrix, const std::vector<int>& last) {
-    // Of one mesh several matrices are solved, by as many solvers: the orders that were found last, with a
-    // part and without, are at hand.
-    thread_local std::array<std::shared_ptr<const AnalysedPattern>, 2> found;
-    std::shared_ptr<const AnalysedPattern>& of_kind = found[last.empty() ? 0 : 1];
-    if (!of_kind || !of_kind->is_of(matrix, last)) of_kind = std::make_shared<AnalysedPattern>(matrix, last);
-    pattern = of_kind;
+    // Of one mesh several matrices are solved, by as many solvers: the order that was found last is at hand.
+    thread_local std::shared_ptr<const AnalysedPattern> found;
+    if (!found || !found->is_of(matrix, last)) found = std::make_shared<AnalysedPattern>(matrix, last);
+    pattern = found;
     inner.take(pattern->order, matrix);
     y = inner.places();
   }

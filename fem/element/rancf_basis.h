@@ -28,6 +28,8 @@ RationalCubic to_bezier(const NodalCoordinates& e, const Eigen::Vector4d& weight
 struct Chart {
   int segment = -1;
   std::optional<std::array<double, 4>> constant_weights;
+
+  bool operator==(const Chart&) const = default;
 };
 
 /// The four shape functions and their derivatives with respect to reference arc length s at one material

@@ -33,7 +33,7 @@ MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest
   const BeamModel& model = at.system->model();
   const bool exact = at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change);
   const std::vector<bool> held(model.joints.size(), at_rest);
-  auto to = std::make_unique<BeamSystem>(at.system->shared_model(), next.plan, held);
+  auto to = at.system->replanned(next.plan, held);
   std::optional<Transferred> moved;
   if (exact) {
     State carried = interpolated(*at.system, at.state, *to);

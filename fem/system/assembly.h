@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,8 +28,10 @@ class Assembly final : public SecondOrderSystem {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// `held`: joints whose place is held at its value in the plan.
-  Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held);
+  /// `held`: joints whose place is held at its value in the plan. `like`: a system of the same model, of
+  /// which elements are taken that it has in common with this one.
+  Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
+           const Assembly* like = nullptr);
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
@@ -99,10 +102,16 @@ class Assembly final : public SecondOrderSystem {
   bool forces_depend_on_multipliers() const override;
 
  private:
-  // Row and column blocks of one contribution in the value array of the iteration matrix.
+  // Entries that follow one another in a column of a contribution, and the first of them in the values of the
+  // iteration matrix.
+  struct Run {
+    int value;
+    std::uint8_t column, row, count;
+  };
+  // Coordinates of one contribution, -1 where there is none, and where its entries are.
   struct Block {
     std::vector<int> dofs;
-    std::vector<int> values;  // dofs.size()^2, column by column; -1 where a dof is -1
+    std::vector<Run> runs;
   };
   struct ConstraintBlock {
     int row, rows;
@@ -132,6 +141,8 @@ class Assembly final : public SecondOrderSystem {
   void build_pattern();
   void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
+  template <class Matrix>
+  static void scatter(const Block& block, const Matrix& matrix, double* values);
   template <class IndexOf>
   void locate(Block& block, const IndexOf& index_of) const;
   template <class IndexOf>
