@@ -185,19 +185,22 @@ TwistState gather_twist(const MeshElement<3>& e, const State& state) {
 }
 
 template <int D>
+MaterialPoint<D> material_point(const ElementState<D>& x, const ShapeFunctions<double>& shape) {
+  const ElementNodes<D> nodes = x.nodes(), rates = x.node_rates();
+  const auto sum = [](const ElementNodes<D>& of, const std::array<double, 4>& functions) {
+    return Eigen::Matrix<double, D, 1>(of * Eigen::Map<const Eigen::Vector4d>(functions.data()));
+  };
+  return {sum(nodes, shape.value), sum(nodes, shape.d1), sum(nodes, shape.d2),
+          sum(rates, shape.value), sum(rates, shape.d1), shape.kappa0};
+}
+
+template <int D>
 MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                 double s) {
   using Layout = ElementLayout<D>;
   const ElementState<D> x = gather<D>(e, q, v, v);
+  if (e.element.fixed()) return material_point<D>(x, e.element.shape(x.q, e.local(x.q, s)));
   const ElementNodes<D> nodes = x.nodes(), rates = x.node_rates();
-  if (e.element.fixed()) {
-    const ShapeFunctions<double> shape = e.element.shape(x.q, e.local(x.q, s));
-    const auto sum = [](const ElementNodes<D>& of, const std::array<double, 4>& functions) {
-      return Eigen::Matrix<double, D, 1>(of * Eigen::Map<const Eigen::Vector4d>(functions.data()));
-    };
-    return {sum(nodes, shape.value), sum(nodes, shape.d1), sum(nodes, shape.d2),
-            sum(rates, shape.value), sum(rates, shape.d1), shape.kappa0};
-  }
   const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, e.local(x.q, s));
   const std::array<double, 2> w{x.v[Layout::place(0)], x.v[Layout::place(1)]};
   const PointField<D> r(shape.value, nodes), rs(shape.d1, nodes), rss(shape.d2, nodes);
@@ -219,5 +222,7 @@ template MaterialPoint<2> material_point<2>(const MeshElement<2>&, const Eigen::
                                             const Eigen::VectorXd&, double);
 template MaterialPoint<3> material_point<3>(const MeshElement<3>&, const Eigen::VectorXd&,
                                             const Eigen::VectorXd&, double);
+template MaterialPoint<2> material_point<2>(const ElementState<2>&, const ShapeFunctions<double>&);
+template MaterialPoint<3> material_point<3>(const ElementState<3>&, const ShapeFunctions<double>&);
 
 }  // namespace nurbeam

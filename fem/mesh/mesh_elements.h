@@ -96,5 +96,8 @@ struct MaterialPoint {
 template <int D>
 MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                 double s);
+/// That of an element with fixed ends at the point of these shape functions.
+template <int D>
+MaterialPoint<D> material_point(const ElementState<D>& x, const ShapeFunctions<double>& shape);
 
 }  // namespace nurbeam

@@ -20,7 +20,7 @@ set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
 set(python_floors .)
-set(pipelines_floors diagnostics case section model results report run verification papers study command)
+set(pipelines_floors diagnostics case section model results report run verification papers bench study command)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
