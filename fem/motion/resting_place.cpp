@@ -304,7 +304,7 @@ class RestSearch {
       const auto start = std::chrono::steady_clock::now();
       const NextPlan next = next_plan(*at_.system, at_.state, control_);
       if (next.change == MeshChange::none) return true;
-      if (!goes_on(change_mesh(at_, next, true).failure)) return false;
+      if (!goes_on(change_mesh(at_, next, true))) return false;
       report_.length_control_seconds +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       if (!goes_on(excess_of_changes(at_, count))) return false;

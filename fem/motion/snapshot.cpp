@@ -173,7 +173,8 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
     snapshot.reactions.push_back(record_reaction(system, state, i));
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
     const auto [length, force] = length_and_force(system, state, i);
-    snapshot.connectors.push_back({length, force});
+    const auto [from, to] = connector_ends(system, state, i);
+    snapshot.connectors.push_back({length, force, from, to});
   }
   if (!contents.energy) return snapshot;
   const SystemEnergy e = energy(system, state);

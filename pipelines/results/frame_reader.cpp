@@ -143,8 +143,14 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
   }
   for (const ConnectorPart& part : connector_parts)
     numbers(
-        std::string("connector_") + part.name, names_.connectors.size(),
-        [&](Snapshot & f, std::size_t j) -> auto& { return f.connectors[j].*part.value; });
+        std::string("connector_") + part.name,
+        names_.connectors.size(), [&](Snapshot & f, std::size_t j) -> auto& {
+          return f.connectors[j].*part.value;
+        });
+  for (const ConnectorPlace& place : connector_places)
+    vectors(
+        std::string("connector_") + place.name, names_.connectors.size(),
+        [&](Snapshot & f, std::size_t j) -> auto& { return f.connectors[j].*place.value; });
   vectors(
       "reaction_position", reactions,
       [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].position; });

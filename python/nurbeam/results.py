@@ -89,6 +89,17 @@ class Motion(NamedTuple):
     """(3,) [m/s]"""
 
 
+class ConnectorPull(NamedTuple):
+    """A connector at a time."""
+
+    ends: Array
+    """(2, 3): where it is fastened, `from` and `to` [m]; NaN of results of earlier versions"""
+    length: float
+    """The distance of its ends, or its part along the connector's direction [m]."""
+    force: float
+    """That pulls the ends together [N]."""
+
+
 class Mode(NamedTuple):
     """One mode of vibration, or of buckling."""
 
@@ -205,6 +216,11 @@ class Snapshot:
     def bodies(self) -> dict[str, Motion]:
         """By name."""
         return ByName("body", {name: Motion(*motion) for name, motion in self._frame.bodies().items()})
+
+    @property
+    def connectors(self) -> dict[str, ConnectorPull]:
+        """By name."""
+        return ByName("connector", {name: ConnectorPull(*one) for name, one in self._frame.connectors().items()})
 
     @property
     def probes(self) -> dict[str, Motion]:

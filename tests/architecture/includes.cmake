@@ -26,7 +26,7 @@ set(pipelines_floors diagnostics case section model results report run verificat
 set(homes
   "[a-z_]+"                                                                       ".*"  # the standard library
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
-  "(dlfcn|fcntl|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
+  "(dlfcn|fcntl|malloc|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(occt|iges|step|program)/.*"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"
