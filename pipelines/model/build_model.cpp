@@ -249,7 +249,7 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
 
 // Makes a support guided, with what pulls it.
 void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
-  support.guide = frame.direction_to_local(from.direction->normalized());
+  support.guide = frame.direction_to_local(from.direction->stableNormalized());
   if (from.force != 0)
     model.forces.push_back(
         PointLoad{{.beam = support.beam, .s = support.s, .value = from.force * *support.guide}});

@@ -90,14 +90,12 @@ class Motion(NamedTuple):
 
 
 class ConnectorPull(NamedTuple):
-    """A connector at a time."""
+    """Of a connector at a time: (2, 3) `ends`, from and to [m], NaN of results of earlier versions; their distance or its
+    part along the connector's direction, `length` [m]; the `force` that pulls them together [N]."""
 
     ends: Array
-    """(2, 3): where it is fastened, `from` and `to` [m]; NaN of results of earlier versions"""
     length: float
-    """The distance of its ends, or its part along the connector's direction [m]."""
     force: float
-    """That pulls the ends together [N]."""
 
 
 class Mode(NamedTuple):
