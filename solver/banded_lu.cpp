@@ -132,7 +132,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   height_ = half_bandwidth_ + 2 * block;
   const auto padded = static_cast<std::size_t>(padded_);
   scale_.resize(n);
-  band_.resize(padded * static_cast<std::size_t>(width_));
+  band_ = std::make_unique_for_overwrite<double[]>(padded * static_cast<std::size_t>(width_));
   lower_.assign(padded * static_cast<std::size_t>(height_), 0);
   pivots_.resize(padded);
   reach_.resize(padded / block);
@@ -142,7 +142,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
 
 void BandedLu::fill_band(const Matrix& matrix) {
   const int n = static_cast<int>(order_->unknown.size());
-  std::fill(band_.begin(), band_.end(), 0);
+  std::fill_n(band_.get(), static_cast<std::size_t>(padded_) * static_cast<std::size_t>(width_), 0.0);
   for (int place = 0; place < n; ++place) {
     const int column = order_->unknown[place], j = place + half_bandwidth_;
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
