@@ -112,7 +112,8 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
     const Doubles values = file_.doubles(name, {first, 0, 0}, {n, count, 3});
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < count; ++j)
-        target(frames[i], j) = Eigen::Vector3d(values.data() + 3 * (i * count + j));
+        target(frames[i], j) =
+            Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * (i * count + j)).unaryExpr(&unfilled);
   };
   const std::size_t probes = names_.probes.size(), reactions = names_.reactions.size();
   vectors(

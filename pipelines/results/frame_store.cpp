@@ -304,7 +304,8 @@ void FrameStore::write_connectors(const PerFrame& each) {
   for (const ConnectorPlace& place : connector_places)
     each.write(std::string("connector_") + place.name, {connector_count_, 3},
                [&](const Snapshot& f, Doubles& x) {
-                 for (const ConnectorRecord& connector : f.connectors) append(x, connector.*place.value);
+                 for (const ConnectorRecord& connector : f.connectors)
+                   for (const double value : connector.*place.value) x.push_back(filled(value));
                });
 }
 

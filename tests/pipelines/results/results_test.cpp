@@ -258,6 +258,22 @@ TEST(Results, ConnectorsComeBackWithTheirEnds) {
   for (std::size_t i = 0; i < frames.size(); ++i) expect_equal(stored.frames[i], frames[i]);
 }
 
+// As those of a run that an earlier version has begun.
+TEST(Results, ConnectorsMayHaveNoEnds) {
+  const TemporaryDirectory directory;
+  SnapshotNames with_connectors = names;
+  with_connectors.connectors = {"dropper"};
+  Snapshot frame = five_frames[0];
+  frame.connectors = {{.length = 1, .force = 5}};
+  ResultsWriter writer(directory.path(), with_connectors, "title");
+  writer.write(frame);
+  writer.finish();
+  const StoredResults stored = read_results(directory.path());
+  EXPECT_EQ(stored.frames.at(0).connectors.at(0).force, 5);
+  EXPECT_TRUE(stored.frames.at(0).connectors.at(0).from.array().isNaN().all());
+  EXPECT_TRUE(stored.frames.at(0).connectors.at(0).to.array().isNaN().all());
+}
+
 TEST(Results, AnUnfinishedRunLeavesItsClosedChunksAndNoFileUnderAFinalName) {
   const TemporaryDirectory directory;
   {
