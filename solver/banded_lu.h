@@ -16,6 +16,13 @@ struct BandOrder {
   std::vector<int> place;    ///< of each unknown, -1 where it is left out
   std::vector<int> ends;     ///< one past the last column of each row, by places
   int half_bandwidth = 0;    ///< greatest distance of an entry from the diagonal
+
+  /// An entry: its column, by places, and its index among the values of the pattern.
+  struct Entry {
+    int column, value;
+  };
+  std::vector<Entry> entries;   ///< row by row
+  std::vector<int> row_starts;  ///< of each row in `entries`, and the end
 };
 
 /// LU with threshold pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain
