@@ -33,7 +33,7 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
                                         double accuracy) {
   const BeamModel& model = at.system->model();
   const std::vector<bool> held(model.joints.size(), at_rest);
-  auto to = std::make_unique<BeamSystem>(at.system->shared_model(), next.plan, held);
+  auto to = at.system->replanned(next.plan, held);
   if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
     State carried = interpolated(*at.system, at.state, *to);
     if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};

@@ -38,7 +38,7 @@ bool go_over(MeshedState& at, const Crossing& crossing, double accuracy) {
   const double beyond = landing_tolerance(at.system->model(), crossing.joint);
   at.state.q[at.system->mesh().joints[crossing.joint].place] =
       crossing.s + (crossing.forward ? beyond : -beyond);
-  auto next = std::make_unique<BeamSystem>(at.system->shared_model(), present_plan(*at.system, at.state));
+  auto next = at.system->replanned(present_plan(*at.system, at.state));
   if (!joint.follows_section) {
     // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
     State moved = interpolated(*at.system, at.state, *next);
@@ -63,7 +63,7 @@ bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double
     plan.spins.resize(at.system->model().joints.size());
     plan.spins[joint] = body_motions(*at.system, at.state).spins[joint];
   }
-  auto next = std::make_unique<BeamSystem>(at.system->shared_model(), std::move(plan));
+  auto next = at.system->replanned(std::move(plan));
   State moved = interpolated(*at.system, at.state, *next);
   if (!leaves) {
     moved.q[next->mesh().joints[joint].place] = ending.s;
@@ -178,8 +178,7 @@ bool release_bodies(Run& run) {
     }
   if (events.empty()) return true;
   run.change([&plan](MeshedState& at) {
-    at.system =
-        std::make_unique<BeamSystem>(at.system->shared_model(), plan_like(plan, *at.system, at.state));
+    at.system = at.system->replanned(plan_like(plan, *at.system, at.state));
     at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
     return true;
   });

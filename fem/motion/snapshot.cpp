@@ -73,6 +73,7 @@ BeamRecord record_beam(const BeamSystem& system, const State& state,
   const ReferenceCurve& curve = system.model().beams[b].curve;
   if (system.model().beams[b].rigid) return record_guide(curve, system.model().gravity);
   BeamRecord record;
+  record.elements.reserve(static_cast<std::size_t>(mesh.first_span[b + 1] - mesh.first_span[b]));
   double twisted = 0;  // since the start of the beam
   for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i) {
     ElementRecord& element = record.elements.emplace_back(record_element(system, state, i, carried[i]));

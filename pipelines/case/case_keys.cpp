@@ -341,6 +341,9 @@ Shape sliding_joint() {
         "time until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
         "whether the beam may have a kink at the body; continuous when omitted"},
+       {"carried_as", choice({"node", "point"}),
+        "node: a node of the beam moves with the body, and elements beside it come and go; point: the body runs through "
+        "elements that stay; node when omitted"},
        {"follows_section", boolean(),
         "the body rolls with the section of a beam with torsion where it is; false when omitted"},
        {"offset", offset(), "[x, y] of the body from the axis, along the axes of the section that it follows",
