@@ -168,7 +168,10 @@ TEST(MisleadingCases, AMergeThatCostsTooMuchAsksForMoreElements) {
   const CaseRun refused = run_misleading_case("b4_helix_light.json");
   EXPECT_EQ(refused.code, 3);
   EXPECT_TRUE(refused.says("more than a thousandth of what moves; \"m\" is at s = ")) << refused.messages;
-  EXPECT_TRUE(refused.says("take more elements")) << refused.messages;
+  EXPECT_TRUE(refused.says("take more elements, \"carried_as\": \"point\", or")) << refused.messages;
+  const CaseRun as_point =
+      run_misleading_case("b4_helix_light.json", {"sliding_joints[0].carried_as=\"point\""});
+  EXPECT_EQ(as_point.code, 0) << as_point.messages;
   const CaseRun run =
       run_misleading_case("b4_helix_light.json", {"beams[0].elements.count=128", "analysis.end_time=0.52"});
   EXPECT_EQ(run.code, 0) << run.messages;
