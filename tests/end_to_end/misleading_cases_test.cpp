@@ -183,6 +183,19 @@ TEST(MisleadingCases, AMergeThatWouldCostTooMuchWaits) {
   ASSERT_EQ(run.code, 0) << run.messages;
   const double start = run.value(0, "energy.total [J]");
   for (std::size_t i = 0; i < run.rows.size(); ++i) EXPECT_NEAR(run.value(i, "energy.total [J]"), start, 0.1);
+  EXPECT_FALSE(run.says("presses")) << run.messages;
+}
+
+// The same rope as it is drawn, 3 % shorter than it is unstressed: a strut that no step follows.
+TEST(MisleadingCases, ARopeDrawnTooShortIsSaidToSnap) {
+  const CaseRun run = run_misleading_case(
+      "waiting_merge.json",
+      {"analysis.initial=as-drawn", "analysis.end_time=1e-5", "analysis.step=1e-6", "output.every=1e-5"});
+  EXPECT_EQ(run.code, 0) << run.messages;
+  EXPECT_TRUE(
+      run.says("beams[0].unstressed_length: presses the beam as it is drawn with 2645 N, while 0.3645 "
+               "N buckle it"))
+      << run.messages;
 }
 
 // The kink of a moving hinge on a stiff bar cannot be given up near its end: 1.3 J were made there.
