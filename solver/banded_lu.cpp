@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace nurbeam {
@@ -114,12 +115,21 @@ BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
     place[unknown[k]] = k;
     ends[k] = k + 1;
   }
+  row_starts.assign(unknown.size() + 1, 0);
   for (const int i : unknown)
     for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j) {
       if (place[*j] < 0) continue;
       half_bandwidth = std::max(half_bandwidth, std::abs(place[i] - place[*j]));
       ends[place[*j]] = std::max(ends[place[*j]], place[i] + 1);
+      ++row_starts[place[*j] + 1];
     }
+  std::partial_sum(row_starts.begin(), row_starts.end(), row_starts.begin());
+  entries.resize(static_cast<std::size_t>(row_starts.back()));
+  std::vector<int> next = row_starts;
+  for (int column = 0; column < held; ++column)
+    for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
+      if (place[*i] >= 0)
+        entries[next[place[*i]]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
 }
 
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
@@ -132,7 +142,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   height_ = half_bandwidth_ + 2 * block;
   const auto padded = static_cast<std::size_t>(padded_);
   scale_.resize(n);
-  band_.resize(padded * static_cast<std::size_t>(width_));
+  band_ = std::make_unique_for_overwrite<double[]>(padded * static_cast<std::size_t>(width_));
   lower_.assign(padded * static_cast<std::size_t>(height_), 0);
   pivots_.resize(padded);
   reach_.resize(padded / block);
@@ -142,22 +152,22 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
 
 void BandedLu::fill_band(const Matrix& matrix) {
   const int n = static_cast<int>(order_->unknown.size());
-  std::fill(band_.begin(), band_.end(), 0);
-  for (int place = 0; place < n; ++place) {
-    const int column = order_->unknown[place], j = place + half_bandwidth_;
-    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
-      const int i = order_->place[matrix.innerIndexPtr()[k]];
-      if (i >= 0) row(i)[j - i] = matrix.valuePtr()[k];
-    }
-  }
+  const double* values = matrix.valuePtr();
   for (int i = 0; i < n; ++i) {
-    Eigen::Map<Eigen::ArrayXd> entries(row(i), 2 * half_bandwidth_ + 1);
-    const double largest = entries.abs().maxCoeff();
-    scale_[i] = largest > 0 ? 1 / largest : 1;
-    entries *= scale_[i];
+    double* entries = row(i);
+    std::fill_n(entries, width_, 0.0);
+    entries += half_bandwidth_ - i;
+    const auto first = order_->entries.begin() + order_->row_starts[i],
+               last = order_->entries.begin() + order_->row_starts[i + 1];
+    double largest = 0;
+    for (auto entry = first; entry != last; ++entry)
+      largest = std::max(largest, std::abs(values[entry->value]));
+    const double scale = scale_[i] = largest > 0 ? 1 / largest : 1;
+    for (auto entry = first; entry != last; ++entry) entries[entry->column] = scale * values[entry->value];
   }
   ends_ = order_->ends;
   for (int i = n; i < padded_; ++i) {
+    std::fill_n(row(i), width_, 0.0);
     row(i)[half_bandwidth_] = 1;
     ends_.push_back(i + 1);
   }

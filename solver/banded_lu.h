@@ -16,6 +16,13 @@ struct BandOrder {
   std::vector<int> place;    ///< of each unknown, -1 where it is left out
   std::vector<int> ends;     ///< one past the last column of each row, by places
   int half_bandwidth = 0;    ///< greatest distance of an entry from the diagonal
+
+  /// An entry: its column, by places, and its index among the values of the pattern.
+  struct Entry {
+    int column, value;
+  };
+  std::vector<Entry> entries;   ///< row by row
+  std::vector<int> row_starts;  ///< of each row in `entries`, and the end
 };
 
 /// LU with threshold pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain
@@ -44,8 +51,8 @@ class BandedLu {
   void upper_transposed(Places& y, int first, int& last) const;
 
  private:
-  double* row(int i) { return band_.data() + static_cast<std::size_t>(i) * width_; }
-  const double* row(int i) const { return band_.data() + static_cast<std::size_t>(i) * width_; }
+  double* row(int i) { return band_.get() + static_cast<std::size_t>(i) * width_; }
+  const double* row(int i) const { return band_.get() + static_cast<std::size_t>(i) * width_; }
   void fill_band(const Eigen::SparseMatrix<double>& matrix);
   int pivot_of(int column) const;
   void eliminate(int k, double* all) const;
@@ -53,16 +60,16 @@ class BandedLu {
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;
-  int padded_ = 0;               ///< unknowns with those that fill the last block: rows of one
-  int width_ = 0;                ///< of a row in storage: columns i - b to i + 2 b, and zeros
-  int height_ = 0;               ///< of a column of multipliers: b, and zeros
-  std::vector<double> band_;     ///< what is left to eliminate, then U
-  std::vector<double> lower_;    ///< multipliers below the diagonal of each column
-  std::vector<double> inverse_;  ///< of each pivot
-  std::vector<double> scale_;    ///< of each row of the matrix
-  std::vector<int> pivots_;      ///< row that was brought to each place
-  std::vector<int> reach_;       ///< last row that a block of four columns of multipliers changes
-  std::vector<int> ends_;        ///< one past the last column of each row of what is left, then of U
+  int padded_ = 0;                  ///< unknowns with those that fill the last block: rows of one
+  int width_ = 0;                   ///< of a row in storage: columns i - b to i + 2 b, and zeros
+  int height_ = 0;                  ///< of a column of multipliers: b, and zeros
+  std::unique_ptr<double[]> band_;  ///< what is left to eliminate, then U
+  std::vector<double> lower_;       ///< multipliers below the diagonal of each column
+  std::vector<double> inverse_;     ///< of each pivot
+  std::vector<double> scale_;       ///< of each row of the matrix
+  std::vector<int> pivots_;         ///< row that was brought to each place
+  std::vector<int> reach_;          ///< last row that a block of four columns of multipliers changes
+  std::vector<int> ends_;           ///< one past the last column of each row of what is left, then of U
   std::size_t room_ = 0;
 };
 

@@ -164,10 +164,11 @@ void Assembly<D>::choose_moving_part() {
   std::vector<int>& unknowns = moving_.unknowns;
   for (int i = 0; i < static_cast<int>(marked.size()); ++i)
     if (marked[i]) unknowns.push_back(i);
-  // A part is kept apart where dense work on it takes less than the elimination of all.
-  constexpr double most_work = 500;
-  const double part = static_cast<double>(unknowns.size());
-  if (part * part * part > most_work * static_cast<double>(marked.size())) {
+  // A part is kept apart where it is a small share of all unknowns, so that another correction costs more
+  // than to renew it, and where dense work on it takes less than the elimination of all.
+  constexpr double smallest_share = 4, most_work = 500;
+  const double part = static_cast<double>(unknowns.size()), whole = static_cast<double>(marked.size());
+  if (smallest_share * part > whole || part * part * part > most_work * whole) {
     moving_ = {};
     return;
   }
