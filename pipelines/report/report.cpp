@@ -313,9 +313,9 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   survey.sections = frames.names.sections;
   for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
   std::erase_if(survey.fields, [guides = only_guides(run)](const Field& field) {
-    const bool in_no_frame = field.min > field.max;
-    return in_no_frame ||
-           (field.min == 0 && field.max == 0 && (guides || field.name == std::string_view("torque")));
+    const std::string_view name = field.name;
+    const bool in_no_frame = field.min > field.max, is_nothing = field.min == 0 && field.max == 0;
+    return in_no_frame || (is_nothing && (name == "torque" || (guides && name != "curvature")));
   });
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);

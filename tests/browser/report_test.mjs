@@ -47,6 +47,15 @@ report_test('a connector is drawn between its ends, down to the load', 'cable_cr
   assert.ok(bottom > y - canvas.y, `hues end ${bottom} pixels down, the name of the load is ${y - canvas.y}`);
 });
 
+report_test('of a straight rigid guide nothing is shown along it', 'guide/report.html', {}, async (page) => {
+  await go_to(page, 10);
+  assert.equal(await page.isVisible('#along'), false);
+  assert.equal(await page.isVisible('#legend'), false);
+  const plots = await page.$$eval('[data-plot]', (figures) => figures.map((figure) => figure.dataset.plot));
+  assert.ok(plots.includes('connector-force'));
+  assert.ok(!plots.some((name) => ['length', 'axial-force', 'moment', 'displacement', 'along'].includes(name)), plots.join());
+});
+
 report_test('names do not cover each other', 'cable_crane/report.html', {}, async (page) => {
   for (let i = 0; i < 12; ++i) {
     await page.evaluate(() => document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: '-', bubbles: true })));

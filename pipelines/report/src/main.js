@@ -17,6 +17,8 @@ const is_load_steps = run?.model?.analysis === 'static' && !is_static;  // time 
 const time_unit = is_load_steps ? '' : 's';
 const events = run?.events ?? [];
 
+const has_nothing_along = data.shapes.fields.every(({ min, max }) => min === 0 && max === 0);  // of straight guides
+
 let view = null;
 let plots = [];
 let along = null;
@@ -118,6 +120,7 @@ function start_view() {
     $(id).addEventListener('change', choose_colours);
   }
   choose_colours();
+  $('legend').hidden = has_nothing_along;
   $('loads-choice').hidden = !run?.model?.loads?.length;
   for (const button of document.querySelectorAll('[data-view]')) {
     button.addEventListener('click', () => view.set_view(button.dataset.view));
@@ -265,7 +268,7 @@ function start_plots() {
 }
 
 function start_along() {
-  if (data.shapes.fields.length === 0) {
+  if (has_nothing_along) {
     $('along').closest('section').hidden = true;
     return;
   }

@@ -143,7 +143,7 @@ TEST(Report, HoldsTheEndsOfConnectors) {
 }
 
 TEST(Report, LeavesOutWhatIsNothingAlongARigidGuide) {
-  const auto has_strain = [](bool rigid) {
+  const auto has = [](const char* name, bool rigid) {
     ReportFrames frames = frames_of(1);
     frames.read = [](std::size_t, std::size_t) {
       std::vector<Snapshot> read = {frame_of(0, 1)};
@@ -152,10 +152,11 @@ TEST(Report, LeavesOutWhatIsNothingAlongARigidGuide) {
     };
     const Json run = {{"model", {{"beams", {{{"rigid", rigid}}}}}}};
     const Json fields = page_of(frames, run.dump()).data()["shapes"]["fields"];
-    return std::any_of(fields.begin(), fields.end(), [](const Json& f) { return f["name"] == "strain"; });
+    return std::any_of(fields.begin(), fields.end(), [&](const Json& f) { return f["name"] == name; });
   };
-  EXPECT_TRUE(has_strain(false));
-  EXPECT_FALSE(has_strain(true));
+  EXPECT_TRUE(has("strain", false));
+  EXPECT_FALSE(has("strain", true));
+  EXPECT_TRUE(has("curvature", true));  // there is always one to colour by
 }
 
 TEST(Report, HoldsHistoriesToTheLastBit) {
