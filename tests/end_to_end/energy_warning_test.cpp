@@ -24,9 +24,9 @@ TEST(EnergyOfTheMesh, IsRefusedWithALoadAsWithoutOne) {
 }
 
 TEST(EnergyOfTheMesh, IsNeverKeptByOpeningAJoint) {
-  // A heavy body beside a rigid joint of two beams: four elements cannot hold the bent shape with its node, and
-  // moves of the joint's node alone would open it, to be closed by the next step with 12 J of 100. It stays a
-  // point there.
+  // A heavy body beside a rigid joint of two beams: four elements cannot hold the bent shape with its node,
+  // and moves of the joint's node alone would open it, to be closed by the next step with 12 J of 100. It
+  // stays a point there.
   const CaseRun coarse = run_case("node_beside_joined_beams.json");
   EXPECT_EQ(coarse.code, 0) << coarse.messages;
   EXPECT_NEAR(coarse.last("energy.total [J]"), coarse.value(0, "energy.total [J]"), 5e-2);
