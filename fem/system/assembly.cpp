@@ -52,9 +52,9 @@ void Assembly<D>::batch_elements() {
       continue;
     }
     if (batches.empty()) {
-      const int count = mesh_.first_span[e.beam + 1] - i;
-      batches.reserve(static_cast<std::size_t>(count / ElementBatch<D>::lanes + 1));
-      batched.reserve(static_cast<std::size_t>(count));
+      const auto count = static_cast<std::size_t>(mesh_.first_span[e.beam + 1] - i);
+      batches.reserve(count / ElementBatch<D>::lanes + 1);
+      batched.reserve(count);
     }
     if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
     batches.back().add(e.element, e.dofs, e.slope_offset);
