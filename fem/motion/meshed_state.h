@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "fem/motion/simulation_report.h"
 #include "fem/motion/transfer.h"
@@ -19,12 +20,15 @@ struct MeshedState {
 struct MeshChangeReport {
   std::optional<Failure> failure = {};  ///< velocities that cannot be projected
   Eigen::VectorXd impulse = {};         ///< of the projection (see Transferred); empty where there was none
+  std::vector<EnergyMove> moves = {};   ///< see Transferred
 };
 
 /// Goes on on the mesh that length control asks for. `at_rest`: joints are held there, and there are no
-/// velocities to project. `accuracy`: of projected().
-[[nodiscard]] MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest,
-                                           double accuracy = kept_energy);
+/// velocities to project.
+[[nodiscard]] MeshChangeReport change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
+/// The same as a neighbouring motion, which has been moved so to keep its energy.
+[[nodiscard]] MeshChangeReport change_mesh_like(MeshedState& at, const NextPlan& next,
+                                                const std::vector<EnergyMove>& moves);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
 /// than that can be.

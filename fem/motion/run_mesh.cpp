@@ -25,9 +25,9 @@ bool change_due_mesh(Run& run) {
   const State state = at.state;
   const MeshChangeReport changed = change_mesh(at, next, false);
   if (!run.goes_on(changed.failure)) return false;
-  run.follow([&next](MeshedState& of) {
+  run.follow([&](MeshedState& of) {
     const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
-    return !change_mesh(of, same, false, neighbours_accuracy).failure;
+    return !change_mesh_like(of, same, changed.moves).failure;
   });
   if (!run.restart()) return false;
   at.state = run.integrator->state();
