@@ -154,6 +154,17 @@ py::dict points(const std::vector<std::string>& names, std::size_t count, auto p
   return found;
 }
 
+// By name: (positions of the ends, length, force).
+py::dict connectors(const Frame& frame) {
+  py::dict found;
+  for (std::size_t i = 0; i < frame.snapshot->connectors.size(); ++i) {
+    const ConnectorRecord& connector = frame.snapshot->connectors[i];
+    found[py::str(frame.of->names.connectors[i])] =
+        py::make_tuple(rows_of({connector.from, connector.to}), connector.length, connector.force);
+  }
+  return found;
+}
+
 std::vector<double> column_values(const Frame& frame) {
   std::vector<double> values;
   for (const HistoryColumn& column : history_columns(frame.of->names))
@@ -202,6 +213,7 @@ void bind_recordings(py::module_& module) {
              return points(f.of->names.probes, f.snapshot->probes.size(),
                            [&](std::size_t i) -> const PointRecord& { return f.snapshot->probes[i]; });
            })
+      .def("connectors", &connectors)
       .def("values", &column_values)
       .def("sampled", &sampled, py::arg("beam"))
       .def("control_points", &control_points, py::arg("beam"))

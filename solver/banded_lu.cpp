@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace nurbeam {
@@ -19,27 +20,36 @@ constexpr int block = 4;
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
 class Neighbours {
  public:
-  explicit Neighbours(const Matrix& pattern) : pattern_(pattern) {}
+  Neighbours(const Matrix& pattern, const std::vector<int>& left_out)
+      : pattern_(pattern), coupled_(static_cast<std::size_t>(pattern.cols()), false) {
+    for (const int i : left_out)
+      for (const int* other = begin(i); other != end(i); ++other) coupled_[*other] = true;
+  }
 
   int size() const { return static_cast<int>(pattern_.cols()); }
   int count(int i) const { return pattern_.outerIndexPtr()[i + 1] - pattern_.outerIndexPtr()[i]; }
   const int* begin(int i) const { return pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[i]; }
   const int* end(int i) const { return begin(i) + count(i); }
+  /// Whether it is coupled with what is left out.
+  bool is_coupled(int i) const { return coupled_[i]; }
 
  private:
   const Matrix& pattern_;
+  std::vector<bool> coupled_;
 };
 
-// Which unknowns have been seen, and in which walk last.
+// Which unknowns have been seen, and in which walk last; those that are left out are in none.
 struct Walks {
+  static constexpr int never = std::numeric_limits<int>::max();
   std::vector<int> last;
   int number = 0;
 };
 
-// Appends the component of `start`, by levels, in each those with the fewest neighbours first. Returns the
-// number of levels.
+// Appends the component of `start`, by levels, in each those first that are coupled with what is left out,
+// then those with the fewest neighbours. Returns the number of levels.
 int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std::vector<int>& order) {
-  const auto fewer = [&](int a, int b) { return neighbours.count(a) < neighbours.count(b); };
+  const auto rank = [&](int i) { return neighbours.is_coupled(i) ? 0 : neighbours.count(i); };
+  const auto fewer = [&](int a, int b) { return rank(a) < rank(b); };
   const auto append = [&](int unknown) {
     walks.last[unknown] = walks.number;
     order.push_back(unknown);
@@ -53,45 +63,73 @@ int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std:
       ++levels;
       level_end = order.size();
     }
-    const auto first_new = static_cast<std::ptrdiff_t>(order.size());
+    const std::size_t first_new = order.size();
     for (const int* other = neighbours.begin(order[next]); other != neighbours.end(order[next]); ++other)
-      if (walks.last[*other] != walks.number) append(*other);
-    std::stable_sort(order.begin() + first_new, order.end(), fewer);
+      if (walks.last[*other] < walks.number) append(*other);
+    // They are few.
+    for (std::size_t i = first_new; i < order.size(); ++i)
+      std::rotate(std::upper_bound(order.begin() + static_cast<std::ptrdiff_t>(first_new),
+                                   order.begin() + static_cast<std::ptrdiff_t>(i), order[i], fewer),
+                  order.begin() + static_cast<std::ptrdiff_t>(i),
+                  order.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   }
   return levels;
 }
 
 // An unknown at an end of the component of `start`: from it the levels are the most that are easily found.
+// One that is coupled with what is left out, where from it they are nearly as many.
 int end_of_component(const Neighbours& neighbours, int start, Walks& walks) {
+  constexpr double nearly = 0.75;
   std::vector<int> order;
-  for (int levels = 0;;) {
+  int levels = 0;
+  for (;;) {
     order.clear();
     const int found = append_by_levels(neighbours, start, walks, order);
-    if (found <= levels) return start;
+    if (found <= levels) break;
     levels = found;
     start = order.back();
   }
+  const auto coupled =
+      std::find_if(order.begin(), order.end(), [&](int i) { return neighbours.is_coupled(i); });
+  if (coupled == order.end()) return start;
+  const int other_start = *coupled;
+  order.clear();
+  return append_by_levels(neighbours, other_start, walks, order) >= nearly * levels ? other_start : start;
 }
 
 }  // namespace
 
-BandOrder::BandOrder(const Matrix& pattern) {
-  const Neighbours neighbours(pattern);
+BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
+  const Neighbours neighbours(pattern, left_out);
   const int n = neighbours.size();
   Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
+  for (const int i : left_out) walks.last[i] = Walks::never;
   for (int i = 0; i < n; ++i)
     if (walks.last[i] == 0)
       append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown);
   std::reverse(unknown.begin(), unknown.end());
-  place.resize(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) place[unknown[k]] = k;
-  ends.resize(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) ends[k] = k + 1;
-  for (int i = 0; i < n; ++i)
+  place.assign(static_cast<std::size_t>(n), -1);
+  const int held = static_cast<int>(unknown.size());
+  ends.resize(unknown.size());
+  for (int k = 0; k < held; ++k) {
+    place[unknown[k]] = k;
+    ends[k] = k + 1;
+  }
+  row_starts.assign(unknown.size() + 1, 0);
+  for (const int i : unknown)
     for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j) {
+      if (place[*j] < 0) continue;
       half_bandwidth = std::max(half_bandwidth, std::abs(place[i] - place[*j]));
       ends[place[*j]] = std::max(ends[place[*j]], place[i] + 1);
+      ++row_starts[place[*j] + 1];
     }
+  std::partial_sum(row_starts.begin(), row_starts.end(), row_starts.begin());
+  entries.resize(static_cast<std::size_t>(row_starts.back()));
+  std::vector<int> next = row_starts;
+  for (int column = 0; column < held; ++column)
+    for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
+      if (place[*i] >= 0)
+        entries[next[place[*i]]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
 }
 
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
@@ -104,32 +142,32 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   height_ = half_bandwidth_ + 2 * block;
   const auto padded = static_cast<std::size_t>(padded_);
   scale_.resize(n);
-  band_.resize(padded * static_cast<std::size_t>(width_));
+  band_ = std::make_unique_for_overwrite<double[]>(padded * static_cast<std::size_t>(width_));
   lower_.assign(padded * static_cast<std::size_t>(height_), 0);
   pivots_.resize(padded);
   reach_.resize(padded / block);
   inverse_.resize(padded);
-  y_.assign(padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block), 0);
+  room_ = padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block);
 }
 
 void BandedLu::fill_band(const Matrix& matrix) {
   const int n = static_cast<int>(order_->unknown.size());
-  std::fill(band_.begin(), band_.end(), 0);
-  for (int column = 0; column < n; ++column) {
-    const int j = order_->place[column] + half_bandwidth_;
-    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
-      const int i = order_->place[matrix.innerIndexPtr()[k]];
-      row(i)[j - i] = matrix.valuePtr()[k];
-    }
-  }
+  const double* values = matrix.valuePtr();
   for (int i = 0; i < n; ++i) {
-    Eigen::Map<Eigen::ArrayXd> entries(row(i), 2 * half_bandwidth_ + 1);
-    const double largest = entries.abs().maxCoeff();
-    scale_[i] = largest > 0 ? 1 / largest : 1;
-    entries *= scale_[i];
+    double* entries = row(i);
+    std::fill_n(entries, width_, 0.0);
+    entries += half_bandwidth_ - i;
+    const auto first = order_->entries.begin() + order_->row_starts[i],
+               last = order_->entries.begin() + order_->row_starts[i + 1];
+    double largest = 0;
+    for (auto entry = first; entry != last; ++entry)
+      largest = std::max(largest, std::abs(values[entry->value]));
+    const double scale = scale_[i] = largest > 0 ? 1 / largest : 1;
+    for (auto entry = first; entry != last; ++entry) entries[entry->column] = scale * values[entry->value];
   }
   ends_ = order_->ends;
   for (int i = n; i < padded_; ++i) {
+    std::fill_n(row(i), width_, 0.0);
     row(i)[half_bandwidth_] = 1;
     ends_.push_back(i + 1);
   }
@@ -183,59 +221,54 @@ double BandedLu::factorise(const Matrix& matrix) {
       ends_[i] = std::max(ends_[i], ends_[k]);
     }
   }
+  if (order_->unknown.empty()) return 1;
   return largest > 0 ? smallest / largest : 0;
 }
 
-void BandedLu::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
-  const int n = static_cast<int>(order_->unknown.size());
-  for (int k = 0; k < n; ++k) y_[k] = scale_[k] * rhs[order_->unknown[k]];
-  std::fill(y_.begin() + n, y_.end(), 0);
-  for (int k = 0; k < padded_; k += block) eliminate(k);
-  for (int k = padded_ - block; k >= 0; k -= block) substitute(k);
-  x.resize(n);
-  for (int k = 0; k < n; ++k) x[order_->unknown[k]] = y_[k];
+void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
+  const std::size_t n = order_->unknown.size();
+  for (std::size_t k = 0; k < n; ++k) y[k] = scale_[k] * rhs[order_->unknown[k]];
+  std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
 }
 
-void BandedLu::solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const {
-  const int n = static_cast<int>(order_->unknown.size()), p = static_cast<int>(unknowns.size());
-  columns.resize(n, p);
-  std::vector<Eigen::Array4d>& y = four_;
-  y.resize(y_.size());
-  for (int first = 0; first < p; first += block) {
-    const int last = std::min(p, first + block);
-    std::fill(y.begin(), y.end(), Eigen::Array4d::Zero());
-    int start = padded_;
-    for (int j = first; j < last; ++j) {
-      const int k = order_->place[unknowns[j]];
-      y[k][j - first] = scale_[k];
-      start = std::min(start, k);
-    }
-    // An exchange brings a row up by no more than the band.
-    for (int k = std::max(0, start - half_bandwidth_); k < padded_; ++k) {
-      std::swap(y[k], y[pivots_[k]]);
-      const double* m = lower_.data() + static_cast<std::size_t>(k) * height_;
-      for (int i = 0; i < half_bandwidth_; ++i) y[k + 1 + i] -= m[i] * y[k];
-    }
-    for (int k = padded_ - 1; k >= 0; --k) {
-      const double* u = row(k) + half_bandwidth_;
-      for (int i = 1; i < ends_[k] - k; ++i) y[k] -= u[i] * y[k + i];
-      y[k] *= inverse_[k];
-    }
-    for (int j = first; j < last; ++j)
-      for (int k = 0; k < n; ++k) columns(order_->unknown[k], j) = y[k][j - first];
+void BandedLu::lower(Places& y) const {
+  for (int k = 0; k < padded_; k += block) eliminate(k, y.data());
+}
+
+void BandedLu::lower(Places& y, int first, int& last) const {
+  // An exchange brings a row up by no more than the band.
+  for (int k = std::max(0, first - half_bandwidth_) / block * block; k <= last; k += block) {
+    const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
+    if (is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3)) continue;
+    eliminate(k, y.data());
+    last = std::max({last, reach_[k / block], *std::max_element(&pivots_[k], &pivots_[k] + block)});
+  }
+}
+
+void BandedLu::upper(Places& y) const {
+  for (int k = padded_ - block; k >= 0; k -= block) substitute(k, y.data());
+}
+
+void BandedLu::upper_transposed(Places& y, int first, int& last) const {
+  for (int k = first; k <= last; ++k) {
+    if (y[k] == 0) continue;
+    y[k] *= inverse_[k];
+    const double* u = row(k) + half_bandwidth_;
+    for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
+    last = std::max(last, ends_[k] - 1);
   }
 }
 
 // Takes a block of unknowns out of the right-hand sides below it.
-void BandedLu::eliminate(int k) const {
+void BandedLu::eliminate(int k, double* all) const {
   std::array<const double*, block> m;
   for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
-  double* y = y_.data() + k;
+  double* y = all + k;
   bool exchanged = false;
   for (int c = 0; c < block; ++c) exchanged |= pivots_[k + c] != k + c;
   if (exchanged) {
     for (int c = 0; c < block; ++c) {
-      std::swap(y[c], y_[pivots_[k + c]]);
+      std::swap(y[c], all[pivots_[k + c]]);
       for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
     }
     return;
@@ -249,10 +282,10 @@ void BandedLu::eliminate(int k) const {
 }
 
 // Finds a block of unknowns from those after it.
-void BandedLu::substitute(int k) const {
+void BandedLu::substitute(int k, double* all) const {
   std::array<const double*, block> u;  // from column k on
   for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
-  double* y = y_.data() + k;
+  double* y = all + k;
   const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
   std::array<Eigen::Array4d, block> sums;
   sums.fill(Eigen::Array4d::Zero());

@@ -8,12 +8,21 @@ namespace nurbeam {
 /// The reverse order of Cuthill and McKee of the unknowns of a square pattern, which should be symmetric:
 /// else the order is poor, not wrong.
 struct BandOrder {
-  explicit BandOrder(const Eigen::SparseMatrix<double>& pattern);
+  /// Of all unknowns but those `left_out`. What is coupled with these comes last in its component where that
+  /// makes no wider band.
+  explicit BandOrder(const Eigen::SparseMatrix<double>& pattern, const std::vector<int>& left_out = {});
 
   std::vector<int> unknown;  ///< at each place of the order
-  std::vector<int> place;    ///< of each unknown
+  std::vector<int> place;    ///< of each unknown, -1 where it is left out
   std::vector<int> ends;     ///< one past the last column of each row, by places
   int half_bandwidth = 0;    ///< greatest distance of an entry from the diagonal
+
+  /// An entry: its column, by places, and its index among the values of the pattern.
+  struct Entry {
+    int column, value;
+  };
+  std::vector<Entry> entries;   ///< row by row
+  std::vector<int> row_starts;  ///< of each row in `entries`, and the end
 };
 
 /// LU with threshold pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain
@@ -23,36 +32,45 @@ class BandedLu {
   /// Makes room for matrices of the pattern that has this order.
   void take(std::shared_ptr<const BandOrder> order);
 
-  /// Row-scales and factorises a matrix of that pattern; `compressed`, and finite. Returns the smallest over
-  /// the largest pivot.
+  /// Row-scales and factorises what the order holds of a matrix of that pattern, R A = P L U with the scales
+  /// R and row exchanges P; `compressed`, and finite. Returns the smallest over the largest pivot.
   double factorise(const Eigen::SparseMatrix<double>& matrix);
-  /// x with matrix x = rhs.
-  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
-  /// (n x p) the columns of the inverse that belong to p unknowns, side by side.
-  void solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const;
+  /// Numbers by places that the steps of a solution take, with room for what blocks reach beyond.
+  using Places = std::vector<double>;
+  Places places() const { return Places(room_, 0); }
+  /// R b of a right-hand side b, by unknowns.
+  void load(const Eigen::VectorXd& rhs, Places& y) const;
+  double scale(int place) const { return scale_[static_cast<std::size_t>(place)]; }
+  /// y <- (P L)^-1 y.
+  void lower(Places& y) const;
+  /// The same where y is zero but from place `first` to `last`, which becomes the last one that is not.
+  void lower(Places& y, int first, int& last) const;
+  /// y <- U^-1 y.
+  void upper(Places& y) const;
+  /// y <- U^-T y, where y is zero but from place `first` to `last`, which becomes the last one that is not.
+  void upper_transposed(Places& y, int first, int& last) const;
 
  private:
-  double* row(int i) { return band_.data() + static_cast<std::size_t>(i) * width_; }
-  const double* row(int i) const { return band_.data() + static_cast<std::size_t>(i) * width_; }
+  double* row(int i) { return band_.get() + static_cast<std::size_t>(i) * width_; }
+  const double* row(int i) const { return band_.get() + static_cast<std::size_t>(i) * width_; }
   void fill_band(const Eigen::SparseMatrix<double>& matrix);
   int pivot_of(int column) const;
-  void eliminate(int k) const;
-  void substitute(int k) const;
+  void eliminate(int k, double* all) const;
+  void substitute(int k, double* all) const;
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;
-  int padded_ = 0;                 ///< unknowns with those that fill the last block: rows of one
-  int width_ = 0;                  ///< of a row in storage: columns i - b to i + 2 b, and zeros
-  int height_ = 0;                 ///< of a column of multipliers: b, and zeros
-  std::vector<double> band_;       ///< what is left to eliminate, then U
-  std::vector<double> lower_;      ///< multipliers below the diagonal of each column
-  std::vector<double> inverse_;    ///< of each pivot
-  std::vector<double> scale_;      ///< of each row of the matrix
-  std::vector<int> pivots_;        ///< row that was brought to each place
-  std::vector<int> reach_;         ///< last row that a block of four columns of multipliers changes
-  std::vector<int> ends_;          ///< one past the last column of each row of what is left, then of U
-  mutable std::vector<double> y_;  ///< of solve
-  mutable std::vector<Eigen::Array4d> four_;  ///< of solve_units
+  int padded_ = 0;                  ///< unknowns with those that fill the last block: rows of one
+  int width_ = 0;                   ///< of a row in storage: columns i - b to i + 2 b, and zeros
+  int height_ = 0;                  ///< of a column of multipliers: b, and zeros
+  std::unique_ptr<double[]> band_;  ///< what is left to eliminate, then U
+  std::vector<double> lower_;       ///< multipliers below the diagonal of each column
+  std::vector<double> inverse_;     ///< of each pivot
+  std::vector<double> scale_;       ///< of each row of the matrix
+  std::vector<int> pivots_;         ///< row that was brought to each place
+  std::vector<int> reach_;          ///< last row that a block of four columns of multipliers changes
+  std::vector<int> ends_;           ///< one past the last column of each row of what is left, then of U
+  std::size_t room_ = 0;
 };
 
 }  // namespace nurbeam

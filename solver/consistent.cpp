@@ -1,24 +1,23 @@
 #include "solver/consistent.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "solver/kkt_solver.h"
-#include "solver/mass_scale.h"
 
 namespace nurbeam {
 
 namespace {
 
-/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, factorised with the mass divided by its scale.
+/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, factorised with the first block divided by its scale.
 class FactorisedKkt {
  public:
   FactorisedKkt(const SecondOrderSystem& system, const State& state, double h = 0)
       : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system.tangent_pattern()) {
-    scale_ = mass_scale(system, state, kkt_);
-    system.tangent(state, {.mass = 1 / scale_, .damping = h / 2 / scale_, .stiffness = h * h / 4 / scale_},
-                   kkt_);
-    regular_ = solver_.factorise(kkt_);
+    system.tangent(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, kkt_);
+    scale_coordinates();
+    regular_ = solver_.factorise(kkt_, system.moving_unknowns());
   }
 
   bool regular() const { return regular_; }
@@ -47,6 +46,22 @@ class FactorisedKkt {
   }
 
  private:
+  // Divides the rows and columns of coordinates by their largest diagonal entry.
+  void scale_coordinates() {
+    const auto for_each = [&](const auto& visit) {
+      for (int column = 0; column < n_; ++column)
+        for (int k = kkt_.outerIndexPtr()[column]; k < kkt_.outerIndexPtr()[column + 1]; ++k)
+          if (const int row = kkt_.innerIndexPtr()[k]; row < n_) visit(row, column, kkt_.valuePtr()[k]);
+    };
+    double largest = 0;
+    for_each([&](int row, int column, double value) {
+      if (row == column) largest = std::fmax(largest, value);
+    });
+    if (!(largest > 0) || !std::isfinite(largest)) return;
+    scale_ = largest;
+    for_each([&](int, int, double& value) { value /= largest; });
+  }
+
   int n_;
   int m_;
   Eigen::SparseMatrix<double> kkt_;

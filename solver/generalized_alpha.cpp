@@ -16,9 +16,11 @@ constexpr double good_contraction = 0.1;    ///< of the corrections, for which a
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
 constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
-constexpr int many_corrections = 3;         ///< in one step, after which a matrix is taken anew
-constexpr double longest_use = 50;          ///< of a matrix, in steps
-constexpr double same_step = 1e-6;          ///< relative difference that a matrix does not feel
+/// Corrections beyond those that the first step with a matrix took, after which it is taken anew: that costs
+/// about as many.
+constexpr int worth_a_matrix = 12;
+constexpr double longest_use = 50;  ///< of a matrix, in steps
+constexpr double same_step = 1e-6;  ///< relative difference that a matrix does not feel
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -106,12 +108,14 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
 }
 
 IntegratorHistory GeneralizedAlphaIntegrator::history() const {
-  return {{last_step_, last_error_, mass_scale_}, {algorithmic_acceleration_, jerk_}, linearisation_};
+  return {{last_step_, last_error_, mass_scale_, 1.0 * first_corrections_, 1.0 * more_corrections_},
+          {algorithmic_acceleration_, jerk_},
+          linearisation_};
 }
 
 void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& history) {
   require_sizes(generalized_alpha_method, state, *system_);
-  require(history.numbers.size() == 3 && history.vectors.size() == 2, generalized_alpha_method,
+  require(history.numbers.size() == 5 && history.vectors.size() == 2, generalized_alpha_method,
           "the history is not one of this method");
   for (const Eigen::VectorXd& vector : history.vectors)
     require_size(generalized_alpha_method, "the history", vector.size(), system_->coordinate_count());
@@ -123,6 +127,8 @@ void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& h
   last_step_ = history.numbers[0];
   last_error_ = history.numbers[1];
   mass_scale_ = history.numbers[2];
+  first_corrections_ = static_cast<int>(history.numbers[3]);
+  more_corrections_ = static_cast<int>(history.numbers[4]);
 }
 
 StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const IntegratorHistory& history,
@@ -170,6 +176,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
   if (!all_finite(trial_)) return StepStatus::not_converged;
   if (!system_->admissible(trial_)) return StepStatus::inadmissible;
   if (!has_matrix_for(step)) linearisation_ = nullptr;
+  const bool has_served = linearisation_ != nullptr;
   Convergence convergence;
   for (int i = 0; i < settings_.max_iterations; ++i) {
     evaluate_residual(step);
@@ -186,8 +193,13 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
     const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
-    if (stale || (done && i > many_corrections)) linearisation_ = nullptr;
-    if (done) return StepStatus::converged;
+    if (stale) linearisation_ = nullptr;
+    if (!done) continue;
+    if (!has_served || stale)
+      first_corrections_ = i, more_corrections_ = 0;
+    else if ((more_corrections_ += std::max(0, i - first_corrections_)) > worth_a_matrix)
+      linearisation_ = nullptr;
+    return StepStatus::converged;
   }
   return StepStatus::not_converged;
 }
@@ -228,7 +240,7 @@ bool GeneralizedAlphaIntegrator::renew_moving_part() {
   if (moving_part_.size() == 0) return true;
   system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
   moved_part_ -= moving_part_;
-  return solver_.update(moved_part_);
+  return solver_.renew(moved_part_);
 }
 
 TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {

@@ -1,7 +1,7 @@
 #pragma once
 #include "solver/integrator.h"
+#include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
-#include "solver/updated_kkt.h"
 
 namespace nurbeam {
 
@@ -91,10 +91,12 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double last_step_ = 0;
   double last_error_ = 0;
   double mass_scale_ = 1;
+  int first_corrections_ = 0;                           ///< of the step that took the matrix
+  int more_corrections_ = 0;                            ///< beyond as many, of the steps that kept it
   std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
-  UpdatedKkt solver_;
+  KktSolver solver_;
   Eigen::SparseMatrix<double> kkt_;
   Eigen::MatrixXd moving_part_;  ///< that in kkt_
 

@@ -7,6 +7,10 @@ namespace nurbeam {
 
 /// LU of one matrix pattern: symbolic analysis once, numeric factorisation as often as wanted. Within a band
 /// where the unknowns can be put into a narrow one, else by KLU.
+///
+/// A part of the unknowns whose own rows and columns S change more often than the rest is eliminated last:
+///   [A B; C S] = [L 0; W 1] [U V; 0 S - W V],  A = L U, V = L^-1 B, W = C U^-1,
+/// so that another S takes the factors of a small dense matrix only.
 class KktSolver {
  public:
   KktSolver();
@@ -14,16 +18,18 @@ class KktSolver {
   KktSolver(KktSolver&&) noexcept;
   KktSolver& operator=(KktSolver&&) noexcept;
 
-  /// Analyses the pattern on first use (and when its size or its index arrays changed), then factorises the
-  /// compressed, square `matrix`.
+  /// Analyses the pattern on first use (and when its size or its index arrays or the part changed), then
+  /// factorises the compressed, square `matrix`; `part`: the unknowns that are eliminated last, which must
+  /// leave a matrix A that is regular.
   /// Returns whether the matrix is finite and numerically non-singular: smallest over largest pivot of the
   /// row-scaled factors above 1e-15.
-  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix);
-  /// x with matrix x = rhs. Precondition: factorise returned true.
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& part = {});
+  /// Adds `change` (p x p) to S as it was in the matrix that has been factorised, in the order of the part.
+  /// Returns what factorise does.
+  [[nodiscard]] bool renew(const Eigen::MatrixXd& change);
+  /// x with matrix x = rhs. Precondition: what came before returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
-  /// (n x p) the columns of the inverse that belong to p unknowns.
-  void solve_units(const std::vector<int>& unknowns, Eigen::MatrixXd& columns) const;
 
  private:
   struct Implementation;

@@ -40,8 +40,8 @@ class SecondOrderSystem {
                        Eigen::SparseMatrix<double>& kkt) const = 0;
 
   /// Unknowns, among the n coordinates and then the m multipliers, of a part of the tangent that lasts less
-  /// than the rest: of elements that move over the material. None where all lasts as long or the part is not
-  /// small.
+  /// than the rest: of elements that move over the material, with what constraints tie to them, so that the
+  /// other unknowns make a regular matrix. None where all lasts as long or the part is not small.
   virtual const std::vector<int>& moving_unknowns() const {
     static const std::vector<int> none;
     return none;

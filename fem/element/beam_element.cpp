@@ -95,8 +95,16 @@ double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
   const Eigen::Vector4d y = axial_sums(q).y;
   const AssumedStrain assumed(y[0], y[1], y[2], y[3]);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
-  const double s_a = q[ElementLayout<D>::place(0)], s_b = q[ElementLayout<D>::place(1)];
   double largest = 0;
+  if (packs_.size() == 1) {
+    const PointPack& p = packs_.front();
+    const VectorLanes<D> rs = combination<D>(e, p.S1);
+    const Lanes pointwise = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
+    for (int g = 0; g < PointPack::points; ++g)
+      largest = std::max(largest, std::abs(pointwise[g] - assumed.at(GaussRule::points[g])));
+    return largest;
+  }
+  const double s_a = q[ElementLayout<D>::place(0)], s_b = q[ElementLayout<D>::place(1)];
   for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double) {
     const double pointwise = ((e * row(shape.d1)).squaredNorm() - 1) / 2 - curve_->strain(s);
     largest = std::max(largest, std::abs(pointwise - assumed.at((s - s_a) / (s_b - s_a))));
@@ -179,9 +187,8 @@ double BeamElement<D>::length(const ElementVector<D>& q) const {
 }
 
 template <int D>
-ShapeFunctions<double> BeamElement<D>::shape(const ElementVector<D>& q, double s) const {
-  return ElementBasis<double>(*curve_, chart_, q[ElementLayout<D>::place(0)], q[ElementLayout<D>::place(1)])
-      .at(s);
+ElementBasis<double> BeamElement<D>::basis(const ElementVector<D>& q) const {
+  return {*curve_, chart_, q[ElementLayout<D>::place(0)], q[ElementLayout<D>::place(1)]};
 }
 
 template <int D>
@@ -193,14 +200,7 @@ ShapeFunctions<Jet> BeamElement<D>::shape_series(const ElementVector<D>& q, doub
 
 template <int D>
 Eigen::Vector4d BeamElement<D>::bezier_weights(const ElementVector<D>& q) const {
-  if (chart_.constant_weights) return row(*chart_.constant_weights);
-  if (chart_.segment < 0) return Eigen::Vector4d::Ones();
-  const double u_a = curve_->parameter(chart_.segment, q[ElementLayout<D>::place(0)]);
-  const double u_b = curve_->parameter(chart_.segment, q[ElementLayout<D>::place(1)]);
-  const auto W_a = curve_->geometry(chart_.segment, u_a).weight,
-             W_b = curve_->geometry(chart_.segment, u_b).weight;
-  const double l = u_b - u_a;
-  return {W_a[0], W_a[0] + l / 3 * W_a[1], W_b[0] - l / 3 * W_b[1], W_b[0]};
+  return row(basis(q).weights());
 }
 
 template <int D>
@@ -209,15 +209,6 @@ double BeamElement<D>::place(const ElementVector<D>& q, double u) const {
   if (u == 0 || u == 1 || chart_.segment < 0) return u == 1 ? s_b : s_a + u * (s_b - s_a);
   const double u_a = curve_->parameter(chart_.segment, s_a), u_b = curve_->parameter(chart_.segment, s_b);
   return curve_->unrolled(curve_->arc_length(chart_.segment, u_a + u * (u_b - u_a)), (s_a + s_b) / 2);
-}
-
-template <int D>
-std::array<double, 3> BeamElement<D>::chart_lengths(const ElementVector<D>& q) const {
-  if (chart_.segment < 0) return {q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)], 1, 1};
-  const double u_a = curve_->parameter(chart_.segment, q[ElementLayout<D>::place(0)]);
-  const double u_b = curve_->parameter(chart_.segment, q[ElementLayout<D>::place(1)]);
-  return {u_b - u_a, curve_->geometry(chart_.segment, u_a).stretch[0],
-          curve_->geometry(chart_.segment, u_b).stretch[0]};
 }
 
 template class BeamElement<2>;

@@ -74,16 +74,16 @@ class BeamElement {
   /// The axial strain that carries, where it is not the pointwise one.
   std::optional<AssumedStrain> assumed_strain(const ElementVector<D>& q) const;
 
-  /// Shape functions at material point s for the end positions in q.
-  ShapeFunctions<double> shape(const ElementVector<D>& q, double s) const;
+  /// Shape functions for the end positions in q.
+  ElementBasis<double> basis(const ElementVector<D>& q) const;
+  /// The same at material point s.
+  ShapeFunctions<double> shape(const ElementVector<D>& q, double s) const { return basis(q).at(s); }
   /// The same as series in the end positions, s fixed.
   ShapeFunctions<Jet> shape_series(const ElementVector<D>& q, double s) const;
   /// The weights w_0..w_3 of the element's rational cubic (Eq. 9) for the end positions in q.
   Eigen::Vector4d bezier_weights(const ElementVector<D>& q) const;
   /// Reference arc length [m] at parameter u in [0,1] of the element's rational cubic.
   double place(const ElementVector<D>& q, double u) const;
-  /// Length of the chart parameter over the element and stretch J at both ends: r_u = J r_s.
-  std::array<double, 3> chart_lengths(const ElementVector<D>& q) const;
 
   /// Calls visit(shape, s, weight) at every Gauss point between the ends s_a and s_b (double, or Jet: series
   /// in both); a part between two breaks of the drawing has its own points.

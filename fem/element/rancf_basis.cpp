@@ -109,6 +109,16 @@ typename ElementBasis<T>::End ElementBasis<T>::end(const T& s) const {
 }
 
 template <class T>
+std::array<T, 4> ElementBasis<T>::weights() const {
+  if (chart_.constant_weights) {
+    const auto& w = *chart_.constant_weights;
+    return {T(w[0]), T(w[1]), T(w[2]), T(w[3])};
+  }
+  const T third = length() / 3;
+  return {a_.W, a_.W + third * a_.Wu, b_.W - third * b_.Wu, b_.W};
+}
+
+template <class T>
 ShapeFunctions<T> ElementBasis<T>::at(const T& s) const {
   ChartPoint<T> p = chart_point(*curve_, chart_, s);
   const T l = b_.u - a_.u;

@@ -28,6 +28,8 @@ RationalCubic to_bezier(const NodalCoordinates& e, const Eigen::Vector4d& weight
 struct Chart {
   int segment = -1;
   std::optional<std::array<double, 4>> constant_weights;
+
+  bool operator==(const Chart&) const = default;
 };
 
 /// The four shape functions and their derivatives with respect to reference arc length s at one material
@@ -51,6 +53,12 @@ class ElementBasis {
   ElementBasis(const ReferenceCurve& curve, const Chart& chart, const T& s_a, const T& s_b);
   /// Precondition: s in the chart's segment (for an arc-length chart anywhere on the element).
   ShapeFunctions<T> at(const T& s) const;
+  /// Length of the chart parameter over the element.
+  T length() const { return b_.u - a_.u; }
+  /// Stretch J at both ends: r_u = J r_s.
+  std::array<T, 2> stretches() const { return {a_.J, b_.J}; }
+  /// The weights w_0..w_3 of the rational cubic (Eq. 9 of Ding & Ouyang).
+  std::array<T, 4> weights() const;
 
  private:
   struct End {

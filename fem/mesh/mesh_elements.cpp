@@ -50,7 +50,29 @@ std::array<int, element_size<D>> dofs_of(const Mesh& mesh, const MeshSpan& span)
   return dofs;
 }
 
-std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam) {
+// Where they are not those of the drawing.
+const MeshPlan::SectionCharts* charts_in(const MeshPlan& plan, const MeshSpan& span) {
+  for (const MeshPlan::SectionCharts& now : plan.section_charts)
+    if (now.beam == span.beam && now.s_a == span.s_a && now.s_b == span.s_b) return &now;
+  return nullptr;
+}
+
+bool same_charts(const MeshPlan::SectionCharts* a, const MeshPlan::SectionCharts* b) {
+  if (!a || !b) return a == b;
+  return a->charts == b->charts && a->turn == b->turn;
+}
+
+TwistElement new_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam) {
+  const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
+  const Chart& chart = e.element.chart();
+  if (const MeshPlan::SectionCharts* now = charts_in(mesh.plan, e))
+    return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now->charts, now->turn};
+  return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends};
+}
+
+// `same`: the element in another mesh, if it was there.
+std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam,
+                                            const Mesh* other, const MeshElement<3>* same) {
   if (!beam.has_torsion()) return nullptr;
   if (beam.form == Form::virtual_work)
     throw std::invalid_argument("a beam in form P (virtual work) has no torsion");
@@ -59,20 +81,44 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
   dofs[TwistLayout::angle(0)] = mesh.node_a(e).angle_right;
   dofs[TwistLayout::angle(1)] = mesh.node_b(e).angle_left;
   dofs[TwistLayout::bubble] = e.bubble;
-  const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
-  const Chart& chart = e.element.chart();
-  for (const MeshPlan::SectionCharts& now : mesh.plan.section_charts)
-    if (now.beam == e.beam && now.s_a == e.s_a && now.s_b == e.s_b)
-      return std::make_unique<const MeshTwist>(MeshTwist{
-          dofs, TwistElement(beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now.charts, now.turn)});
+  const bool is_kept = same && same_charts(charts_in(mesh.plan, e), charts_in(other->plan, *same));
   return std::make_unique<const MeshTwist>(
-      MeshTwist{dofs, TwistElement(beam.curve, beam.properties, chart, e.s_a, e.s_b, ends)});
+      MeshTwist{dofs, is_kept ? same->twist->element : new_twist(mesh, e, beam)});
 }
+
+// Finds elements with fixed ends of one mesh in another one, in the order of both.
+template <int D>
+class SameElements {
+ public:
+  explicit SameElements(const std::optional<MeshedElements<D>>& like) : like_(like) {}
+
+  const Mesh* mesh() const { return like_ ? &like_->mesh : nullptr; }
+
+  const MeshElement<D>* find(const MeshSpan& span, const Chart& chart) {
+    if (!like_) return nullptr;
+    const std::vector<MeshElement<D>>& others = like_->elements;
+    const auto comes_before = [&](const MeshSpan& other) {
+      return other.beam != span.beam ? other.beam < span.beam : other.s_a < span.s_a;
+    };
+    while (next_ < others.size() && comes_before(others[next_])) ++next_;
+    if (next_ == others.size()) return nullptr;
+    const MeshElement<D>& other = others[next_];
+    const bool is_same = other.element.fixed() && other.beam == span.beam && other.s_a == span.s_a &&
+                         other.s_b == span.s_b && other.element.chart() == chart;
+    return is_same ? &other : nullptr;
+  }
+
+ private:
+  const std::optional<MeshedElements<D>>& like_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
 template <int D>
-std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh) {
+std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
+                                          const std::optional<MeshedElements<D>>& like) {
+  SameElements<D> others(like);
   std::vector<MeshElement<D>> elements;
   elements.reserve(mesh.spans.size());
   for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
@@ -85,10 +131,14 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
           "a beam with the pointwise axial strain is as long as it is drawn when free");
     const Ends ends = span.place_a < 0 && span.place_b < 0 ? Ends::fixed : Ends::moving;
     Chart chart = choose_chart(beam, mesh.plan, span, is_arc_length_span(structure, mesh, i));
+    const MeshElement<D>* same = ends == Ends::fixed ? others.find(span, chart) : nullptr;
     elements.push_back(
-        {span, dofs_of<D>(mesh, span), drawn_slope_jump<D>(beam, mesh.node_b(span)),
-         BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
-    if constexpr (D == 3) elements.back().twist = make_twist(mesh, elements.back(), beam);
+        {span, dofs_of<D>(mesh, span),
+         same ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
+         same ? same->element
+              : BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
+    if constexpr (D == 3)
+      elements.back().twist = make_twist(mesh, elements.back(), beam, others.mesh(), same);
   }
   return elements;
 }
@@ -135,19 +185,22 @@ TwistState gather_twist(const MeshElement<3>& e, const State& state) {
 }
 
 template <int D>
+MaterialPoint<D> material_point(const ElementState<D>& x, const ShapeFunctions<double>& shape) {
+  const ElementNodes<D> nodes = x.nodes(), rates = x.node_rates();
+  const auto sum = [](const ElementNodes<D>& of, const std::array<double, 4>& functions) {
+    return Eigen::Matrix<double, D, 1>(of * Eigen::Map<const Eigen::Vector4d>(functions.data()));
+  };
+  return {sum(nodes, shape.value), sum(nodes, shape.d1), sum(nodes, shape.d2),
+          sum(rates, shape.value), sum(rates, shape.d1), shape.kappa0};
+}
+
+template <int D>
 MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                 double s) {
   using Layout = ElementLayout<D>;
   const ElementState<D> x = gather<D>(e, q, v, v);
+  if (e.element.fixed()) return material_point<D>(x, e.element.shape(x.q, e.local(x.q, s)));
   const ElementNodes<D> nodes = x.nodes(), rates = x.node_rates();
-  if (e.element.fixed()) {
-    const ShapeFunctions<double> shape = e.element.shape(x.q, e.local(x.q, s));
-    const auto sum = [](const ElementNodes<D>& of, const std::array<double, 4>& functions) {
-      return Eigen::Matrix<double, D, 1>(of * Eigen::Map<const Eigen::Vector4d>(functions.data()));
-    };
-    return {sum(nodes, shape.value), sum(nodes, shape.d1), sum(nodes, shape.d2),
-            sum(rates, shape.value), sum(rates, shape.d1), shape.kappa0};
-  }
   const ShapeFunctions<Jet> shape = e.element.shape_series(x.q, e.local(x.q, s));
   const std::array<double, 2> w{x.v[Layout::place(0)], x.v[Layout::place(1)]};
   const PointField<D> r(shape.value, nodes), rs(shape.d1, nodes), rss(shape.d2, nodes);
@@ -155,8 +208,10 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
       r.value, rs.value, rss.value, r.rate(nodes, rates, w), rs.rate(nodes, rates, w), shape.kappa0.value()};
 }
 
-template std::vector<MeshElement<2>> make_elements<2>(const Structure&, const Mesh&);
-template std::vector<MeshElement<3>> make_elements<3>(const Structure&, const Mesh&);
+template std::vector<MeshElement<2>> make_elements<2>(const Structure&, const Mesh&,
+                                                      const std::optional<MeshedElements<2>>&);
+template std::vector<MeshElement<3>> make_elements<3>(const Structure&, const Mesh&,
+                                                      const std::optional<MeshedElements<3>>&);
 template ElementVector<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&);
 template ElementVector<3> gather<3>(const MeshElement<3>&, const Eigen::VectorXd&);
 template ElementState<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&, const Eigen::VectorXd&,
@@ -167,5 +222,7 @@ template MaterialPoint<2> material_point<2>(const MeshElement<2>&, const Eigen::
                                             const Eigen::VectorXd&, double);
 template MaterialPoint<3> material_point<3>(const MeshElement<3>&, const Eigen::VectorXd&,
                                             const Eigen::VectorXd&, double);
+template MaterialPoint<2> material_point<2>(const ElementState<2>&, const ShapeFunctions<double>&);
+template MaterialPoint<3> material_point<3>(const ElementState<3>&, const ShapeFunctions<double>&);
 
 }  // namespace nurbeam

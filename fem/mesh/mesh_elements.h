@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem/element/beam_element.h"
@@ -35,9 +36,18 @@ struct MeshElement : MeshSpan {
   }
 };
 
-/// The elements of a mesh, in the order of its spans. The structure must outlive them.
+/// The elements of a mesh with the mesh.
 template <int D>
-std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh);
+struct MeshedElements {
+  const Mesh& mesh;
+  const std::vector<MeshElement<D>>& elements;
+};
+
+/// The elements of a mesh, in the order of its spans. The structure must outlive them. What those of another
+/// mesh of the same structure have in common with them is taken from these.
+template <int D>
+std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
+                                          const std::optional<MeshedElements<D>>& like = {});
 
 /// The axial strain without axial force of an element's beam, as State::load has it.
 template <int D>
@@ -86,5 +96,8 @@ struct MaterialPoint {
 template <int D>
 MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                 double s);
+/// That of an element with fixed ends at the point of these shape functions.
+template <int D>
+MaterialPoint<D> material_point(const ElementState<D>& x, const ShapeFunctions<double>& shape);
 
 }  // namespace nurbeam

@@ -44,7 +44,7 @@ Passing passing(const SlidingJoint& joint, const HomeNode& node) {
 
 bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach) {
   const Beam& beam = structure.beam_of(joint);
-  if (beam.rigid || too_light_for_node(structure, joint)) return true;
+  if (beam.rigid || joint.as_point || too_light_for_node(structure, joint)) return true;
   const int before = beam.home_interval(s);
   const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));
   const auto near = [&](int h) {

@@ -72,8 +72,8 @@ inline constexpr double touching_distance = 3e-6;
 /// again, in home element lengths.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
-/// Whether a joint at s is carried as a point: its beam is a rigid guide, its body is too light for a node,
-/// or a node that it passes as a point is within `reach` home element lengths.
+/// Whether a joint at s is carried as a point: it is to be, its beam is a rigid guide, its body is too light
+/// for a node, or a node that it passes as a point is within `reach` home element lengths.
 bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach);
 
 /// The drawn mesh with every sliding joint at its start: the home node nearest to it gives way to the moving

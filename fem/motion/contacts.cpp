@@ -79,7 +79,7 @@ std::vector<ContactEvent> possible_events(const BeamSystem& system, const State&
 MeshedState with_contacts(const MeshedState& at, std::vector<bool> closed) {
   MeshPlan plan = present_plan(*at.system, at.state);
   plan.closed = std::move(closed);
-  MeshedState next{std::make_unique<BeamSystem>(at.system->shared_model(), std::move(plan)), at.state};
+  MeshedState next{at.system->replanned(std::move(plan)), at.state};
   next.state.lambda = Eigen::VectorXd::Zero(next.system->constraint_count());
   return next;
 }

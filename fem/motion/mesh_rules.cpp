@@ -233,16 +233,34 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
   return plan;
 }
 
-NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control) {
+NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control,
+                   int first_joint) {
   NextPlan next;
   next.plan = plan_at(system, state);
-  for (std::size_t j = 0; j < next.plan.places.size(); ++j)
-    if (JointRules(system, state, control, static_cast<int>(j), next).apply()) {
+  for (int j = first_joint; j < static_cast<int>(next.plan.places.size()); ++j)
+    if (JointRules(system, state, control, j, next).apply()) {
       carry_weights(system, state, next.plan);
       carry_sections(system, state, next.plan);
       return next;
     }
   return next;
+}
+
+bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {
+  constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
+  if (next.change == MeshChange::becomes_node) return true;
+  if (next.change != MeshChange::merge && next.change != MeshChange::split) return false;
+  const Mesh& mesh = system.mesh();
+  const int beam = system.model().joints[next.joint].beam;
+  const int node = mesh.joints[next.joint].node, first = mesh.first_span[beam];
+  const int spans = mesh.first_span[beam + 1] - first;
+  // Of a ring the element before its first node is its last.
+  for (const int span : {first + (node + spans - 1) % spans, first + node % spans}) {
+    const double start = mesh.spans[span].start(state.q), end = mesh.spans[span].end(state.q);
+    const double standard = system.model().beams[beam].home_spacing((start + end) / 2);
+    if (end - start < shortest * standard || end - start > longest * standard) return false;
+  }
+  return true;
 }
 
 }  // namespace nurbeam

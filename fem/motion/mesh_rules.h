@@ -36,7 +36,14 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
 /// standard lengths and hides a home node, that node returns; where it is shorter than min, its far node goes
 /// (unless it is a beam end, a hinge or a corner, or permanent). Permanent nodes stay: the joint passes them,
 /// and comes to a beam end, as a point of the mesh; but breaks before a joint whose slope may be
-/// discontinuous go when it is very near (Passing).
-NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control);
+/// discontinuous go when it is very near (Passing). The first change that a joint from `first_joint` on asks
+/// for.
+NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control,
+                   int first_joint = 0);
+
+/// Whether the motion may go on without a change of the mesh that is due: a joint can stay a point, a node
+/// stay until the joint is almost there, and stay away until the element beside the joint is half as long
+/// again as it is drawn.
+bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next);
 
 }  // namespace nurbeam

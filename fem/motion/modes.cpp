@@ -45,7 +45,7 @@ MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOpt
                                  : find_rest(at, options.length_control, interrupted);
   } else if (options.bodies_held) {
     const std::vector<bool> held(at.system->model().joints.size(), true);
-    at.system = std::make_unique<BeamSystem>(at.system->shared_model(), at.system->mesh().plan, held);
+    at.system = at.system->replanned(at.system->mesh().plan, held);
     at.state = drawn_state(*at.system);
   }
   if (!options.about_equilibrium) at.state.load = 0;

@@ -41,7 +41,7 @@ MeshedState recentred(const BeamSystem& system, const State& state, const std::v
       next.v[angle] = element.spin(x, end);
     }
   }
-  return {std::make_unique<BeamSystem>(system.shared_model(), std::move(plan), held), std::move(next)};
+  return {system.replanned(std::move(plan), held), std::move(next)};
 }
 
 }  // namespace nurbeam

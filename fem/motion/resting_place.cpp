@@ -292,7 +292,7 @@ class RestSearch {
   // With all sliding bodies held where the plan has them.
   bool hold_in_equilibrium(MeshPlan plan) {
     const std::vector<bool> held(model().joints.size(), true);
-    at_.system = std::make_unique<BeamSystem>(at_.system->shared_model(), std::move(plan), held);
+    at_.system = at_.system->replanned(std::move(plan), held);
     const StaticReport found = find_equilibrium(at_, held);
     if (found.status == StaticStatus::converged) return true;
     return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
@@ -304,7 +304,7 @@ class RestSearch {
       const auto start = std::chrono::steady_clock::now();
       const NextPlan next = next_plan(*at_.system, at_.state, control_);
       if (next.change == MeshChange::none) return true;
-      if (!goes_on(change_mesh(at_, next, true).failure)) return false;
+      if (!goes_on(change_mesh(at_, next, true))) return false;
       report_.length_control_seconds +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       if (!goes_on(excess_of_changes(at_, count))) return false;
@@ -336,8 +336,7 @@ class RestSearch {
 
   // Equilibrium with the joints free that are not held, if there is one nearby; else nothing changes.
   void free_bodies(const std::vector<bool>& held) {
-    MeshedState freed{std::make_unique<BeamSystem>(at_.system->shared_model(), at_.system->mesh().plan, held),
-                      at_.state};
+    MeshedState freed{at_.system->replanned(at_.system->mesh().plan, held), at_.state};
     bool near = find_equilibrium(freed, held).status == StaticStatus::converged;
     for (int j = 0; near && j < joints(); ++j) {
       const auto s = place(*freed.system, freed.state, j);

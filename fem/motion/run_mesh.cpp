@@ -1,6 +1,7 @@
 #include "fem/motion/run_mesh.h"
 
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "fem/motion/recentring.h"
@@ -11,43 +12,54 @@ namespace nurbeam {
 
 namespace {
 
-// Applies one change of the mesh if one is due and can be.
-bool change_due_mesh(Run& run) {
-  MeshedState& at = run.at;
-  const auto start = std::chrono::steady_clock::now();
-  const NextPlan next = next_plan(*at.system, at.state, run.options.length_control);
-  if (next.change == MeshChange::none) return false;
-  RunEvent event = event_before(at, kind_of(next.change), next.joint);
-  const bool observed = static_cast<bool>(run.observer.mesh_changed);
-  const std::vector<BeamRecord> before =
-      observed ? record_beams(*at.system, at.state) : std::vector<BeamRecord>{};
-  const MeshPlan plan = at.system->mesh().plan;
-  const State state = at.state;
-  const MeshChangeReport changed = change_mesh(at, next, false);
-  if (!run.goes_on(changed.failure)) return false;
-  run.follow([&](MeshedState& of) {
-    const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
-    return !change_mesh_like(of, same, changed.moves).failure;
-  });
-  if (!run.restart()) return false;
-  at.state = run.integrator->state();
-  event.support_impulse = support_impulse(at, changed.impulse);
-  finish_event(at, event);
-  if (changes_energy(*at.system, at.state, event, run.report)) {
-    run.report.fail({.kind = Failure::Kind::mesh_energy,
-                     .time = at.state.t,
-                     .places = places_of(at),
-                     .joint = next.joint,
-                     .energy = event.energy_after - event.energy_before});
-    at = {std::make_unique<BeamSystem>(run.model, plan), state};
-    return false;
+// Ends the run where a change of the mesh can neither be made, at that cost, nor wait.
+void refuse(Run& run, const NextPlan& next, std::optional<double> cost) {
+  Failure failure{.kind = Failure::Kind::projection, .time = run.at.state.t, .places = places_of(run.at)};
+  if (cost) {
+    failure.kind = Failure::Kind::mesh_energy;
+    failure.joint = next.joint;
+    failure.energy = *cost;
   }
-  run.note(std::move(event));
-  if (observed)
-    run.observer.mesh_changed(run.report.events.back(), before, record_beams(*at.system, at.state));
-  run.report.length_control_seconds +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return true;
+  run.report.fail(std::move(failure));
+}
+
+// Applies one change of the mesh if one is due and can be; one that would cost energy waits as long as it
+// can.
+bool change_due_mesh(Run& run) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int first = 0;;) {
+    const NextPlan next = next_plan(*run.at.system, run.at.state, run.options.length_control, first);
+    if (next.change == MeshChange::none) return false;
+    RunEvent event = event_before(run.at, kind_of(next.change), next.joint);
+    std::optional<ChangedMesh> changed = changed_mesh(run.at, next, false);
+    if (changed) finish_event(changed->now, event);
+    if (!changed || changes_energy(*changed->now.system, changed->now.state, event, run.report)) {
+      if (!can_wait(*run.at.system, run.at.state, next)) {
+        const double cost = event.energy_after - event.energy_before;
+        refuse(run, next, changed ? std::optional(cost) : std::nullopt);
+        return false;
+      }
+      first = next.joint + 1;
+      continue;
+    }
+    const bool observed = static_cast<bool>(run.observer.mesh_changed);
+    const std::vector<BeamRecord> before =
+        observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
+    run.at = std::move(changed->now);
+    run.follow([&next](MeshedState& of) {
+      const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
+      return !change_mesh(of, same, false, neighbours_accuracy);
+    });
+    if (!run.restart()) return false;
+    run.at.state = run.integrator->state();
+    event.support_impulse = support_impulse(run.at, changed->impulse);
+    run.note(std::move(event));
+    if (observed)
+      run.observer.mesh_changed(run.report.events.back(), before, record_beams(*run.at.system, run.at.state));
+    run.report.length_control_seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return true;
+  }
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 namespace nurbeam {
 
 /// Applies the changes of the mesh that are due, each with an event and a new start of the integrator. One
-/// that would change the energy by too much is undone and ends the run: what came after it would be another
-/// motion.
+/// that would change the energy by too much waits as long as the motion can go on without it (can_wait), and
+/// ends the run where it cannot: what came after it would be another motion.
 void settle_mesh(Run& run);
 
 /// Exchanges the charts of sections that have turned far; whether the run goes on.

@@ -1,6 +1,5 @@
 #include "fem/motion/run_passing.h"
 
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,14 +31,14 @@ bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
   return true;
 }
 
-// A joint's body in the next element: with the moves that keep the energy, or those of a neighbouring motion
-// where they are known. False where velocities cannot be projected.
-bool go_over(MeshedState& at, const Crossing& crossing, std::optional<std::vector<EnergyMove>>& moves) {
+// A joint's body in the next element; of a neighbouring model with another accuracy of kept energy. False
+// where velocities cannot be projected.
+bool go_over(MeshedState& at, const Crossing& crossing, double accuracy) {
   const SlidingJoint& joint = at.system->model().joints[crossing.joint];
   const double beyond = landing_tolerance(at.system->model(), crossing.joint);
   at.state.q[at.system->mesh().joints[crossing.joint].place] =
       crossing.s + (crossing.forward ? beyond : -beyond);
-  auto next = std::make_unique<BeamSystem>(at.system->shared_model(), present_plan(*at.system, at.state));
+  auto next = at.system->replanned(present_plan(*at.system, at.state));
   if (!joint.follows_section) {
     // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
     State moved = interpolated(*at.system, at.state, *next);
@@ -48,10 +47,8 @@ bool go_over(MeshedState& at, const Crossing& crossing, std::optional<std::vecto
   }
   // Curvature and twist jump from element to element, and with them the motion of a body that follows the
   // section: an impact.
-  std::optional<Transferred> moved =
-      moves ? projected_like(*at.system, at.state, *next, *moves) : projected(*at.system, at.state, *next);
+  std::optional<Transferred> moved = projected(*at.system, at.state, *next, accuracy);
   if (!moved) return false;
-  moves = std::move(moved->moves);
   at = {std::move(next), std::move(moved->state)};
   return true;
 }
@@ -66,7 +63,7 @@ bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double
     plan.spins.resize(at.system->model().joints.size());
     plan.spins[joint] = body_motions(*at.system, at.state).spins[joint];
   }
-  auto next = std::make_unique<BeamSystem>(at.system->shared_model(), std::move(plan));
+  auto next = at.system->replanned(std::move(plan));
   State moved = interpolated(*at.system, at.state, *next);
   if (!leaves) {
     moved.q[next->mesh().joints[joint].place] = ending.s;
@@ -121,9 +118,9 @@ bool rests_by(const Run& run, const StepEvent& event) {
 bool step_over(Run& run, const Crossing& crossing) {
   const bool follows_section = run.model->joints[crossing.joint].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
-  std::optional<std::vector<EnergyMove>> moves;  // of the run, which is the first to go over
   const bool gone = run.change([&](MeshedState& at) {
-    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), moves);
+    const double accuracy = &at == &run.at ? kept_energy : neighbours_accuracy;
+    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), accuracy);
   });
   if (!gone) return run.fail_in_impact(crossing.joint);
   if (follows_section) run.account.lose(before - run.mechanical_energy());
@@ -181,8 +178,7 @@ bool release_bodies(Run& run) {
     }
   if (events.empty()) return true;
   run.change([&plan](MeshedState& at) {
-    at.system =
-        std::make_unique<BeamSystem>(at.system->shared_model(), plan_like(plan, *at.system, at.state));
+    at.system = at.system->replanned(plan_like(plan, *at.system, at.state));
     at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
     return true;
   });

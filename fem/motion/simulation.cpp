@@ -28,7 +28,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 bool replan(MeshedState& at) {
-  at.system = std::make_unique<BeamSystem>(at.system->shared_model(), present_plan(*at.system, at.state));
+  at.system = at.system->replanned(present_plan(*at.system, at.state));
   at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
   return true;
 }

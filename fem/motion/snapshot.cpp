@@ -73,6 +73,7 @@ BeamRecord record_beam(const BeamSystem& system, const State& state,
   const ReferenceCurve& curve = system.model().beams[b].curve;
   if (system.model().beams[b].rigid) return record_guide(curve, system.model().gravity);
   BeamRecord record;
+  record.elements.reserve(static_cast<std::size_t>(mesh.first_span[b + 1] - mesh.first_span[b]));
   double twisted = 0;  // since the start of the beam
   for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i) {
     ElementRecord& element = record.elements.emplace_back(record_element(system, state, i, carried[i]));
@@ -172,7 +173,8 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
     snapshot.reactions.push_back(record_reaction(system, state, i));
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
     const auto [length, force] = length_and_force(system, state, i);
-    snapshot.connectors.push_back({length, force});
+    const auto [from, to] = connector_ends(system, state, i);
+    snapshot.connectors.push_back({length, force, from, to});
   }
   if (!contents.energy) return snapshot;
   const SystemEnergy e = energy(system, state);

@@ -61,6 +61,9 @@ struct ReactionRecord {
 struct ConnectorRecord {
   double length = 0;  ///< or its part along the connector's direction [m]
   double force = 0;   ///< that pulls the ends together [N]
+  /// Where its ends are [m]; NaN in results of earlier versions.
+  Eigen::Vector3d from = Eigen::Vector3d::Constant(SectionRecord::no_number),
+                  to = Eigen::Vector3d::Constant(SectionRecord::no_number);
 };
 
 struct EnergyRecord {

@@ -48,6 +48,7 @@ struct SlidingJoint {
 
   StaticPlace rest = StaticPlace::automatic;
   std::optional<Friction> friction = {};
+  bool as_point = false;  ///< carried as a point of a mesh that stays as it is, wherever it is
 
   bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }
   /// Whether the body has coordinates of its own where it is a node: a constraint ties it to the node then,

@@ -19,13 +19,20 @@ void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eig
     if (e.twist->dofs[k] >= 0) dynamics[e.twist->dofs[k]] += f[k];
 }
 
+template <int D>
+std::optional<MeshedElements<D>> elements_of(const Assembly<D>* assembly) {
+  if (!assembly) return {};
+  return MeshedElements<D>{assembly->mesh(), assembly->elements()};
+}
+
 }  // namespace
 
 template <int D>
-Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held)
+Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
+                      const Assembly* like)
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
-      elements_(make_elements<D>(*model_, mesh_)) {
+      elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
   const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
   batch_elements();
   bind_constraints(held, drawn);
@@ -43,6 +50,11 @@ void Assembly<D>::batch_elements() {
     if (e.twist || !ElementBatch<D>::takes(e.element)) {
       others.push_back(i);
       continue;
+    }
+    if (batches.empty()) {
+      const int count = mesh_.first_span[e.beam + 1] - i;
+      batches.reserve(static_cast<std::size_t>(count / ElementBatch<D>::lanes + 1));
+      batched.reserve(static_cast<std::size_t>(count));
     }
     if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
     batches.back().add(e.element, e.dofs, e.slope_offset);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,8 +28,10 @@ class Assembly final : public SecondOrderSystem {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// `held`: joints whose place is held at its value in the plan.
-  Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held);
+  /// `held`: joints whose place is held at its value in the plan. `like`: a system of the same model, of
+  /// which elements are taken that it has in common with this one.
+  Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
+           const Assembly* like = nullptr);
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
@@ -87,7 +90,7 @@ class Assembly final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
-  /// Of elements whose ends move and of the places of joints.
+  /// Of elements whose ends move and of the places of joints, and what constraints tie to them.
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
@@ -99,10 +102,16 @@ class Assembly final : public SecondOrderSystem {
   bool forces_depend_on_multipliers() const override;
 
  private:
-  // Row and column blocks of one contribution in the value array of the iteration matrix.
+  // Entries that follow one another in a column of a contribution, and the first of them in the values of the
+  // iteration matrix.
+  struct Run {
+    int value;
+    std::uint8_t column, row, count;
+  };
+  // Coordinates of one contribution, -1 where there is none, and where its entries are.
   struct Block {
     std::vector<int> dofs;
-    std::vector<int> values;  // dofs.size()^2, column by column; -1 where a dof is -1
+    std::vector<Run> runs;
   };
   struct ConstraintBlock {
     int row, rows;
@@ -130,7 +139,10 @@ class Assembly final : public SecondOrderSystem {
   void bind_friction(int j, const Eigen::VectorXd& drawn);
   void bind_roll(int j, const Eigen::VectorXd& drawn);
   void build_pattern();
+  void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
+  template <class Matrix>
+  static void scatter(const Block& block, const Matrix& matrix, double* values);
   template <class IndexOf>
   void locate(Block& block, const IndexOf& index_of) const;
   template <class IndexOf>

@@ -1,9 +1,11 @@
 // The tangents of an assembly and where their entries are.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/comparison/virtual_work.h"
 #include "fem/system/assembly.h"
+#include "fem/system/coupling.h"
 
 namespace nurbeam {
 
@@ -13,14 +15,6 @@ int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
   const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
   const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
   return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
-}
-
-template <class Matrix>
-void scatter(const std::vector<int>& positions, std::size_t n, const Matrix& matrix, double* values) {
-  for (std::size_t j = 0, k = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i, ++k)
-      if (positions[k] >= 0)
-        values[positions[k]] += matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 
 // The coordinates of a bound force in its own block, where it has one.
@@ -34,6 +28,14 @@ std::vector<int> own_dofs(const Force& force) {
 
 }  // namespace
 
+// Adds a matrix in a block's coordinates.
+template <int D>
+template <class Matrix>
+void Assembly<D>::scatter(const Block& block, const Matrix& matrix, double* values) {
+  for (const Run& run : block.runs)
+    for (int i = 0; i < run.count; ++i) values[run.value + i] += matrix(run.row + i, run.column);
+}
+
 // Takes the tangent matrices of one force.
 template <int D>
 struct Assembly<D>::Sink {
@@ -41,52 +43,41 @@ struct Assembly<D>::Sink {
   const Block& own_block;
   double* values;
 
-  void element(int index, const ElementMatrix<D>& K) const {
-    scatter(element_blocks[index].values, element_size<D>, K, values);
-  }
+  void element(int index, const ElementMatrix<D>& K) const { scatter(element_blocks[index], K, values); }
   /// In the coordinates of an element with its sections.
-  void twist(int index, const TwistLayout::Matrix& K) const {
-    scatter(twist_blocks[index].values, TwistLayout::size, K, values);
-  }
+  void twist(int index, const TwistLayout::Matrix& K) const { scatter(twist_blocks[index], K, values); }
   template <class Matrix>
   void own(const Matrix& K) const {
-    scatter(own_block.values, own_block.dofs.size(), K, values);
+    scatter(own_block, K, values);
   }
 };
 
 template <int D>
 void Assembly<D>::build_pattern() {
-  const int n = mesh_.coordinate_count, size = n + constraint_count_;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add_pairs = [&](const std::vector<int>& dofs) {
-    for (int i : dofs)
-      for (int j : dofs)
-        if (i >= 0 && j >= 0) entries.emplace_back(i, j, 0.0);
+  const int n = mesh_.coordinate_count;
+  Coupling coupling(n + constraint_count_);
+  const auto couple = [&](const std::vector<int>& dofs) {
+    coupling.add(dofs);
+    coupling.close();
   };
+  element_blocks_.reserve(elements_.size());
+  twist_blocks_.reserve(elements_.size());
   for (const MeshElement<D>& e : elements_) {
     element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
-    add_pairs(element_blocks_.back().dofs);
     twist_blocks_.emplace_back();
     if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
-    add_pairs(twist_blocks_.back().dofs);
+    couple(e.twist ? twist_blocks_.back().dofs : element_blocks_.back().dofs);
   }
   for (const BoundForce<D>& force : forces_) {
     force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
-    add_pairs(force_blocks_.back().dofs);
+    couple(force_blocks_.back().dofs);
   }
-  for (const auto& [row, rows, block, gradient_values, transposed_values] : constraint_blocks_) {
-    add_pairs(block.dofs);
-    for (int r = row; r < row + rows; ++r)
-      for (int dof : block.dofs) {
-        if (dof < 0) continue;
-        entries.emplace_back(n + r, dof, 0.0);
-        entries.emplace_back(dof, n + r, 0.0);
-      }
+  for (const ConstraintBlock& constraint : constraint_blocks_) {
+    coupling.add(constraint.block.dofs);
+    coupling.add(n + constraint.row, constraint.rows);
+    coupling.close();
   }
-  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 0.0);
-  pattern_.resize(size, size);
-  pattern_.setFromTriplets(entries.begin(), entries.end());
-  pattern_.makeCompressed();
+  pattern_ = coupling.pattern();
 
   const auto index_of = [&](int i, int j) { return value_index(pattern_, i, j); };
   for (Block& block : element_blocks_) locate(block, index_of);
@@ -95,13 +86,23 @@ void Assembly<D>::build_pattern() {
   for (ConstraintBlock& block : constraint_blocks_) locate(block, index_of);
 }
 
-// Puts down where the values of a block are; `index_of` gives that of a row and a column.
+// Puts down where the entries of a block are; `index_of` gives that of a row and a column. Rows that follow
+// one another do so among all entries, which hold each of them.
 template <int D>
 template <class IndexOf>
 void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
-  block.values.clear();
-  for (int j : block.dofs)
-    for (int i : block.dofs) block.values.push_back(i >= 0 && j >= 0 ? index_of(i, j) : -1);
+  const std::vector<int>& dofs = block.dofs;
+  block.runs.clear();
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
+    if (dofs[j] < 0) continue;
+    for (std::size_t i = 0; i < dofs.size();) {
+      const std::size_t first = i++;
+      if (dofs[first] < 0) continue;
+      while (i < dofs.size() && dofs[i] == dofs[i - 1] + 1) ++i;
+      block.runs.push_back({index_of(dofs[first], dofs[j]), static_cast<std::uint8_t>(j),
+                            static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(i - first)});
+    }
+  }
 }
 
 template <int D>
@@ -118,38 +119,55 @@ void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const 
     }
 }
 
+// Marks all unknowns of constraints that hold one that is marked, and of those that hold one of these: what
+// is left is constrained by itself.
+template <int D>
+void Assembly<D>::mark_constrained(std::vector<bool>& marked) const {
+  const auto touches = [&](const ConstraintBlock& block) {
+    return std::any_of(block.block.dofs.begin(), block.block.dofs.end(),
+                       [&](int dof) { return dof >= 0 && marked[dof]; });
+  };
+  for (bool grows = true; std::exchange(grows, false);)
+    for (const ConstraintBlock& block : constraint_blocks_) {
+      const int first = mesh_.coordinate_count + block.row;
+      if (marked[first] || !touches(block)) continue;
+      grows = true;
+      std::fill_n(marked.begin() + first, block.rows, true);
+      for (const int dof : block.block.dofs)
+        if (dof >= 0) marked[dof] = true;
+    }
+}
+
 template <int D>
 void Assembly<D>::choose_moving_part() {
-  // A part is kept apart where it is a small share of all unknowns, and where dense work on it takes less
-  // than the elimination of all.
-  constexpr double smallest_share = 4, most_work = 500;
-  const auto add_unknowns = [&](const std::vector<int>& dofs) {
+  std::vector<bool> marked(static_cast<std::size_t>(mesh_.coordinate_count + constraint_count_), false);
+  const auto mark = [&](const std::vector<int>& dofs) {
     for (const int dof : dofs)
-      if (dof >= 0) moving_.unknowns.push_back(dof);
+      if (dof >= 0) marked[dof] = true;
   };
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     if (elements_[i].element.fixed()) continue;
     moving_.elements.push_back(i);
     moving_.element_blocks.push_back(element_blocks_[i]);
     moving_.twist_blocks.push_back(twist_blocks_[i]);
-    add_unknowns(element_blocks_[i].dofs);
-    add_unknowns(twist_blocks_[i].dofs);
+    mark(element_blocks_[i].dofs);
+    mark(twist_blocks_[i].dofs);
   }
   for (int i = first_joint_constraint_; i < last_joint_constraint_; ++i) {
     if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
       continue;
-    const ConstraintBlock& block = constraint_blocks_[i];
     moving_.constraints.push_back(i);
-    moving_.constraint_blocks.push_back(block);
-    add_unknowns(block.block.dofs);
-    for (int r = block.row; r < block.row + block.rows; ++r)
-      moving_.unknowns.push_back(mesh_.coordinate_count + r);
+    moving_.constraint_blocks.push_back(constraint_blocks_[i]);
+    mark(constraint_blocks_[i].block.dofs);
   }
+  mark_constrained(marked);
   std::vector<int>& unknowns = moving_.unknowns;
-  std::sort(unknowns.begin(), unknowns.end());
-  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
-  const double part = static_cast<double>(unknowns.size()),
-               whole = mesh_.coordinate_count + constraint_count_;
+  for (int i = 0; i < static_cast<int>(marked.size()); ++i)
+    if (marked[i]) unknowns.push_back(i);
+  // A part is kept apart where it is a small share of all unknowns, so that another correction costs more
+  // than to renew it, and where dense work on it takes less than the elimination of all.
+  constexpr double smallest_share = 4, most_work = 500;
+  const double part = static_cast<double>(unknowns.size()), whole = static_cast<double>(marked.size());
   if (smallest_share * part > whole || part * part * part > most_work * whole) {
     moving_ = {};
     return;
@@ -170,20 +188,17 @@ void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& l
                                       const Block& block, const Block& twist_block, double* values) const {
   const MeshElement<D>& e = elements_[i];
   const ElementState<D> x = gather<D>(e, state);
-  scatter(block.values, element_size<D>,
+  scatter(block,
           is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
           values);
   if constexpr (D == 3)
-    if (e.twist)
-      scatter(twist_block.values, TwistLayout::size, e.twist->element.tangent(gather_twist(e, state), w),
-              values);
+    if (e.twist) scatter(twist_block, e.twist->element.tangent(gather_twist(e, state), w), values);
 }
 
 // Of all batches of a beam.
 template <int D>
 void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
                                      double* values) const {
-  constexpr int nodal = ElementLayout<D>::nodal;
   const auto& [batches, batched, others] = walks_[beam];
   if (batches.empty()) return;  // a guide has no elements
   const double strain = free_strain_of(beam, state);
@@ -191,11 +206,9 @@ void Assembly<D>::add_batch_tangents(int beam, const State& state, const Tangent
   typename ElementBatch<D>::Tangents K;
   for (const ElementBatch<D>& batch : batches) {
     batch.tangents(state, strain, w, K);
-    for (int lane = 0; lane < batch.count(); ++lane, ++index) {
-      const int* position = element_blocks_[*index].values.data();
-      for (int j = 0; j < nodal; ++j)
-        for (int i = 0; i < nodal; ++i) values[position[j * element_size<D> + i]] += K[j][i].of[lane];
-    }
+    for (int lane = 0; lane < batch.count(); ++lane, ++index)
+      for (const Run& run : element_blocks_[*index].runs)
+        for (int i = 0; i < run.count; ++i) values[run.value + i] += K[run.column][run.row + i].of[lane];
   }
 }
 
@@ -209,8 +222,7 @@ void Assembly<D>::add_constraint_tangent(int i, const State& state, const Tangen
         y.head(c.rows) = state.lambda.segment(block.row, c.rows);
         const ConstraintTerms<D> terms = c.terms(at, state, &y);
         if constexpr (!is_linear<std::decay_t<decltype(c)>>())
-          if (w.stiffness != 0)
-            scatter(block.block.values, block.block.dofs.size(), w.stiffness * terms.hessian, values);
+          if (w.stiffness != 0) scatter(block.block, w.stiffness * terms.hessian, values);
         for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
           for (int r = 0; r < c.rows; ++r, ++v)
             if (block.gradient_values[v] >= 0) {

@@ -4,14 +4,33 @@
 
 namespace nurbeam {
 
-BeamSystem::BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held) {
-  if (model->dimension == 2) {
-    planar_ = std::make_unique<const Assembly<2>>(std::move(model), std::move(plan), held);
+namespace {
+
+template <int D>
+std::unique_ptr<const Assembly<D>> make_assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan,
+                                                 const std::vector<bool>& held, const Assembly<D>* like) {
+  if (model->dimension != D) return nullptr;
+  return std::make_unique<const Assembly<D>>(std::move(model), std::move(plan), held, like);
+}
+
+}  // namespace
+
+BeamSystem::BeamSystem(std::unique_ptr<const Assembly<2>> planar, std::unique_ptr<const Assembly<3>> spatial)
+    : planar_(std::move(planar)), spatial_(std::move(spatial)) {
+  if (planar_)
     system_ = planar_.get();
-  } else {
-    spatial_ = std::make_unique<const Assembly<3>>(std::move(model), std::move(plan), held);
+  else
     system_ = spatial_.get();
-  }
+}
+
+BeamSystem::BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held)
+    : BeamSystem(make_assembly<2>(model, plan, held, nullptr), make_assembly<3>(model, plan, held, nullptr)) {
+}
+
+std::unique_ptr<BeamSystem> BeamSystem::replanned(MeshPlan plan, const std::vector<bool>& held) const {
+  return std::unique_ptr<BeamSystem>(
+      new BeamSystem(make_assembly<2>(shared_model(), plan, held, planar_.get()),
+                     make_assembly<3>(shared_model(), plan, held, spatial_.get())));
 }
 
 BeamSystem::BeamSystem(const BeamModel& model, MeshPlan plan, const std::vector<bool>& held)

@@ -26,6 +26,8 @@ class BeamSystem final : public SecondOrderSystem {
   BeamSystem(const BeamModel& model, MeshPlan plan, const std::vector<bool>& held = {});
   /// In its initial plan.
   explicit BeamSystem(const BeamModel& model);
+  /// The same model in another plan. What is the same in both need not be made anew.
+  std::unique_ptr<BeamSystem> replanned(MeshPlan plan, const std::vector<bool>& held = {}) const;
   ~BeamSystem() override;
   BeamSystem(BeamSystem&&) noexcept;
   BeamSystem& operator=(BeamSystem&&) noexcept;
@@ -56,6 +58,8 @@ class BeamSystem final : public SecondOrderSystem {
   const Assembly<D>* assembly() const;
 
  private:
+  BeamSystem(std::unique_ptr<const Assembly<2>> planar, std::unique_ptr<const Assembly<3>> spatial);
+
   std::unique_ptr<const Assembly<2>> planar_;
   std::unique_ptr<const Assembly<3>> spatial_;
   const SecondOrderSystem* system_;

@@ -19,13 +19,14 @@ MaterialPoint<3> widened_point(const MaterialPoint<D>& p) {
 }
 
 template <int D>
-Eigen::Matrix4d control_points(const MeshElement<D>& e, const ElementVector<D>& q) {
-  const auto [l, J_a, J_b] = e.element.chart_lengths(q);
+Eigen::Matrix4d control_points(const ElementBasis<double>& basis, const ElementVector<D>& q) {
+  const auto [J_a, J_b] = basis.stretches();
+  const std::array<double, 4> weights = basis.weights();
   NodalCoordinates nodal = NodalCoordinates::Zero();
   nodal.topRows<D>() = ElementLayout<D>::nodes(q);
   nodal.col(1) *= J_a;
   nodal.col(3) *= J_b;
-  return to_bezier(nodal, e.element.bezier_weights(q), l).points();
+  return to_bezier(nodal, Eigen::Map<const Eigen::Vector4d>(weights.data()), basis.length()).points();
 }
 
 // The couple as one number: in the plane about its normal; in space, where a beam without torsion carries
@@ -56,7 +57,9 @@ struct PlaceInElement {
   std::optional<SectionPoint> section;  ///< of a beam with torsion
 
   PlaceInElement(const MeshElement<D>& e, const State& state, double place)
-      : s(place), point(material_point<D>(e, state.q, state.v, place)) {
+      : PlaceInElement(e, state, place, material_point<D>(e, state.q, state.v, place)) {}
+  PlaceInElement(const MeshElement<D>& e, const State& state, double place, MaterialPoint<D> there)
+      : s(place), point(std::move(there)) {
     if constexpr (D == 3)
       if (e.twist) section = section_of(e, state, place);
   }
@@ -114,15 +117,20 @@ template <int D>
 ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
                          const SpanResultants& carried) {
   using Layout = ElementLayout<D>;
-  const ElementVector<D> q = gather<D>(e, state.q);
+  const ElementState<D> x = gather<D>(e, state);
+  const ElementVector<D>& q = x.q;
+  const ElementBasis<double> basis = e.element.basis(q);
   ElementRecord record;
-  record.control_points = control_points<D>(e, q);
+  record.control_points = control_points<D>(basis, q);
   record.s_start = q[Layout::place(0)];
   record.s_end = q[Layout::place(1)];
   record.axial_mismatch = e.element.axial_mismatch(q);
   const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
   for (int i = 0; i < 4; ++i) {
-    const PlaceInElement<D> at(e, state, e.element.place(q, i / 3.0));
+    const double s = e.element.place(q, i / 3.0);
+    const PlaceInElement<D> at(
+        e, state, s,
+        e.element.fixed() ? material_point<D>(x, basis.at(s)) : material_point<D>(e, state.q, state.v, s));
     const SectionRecord section = section_of<D>(a, e, state, carried, q, assumed, at);
     record.strain[i] = section.strain;
     record.curvature[i] = section.curvature;

@@ -1,5 +1,6 @@
 #include "fem/system/observables.h"
 
+#include "fem/mesh/connector_axis.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
 
@@ -225,6 +226,23 @@ double holding_force(const BeamSystem& system, const State& state, int joint) {
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector) {
   return with_assembly(
       system, [&](const auto& a) { return a.length_and_force(connector, state); });
+}
+
+std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector) {
+  const Connector& described = system.model().connectors[connector];
+  const Mesh& mesh = system.mesh();
+  std::array<Eigen::Vector3d, 2> places;
+  for (const int i : {0, 1}) {
+    const ConnectorEnd& end = described.ends[i];
+    if (end.is_point())
+      places[i] = end.point;
+    else if (end.body >= 0)
+      places[i] = vector_at(system, state.q, mesh.bodies[end.body]);
+    else
+      places[i] =
+          vector_at(system, state.q, kept_position(system.model(), mesh, end.beam, end.s, described.name));
+  }
+  return places;
 }
 
 double contact_force(const BeamSystem& system, const State& state, int stop) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 
 #include "fem/forces/energy.h"
@@ -34,6 +35,8 @@ double contact_force(const BeamSystem& system, const State& state, int stop);
 std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int joint);
 /// Length of a connector [m], or its part along its direction, and its pull [N].
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector);
+/// Where the ends of a connector are [m].
+std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector);
 /// s of a joint's body [m], on a ring with the turns since the start; empty when it flies free.
 std::optional<double> place(const BeamSystem& system, const State& state, int joint);
 double place_rate(const BeamSystem& system, const State& state, int joint);

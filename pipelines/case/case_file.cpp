@@ -134,7 +134,8 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, F
               json, "equilibrium",
               {{"", StaticPlace::automatic}, {"held", StaticPlace::held}, {"free", StaticPlace::free}}),
           .friction = read_friction(json, path, findings),
-          .motion_law = optional_integer(json, "motion_law")};
+          .motion_law = optional_integer(json, "motion_law"),
+          .as_point = text(json, "carried_as") == "point"};
 }
 
 CaseStop read_stop(const Json& json, const std::string& path, Findings& findings) {

@@ -187,6 +187,7 @@ struct CaseSlidingJoint {
   StaticPlace rest = StaticPlace::automatic;
   std::optional<Friction> friction = {};
   std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
+  bool as_point = false;               ///< the mesh stays as it is where the body is
 };
 
 /// What keeps bodies on one side of a place of a beam, or two bodies apart.

@@ -27,7 +27,7 @@ Shape offset() {
 /// Of both ends of a connector.
 Shape masses() {
   Shape shape =
-      array(Shape{.kind = Kind::quantity, .dimension = Dimension::mass, .range = not_negative()}, 2);
+      array(Shape{.kind = Kind::quantity, .dimension = Dimension::mass, .range = plausible(0, 1e12)}, 2);
   shape.most_items = 2;
   return shape;
 }
@@ -289,7 +289,7 @@ Shape support() {
         "position and roll of a beam with torsion; guided: the position but along `direction`, where it is free",
         required},
        {"direction", vector(Dimension::number), "of a guided support: where it is free"},
-       {"force", quantity(Dimension::force),
+       {"force", quantity(Dimension::force, plausible(-1e12, 1e12)),
         "of a guided support: pulls along `direction`, as a weight over a pulley does; 0 when omitted", false,
         "direction"},
        {"mass", quantity(Dimension::mass, plausible(0, 1e12)),
@@ -303,7 +303,7 @@ Shape support() {
 }
 
 Shape friction() {
-  const Range force = not_negative();
+  const Range force = plausible(0, 1e12);
   return object(
       {{"coefficient",
         quantity(Dimension::number,
@@ -318,9 +318,9 @@ Shape friction() {
         "exp(coefficient times angle); coulomb when omitted"},
        {"force", either(quantity(Dimension::force, force), table(Dimension::force, force)),
         "of a brake or a seal, whatever presses on the beam, or that over time; 0 when omitted"},
-       {"viscous", quantity(Dimension::damping, not_negative()),
+       {"viscous", quantity(Dimension::damping, plausible(0, 1e16)),
         "force over sliding velocity; 0 when omitted"},
-       {"stick_stiffness", quantity(Dimension::force_per_length, positive()),
+       {"stick_stiffness", quantity(Dimension::force_per_length, plausible(1e-9, 1e16)),
         "of a body that sticks; when omitted that with which it vibrates at 100 Hz"}});
 }
 
@@ -341,6 +341,9 @@ Shape sliding_joint() {
         "time until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
         "whether the beam may have a kink at the body; continuous when omitted"},
+       {"carried_as", choice({"node", "point"}),
+        "node: a node of the beam moves with the body, and elements beside it come and go; point: the body runs through "
+        "elements that stay; node when omitted"},
        {"follows_section", boolean(),
         "the body rolls with the section of a beam with torsion where it is; false when omitted"},
        {"offset", offset(), "[x, y] of the body from the axis, along the axes of the section that it follows",
@@ -364,9 +367,9 @@ Shape stop() {
         "least distance of the two bodies along the beam; 0 when omitted"},
        {"restitution", quantity(Dimension::number, {.lower = 0, .upper = 1}),
         "of a hard stop: speed after over speed before an impact; 0 when omitted"},
-       {"stiffness", quantity(Dimension::force_per_length, positive()),
+       {"stiffness", quantity(Dimension::force_per_length, plausible(1e-9, 1e16)),
         "of a buffer: force over how far it is pressed in"},
-       {"damping", quantity(Dimension::damping, not_negative()),
+       {"damping", quantity(Dimension::damping, plausible(0, 1e16)),
         "of a buffer: force over the speed of that; 0 when omitted", false, "stiffness"}},
       {{{"restitution", "stiffness"}, false}, {{"at", "gap"}, false}});
 }
@@ -382,11 +385,12 @@ Shape beam_joint() {
 }
 
 Shape connector() {
-  const Shape end = object({{"beam", name(), "a beam, at the place `at`"},
-                            {"at", place(), "where on that beam", false, "beam"},
-                            {"body", name(), "a body"},
-                            {"point", vector(Dimension::length), "a point that stays where it is"}},
-                           {{{"beam", "body", "point"}, required}});
+  const Shape end =
+      object({{"beam", name(), "a beam, at the place `at`"},
+              {"at", place(), "where on that beam", false, "beam"},
+              {"body", name(), "a body"},
+              {"point", vector(Dimension::length, plausible(-1e9, 1e9)), "a point that stays where it is"}},
+             {{{"beam", "body", "point"}, required}});
   return object(
       {{"name", name(), "heads the columns of its force and length", required},
        {"from", end, "its first end", required},
@@ -397,7 +401,7 @@ Shape connector() {
        {"stiffness", quantity(Dimension::stiffness, plausible(0, 1e16)), "force per stretch"},
        {"damping", quantity(Dimension::damping, plausible(0, 1e16)),
         "force per speed of the stretch; 0 when omitted", false, "stiffness"},
-       {"length", either(choice({"drawn", "as-drawn"}), quantity(Dimension::length, not_negative())),
+       {"length", either(choice({"drawn", "as-drawn"}), quantity(Dimension::length, plausible(0, 1e9))),
         "free length, of a rod its length; drawn: the distance of its ends as drawn; as-drawn: that for which its "
         "first end stands where it is drawn when all is in equilibrium; drawn when omitted"},
        {"force", quantity(Dimension::force, plausible(-1e12, 1e12)),
@@ -498,9 +502,10 @@ Shape body() {
         "about the beam, of a body that follows its section; 0 when omitted"},
        {"drag_area", quantity(Dimension::area, plausible(0, 1e6)),
         "drag coefficient times area, of the drag of the `air`; 0 when omitted"},
-       {"position", vector(Dimension::length), "where a body without a sliding joint starts"},
-       {"velocity", vector(Dimension::speed), "how fast it starts; at rest when omitted", false,
-        "position"}});
+       {"position", vector(Dimension::length, plausible(-1e9, 1e9)),
+        "where a body without a sliding joint starts"},
+       {"velocity", vector(Dimension::speed, plausible(-1e9, 1e9)),
+        "how fast it starts; at rest when omitted", false, "position"}});
 }
 
 }  // namespace

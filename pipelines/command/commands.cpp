@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "pipelines/bench/bench.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/case/quantity.h"
@@ -149,6 +150,18 @@ int verify_command(const Arguments& arguments, Streams streams) {
   return verify(problems, streams.out, streams.err);
 }
 
+int bench_command(const Arguments& arguments, Streams streams) {
+  BenchOptions options;
+  const std::string largest = arguments.value("--largest", std::to_string(options.largest));
+  const auto [end, error] = std::from_chars(largest.data(), largest.data() + largest.size(), options.largest);
+  if (error != std::errc{} || end != largest.data() + largest.size() || options.largest < 10)
+    throw UsageError("--largest: " + in_quotes(largest) + " is no number of elements; expected 10 or more");
+  if (arguments.has("--cad")) options.cad = arguments.value("--cad", "");
+  if (arguments.has("--plot")) options.plot = arguments.value("--plot", "");
+  bench(options, streams.out);
+  return exit_done;
+}
+
 int report_command(const Arguments& arguments, Streams streams) {
   const std::filesystem::path directory = arguments.positional[0];
   write_report(directory);
@@ -248,6 +261,19 @@ const Command verify_entry{
     verify_command,
     exit_not_written};
 
+const Command bench_entry{
+    "bench",
+    "",
+    "times nurbeam on this machine: single elements, systems of 10, 100, ... elements, and whole runs with "
+    "their errors",
+    0,
+    0,
+    {{"--largest", "N", "the most elements of a system; otherwise 10000"},
+     {"--cad", "FILE", "times the reading of that file too"},
+     {"--plot", "FILE", "draws the cost by number of elements, as SVG"}},
+    bench_command,
+    exit_not_written};
+
 const Command study_entry{
     "study",
     "[check] STUDY.json",
@@ -270,9 +296,9 @@ const Command manual_entry{"manual", "", "prints the manual page (roff)", 0, 0, 
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> table = {inspect_entry, check_entry,      run_entry,    export_entry,
-                                             compare_entry, schema_entry,     report_entry, verify_entry,
-                                             study_entry,   completion_entry, manual_entry};
+  static const std::vector<Command> table = {inspect_entry, check_entry,  run_entry,        export_entry,
+                                             compare_entry, schema_entry, report_entry,     verify_entry,
+                                             bench_entry,   study_entry,  completion_entry, manual_entry};
   return table;
 }
 

@@ -79,7 +79,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
              text_of(failure.energy, 3) + " J, more than a thousandth of what moves" + places +
              "; take more elements" +
              (model.joints[failure.joint].continuous_slope
-                  ? ", or, for a cable that hardly resists bending, \"slope\": \"discontinuous\""
+                  ? ", \"carried_as\": \"point\", or, for a cable that hardly resists bending, \"slope\": \"discontinuous\""
                   : ", or \"slope\": \"continuous\": a beam that resists bending cannot give up a kink");
     case Failure::Kind::energy:
       return "by t = " + time + " an energy of " + text_of(failure.energy, 3) +

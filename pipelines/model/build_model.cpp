@@ -177,6 +177,25 @@ void add_tension(const ResolvedCase& resolved, const CaseBeam& from, const Refer
                       "jerk; start with \"initial\": \"equilibrium\"");
 }
 
+// What is drawn much shorter than it is unstressed snaps as soon as it may move: no step follows that.
+void check_thrust(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& drawn,
+                  const BeamProperties& properties, Findings& findings) {
+  constexpr double least_strain = 1e-6, many = 100;  // supports inside a beam keep it from buckling for long
+  const CaseAnalysis& analysis = resolved.analysis;
+  if (analysis.type != CaseAnalysis::Type::dynamic || analysis.start_from_equilibrium || drawn.closed())
+    return;
+  const double strain = properties.free_strain.constant + properties.free_strain.of_tension,
+               thrust = strain * properties.axial_stiffness,
+               stretch = std::sqrt(1 + 2 * properties.free_strain.constant),
+               buckling = stretch * properties.bending_stiffness * std::pow(2 * M_PI / drawn.length(), 2);
+  if (strain < least_strain || thrust < many * buckling) return;
+  findings.warn(
+      from.path + (from.tension < 0 ? ".tension" : ".unstressed_length"),
+      "presses the beam as it is drawn with " + text_of(thrust, 4) + " N, while " + text_of(buckling, 4) +
+          " N buckle it where its ends are clamped: the motion starts with a snap, which asks for very "
+          "short steps; start with \"initial\": \"equilibrium\", or give a \"tolerance\"");
+}
+
 std::optional<BeamVelocity> initial_velocity(const CaseBeam& from, const ModelFrame& frame) {
   if (!from.velocity) return {};
   return BeamVelocity{frame.direction_to_local(from.velocity->translation),
@@ -214,6 +233,7 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
     properties = properties.with_free_stretch(stretch);
   add_temperature(from, properties);
   add_tension(resolved, from, curve, properties, findings);
+  check_thrust(resolved, from, curve, properties, findings);
   const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
           .curve = oriented(from, stress_free, findings),
@@ -249,7 +269,7 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
 
 // Makes a support guided, with what pulls it.
 void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
-  support.guide = frame.direction_to_local(from.direction->normalized());
+  support.guide = frame.direction_to_local(from.direction->stableNormalized());
   if (from.force != 0)
     model.forces.push_back(
         PointLoad{{.beam = support.beam, .s = support.s, .value = from.force * *support.guide}});

@@ -105,7 +105,7 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
                         .damping = from.damping,
                         .length_rule = from.length_rule,
                         .force = from.force};
-    if (from.direction) connector.direction = frame.direction_to_local(from.direction->normalized());
+    if (from.direction) connector.direction = frame.direction_to_local(from.direction->stableNormalized());
     const Eigen::Vector3d d = place_of(connector.ends[1], model) - place_of(connector.ends[0], model);
     const double drawn = connector.direction ? connector.direction->dot(d) : d.norm();
     connector.length = from.length.value_or(drawn);

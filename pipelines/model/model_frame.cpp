@@ -13,7 +13,7 @@ namespace {
 std::vector<Eigen::Vector3d> directions(const std::vector<Eigen::Vector3d>& vectors) {
   std::vector<Eigen::Vector3d> found;
   for (const Eigen::Vector3d& v : vectors)
-    if (v.norm() > 0) found.push_back(v.normalized());
+    if (v.norm() > 0) found.push_back(v.stableNormalized());
   return found;
 }
 

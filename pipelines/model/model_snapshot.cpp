@@ -48,6 +48,10 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
     reaction.force = f.direction_to_world(reaction.force);
     reaction.couple = f.direction_to_world(reaction.couple);
   }
+  for (ConnectorRecord& connector : frame.connectors) {
+    connector.from = f.to_world(connector.from);
+    connector.to = f.to_world(connector.to);
+  }
   for (BodyRecord& body : frame.bodies) {
     to_world(f, body.point);
     body.joint_force = f.direction_to_world(body.joint_force);

@@ -99,6 +99,7 @@ Json to_json(const SlidingJoint& joint, const BeamModel& model) {
           {"speed at start [m/s]", joint.speed},
           {"motion", joint.motion ? "prescribed" : "free"},
           {"slope", joint.continuous_slope ? "continuous" : "discontinuous"},
+          {"carried as", joint.as_point ? "point" : "node"},
           {"follows section", joint.follows_section},
           {"offset [m]", {joint.offset[0], joint.offset[1]}},
           {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};

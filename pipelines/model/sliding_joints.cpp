@@ -183,7 +183,13 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                        joint.follows_section,
                        joint.offset.value_or(Eigen::Vector2d::Zero()),
                        joint.rest,
-                       joint.friction};
+                       joint.friction,
+                       joint.as_point};
+    if (joint.as_point && !joint.continuous_slope)
+      findings.error(
+          joint.path + ".carried_as",
+          "is \"point\", but the slope is \"discontinuous\", and inside an element there is no kink; use "
+          "\"node\", or \"slope\": \"continuous\"");
     check_following(joint, findings);
     check_friction(joint, resolved.analysis, findings);
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)

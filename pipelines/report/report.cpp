@@ -17,6 +17,7 @@
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/report/report_template.h"
 #include "pipelines/results/base64.h"
+#include "pipelines/results/frame_layout.h"
 #include "pipelines/results/history_columns.h"
 #include "pipelines/results/results.h"
 
@@ -54,6 +55,12 @@ std::vector<Column> empty_columns(const SnapshotNames& names) {
       {{"run", 0, "run", "time", "s", [](const Snapshot& frame) { return frame.time; }}},
       {{"run", 0, "run", "step", "s", [](const Snapshot& frame) { return frame.step; }}}};
   for (HistoryColumn& column : history_columns(names)) columns.push_back({std::move(column)});
+  for (std::size_t i = 0; i < names.connectors.size(); ++i)
+    for (const ConnectorPlace& place : connector_places)
+      for (int k = 0; k < 3; ++k)
+        columns.push_back(
+            {{"connector", i, names.connectors[i], place.name + (std::string(".") + "xyz"[k]), "m",
+              [i, k, part = place.value](const Snapshot& frame) { return (frame.connectors[i].*part)[k]; }}});
   return columns;
 }
 
@@ -117,6 +124,9 @@ struct Survey {
       for (const ElementRecord& element : beam.elements) add(element);
     }
     for (const BodyRecord& body : frame.bodies) box.extend(body.point.position);
+    for (const ConnectorRecord& connector : frame.connectors)
+      for (const ConnectorPlace& place : connector_places)
+        if ((connector.*place.value).allFinite()) box.extend(connector.*place.value);
   }
 
   Eigen::Vector3d origin() const { return box.center(); }
@@ -232,7 +242,8 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
            {{"probes", frames.names.probes},
             {"bodies", frames.names.bodies},
             {"beams", frames.names.beams},
-            {"reactions", frames.names.reactions}}},
+            {"reactions", frames.names.reactions},
+            {"connectors", frames.names.connectors}}},
           {"stored_frames", frames.times.size()},
           {"box", {to_json(survey.box.min()), to_json(survey.box.max())}},
           {"columns", columns},
@@ -264,6 +275,15 @@ std::string html_text(const std::string& plain) {
   return text;
 }
 
+/// Whether no beam has elements: nothing is carried along them.
+bool only_guides(const Json& run) {
+  const auto model = run.find("model");
+  if (model == run.end() || !model->is_object() || !model->contains("beams")) return false;
+  const Json& beams = model->at("beams");
+  return std::all_of(beams.begin(), beams.end(),
+                     [](const Json& beam) { return beam.is_object() && beam.value("rigid", false); });
+}
+
 /// What stands before and after a marker of the template.
 std::pair<std::string_view, std::string_view> cut(std::string_view text, std::string_view marker) {
   const std::size_t at = text.find(marker);
@@ -292,9 +312,10 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   survey.columns = empty_columns(frames.names);
   survey.sections = frames.names.sections;
   for_each_frame(frames, [&](const Snapshot& frame, std::size_t) { survey.add(frame); });
-  std::erase_if(survey.fields, [](const Field& field) {
+  std::erase_if(survey.fields, [guides = only_guides(run)](const Field& field) {
     const bool in_no_frame = field.min > field.max;
-    return in_no_frame || (std::string_view(field.name) == "torque" && field.min == 0 && field.max == 0);
+    return in_no_frame ||
+           (field.min == 0 && field.max == 0 && (guides || field.name == std::string_view("torque")));
   });
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);

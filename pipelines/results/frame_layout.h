@@ -61,6 +61,15 @@ inline constexpr ConnectorPart connector_parts[] = {
     {"length", "m", "distance of its ends, or its part along the connector's direction",
      &ConnectorRecord::length}};
 
+struct ConnectorPlace {
+  const char* name;
+  const char* long_name;
+  Eigen::Vector3d ConnectorRecord::*value;
+};
+inline constexpr ConnectorPlace connector_places[] = {
+    {"from_position", "position of the end that its \"from\" names", &ConnectorRecord::from},
+    {"to_position", "position of the end that its \"to\" names", &ConnectorRecord::to}};
+
 /// What a probe knows of its section: variables probe_NAME, columns NAME.COLUMN.
 struct SectionPart {
   const char* name;

@@ -112,7 +112,8 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
     const Doubles values = file_.doubles(name, {first, 0, 0}, {n, count, 3});
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < count; ++j)
-        target(frames[i], j) = Eigen::Vector3d(values.data() + 3 * (i * count + j));
+        target(frames[i], j) =
+            Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * (i * count + j)).unaryExpr(&unfilled);
   };
   const std::size_t probes = names_.probes.size(), reactions = names_.reactions.size();
   vectors(
@@ -143,8 +144,14 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
   }
   for (const ConnectorPart& part : connector_parts)
     numbers(
-        std::string("connector_") + part.name, names_.connectors.size(),
-        [&](Snapshot & f, std::size_t j) -> auto& { return f.connectors[j].*part.value; });
+        std::string("connector_") + part.name,
+        names_.connectors.size(), [&](Snapshot & f, std::size_t j) -> auto& {
+          return f.connectors[j].*part.value;
+        });
+  for (const ConnectorPlace& place : connector_places)
+    vectors(
+        std::string("connector_") + place.name, names_.connectors.size(),
+        [&](Snapshot & f, std::size_t j) -> auto& { return f.connectors[j].*place.value; });
   vectors(
       "reaction_position", reactions,
       [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].position; });

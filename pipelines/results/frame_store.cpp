@@ -134,6 +134,8 @@ void FrameStore::define_connectors(const std::vector<std::string>& names) {
   file_.define_texts("connector_name", "connector", names);
   for (const ConnectorPart& part : connector_parts)
     define_of_time(std::string("connector_") + part.name, {"connector"}, part.unit, part.long_name);
+  for (const ConnectorPlace& place : connector_places)
+    define_of_time(std::string("connector_") + place.name, {"connector", "xyz"}, "m", place.long_name);
 }
 
 void FrameStore::define_steps() {
@@ -296,11 +298,15 @@ void FrameStore::write_reactions(const PerFrame& each) {
 
 void FrameStore::write_connectors(const PerFrame& each) {
   for (const ConnectorPart& part : connector_parts)
-    each.write(
-        std::string("connector_") + part.name, {connector_count_},
-        [&](const Snapshot& f, Doubles& x) {
-          for (const ConnectorRecord& connector : f.connectors) x.push_back(connector.*part.value);
-        });
+    each.write(std::string("connector_") + part.name, {connector_count_}, [&](const Snapshot& f, Doubles& x) {
+      for (const ConnectorRecord& connector : f.connectors) x.push_back(connector.*part.value);
+    });
+  for (const ConnectorPlace& place : connector_places)
+    each.write(std::string("connector_") + place.name, {connector_count_, 3},
+               [&](const Snapshot& f, Doubles& x) {
+                 for (const ConnectorRecord& connector : f.connectors)
+                   for (const double value : connector.*place.value) x.push_back(filled(value));
+               });
 }
 
 void FrameStore::write_elements(std::span<const Snapshot> frames) {

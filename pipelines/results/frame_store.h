@@ -16,7 +16,9 @@ namespace nurbeam {
 ///   body, xyz); body_s (time, body), the fill value after a body has left; beam_length (time, beam)
 ///   probe_displacement, probe_* of section_parts; body_holding_force, body_* of friction_parts where bodies
 ///   have friction; beam_* and beam_*_s of beam_extremes (and of own_axes_parts and own_axes_extremes where
-///   beams have torsion); connector_force, connector_length (time, connector), connector_name;
+///   beams have torsion); connector_force, connector_length (time, connector), connector_from_position,
+///   connector_to_position (time, connector, xyz), the fill value where an earlier version began the run,
+///   connector_name;
 ///   reaction_position, reaction_force, reaction_couple (time, reaction, xyz)
 ///   probe_name, body_name, beam_name, reaction_name
 /// and, because the elements of a beam and the steps between two frames change in number, contiguous ragged

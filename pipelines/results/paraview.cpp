@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int vertex_cell = 1, bezier_curve_cell = 75;  // VTK's numbers
+constexpr int vertex_cell = 1, line_cell = 3, bezier_curve_cell = 75;  // VTK's numbers
 
 // An XML file under its temporary name, and its own name once it is whole.
 template <class Write>
@@ -185,6 +185,19 @@ Grid body_grid(const std::vector<BodyRecord>& bodies) {
   return grid;
 }
 
+Grid connector_grid(const std::vector<ConnectorRecord>& connectors) {
+  Grid grid{.cell_type = line_cell, .points_per_cell = 2};
+  grid.cell_data = {{"force", 1, {}}, {"length", 1, {}}, {"connector", 1, {}}};
+  for (const ConnectorRecord& connector : connectors) {
+    append(grid.points, connector.from);
+    append(grid.points, connector.to);
+    grid.cell_data[0].values.push_back(connector.force);
+    grid.cell_data[1].values.push_back(connector.length);
+    grid.cell_data[2].values.push_back(static_cast<double>(grid.cell_data[2].values.size()));
+  }
+  return grid;
+}
+
 }  // namespace
 
 Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eigen::Vector4d& weights) {
@@ -226,6 +239,8 @@ void ParaviewSeries::write(const Snapshot& frame) {
     write_grid(directory_ / frame_file("bodies", i), frame.time, body_grid(frame.bodies));
   if (!names_.reactions.empty())
     write_grid(directory_ / frame_file("reactions", i), frame.time, reaction_grid(frame.reactions));
+  if (!names_.connectors.empty())
+    write_grid(directory_ / frame_file("connectors", i), frame.time, connector_grid(frame.connectors));
   times_.push_back(frame.time);
 }
 
@@ -242,6 +257,7 @@ void ParaviewSeries::write_index() const {
           entry(i, 0, "beams");
           if (!names_.bodies.empty()) entry(i, 1, "bodies");
           if (!names_.reactions.empty()) entry(i, 2, "reactions");
+          if (!names_.connectors.empty()) entry(i, 3, "connectors");
         }
         out << "</Collection>\n</VTKFile>\n";
       });

@@ -7,13 +7,13 @@
 namespace nurbeam {
 
 /// Writes frames for ParaView: frames.pvd, which names the time of each file, and frames/beams_000000.vtu,
-/// frames/bodies_000000.vtu, frames/reactions_000000.vtu, ...
+/// frames/bodies_000000.vtu, frames/reactions_000000.vtu, frames/connectors_000000.vtu, ...
 ///
 /// Each element is one cell VTK_BEZIER_CURVE of degree 3 with its own four points and the point data
 /// `RationalWeights`: the exact curve. Strain, curvature, axial force, bending moment and velocity are point
 /// data too, interpolated by the same rational functions through their samples. Cell data: beam, element and
 /// the reference arc lengths of the element's ends. Bodies are vertices with velocity, joint force and s (NaN
-/// after a body has left its beam).
+/// after a body has left its beam), connectors lines with force and length.
 class ParaviewSeries {
  public:
   /// `directory` exists. The first frames of an earlier run, with these times, are kept. A series of another

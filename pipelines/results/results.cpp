@@ -180,14 +180,14 @@ ResultsWriter ResultsWriter::resume(fs::path directory, SnapshotNames names, std
   return ResultsWriter(std::move(files));
 }
 
-void ResultsWriter::write(const Snapshot& frame) {
+void ResultsWriter::write(Snapshot frame) {
   Implementation& files = *implementation_;
   check_count("probes", frame.probes.size(), files.names.probes.size());
   check_count("bodies", frame.bodies.size(), files.names.bodies.size());
   check_count("beams", frame.beams.size(), files.names.beams.size());
   files.histories.write(frame);
-  files.open.push_back(frame);
   for (const BeamRecord& beam : frame.beams) files.open_elements += beam.elements.size();
+  files.open.push_back(std::move(frame));
   if (files.open_elements >= most_open_elements) files.close_chunk();
 }
 

@@ -27,7 +27,7 @@ class ResultsWriter {
   ~ResultsWriter();
   /// Throws std::invalid_argument unless the frame has as many probes, bodies and beams as there are names,
   /// and std::runtime_error (file and reason) when it cannot be written.
-  void write(const Snapshot& frame);
+  void write(Snapshot frame);
   /// Puts all frames so far on the disk. Throws std::runtime_error (file and reason).
   void close_chunk();
   /// Gives the files their names; nothing may be written after it. Throws std::runtime_error.

@@ -53,20 +53,20 @@ void RunOutputs::timed(Work work) {
 
 void RunOutputs::write(const Snapshot& local) {
   timed([&] {
-    const Snapshot frame = to_world(built_.frame, local);
-    results_.write(frame);
+    Snapshot frame = to_world(built_.frame, local);
     if (paraview_) paraview_->write(frame);
     look_at(frame);
     cad_.write(frame, diagnostics_);
+    results_.write(std::move(frame));
   });
 }
 
 void RunOutputs::write_shape(const Snapshot& local) {
   timed([&] {
-    const Snapshot frame = to_world(built_.frame, local);
-    results_.write(frame);
+    Snapshot frame = to_world(built_.frame, local);
     if (paraview_) paraview_->write(frame);
     cad_.write(frame, diagnostics_);
+    results_.write(std::move(frame));
   });
 }
 

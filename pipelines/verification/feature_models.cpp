@@ -45,6 +45,11 @@ BeamProperties taut_rope(double tension) {
   return rope;
 }
 
+BeamModel as_point(BeamModel model) {
+  model.joints[0].as_point = true;
+  return model;
+}
+
 /// 20 m under tension, with a body of 8 kg at a kink.
 BeamModel on_a_rope(double at, double speed, const BeamProperties& rope = taut_rope(6000)) {
   ModelBuilder builder = in_the_plane();
@@ -163,6 +168,8 @@ std::vector<FeatureModel> feature_models() {
   add("brake", guide, with_friction(in_a_bowl(), {.force = closing}), 1.6, 4e-3);
   add("viscous", guide, with_friction(in_a_bowl(), {.viscous = 4}), 2, 4e-3);
   add("friction-on-an-arch", drawn, with_friction(on_an_arch(2, 0.5, 3), {.coefficient = 0.2}), 0.5, 5e-4);
+  add("point-on-an-arch", drawn, as_point(with_friction(on_an_arch(2, 0.5, 3), {.coefficient = 0.2})), 0.5,
+      5e-4);
   add("parked-on-an-arch", drawn, with_friction(on_an_arch(2, 2.1, 0), {.coefficient = 0.8}), 0.3, 2.5e-4);
   add("capstan", taut, with_friction(on_a_rope(6, 4), {.coefficient = 0.3, .law = Friction::Law::capstan}),
       0.5, 2.5e-4);

@@ -20,7 +20,7 @@ from ._core import version as __version__
 from .curves import ClosestPoint, Curve, Curves, read, write
 from .errors import CadError, CaseError, CaseWarning, Error, Finding, RunError
 from .model import Beam, Body, Circle, Load, Material, Model, Section, load, schema
-from .results import BeamShape, Histories, Mode, Motion, Results, Snapshot
+from .results import BeamShape, ConnectorPull, Histories, Mode, Motion, Results, Snapshot
 from .simulation import Checkpoint, Simulation
 from .study import Study, study
 from .system import System
@@ -28,7 +28,7 @@ from .system import System
 __all__ = [
     "Model", "load", "Circle", "Section", "Material", "Beam", "Body", "Load", "schema",
     "Curve", "Curves", "ClosestPoint", "read", "write",
-    "Results", "Histories", "Snapshot", "BeamShape", "Motion", "Mode",
+    "Results", "Histories", "Snapshot", "BeamShape", "Motion", "ConnectorPull", "Mode",
     "Simulation", "Checkpoint", "System", "study", "Study",
     "Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding",
 ]  # fmt: skip

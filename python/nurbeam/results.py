@@ -89,6 +89,15 @@ class Motion(NamedTuple):
     """(3,) [m/s]"""
 
 
+class ConnectorPull(NamedTuple):
+    """Of a connector at a time: (2, 3) `ends`, from and to [m], NaN of results of earlier versions; their distance or its
+    part along the connector's direction, `length` [m]; the `force` that pulls them together [N]."""
+
+    ends: Array
+    length: float
+    force: float
+
+
 class Mode(NamedTuple):
     """One mode of vibration, or of buckling."""
 
@@ -205,6 +214,11 @@ class Snapshot:
     def bodies(self) -> dict[str, Motion]:
         """By name."""
         return ByName("body", {name: Motion(*motion) for name, motion in self._frame.bodies().items()})
+
+    @property
+    def connectors(self) -> dict[str, ConnectorPull]:
+        """By name."""
+        return ByName("connector", {name: ConnectorPull(*one) for name, one in self._frame.connectors().items()})
 
     @property
     def probes(self) -> dict[str, Motion]:

@@ -20,13 +20,13 @@ set(cad_import_floors report files . occt iges step dxf program)
 set(solver_floors .)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
 set(python_floors .)
-set(pipelines_floors diagnostics case section model results report run verification papers study command)
+set(pipelines_floors diagnostics case section model results report run verification papers bench study command)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
   "[a-z_]+"                                                                       ".*"  # the standard library
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
-  "(dlfcn|fcntl|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
+  "(dlfcn|fcntl|malloc|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(occt|iges|step|program)/.*"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/kkt_solver\\.cpp"

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { statSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { frame_of, go_to, histories, last_frame, open_report, out, picture, readings,
+import { drawn, frame_of, go_to, histories, last_frame, open_report, out, picture, readings,
   start_browser } from './browser.mjs';
 
 const shots = join(out, 'screenshots');
@@ -33,6 +33,29 @@ for (const scheme of ['light', 'dark']) {
       assert.ok(columns > 0.8 * (width - 120), `colour in ${columns} of ${width} columns`);
     });
 }
+
+report_test('a connector is drawn between its ends, down to the load', 'cable_crane/report.html', {}, async (page) => {
+  await page.uncheck('#paths');
+  await page.uncheck('#start');
+  await page.click('[data-view="front"]');
+  const { bottom } = await picture(page);
+  const name = await page.$eval('#overlay .label:nth-of-type(2)', (label) => label.textContent);
+  assert.equal(name, 'load');
+  // Above the load's own sign, which has no hue; names stand above their points.
+  const { y } = await page.locator('#overlay .label', { hasText: 'load' }).boundingBox();
+  const canvas = await page.locator('#canvas').boundingBox();
+  assert.ok(bottom > y - canvas.y, `hues end ${bottom} pixels down, the name of the load is ${y - canvas.y}`);
+});
+
+report_test('names do not cover each other', 'cable_crane/report.html', {}, async (page) => {
+  for (let i = 0; i < 12; ++i) {
+    await page.evaluate(() => document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: '-', bubbles: true })));
+  }
+  await drawn(page);
+  const [a, b] = await page.$$eval('#overlay .label', (labels) => labels.map((label) => label.getBoundingClientRect().toJSON()));
+  assert.ok(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top,
+    `${JSON.stringify(a)} and ${JSON.stringify(b)}`);
+});
 
 report_test('the picture follows time', falling_beam, {}, async (page) => {
   await page.uncheck('#paths');

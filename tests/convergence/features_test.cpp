@@ -125,7 +125,8 @@ void expect_same(const std::vector<double>& before, const std::vector<double>& a
 TEST_P(Features, AreTheSameOnAnotherMesh) {
   const auto model = std::make_shared<const BeamModel>(GetParam().model);
   const SimulationOptions options = options_of(GetParam());
-  if (model->joints.empty() || model->beam_of(model->joints[0]).rigid) GTEST_SKIP() << "no mesh changes";
+  if (model->joints.empty() || model->joints[0].as_point || model->beam_of(model->joints[0]).rigid)
+    GTEST_SKIP() << "no mesh changes";
   Simulation simulation(model, {}, options);
   int changes = 0;
   for (long i = 0; simulation.advance(); ++i) {
@@ -136,7 +137,7 @@ TEST_P(Features, AreTheSameOnAnotherMesh) {
       MeshedState at{
           std::make_unique<BeamSystem>(model, present_plan(simulation.system(), simulation.state())),
           simulation.state()};
-      ASSERT_FALSE(change_mesh(at, next, false).failure);
+      ASSERT_FALSE(change_mesh(at, next, false));
       ++changes;
       EXPECT_EQ(at.state.memory, simulation.state().memory);
       // Velocities are projected where a node goes or comes on a curve.

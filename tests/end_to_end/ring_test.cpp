@@ -126,7 +126,7 @@ std::string nurbs_axis(const NurbsCurve& curve) {
 }
 
 /// An ellipse about the origin from its rightmost point on, in quarters, as wide and high as given [m].
-NurbsCurve ellipse(double width, double height) {
+NurbsCurve oval(double width, double height) {
   Eigen::Matrix4Xd points(4, 9);
   for (int i = 0; i < 9; ++i) {
     const double x[] = {1, 1, 0, -1, -1, -1, 0, 1}, y[] = {0, 1, 1, 1, 0, -1, -1, -1};
@@ -196,7 +196,7 @@ Seam seam_of(const std::filesystem::path& file) {
 TEST(RingRun, IsExportedAsSmoothAtItsSeamAsAtItsOtherNodes) {
   // Held at the bottom and pulled at the top each ring stays a mirror image of itself in x: what the seam, at
   // the right, is, the node at the left must be, too.
-  for (const NurbsCurve& drawn : {ellipse(1, 0.6), closed_spline(0), closed_spline(0.05)}) {
+  for (const NurbsCurve& drawn : {oval(1, 0.6), closed_spline(0), closed_spline(0.05)}) {
     const TemporaryDirectory directory;
     const auto file = directory.write("ring.json", ring_case(nurbs_axis(drawn), R"(
         "supports": [{"beam": "ring", "at": {"fraction": 0.75}, "type": "pinned"}],

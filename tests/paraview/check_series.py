@@ -90,6 +90,14 @@ def check_bodies(grid, store, frame, where):
     near(vtk_to_numpy(grid.GetPoints().GetData()), positions, 1, where)
 
 
+def check_connectors(grid, store, frame, where):
+    ends = np.stack([store["connector_from_position"][frame], store["connector_to_position"][frame]], axis=1)
+    if grid.GetNumberOfCells() != len(ends) or any(grid.GetCellType(i) != vtk.VTK_LINE for i in range(len(ends))):
+        fail(f"{where}: not the lines of {len(ends)} connectors")
+    near(vtk_to_numpy(grid.GetPoints().GetData()), ends.reshape(-1, 3), 1, where)
+    near(vtk_to_numpy(grid.GetCellData().GetArray("force")), store["connector_force"][frame], 1, where)
+
+
 def render(grids, file):
     """All grids in one picture, tessellated by VTK, coloured by axial force."""
     forces = np.concatenate([vtk_to_numpy(grid.GetPointData().GetArray("axial_force")) for grid in grids])
@@ -153,6 +161,10 @@ def main(directory, picture=None):
         first += counts[frame]
     for frame, (_, file) in enumerate(series.get("bodies", [])):
         check_bodies(read_grid(file), store, frame, file)
+    for frame, (_, file) in enumerate(series.get("connectors", [])):
+        check_connectors(read_grid(file), store, frame, file)
+    if "connector" in store.dimensions and len(series["connectors"]) != len(times):
+        fail("frames.pvd lacks files of connectors")
     if "body" in store.dimensions and len(series["bodies"]) != len(times):
         fail("frames.pvd lacks files of bodies")
     if picture:

@@ -43,6 +43,8 @@ inline void expect_equal(const Snapshot& a, const Snapshot& b) {
   for (std::size_t i = 0; i < a.connectors.size(); ++i) {
     EXPECT_EQ(a.connectors[i].force, b.connectors[i].force);
     EXPECT_EQ(a.connectors[i].length, b.connectors[i].length);
+    EXPECT_EQ(a.connectors[i].from, b.connectors[i].from);
+    EXPECT_EQ(a.connectors[i].to, b.connectors[i].to);
   }
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {

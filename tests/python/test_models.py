@@ -65,6 +65,16 @@ def test_a_body_slides_at_its_speed_where_nothing_holds_it():
     assert results.at(0.5).bodies["bead"].position[0] == pytest.approx(1.25, abs=1e-6)
 
 
+def test_a_connector_says_where_its_ends_are_and_what_it_pulls():
+    model = bead_on_a_wire(speed=0)
+    model.add("bodies", name="load", mass=3, position=[0.75, 0, -0.5])
+    model.add("connectors", name="rope", **{"from": {"body": "bead"}, "to": {"body": "load"}}, type="rod")
+    rope = model.run(end_time=0.1, step=0.01)[-1].connectors["rope"]
+    assert rope.ends.shape == (2, 3)
+    assert np.linalg.norm(rope.ends[1] - rope.ends[0]) == pytest.approx(rope.length, abs=1e-12)
+    assert rope.length == pytest.approx(np.hypot(0.25, 0.5), rel=1e-9)
+
+
 def test_modes_are_those_of_a_cantilever():
     results = straight_cantilever(elements=20).modes(count=3)
     omega = 1.8751040687119611**2 * np.sqrt(bending_stiffness() / (7850 * np.pi * 0.005**2))

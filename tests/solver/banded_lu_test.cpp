@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
+#include <memory>
+#include <numeric>
 #include <random>
 
 namespace nurbeam {
@@ -32,6 +35,16 @@ Eigen::MatrixXd shuffled_chain(int links, bool closed, std::mt19937& random) {
   return shuffle * chain * shuffle.transpose();
 }
 
+Eigen::VectorXd solve(const BandedLu& lu, const BandOrder& order, const Eigen::VectorXd& rhs) {
+  BandedLu::Places y = lu.places();
+  lu.load(rhs, y);
+  lu.lower(y);
+  lu.upper(y);
+  Eigen::VectorXd x(rhs.size());
+  for (std::size_t k = 0; k < order.unknown.size(); ++k) x[order.unknown[k]] = y[k];
+  return x;
+}
+
 TEST(BandedLu, SolvesShuffledChainsAndRingsToRoundOff) {
   std::mt19937 random(3);
   for (const bool closed : {false, true})
@@ -44,8 +57,7 @@ TEST(BandedLu, SolvesShuffledChainsAndRingsToRoundOff) {
       lu.take(order);
       EXPECT_GT(lu.factorise(matrix), 1e-10);
       const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(dense.rows(), -1, 2);
-      Eigen::VectorXd x;
-      lu.solve(dense * expected, x);
+      const Eigen::VectorXd x = solve(lu, *order, dense * expected);
       EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm()) << links;
     }
 }
@@ -55,13 +67,13 @@ TEST(BandedLu, FactorisesAgainWithOtherValuesOfThePattern) {
   const Eigen::MatrixXd dense = shuffled_chain(9, false, random);
   Eigen::SparseMatrix<double> matrix = dense.sparseView();
   BandedLu lu;
-  lu.take(std::make_shared<BandOrder>(matrix));
+  const auto order = std::make_shared<BandOrder>(matrix);
+  lu.take(order);
   EXPECT_GT(lu.factorise(matrix), 0);
   matrix *= -3;
   EXPECT_GT(lu.factorise(matrix), 0);
   const Eigen::VectorXd rhs = Eigen::VectorXd::Ones(dense.rows());
-  Eigen::VectorXd x;
-  lu.solve(rhs, x);
+  const Eigen::VectorXd x = solve(lu, *order, rhs);
   EXPECT_LT((-3 * dense * x - rhs).norm(), 1e-10);
 }
 
@@ -73,6 +85,57 @@ TEST(BandedLu, TellsASingularMatrixByItsPivots) {
   BandedLu lu;
   lu.take(std::make_shared<BandOrder>(matrix));
   EXPECT_LT(lu.factorise(matrix), 1e-14);
+}
+
+TEST(BandedLu, SolvesWithTheFactorsOfPartsOfWhatIsNotZero) {
+  std::mt19937 random(11);
+  const Eigen::MatrixXd dense = shuffled_chain(30, false, random);
+  const Eigen::SparseMatrix<double> matrix = dense.sparseView();
+  BandedLu lu;
+  lu.take(std::make_shared<BandOrder>(matrix));
+  ASSERT_GT(lu.factorise(matrix), 0);
+  BandedLu::Places whole = lu.places(), part = lu.places();
+  const int first = 61;
+  int last = 70;
+  for (int k = first; k <= last; ++k) whole[k] = part[k] = k - 60.5;
+  lu.lower(whole);
+  lu.lower(part, first, last);
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    EXPECT_NEAR(part[k], whole[k], 1e-12 * (1 + std::abs(whole[k])));
+    if (static_cast<int>(k) > last) EXPECT_EQ(whole[k], 0);
+  }
+  // z'(U^-1 y) = (U^-T z)'y.
+  BandedLu::Places z = lu.places(), upper = whole;
+  int from = 80, until = 90;
+  for (int k = from; k <= until; ++k) z[k] = std::sin(k);
+  const BandedLu::Places start = z;
+  lu.upper(upper);
+  lu.upper_transposed(z, from, until);
+  const double expected = std::inner_product(start.begin(), start.end(), upper.begin(), 0.0);
+  EXPECT_NEAR(std::inner_product(z.begin(), z.end(), whole.begin(), 0.0), expected,
+              1e-9 * std::abs(expected));
+}
+
+TEST(BandOrder, LeavesUnknownsOutAndPutsWhatIsCoupledWithThemLast) {
+  std::mt19937 random(13);
+  const Eigen::SparseMatrix<double> matrix = shuffled_chain(40, false, random).sparseView();
+  const std::vector<int> left_out{17, 90, 91};
+  const BandOrder order(matrix, left_out);
+  EXPECT_EQ(order.unknown.size(), 197u);
+  for (const int i : left_out) EXPECT_EQ(order.place[i], -1);
+  for (std::size_t k = 0; k < order.unknown.size(); ++k)
+    EXPECT_EQ(order.place[order.unknown[k]], static_cast<int>(k));
+  // Blocks of five are coupled with each other: without one block the chain falls apart beside it.
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(50, 50);
+  for (int k = 0; k + 1 < 10; ++k) chain.block<10, 10>(5 * k, 5 * k).setOnes();
+  const BandOrder parts(chain.sparseView(), {20, 21, 22, 23, 24});
+  EXPECT_EQ(parts.half_bandwidth, 9);
+  const auto ends_with = [&](int end, int first) {
+    for (int k = end - 5; k < end; ++k)
+      if (parts.unknown[k] / 5 != first / 5) return false;
+    return true;
+  };
+  EXPECT_TRUE(ends_with(25, 25) && ends_with(45, 15)) << "the blocks beside it";
 }
 
 }  // namespace

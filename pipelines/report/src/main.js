@@ -105,7 +105,7 @@ function start_view() {
   }
   const fields = data.shapes.fields;
   $('field').append(...fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
-  $('field').value = (is_static && !has_modes) || is_load_steps ? 0 : fields.findIndex(({ name }) => name === 'speed');
+  $('field').value = (is_static && !has_modes) || is_load_steps ? 0 : Math.max(fields.findIndex(({ name }) => name === 'speed'), 0);
   choose_colours = () => {
     const { low, high, stops } = view.set_field(Number($('field').value), $('instant').checked);
     $('legend-bar').style.background = css_gradient(stops);

@@ -1,6 +1,7 @@
 // Time histories as small SVG pictures with one common cursor, and fields along the beams.
 import { line_style } from './colours.js';
 import { common_exponent, element, number, number_beside, round_down, scaled_unit } from './format.js';
+import { energy_parts } from './tables.js';
 
 const height = 150, left = 58, right = 14, top = 10, bottom = 24;
 
@@ -307,22 +308,38 @@ export function plots_of(data, at_rest = false) {
     plots.push({ title: 'Speed', unit: 'm/s', id: 'speed',
       series: points.map(({ of, name, index }) => ({ name, values: length_of(of, index, ['vx', 'vy', 'vz']) })) });
   }
+  const of_bodies = (title, unit, id, key) => {
+    const series = names.bodies.map((name, i) => ({ name, values: data.column('body', i, key)?.values }))
+      .filter(({ values: known }) => known?.some((value) => !Number.isNaN(value)));
+    if (series.length) {
+      plots.push({ title, unit, id, series });
+    }
+  };
   if (names.bodies.length) {
     plots.push({ title: 'Place on the beam s', unit: 'm', id: 's',
       series: names.bodies.map((name, i) => ({ name, values: values('body', i, 's') })) });
     plots.push({ title: 'Joint force', unit: 'N', id: 'joint-force',
       series: names.bodies.map((name, i) => ({ name, values: length_of('body', i, ['joint_force.x', 'joint_force.y', 'joint_force.z']) })) });
   }
-  plots.push({ title: 'Length of the beam', unit: 'm', id: 'length',
-    series: names.beams.map((name, i) => ({ name, values: values('beam', i, 'length') })) });
+  of_bodies('Friction', 'N', 'friction', 'friction_force');
+  if (names.connectors?.length) {
+    plots.push({ title: 'Force of the connectors', unit: 'N', id: 'connector-force',
+      series: names.connectors.map((name, i) => ({ name, values: values('connector', i, 'force') })) });
+  }
+  // A rigid guide has no length to change and carries nothing.
+  const beams = names.beams.map((name, i) => ({ name, i })).filter(({ i }) => !data.run?.model?.beams?.[i]?.rigid);
+  if (beams.length) {
+    plots.push({ title: 'Length of the beam', unit: 'm', id: 'length',
+      series: beams.map(({ name, i }) => ({ name, values: values('beam', i, 'length') })) });
+  }
   if (names.reactions.length) {
     plots.push({ title: 'Reactions', unit: 'N', id: 'reactions',
       series: names.reactions.map((name, i) => ({ name, values: length_of('reaction', i, ['fx', 'fy', 'fz']) })) });
   }
   const along = (title, unit, id, of_beams, of_probes) => {
-    const series = names.beams.flatMap((name, i) => of_beams.map(([key, word]) => (
+    const series = beams.flatMap(({ name, i }) => of_beams.map(([key, word]) => (
       { name: word ? `${name}, ${word}` : name, values: values('beam', i, key) })));
-    if (of_probes) {
+    if (of_probes && beams.length) {
       series.push(...names.probes.map((name, i) => ({ name, values: values('probe', i, of_probes) })));
     }
     const there = series.filter((one) => one.values.some((value) => !Number.isNaN(value)));
@@ -339,9 +356,8 @@ export function plots_of(data, at_rest = false) {
     along('Von Mises stress', 'Pa', 'von-mises', [['von_mises.max', 'largest']], 'von_mises');
   }
   along('Displacement from the drawing', 'm', 'displacement', [['displacement.max', 'largest']], null);
-  const energies = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'];
   plots.push({ title: 'Energy', unit: 'J', id: 'energy',
-    series: energies.map((name) => ({ name, values: values('energy', 0, name) })) });
+    series: energy_parts(data).map((name) => ({ name, values: values('energy', 0, name) })) });
   if (at_rest) {
     return plots;
   }

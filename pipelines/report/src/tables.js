@@ -43,7 +43,7 @@ function table_of_columns(caption, rows) {
   if (rows.length === 0 || rows.length > 4) {
     return table_of(caption, rows);
   }
-  const [first, ...keys] = Object.keys(rows[0]);
+  const [first, ...keys] = [...new Set(rows.flatMap(Object.keys))];
   const body = keys.map((key) => {
     const { name, unit } = name_and_unit(key);
     return element('tr', {}, element('th', { scope: 'row' }, name, unit ? element('span', { class: 'unit' }, ` [${unit}]`)
@@ -63,6 +63,17 @@ export function facts_of(caption, facts) {
       [element('dt', {}, name), element('dd', {}, value)])));
 }
 
+/** A beam as a column of its table: of a rigid guide what it has. */
+function beam_column({ 'section outline [m]': outline, ...rest }) {
+  return rest.rigid ? Object.fromEntries(Object.entries(rest).filter(([key]) =>
+    ['name', 'length [m]', 'CAD segments', 'element'].includes(key))) : rest;
+}
+
+/** "cable at 3 m", "load" or a point. */
+function end_text(end) {
+  return end.beam !== undefined ? `${end.beam} at ${number(end['s [m]'])} m` : end.body ?? cell_text(end['point [m]']);
+}
+
 /** Tables of the model; none if run.json was written before it held one. */
 export function model_tables(run) {
   const model = run?.model;
@@ -76,19 +87,25 @@ export function model_tables(run) {
       ['Gravity', `${cell_text(gravity)} m/s²`],
       ['Units', 'SI: metre, kilogram, second, newton, joule'],
     ]),
-    table_of_columns('Beams', model.beams.map(({ 'section outline [m]': outline, ...rest }) => rest)),
+    table_of_columns('Beams', model.beams.map(beam_column)),
     table_of('Bodies', model.bodies),
     table_of('Supports', model.supports.map(({ outward, ...rest }) => rest)),
     table_of_columns('Sliding joints', model.joints),
+    table_of('Connectors', (model.connectors ?? []).map((one) => ({ ...one, from: end_text(one.from), to: end_text(one.to) })),
+      ['name', 'type', 'from', 'to', 'stiffness [N/m]', 'damping [N s/m]', 'length [m]', 'force at the start [N]']),
     table_of('Loads', model.loads,
       ['beam', 'kind', 'value', 's [m]', 'direction', 'place speed [m/s]', 'in time']),
   ];
 }
 
+/** The parts of the energy that a run knows. */
+export const energy_parts = (data) => ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input', 'spring']
+  .filter((name) => data.column('energy', 0, name));
+
 /** Where the energy was at the start and the end of the run. */
 export function energy_table(data) {
   const last = data.time.length - 1;
-  const rows = ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'].map((name) => {
+  const rows = energy_parts(data).map((name) => {
     const { values } = data.column('energy', 0, name);
     return last === 0 ? { energy: name, 'value [J]': values[0] }
       : { energy: name, 'start [J]': values[0], 'end [J]': values[last], 'change [J]': values[last] - values[0] };
@@ -189,6 +206,7 @@ export function values_tables(data) {
     table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),
       ...rows('probe', data.names.probes, place)]),
     table_of('Joint forces', rows('body', data.names.bodies, [['Fx [N]', 'joint_force.x'], ['Fy [N]', 'joint_force.y'], ['Fz [N]', 'joint_force.z']])),
+    table_of('Connectors', rows('connector', data.names.connectors ?? [], [['force [N]', 'force'], ['length [m]', 'length']])),
     table_of('Reactions', rows('reaction', data.names.reactions, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz'],
       ['Mx [N m]', 'mx'], ['My [N m]', 'my'], ['Mz [N m]', 'mz']])),
     table_of('Sections at probes', rows('probe', data.names.probes, [['axial force [N]', 'axial_force'],

@@ -8,7 +8,9 @@ import { BeamMesh } from './beam_mesh.js';
 import { SectionMesh } from './section_mesh.js';
 import { ViewCamera, steer, view_directions } from './camera.js';
 import { field_colours } from './colours.js';
+import { Connectors } from './connectors.js';
 import { element, number, round_down } from './format.js';
+import { Labels } from './labels.js';
 import { LoadArrows } from './loads.js';
 
 const y_axis = new Vector3(0, 1, 0);
@@ -66,6 +68,8 @@ export class View {
     this.add_beams();
     this.add_supports(model?.supports ?? []);
     this.add_points();
+    this.connectors = new Connectors(data);
+    this.scene.add(this.connectors.object);
     this.loads = new LoadArrows(model?.loads ?? [], data, (symbol) => this.pinned_size.push(symbol));
     this.scene.add(this.loads.object);
     this.add_overlay(overlay, model?.['gravity [m/s^2]']);
@@ -211,6 +215,7 @@ export class View {
     for (const point of this.points) {
       point.label = element('span', { class: `label ${point.of}` }, point.name);
     }
+    this.names = new Labels(this.points.map(({ label, of }) => ({ label, is_below: of === 'probe' })));
     this.scale_bar = element('span', { class: 'scale-bar' });
     this.scale_text = element('span');
     const directions = [['x', [1, 0, 0]], ['y', [0, 1, 0]], ['z', [0, 0, 1]]];
@@ -287,6 +292,8 @@ export class View {
     this.probe_material.color = colour('--scene-probe');
     this.path_material.color = colour('--scene-path');
     this.loads.material.color = colour('--scene-load');
+    this.connectors.material.color = colour('--scene-connector');
+    this.connectors.slack_material.color = colour('--scene-slack');
     this.node_material.color = colour('--scene-node');
     // The beams' own shaders write the colours of the screen as they are.
     const screen_colour = (name) => colour(name).convertLinearToSRGB().toArray();
@@ -359,6 +366,7 @@ export class View {
       }
     }
     this.loads.show(frame);
+    this.connectors.show(frame);
     if (this.nodes.visible) {
       this.load_nodes(frame);
     }
@@ -397,6 +405,7 @@ export class View {
     for (const symbol of this.pinned_size) {
       symbol.scale.setScalar(symbol.userData.pixels / view.scale);
     }
+    this.connectors.draw(view.scale);
     const least_pixels = 8;
     const factors = this.sections.filter((mesh) => mesh?.object.visible)
       .map((mesh) => mesh.enlarge_to(least_pixels, view.scale));
@@ -408,13 +417,11 @@ export class View {
 
   draw_overlay() {
     const { view } = this;
-    for (const { symbol, label } of this.points) {
-      const p = symbol.position;
+    this.names.place(this.points.map(({ symbol: { position: p } }) => {
       const dx = p.x - view.target.x, dy = p.y - view.target.y, dz = p.z - view.target.z;
-      const x = view.width / 2 + view.scale * (dx * view.x.x + dy * view.x.y + dz * view.x.z);
-      const y = view.height / 2 - view.scale * (dx * view.y.x + dy * view.y.y + dz * view.y.z);
-      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-    }
+      return [view.width / 2 + view.scale * (dx * view.x.x + dy * view.x.y + dz * view.x.z),
+        view.height / 2 - view.scale * (dx * view.y.x + dy * view.y.y + dz * view.y.z)];
+    }));
     if (this.drawn_scale !== view.scale) {
       this.drawn_scale = view.scale;
       const length = round_down(130 / view.scale);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/model/build.h"
 #include "fem/motion/simulation.h"
 #include "fem/system/assembly.h"
 #include "fem/system/initial_state.h"
+#include "nurbs/primitives.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {
@@ -122,6 +124,28 @@ TEST(RecordedSections, OfACantileverUnderAnEndMomentApproachThatMomentAtSecondOr
   const double coarse = roll_up_error(8), fine = roll_up_error(16);
   EXPECT_LT(fine, 1e-3);
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+}
+
+// Of a body in the air, a place of a beam and a point.
+TEST(RecordedConnectors, HaveTheirEndsWhereThatIsWhichTheyHold) {
+  ModelBuilder builder(2);
+  builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {2, 0, 0})}, 2), BeamProperties(1e5, 2, 1),
+                   {.elements = 2});
+  builder.pin(0, 0);
+  const int body = builder.add_body("load", 3, {1.5, -1, 0});
+  builder.connect(ConnectorEnd::on_beam(0, 2), ConnectorEnd::on_body(body), ConnectorType::spring, 10);
+  builder.connect(ConnectorEnd::at_point({0.5, 2, 0}), ConnectorEnd::on_beam(0, 2), ConnectorType::rod);
+  const BeamModel model = builder.build();
+  const BeamSystem system(model, initial_plan(model));
+  const State state = moved_state(system);
+  const Snapshot snapshot = record_snapshot(system, state, {});
+  ASSERT_EQ(snapshot.connectors.size(), 2);
+  EXPECT_EQ(snapshot.connectors[0].from, snapshot.beams[0].node_positions.back());
+  EXPECT_EQ(snapshot.connectors[0].to, snapshot.bodies[0].point.position);
+  EXPECT_EQ(snapshot.connectors[1].from, Eigen::Vector3d(0.5, 2, 0));
+  EXPECT_EQ(snapshot.connectors[1].to, snapshot.connectors[0].from);
+  for (const ConnectorRecord& connector : snapshot.connectors)
+    EXPECT_NEAR(connector.length, (connector.to - connector.from).norm(), 1e-15);
 }
 
 }  // namespace

@@ -544,6 +544,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "restitution",
                                                "stiffness",
                                                "roll_inertia",
+                                               "carried_as",
                                                "follows_section",
                                                "offset",
                                                "torque_per_length",

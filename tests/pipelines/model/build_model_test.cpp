@@ -278,6 +278,8 @@ TEST(BuildModel, RefusesWhatABeamWithTorsionCannotBe) {
   };
   EXPECT_TRUE(refuses(built(with_bead(R"(, "follows_section": true, "slope": "discontinuous")", "")),
                       "sliding_joints[0].follows_section", {"bead", "kink", "continuous"}));
+  EXPECT_TRUE(refuses(built(with_bead(R"(, "carried_as": "point", "slope": "discontinuous")", "")),
+                      "sliding_joints[0].carried_as", {"kink", "node"}));
   EXPECT_TRUE(
       refuses(built(with_bead("", R"(, "roll_inertia": 0.1)")), "bodies", {"bead", "follows_section"}));
   EXPECT_TRUE(refuses(built(with_bead(R"(, "follows_section": false, "offset": [0, 1])", "")),

@@ -112,6 +112,52 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// Of the file's data, as the page shows them; in results of earlier versions the ends are not known.
+TEST(Report, HoldsTheEndsOfConnectors) {
+  for (const bool known : {true, false}) {
+    ReportFrames frames = frames_of(3);
+    frames.names.connectors = {"dropper"};
+    frames.read = [known](std::size_t first, std::size_t piece) {
+      std::vector<Snapshot> read;
+      for (std::size_t i = first; i < first + piece; ++i) {
+        read.push_back(frame_of(i, 3));
+        read.back().connectors = {{.length = 1, .force = 2}};
+        if (known) {
+          read.back().connectors[0].from = {1e6, 0, 7};
+          read.back().connectors[0].to = {1e6, 0, 8 + read.back().time};
+        }
+      }
+      return read;
+    };
+    const Page page = page_of(frames);
+    const std::vector<double> top = page.column("connector", "to_position.z");
+    ASSERT_EQ(top.size(), 3);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (known)
+        EXPECT_EQ(top[i], 8 + frame_of(i, 3).time);
+      else
+        EXPECT_TRUE(std::isnan(top[i]));
+    EXPECT_EQ(page.data()["box"][1][2], known ? Json(8 + frame_of(2, 3).time) : Json(0.0));
+    EXPECT_EQ(page.data()["names"]["connectors"][0], "dropper");
+  }
+}
+
+TEST(Report, LeavesOutWhatIsNothingAlongARigidGuide) {
+  const auto has_strain = [](bool rigid) {
+    ReportFrames frames = frames_of(1);
+    frames.read = [](std::size_t, std::size_t) {
+      std::vector<Snapshot> read = {frame_of(0, 1)};
+      read[0].beams[0].elements[0].strain.setZero();
+      return read;
+    };
+    const Json run = {{"model", {{"beams", {{{"rigid", rigid}}}}}}};
+    const Json fields = page_of(frames, run.dump()).data()["shapes"]["fields"];
+    return std::any_of(fields.begin(), fields.end(), [](const Json& f) { return f["name"] == "strain"; });
+  };
+  EXPECT_TRUE(has_strain(false));
+  EXPECT_FALSE(has_strain(true));
+}
+
 TEST(Report, HoldsHistoriesToTheLastBit) {
   const Page page = page_of(frames_of(40));
   const std::vector<double> total = page.column("energy", "total"), s = page.column("body", "s");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipelines/results/base64.h"
 #include "tests/pipelines/case_text.h"
 
 namespace nurbeam {
@@ -44,6 +45,29 @@ TEST(Paraview, AResumedSeriesKeepsTheFramesBeforeIt) {
   EXPECT_EQ(index(), expected);
   EXPECT_NE(expected.find("timestep=\"0.2\" part=\"0\" name=\"beams\" file=\"frames/beams_000002.vtu\""),
             std::string::npos);
+}
+
+TEST(Paraview, ConnectorsAreLinesBetweenTheirEnds) {
+  const test::TemporaryDirectory directory;
+  Snapshot frame;
+  frame.beams.resize(1);
+  frame.connectors = {{.length = 5, .force = 7, .from = {1, 2, 3}, .to = {4, 2, 7}}};
+  ParaviewSeries series(directory.path(), {.beams = {"beam"}, .connectors = {"dropper"}});
+  series.write(frame);
+  series.write_index();
+  const auto text = [&](const char* name) {
+    std::ifstream stream(directory.path() / name);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  EXPECT_NE(text("frames.pvd").find("name=\"connectors\" file=\"frames/connectors_000000.vtu\""),
+            std::string::npos);
+  const std::string grid = text("frames/connectors_000000.vtu");
+  EXPECT_NE(grid.find("NumberOfPoints=\"2\" NumberOfCells=\"1\""), std::string::npos);
+  const double ends[] = {1, 2, 3, 4, 2, 7};
+  std::string bytes(8, '\0');
+  bytes[0] = sizeof ends;
+  bytes.append(reinterpret_cast<const char*>(ends), sizeof ends);
+  EXPECT_NE(grid.find(base64(bytes.data(), bytes.size())), std::string::npos);
 }
 
 }  // namespace

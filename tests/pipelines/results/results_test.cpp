@@ -241,6 +241,39 @@ TEST(Results, FramesComeBackWholeFromChunksThatWereMerged) {
   for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
 }
 
+TEST(Results, ConnectorsComeBackWithTheirEnds) {
+  const TemporaryDirectory directory;
+  SnapshotNames with_connectors = names;
+  with_connectors.connectors = {"dropper", "rod"};
+  std::vector<Snapshot> frames(five_frames.begin(), five_frames.begin() + 2);
+  for (Snapshot& frame : frames)
+    frame.connectors = {{.length = 1 + frame.time, .force = 5, .from = {1, 2, 3}, .to = {4, 5, frame.time}},
+                        {.length = 2, .force = -7, .from = {0.1, 0, 0}, .to = {0, 0.2, 0}}};
+  ResultsWriter writer(directory.path(), with_connectors, "title");
+  for (const Snapshot& frame : frames) writer.write(frame);
+  writer.finish();
+  const StoredResults stored = read_results(directory.path());
+  EXPECT_EQ(stored.names.connectors, with_connectors.connectors);
+  ASSERT_EQ(stored.frames.size(), frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) expect_equal(stored.frames[i], frames[i]);
+}
+
+// As those of a run that an earlier version has begun.
+TEST(Results, ConnectorsMayHaveNoEnds) {
+  const TemporaryDirectory directory;
+  SnapshotNames with_connectors = names;
+  with_connectors.connectors = {"dropper"};
+  Snapshot frame = five_frames[0];
+  frame.connectors = {{.length = 1, .force = 5}};
+  ResultsWriter writer(directory.path(), with_connectors, "title");
+  writer.write(frame);
+  writer.finish();
+  const StoredResults stored = read_results(directory.path());
+  EXPECT_EQ(stored.frames.at(0).connectors.at(0).force, 5);
+  EXPECT_TRUE(stored.frames.at(0).connectors.at(0).from.array().isNaN().all());
+  EXPECT_TRUE(stored.frames.at(0).connectors.at(0).to.array().isNaN().all());
+}
+
 TEST(Results, AnUnfinishedRunLeavesItsClosedChunksAndNoFileUnderAFinalName) {
   const TemporaryDirectory directory;
   {

@@ -1,0 +1,39 @@
+#include "fem/system/coupling.h"
+
+#include <algorithm>
+
+namespace nurbeam {
+
+Eigen::SparseMatrix<double> Coupling::pattern() const {
+  // The groups of each unknown.
+  std::vector<int> first_group(static_cast<std::size_t>(size_) + 1, 0), groups(members_.size());
+  for (const int i : members_) ++first_group[i + 1];
+  for (int i = 0; i < size_; ++i) first_group[i + 1] += first_group[i];
+  std::vector<int> next = first_group;
+  for (int g = 0; g + 1 < static_cast<int>(group_starts_.size()); ++g)
+    for (int k = group_starts_[g]; k < group_starts_[g + 1]; ++k) groups[next[members_[k]]++] = g;
+
+  std::vector<int> rows, last_column(static_cast<std::size_t>(size_), -1);
+  rows.reserve(2 * members_.size());
+  Eigen::SparseMatrix<double> matrix(size_, size_);
+  for (int column = 0; column < size_; ++column) {
+    const auto begin = static_cast<std::ptrdiff_t>(rows.size());
+    const auto take = [&](int row) {
+      if (last_column[row] == column) return;
+      last_column[row] = column;
+      rows.push_back(row);
+    };
+    take(column);
+    for (int k = first_group[column]; k < first_group[column + 1]; ++k)
+      std::for_each(members_.begin() + group_starts_[groups[k]],
+                    members_.begin() + group_starts_[groups[k] + 1], take);
+    std::sort(rows.begin() + begin, rows.end());
+    matrix.outerIndexPtr()[column + 1] = static_cast<int>(rows.size());
+  }
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+  std::copy(rows.begin(), rows.end(), matrix.innerIndexPtr());
+  std::fill_n(matrix.valuePtr(), rows.size(), 0.0);
+  return matrix;
+}
+
+}  // namespace nurbeam
