@@ -36,9 +36,12 @@ class StepTangent {
   /// is regular. `repeated`: as by Integrator::repeat.
   [[nodiscard]] bool take(const State& before, const IntegratorHistory& history, const State& after,
                           bool repeated);
+  /// How the residual at `after` changes with q, constraints below (n + m). Precondition here and below: take
+  /// returned true.
+  const Eigen::SparseMatrix<double>& stiffness() const { return stiffness_; }
   /// The tangents at the end of that step, whose length changes by `step`, of each parameter. `dynamics` (n),
   /// `constraints` (m), a column for each: how the residual at `after` changes with the parameter itself, by
-  /// the system and by t, while q, v, a and lambda stay. Precondition: take returned true.
+  /// the system and by t, while q, v, a and lambda stay.
   MotionTangents end(const MotionTangents& start, const Eigen::RowVectorXd& step, const Matrix& dynamics,
                      const Matrix& constraints) const;
 

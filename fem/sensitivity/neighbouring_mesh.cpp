@@ -83,6 +83,23 @@ bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour) {
   return same;
 }
 
+std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, const State& state,
+                                                     const BeamModel& more, const BeamModel& less,
+                                                     double step) {
+  std::vector<std::pair<int, double>> shifts;
+  const BeamModel& model = system.model();
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const int place = system.mesh().joints[j].place, b = model.joints[j].beam;
+    if (place < 0) continue;
+    const double s = state.q[place];
+    const double by = (corresponding_place(model.beams[b], s, more.beams[b]) -
+                       corresponding_place(model.beams[b], s, less.beams[b])) /
+                      (2 * step);
+    if (by != 0) shifts.emplace_back(place, by);
+  }
+  return shifts;
+}
+
 std::vector<bool> held_joints(const BeamSystem& system) {
   std::vector<bool> held;
   for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {

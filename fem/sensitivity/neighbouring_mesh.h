@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fem/motion/meshed_state.h"
@@ -13,6 +14,12 @@ bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
 /// places that no element may cross, in the same proportions. Throws std::runtime_error where these places do
 /// not correspond.
 std::shared_ptr<const BeamModel> divided_like(std::shared_ptr<const BeamModel> model, const BeamModel& drawn);
+
+/// By how much the places of the joints of a system, which are coordinates, lie elsewhere in two neighbouring
+/// models whose parameter differs by twice `step`.
+std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, const State& state,
+                                                     const BeamModel& more, const BeamModel& less,
+                                                     double step);
 
 /// The joints whose places a system holds, but for those whose motion is prescribed.
 std::vector<bool> held_joints(const BeamSystem& system);

@@ -51,13 +51,17 @@ ResidualDifference::ResidualDifference(const BeamSystem& more, const BeamSystem&
         });
 }
 
-void ResidualDifference::find(const State& at, double step, double later,
+void ResidualDifference::find(const State& at, double step, double later, const std::vector<Shift>& shifts,
                               Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) {
   const State *above = &at, *below = &at;
-  if (later != 0) {
+  if (later != 0 || !shifts.empty()) {
     above_ = below_ = at;
     above_.t += step * later;
     below_.t -= step * later;
+    for (const auto& [coordinate, by] : shifts) {
+      above_.q[coordinate] += step * by;
+      below_.q[coordinate] -= step * by;
+    }
     above = &above_;
     below = &below_;
   }

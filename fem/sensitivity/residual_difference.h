@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "fem/system/beam_system.h"
@@ -13,10 +14,13 @@ class ResidualDifference {
   /// `near`: any state that both can have. Both systems must outlive it.
   ResidualDifference(const BeamSystem& more, const BeamSystem& less, const State& near);
 
-  /// Half the difference over `step`: more at a time step x `later` after that of `at`, less as much before
-  /// it. Into `dynamics` (n) and `constraints` (m).
-  void find(const State& at, double step, double later, Eigen::Ref<Eigen::VectorXd> dynamics,
-            Eigen::Ref<Eigen::VectorXd> constraints);
+  /// A coordinate, and by how much it changes with the parameter.
+  using Shift = std::pair<int, double>;
+  /// Half the difference over `step`: more at a time step x `later` after that of `at`, and with coordinates
+  /// that are shifted so far; less as much before it, and as far the other way. Into `dynamics` (n) and
+  /// `constraints` (m).
+  void find(const State& at, double step, double later, const std::vector<Shift>& shifts,
+            Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints);
 
   /// The share of the elements' forces that is evaluated, where the same loads act in both systems.
   double share() const;

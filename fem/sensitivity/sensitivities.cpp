@@ -137,11 +137,20 @@ void Sensitivities::go_on_from(const MeshedState& at) {
 }
 
 // Into the columns of dynamics_ and constraints_, at a state whose time changes too.
-void Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
-  Vector dynamics(at.q.size()), constraints(at.lambda.size());
+void Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time,
+                                          const Eigen::SparseMatrix<double>& stiffness) {
+  const Eigen::Index n = at.q.size(), m = at.lambda.size();
+  Vector dynamics(n), constraints(m);
   for (Eigen::Index k = 0; k < time.size(); ++k) {
     Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
-    parameter.difference->find(at, parameter.pair.step, time[k], dynamics, constraints);
+    const auto& [more, less, step] = parameter.pair;
+    const auto shifts = shifts_of_places(*system_, at, *more.model, *less.model, step);
+    parameter.difference->find(at, step, time[k], shifts, dynamics, constraints);
+    for (const auto& [place, by] : shifts) {
+      const Vector with_place = by * stiffness.col(place);
+      dynamics -= with_place.head(n);
+      constraints -= with_place.tail(m);
+    }
     dynamics_.col(k) = dynamics;
     constraints_.col(k) = constraints;
     work_.residuals += 2 * parameter.difference->share();
@@ -183,7 +192,7 @@ void Sensitivities::rests(const MeshedState& at) {
       if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
   }
   start_afresh(at, std::vector<State>(parameters_.size(), still(n, m)));
-  find_residual_changes(at.state, tangents_.t);
+  find_residual_changes(at.state, tangents_.t, stiffness);
   Vector rhs(n + m);
   for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
     rhs << -dynamics_.col(k), -constraints_.col(k);
@@ -225,7 +234,7 @@ void Sensitivities::steps(const FollowedStep& step) {
     throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
   Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(tangents_.parameters());  // of the step's length
   if (!step.beyond) change = -h / step.rest * tangents_.t;
-  find_residual_changes(step.after, tangents_.t + change);
+  find_residual_changes(step.after, tangents_.t + change, step_->stiffness());
   tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
   work_.solves += tangents_.parameters();
   if (step.beyond) {

@@ -35,9 +35,11 @@ struct NeighbourPair {
 ///     d(end)/dh) = 0; times of what comes after are later by as much, and later steps shorter, so that the
 ///     next time of the run is met again.
 ///
-/// dR is half the difference of the residual of the neighbours at the state of the run, where they differ.
-/// What a run decides - steps of its error control, when the mesh changes - is the same for the neighbours:
-/// derivatives are those of the discrete motion with these decisions.
+/// dR is half the difference of the residual of the neighbours at the state of the run, where they differ,
+/// and with the places of joints where they correspond: at the same place in metres of a curve that has
+/// become longer before it, a moving element is strained so far that the cube of its strain counts, which K
+/// knows nothing of. What a run decides - steps of its error control, when the mesh changes - is the same for
+/// the neighbours: derivatives are those of the discrete motion with these decisions.
 class Sensitivities final : public RunFollower {
  public:
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
@@ -78,7 +80,8 @@ class Sensitivities final : public RunFollower {
 
   void start_afresh(const MeshedState& at, const std::vector<State>& tangents);
   void go_on_from(const MeshedState& at);
-  void find_residual_changes(const State& at, const Eigen::RowVectorXd& time);
+  void find_residual_changes(const State& at, const Eigen::RowVectorXd& time,
+                             const Eigen::SparseMatrix<double>& stiffness);
   Longer by_length(const FollowedStep& step, const StepTangent& tangent) const;
 
   GeneralizedAlpha settings_;

@@ -261,6 +261,29 @@ TEST(Gradient, AcrossChangesOfTheMesh) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
+// A curve that gets longer before the bodies: their elements, which begin at its home nodes and end at the
+// same place in metres, are strained most of all. The mesh changes twice.
+TEST(Gradient, OfBodiesBehindAKnotThatMoves) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.4, 1, 1, 1, 1], "weights": [1, 1.1, 0.9, 1.05, 1],
+                         "control_points": [[0, 0, 1], [0.8, 0, 0.3], [1.7, 0, 0.15], [2.9, 0, 0.2], [3.6, 0, 0.7]]}},
+      "section": {"radius": "14 mm"}, "material": {"density": 1900, "youngs_modulus": "6 GPa"},
+      "elements": {"count": 14}}],
+    "bodies": [{"name": "a", "mass": 0.7}, {"name": "b", "mass": 1.9}],
+    "sliding_joints": [{"body": "a", "beam": "beam", "at": {"length": 0.45}, "speed": 0.6},
+                       {"body": "b", "beam": "beam", "at": {"length": 1.52}, "speed": 0.9}],
+    "supports": [{"beam": "beam", "at": "start", "type": "pinned"}, {"beam": "beam", "at": "end", "type": "clamped"}],
+    "analysis": {"type": "dynamic", "end_time": 0.1, "step": "1 ms"}, "output": {"every": 0.1}})json",
+                 R"json("variables": [
+      {"name": "z2", "control_point": {"beam": "beam", "index": 2, "axis": "z"}, "range": [0, 0.3]},
+      {"name": "w1", "weight": {"beam": "beam", "index": 1}, "range": [0.9, 1.3]}],
+    "quantities": [{"name": "s", "value": "at(end, a.s)"}, {"name": "v", "value": "at(end, b.speed)"},
+      {"name": "z", "value": "at(end, b.z)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 1e-4, 1e-4);
+}
+
 TEST(Gradient, OfTheTimeAtWhichABodyLeaves) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
     "beams": [{"name": "rail", "rigid": true,
