@@ -50,8 +50,11 @@ def test_what_is_wrong_is_a_list_of_findings(tmp_path):
 
 def children(process):
     """The ids of all processes that it has begun, and theirs."""
-    listed = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process)], capture_output=True, text=True).stdout.split()
-    return [int(child) for child in listed] + [below for child in listed for below in children(child)]
+    try:
+        listed = [int(child) for task in Path(f"/proc/{process}/task").iterdir() for child in (task / "children").read_text().split()]
+    except (FileNotFoundError, ProcessLookupError):  # it has ended meanwhile
+        return []
+    return listed + [below for child in listed for below in children(child)]
 
 
 def runs(process):
