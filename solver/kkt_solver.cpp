@@ -51,9 +51,9 @@ struct AnalysedPattern {
   std::vector<int> column_starts, row_indices, part;
   std::shared_ptr<const BandOrder> order;
 
-  // Entries of B (row of A, column of S), of C (column of A, row of S), of S (row, column).
+  // Entries of B (row of A, column of S), of C (column of A, row of S), of S (row, column, both of S).
   struct Entry {
-    int value, place, part;
+    int value, place, part;  // among the matrix's values; the other two as said
   };
   std::vector<Entry> into, out_of, within;
 

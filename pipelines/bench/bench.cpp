@@ -103,7 +103,9 @@ void draw(const std::vector<SystemCost>& costs, std::ostream& out) {
   plot.y_label = "time per element [us]";
   plot.log_x = plot.log_y = true;
   const auto add = [&](const std::string& label, double SystemCost::*part) {
-    PlotLine line{.label = label, .style = PlotLine::Style::line_and_marks};
+    PlotLine line;
+    line.label = label;
+    line.style = PlotLine::Style::line_and_marks;
     for (const SystemCost& cost : costs) {
       line.x.push_back(cost.elements);
       line.y.push_back(1e6 * cost.*part / cost.elements);

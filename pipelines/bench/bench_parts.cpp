@@ -3,16 +3,14 @@
 #include <malloc.h>
 
 #include <limits>
-#include <numbers>
 
-#include "fem/element/twist_element.h"
 #include "fem/motion/simulation.h"
 #include "fem/system/beam_system.h"
 #include "fem/system/initial_state.h"
 #include "pipelines/bench/bench_table.h"
+#include "pipelines/bench/bent_element.h"
 #include "pipelines/bench/stopwatch.h"
 #include "pipelines/verification/verify_examples.h"
-#include "solver/consistent.h"
 #include "solver/generalized_alpha.h"
 #include "solver/kkt_solver.h"
 
@@ -21,23 +19,6 @@ namespace nurbeam {
 namespace {
 
 constexpr TangentWeights all_parts{.mass = 1, .damping = 1, .stiffness = 1};
-
-/// An element drawn straight and bent a little, so that no term vanishes.
-template <class Layout, class State>
-State bent(double length) {
-  State x;
-  x.q.setZero();
-  x.v.setConstant(0.1);
-  x.a.setConstant(0.2);
-  for (const int end : {0, 1}) {
-    x.q[Layout::r(end)] = end * length;
-    x.q[Layout::r(end) + 1] = 0.02 * end * length;
-    x.q[Layout::slope(end)] = 1;
-    x.q[Layout::slope(end) + 1] = 0.1 * end;
-    x.q[Layout::place(end)] = end * length;
-  }
-  return x;
-}
 
 // Force and tangent [us] with fixed and with moving ends.
 template <class Cost>
@@ -56,8 +37,8 @@ std::pair<double, double> axis_cost(Ends ends, double damping) {
   const ReferenceCurve curve({line_cubic({0, 0, 0}, {1, 0, 0})}, D);
   BeamProperties properties = verification::round_bar(0.01, 7200, 20e6);
   properties.damping = damping;
-  const BeamElement<D> element(curve, properties, {.segment = 0}, 0, 0.1, ends);
-  const auto x = bent<ElementLayout<D>, ElementState<D>>(0.1);
+  const BeamElement<D> element(curve, properties, Chart{0, {}}, 0, 0.1, ends);
+  const auto x = bent_element<ElementLayout<D>, ElementState<D>>(0.1);
   const auto load = BeamElement<D>::Vector::Constant(1).eval();
   volatile double keep = 0;
   return {seconds_of([&] { keep = element.force(x, load)[0]; }),

@@ -4,7 +4,7 @@
 
 namespace nurbeam {
 
-/// Forces and tangents of single elements, by dimension, torsion and ends.
+/// Forces and tangents of single elements, by dimension, damping and ends.
 void bench_elements(std::ostream& out);
 
 /// What systems of this many elements, a body sliding on them, cost.

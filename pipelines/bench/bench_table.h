@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -10,7 +11,7 @@ namespace nurbeam {
 
 /// A number with some significant digits, never as a power of ten; "-" for none.
 inline std::string few_digits(double value, int digits = 3) {
-  if (!(value == value)) return "-";
+  if (std::isnan(value)) return "-";
   std::ostringstream text;
   int decimals = digits;
   for (double bound = 1; std::abs(value) >= bound && decimals > 0; bound *= 10) --decimals;

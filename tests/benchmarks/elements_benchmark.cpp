@@ -3,35 +3,18 @@
 
 #include "fem/system/beam_system.h"
 #include "fem/system/initial_state.h"
+#include "pipelines/bench/bent_element.h"
 #include "pipelines/verification/verify_examples.h"
 
 namespace nurbeam {
 namespace {
-
-/// A beam drawn straight and bent a little, so that no term vanishes.
-template <int D>
-ElementState<D> bent_state(double length) {
-  using Layout = ElementLayout<D>;
-  ElementState<D> x;
-  x.q.setZero();
-  x.v.setConstant(0.1);
-  x.a.setConstant(0.2);
-  for (const int end : {0, 1}) {
-    x.q[Layout::r(end)] = end * length;
-    x.q[Layout::r(end) + 1] = 0.02 * end * length;
-    x.q[Layout::slope(end)] = 1;
-    x.q[Layout::slope(end) + 1] = 0.1 * end;
-    x.q[Layout::place(end)] = end * length;
-  }
-  return x;
-}
 
 template <int D>
 void element(benchmark::State& timing, Ends ends, bool tangent) {
   const ReferenceCurve curve({line_cubic({0, 0, 0}, {1, 0, 0})}, D);
   const BeamProperties properties = verification::round_bar(0.01, 7200, 20e6);
   const BeamElement<D> element(curve, properties, {.segment = 0}, 0, 0.1, ends);
-  const ElementState<D> x = bent_state<D>(0.1);
+  const ElementState<D> x = bent_element<ElementLayout<D>, ElementState<D>>(0.1);
   const auto load = BeamElement<D>::Vector::Constant(1).eval();
   for (auto _ : timing)
     if (tangent)
