@@ -76,25 +76,25 @@ int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std:
   return levels;
 }
 
-// An unknown at an end of the component of `start`: from it the levels are the most that are easily found.
-// One that is coupled with what is left out, where from it they are nearly as many.
-int end_of_component(const Neighbours& neighbours, int start, Walks& walks) {
+// The component of `start`, by levels from an unknown at one of its ends: from there they are the most that
+// are easily found. From one that is coupled with what is left out, where from it they are nearly as many.
+std::vector<int> by_levels_from_end(const Neighbours& neighbours, int start, Walks& walks) {
   constexpr double nearly = 0.75;
   std::vector<int> order;
-  int levels = 0;
-  for (;;) {
+  for (int levels = 0;;) {
     order.clear();
     const int found = append_by_levels(neighbours, start, walks, order);
-    if (found <= levels) break;
+    if (found <= levels) {
+      const auto coupled =
+          std::find_if(order.begin(), order.end(), [&](int i) { return neighbours.is_coupled(i); });
+      if (coupled == order.end()) return order;
+      std::vector<int> other;
+      const int others = append_by_levels(neighbours, *coupled, walks, other);
+      return others >= nearly * levels ? other : order;
+    }
     levels = found;
     start = order.back();
   }
-  const auto coupled =
-      std::find_if(order.begin(), order.end(), [&](int i) { return neighbours.is_coupled(i); });
-  if (coupled == order.end()) return start;
-  const int other_start = *coupled;
-  order.clear();
-  return append_by_levels(neighbours, other_start, walks, order) >= nearly * levels ? other_start : start;
 }
 
 }  // namespace
@@ -105,31 +105,32 @@ BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
   Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
   for (const int i : left_out) walks.last[i] = Walks::never;
   for (int i = 0; i < n; ++i)
-    if (walks.last[i] == 0)
-      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown);
+    if (walks.last[i] == 0) {
+      const std::vector<int> component = by_levels_from_end(neighbours, i, walks);
+      unknown.insert(unknown.end(), component.begin(), component.end());
+    }
   std::reverse(unknown.begin(), unknown.end());
   place.assign(static_cast<std::size_t>(n), -1);
   const int held = static_cast<int>(unknown.size());
   ends.resize(unknown.size());
-  for (int k = 0; k < held; ++k) {
-    place[unknown[k]] = k;
-    ends[k] = k + 1;
-  }
+  for (int k = 0; k < held; ++k) place[unknown[k]] = k;
   row_starts.assign(unknown.size() + 1, 0);
-  for (const int i : unknown)
-    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j) {
-      if (place[*j] < 0) continue;
-      half_bandwidth = std::max(half_bandwidth, std::abs(place[i] - place[*j]));
-      ends[place[*j]] = std::max(ends[place[*j]], place[i] + 1);
-      ++row_starts[place[*j] + 1];
-    }
+  for (int column = 0; column < held; ++column)
+    for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
+      if (const int row = place[*i]; row >= 0) ++row_starts[row + 1];
   std::partial_sum(row_starts.begin(), row_starts.end(), row_starts.begin());
   entries.resize(static_cast<std::size_t>(row_starts.back()));
   std::vector<int> next = row_starts;
   for (int column = 0; column < held; ++column)
     for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
-      if (place[*i] >= 0)
-        entries[next[place[*i]]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
+      if (const int row = place[*i]; row >= 0)
+        entries[next[row]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
+  // Column by column: the entries of a row follow one another.
+  for (int row = 0; row < held; ++row) {
+    const int first = entries[row_starts[row]].column, last = entries[row_starts[row + 1] - 1].column;
+    ends[row] = last + 1;
+    half_bandwidth = std::max({half_bandwidth, row - first, last - row});
+  }
 }
 
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {

@@ -292,17 +292,20 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   system_->residual(unaccelerated_, force_.head(n), force_.tail(m));
   constraint_force_.setZero(n);
   reference_.setConstant(std::numeric_limits<double>::min());
-  for (Eigen::Index column = 0; column < n + m; ++column) {
-    const bool is_multiplier = column >= n;
-    const double size = is_multiplier ? std::abs(at.lambda[column - n]) * scaling / mass_scale_
-                                      : std::abs(at.q[column]) + scale_[column];
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt_, column); entry; ++entry) {
-      const Eigen::Index row = entry.row();
-      reference_[row] += floor * std::abs(entry.value()) * size;
-      if (row >= n && !is_multiplier)
-        reference_[row] += scaling * std::abs(entry.value() * at.a[column]);
-      else if (row < n && is_multiplier)
-        constraint_force_[row] += entry.value() * at.lambda[column - n];
+  const double* values = kkt_.valuePtr();
+  const int *rows = kkt_.innerIndexPtr(), *starts = kkt_.outerIndexPtr();
+  for (Eigen::Index column = 0; column < n; ++column) {
+    const double rounding = floor * (std::abs(at.q[column]) + scale_[column]);
+    const double moved = rounding + scaling * std::abs(at.a[column]);
+    for (int k = starts[column]; k < starts[column + 1]; ++k)
+      reference_[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
+  }
+  for (Eigen::Index column = n; column < n + m; ++column) {
+    const double multiplier = at.lambda[column - n];
+    const double rounding = floor * std::abs(multiplier) * scaling / mass_scale_;
+    for (int k = starts[column]; k < starts[column + 1]; ++k) {
+      reference_[rows[k]] += rounding * std::abs(values[k]);
+      if (rows[k] < n) constraint_force_[rows[k]] += values[k] * multiplier;
     }
   }
   const double work = scale_.cwiseProduct(force_.head(n).cwiseAbs().cwiseMax(constraint_force_.cwiseAbs()))

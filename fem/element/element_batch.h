@@ -38,6 +38,9 @@ class ElementBatch {
   /// `free_strain`: as ElementState has it.
   void add_forces(const State& state, const Vector& load, double free_strain, double* forces) const;
 
+  /// The sum of their energies; `load`: the dead load of which they have the potential [N/m].
+  ElementEnergy energy(const State& state, const Vector& load, double free_strain) const;
+
   /// Tangents in the coordinates of the nodes, by column and row.
   using Tangents = std::array<std::array<ElementLanes, nodal>, nodal>;
   /// Those of BeamElement::tangent. Precondition: the beam is not damped.

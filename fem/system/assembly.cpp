@@ -33,7 +33,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
-  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
+  const Eigen::VectorXd drawn = planned_places(mesh_);
   batch_elements();
   bind_constraints(held, drawn);
   bind_forces(drawn);
@@ -168,6 +168,18 @@ ElementVector<D> Assembly<D>::element_force(const MeshElement<D>& e, const State
                                             const Vector& load) const {
   const ElementState<D> x = gather<D>(e, state);
   return is_form_p(e) ? virtual_work::force<D>(e.element, x, load) : e.element.force(x, load);
+}
+
+template <int D>
+ElementEnergy Assembly<D>::axis_energy(const State& state) const {
+  ElementEnergy sum;
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    const auto& [batches, batched, others] = walks_[b];
+    const Vector weight = model_->beams[b].properties.mass_per_length * model_->gravity.head<D>();
+    for (const ElementBatch<D>& batch : batches) sum += batch.energy(state, weight, free_strain_of(b, state));
+    for (const int i : others) sum += elements_[i].element.energy(gather<D>(elements_[i], state), weight);
+  }
+  return sum;
 }
 
 template <int D>

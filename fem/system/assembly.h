@@ -62,6 +62,8 @@ class Assembly final : public SecondOrderSystem {
   Vector pull_on_body(int body, const State& state) const;
   /// The length of connector i and its pull.
   std::pair<double, double> length_and_force(int i, const State& state) const;
+  /// The sum of the elements' energies, of the axis alone; with the potential of gravity.
+  ElementEnergy axis_energy(const State& state) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
   /// Which parts of the walk over elements, in its order, answer otherwise to a state than those of `other`,

@@ -20,18 +20,15 @@ template <int D>
 SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
   SystemEnergy sum;
   const MeshedBeams<D> at = a.beams();
-  const Eigen::Matrix<double, D, 1> g = a.model()->gravity.template head<D>();
-  for (const MeshElement<D>& e : a.elements()) {
-    const Eigen::Matrix<double, D, 1> weight = e.element.properties().mass_per_length * g;
-    const ElementEnergy part = e.element.energy(gather<D>(e, state), weight);
-    sum.kinetic += part.kinetic;
-    sum.axial += part.axial;
-    sum.bending += part.bending;
-    sum.gravity += part.external;
-    sum.dissipation += part.dissipation;
-    if constexpr (D == 3)
+  const ElementEnergy axes = a.axis_energy(state);
+  sum.kinetic = axes.kinetic;
+  sum.axial = axes.axial;
+  sum.bending = axes.bending;
+  sum.gravity = axes.external;
+  sum.dissipation = axes.dissipation;
+  if constexpr (D == 3)
+    for (const MeshElement<D>& e : a.elements())
       if (e.twist) add_twist_energy(e, state, sum);
-  }
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
