@@ -7,15 +7,21 @@
 #include <numeric>
 #include <utility>
 
+#include "solver/every_processor.h"
+
 namespace nurbeam {
 
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-using Four = Eigen::Map<Eigen::Array4d>;
-using ConstFour = Eigen::Map<const Eigen::Array4d>;
 
 constexpr int block = 4;
+
+// A block of numbers that follow one another, anywhere.
+using Four = double __attribute__((vector_size(block * sizeof(double)), aligned(sizeof(double)), may_alias));
+NURBEAM_WITHIN Four& four(double* at) { return *reinterpret_cast<Four*>(at); }
+NURBEAM_WITHIN const Four& four(const double* at) { return *reinterpret_cast<const Four*>(at); }
+NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
 class Neighbours {
@@ -125,12 +131,17 @@ BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
     for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
       if (const int row = place[*i]; row >= 0)
         entries[next[row]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
-  // Column by column: the entries of a row follow one another.
+  // The entries of a row are in order.
+  below.assign(unknown.size(), 0);
   for (int row = 0; row < held; ++row) {
+    ends[row] = row + 1;
+    if (row_starts[row] == row_starts[row + 1]) continue;
     const int first = entries[row_starts[row]].column, last = entries[row_starts[row + 1] - 1].column;
-    ends[row] = last + 1;
+    ends[row] = std::max(ends[row], last + 1);
     half_bandwidth = std::max({half_bandwidth, row - first, last - row});
+    below[first] = row;
   }
+  for (int column = 1; column < held; ++column) below[column] = std::max(below[column], below[column - 1]);
 }
 
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
@@ -174,11 +185,10 @@ void BandedLu::fill_band(const Matrix& matrix) {
   }
 }
 
-// The row below that takes the place: the one that is there if it is not much less than the largest, since
-// every exchange widens the band.
-int BandedLu::pivot_of(int column) const {
+// The row, down to `last`, that takes the place: the one that is there if it is not much less than the
+// largest, since every exchange widens the band.
+NURBEAM_WITHIN int BandedLu::pivot_of(int column, int last) const {
   constexpr double enough = 0.1;
-  const int last = std::min(padded_ - 1, column + half_bandwidth_);
   const auto size = [&](int i) { return std::abs(row(i)[column - i + half_bandwidth_]); };
   int pivot = column;
   double largest = size(column) / enough;
@@ -190,78 +200,55 @@ int BandedLu::pivot_of(int column) const {
   return pivot;
 }
 
-double BandedLu::factorise(const Matrix& matrix) {
-  fill_band(matrix);
-  const int b = half_bandwidth_;
+// Exchanges two rows from the first one's diagonal on.
+NURBEAM_WITHIN void BandedLu::exchange(int k, int p) {
+  const int b = half_bandwidth_, end = std::max(ends_[k], ends_[p]);
+  std::swap_ranges(row(k) + b, row(k) + b + end - k, row(p) + k - p + b);
+  std::swap(ends_[k], ends_[p]);
+}
+
+// Takes the unknown of a column out of the rows below, down to `last`.
+NURBEAM_WITHIN void BandedLu::take_out(int k, int last) {
+  const int b = half_bandwidth_, length = ends_[k] - k;
+  const double* upper = row(k) + b;
+  double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
+  int& reach = reach_[k / block];
+  for (int i = k + 1; i <= last; ++i) {
+    double* below = row(i) + k - i + b;
+    const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
+    if (factor == 0) continue;
+    reach = std::max(reach, i);
+    ends_[i] = std::max(ends_[i], ends_[k]);
+    for (int j = 1; j < length; j += block) four(below + j) -= factor * four(upper + j);
+  }
+}
+
+NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows() {
+  const int n = static_cast<int>(order_->unknown.size());
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (int k = 0; k < padded_; ++k) {
-    const int p = pivots_[k] = pivot_of(k);
-    if (p != k) {
-      const int end = std::max(ends_[k], ends_[p]);
-      std::swap_ranges(row(k) + b, row(k) + b + end - k, row(p) + k - p + b);
-      std::swap(ends_[k], ends_[p]);
-    }
-    const double* upper = row(k) + b;
-    const double pivot = upper[0];
+    const int last = k < n ? order_->below[k] : k, p = pivots_[k] = pivot_of(k, last);
+    if (p != k) exchange(k, p);
+    const double pivot = row(k)[half_bandwidth_];
     if (pivot == 0) return 0;
     inverse_[k] = 1 / pivot;
-    if (k < static_cast<int>(order_->unknown.size())) {
+    if (k < n) {
       smallest = std::min(smallest, std::abs(pivot));
       largest = std::max(largest, std::abs(pivot));
     }
-    double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
-    int& reach = reach_[k / block];
-    if (k % block == 0) reach = 0;
-    const int length = ends_[k] - k, last = std::min(padded_ - 1, k + b);
-    for (int i = k + 1; i <= last; ++i) {
-      double* below = row(i) + k - i + b;
-      const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
-      if (factor == 0) continue;
-      reach = std::max(reach, i);
-      for (int j = 1; j < length; j += block) Four(below + j) -= factor * ConstFour(upper + j);
-      ends_[i] = std::max(ends_[i], ends_[k]);
-    }
+    if (k % block == 0) reach_[k / block] = 0;
+    take_out(k, last);
   }
-  if (order_->unknown.empty()) return 1;
   return largest > 0 ? smallest / largest : 0;
 }
 
-void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
-  const std::size_t n = order_->unknown.size();
-  for (std::size_t k = 0; k < n; ++k) y[k] = scale_[k] * rhs[order_->unknown[k]];
-  std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
-}
-
-void BandedLu::lower(Places& y) const {
-  for (int k = 0; k < padded_; k += block) eliminate(k, y.data());
-}
-
-void BandedLu::lower(Places& y, int first, int& last) const {
-  // An exchange brings a row up by no more than the band.
-  for (int k = std::max(0, first - half_bandwidth_) / block * block; k <= last; k += block) {
-    const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
-    if (is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3)) continue;
-    eliminate(k, y.data());
-    last = std::max({last, reach_[k / block], *std::max_element(&pivots_[k], &pivots_[k] + block)});
-  }
-}
-
-void BandedLu::upper(Places& y) const {
-  for (int k = padded_ - block; k >= 0; k -= block) substitute(k, y.data());
-}
-
-void BandedLu::upper_transposed(Places& y, int first, int& last) const {
-  for (int k = first; k <= last; ++k) {
-    if (y[k] == 0) continue;
-    y[k] *= inverse_[k];
-    const double* u = row(k) + half_bandwidth_;
-    for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
-    last = std::max(last, ends_[k] - 1);
-  }
+double BandedLu::factorise(const Matrix& matrix) {
+  fill_band(matrix);
+  return order_->unknown.empty() ? 1 : eliminate_rows();
 }
 
 // Takes a block of unknowns out of the right-hand sides below it.
-void BandedLu::eliminate(int k, double* all) const {
+NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
   std::array<const double*, block> m;
   for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
   double* y = all + k;
@@ -278,24 +265,57 @@ void BandedLu::eliminate(int k, double* all) const {
   y[2] -= m[0][1] * y[0] + m[1][0] * y[1];
   y[3] -= m[0][2] * y[0] + m[1][1] * y[1] + m[2][0] * y[2];
   for (int i = 0; k + block + i <= reach_[k / block]; i += block)
-    Four(y + block + i) -= ConstFour(m[0] + i + 3) * y[0] + ConstFour(m[1] + i + 2) * y[1] +
-                           ConstFour(m[2] + i + 1) * y[2] + ConstFour(m[3] + i) * y[3];
+    four(y + block + i) -= four(m[0] + i + 3) * y[0] + four(m[1] + i + 2) * y[1] + four(m[2] + i + 1) * y[2] +
+                           four(m[3] + i) * y[3];
 }
 
 // Finds a block of unknowns from those after it.
-void BandedLu::substitute(int k, double* all) const {
+NURBEAM_WITHIN void BandedLu::substitute(int k, double* all) const {
   std::array<const double*, block> u;  // from column k on
   for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
   double* y = all + k;
   const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
-  std::array<Eigen::Array4d, block> sums;
-  sums.fill(Eigen::Array4d::Zero());
+  Four sums[block] = {};
   for (int j = block; j < length; j += block)
-    for (int r = 0; r < block; ++r) sums[r] += ConstFour(u[r] + j) * ConstFour(y + j);
-  y[3] = (y[3] - sums[3].sum()) * inverse_[k + 3];
-  y[2] = (y[2] - sums[2].sum() - u[2][3] * y[3]) * inverse_[k + 2];
-  y[1] = (y[1] - sums[1].sum() - u[1][2] * y[2] - u[1][3] * y[3]) * inverse_[k + 1];
-  y[0] = (y[0] - sums[0].sum() - u[0][1] * y[1] - u[0][2] * y[2] - u[0][3] * y[3]) * inverse_[k];
+    for (int r = 0; r < block; ++r) sums[r] += four(u[r] + j) * four(y + j);
+  y[3] = (y[3] - sum_of(sums[3])) * inverse_[k + 3];
+  y[2] = (y[2] - sum_of(sums[2]) - u[2][3] * y[3]) * inverse_[k + 2];
+  y[1] = (y[1] - sum_of(sums[1]) - u[1][2] * y[2] - u[1][3] * y[3]) * inverse_[k + 1];
+  y[0] = (y[0] - sum_of(sums[0]) - u[0][1] * y[1] - u[0][2] * y[2] - u[0][3] * y[3]) * inverse_[k];
+}
+
+void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
+  const std::size_t n = order_->unknown.size();
+  for (std::size_t k = 0; k < n; ++k) y[k] = scale_[k] * rhs[order_->unknown[k]];
+  std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
+}
+
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y) const {
+  for (int k = 0; k < padded_; k += block) eliminate(k, y.data());
+}
+
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last) const {
+  // An exchange brings a row up by no more than the band.
+  for (int k = std::max(0, first - half_bandwidth_) / block * block; k <= last; k += block) {
+    const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
+    if (is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3)) continue;
+    eliminate(k, y.data());
+    last = std::max({last, reach_[k / block], *std::max_element(&pivots_[k], &pivots_[k] + block)});
+  }
+}
+
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& y) const {
+  for (int k = padded_ - block; k >= 0; k -= block) substitute(k, y.data());
+}
+
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first, int& last) const {
+  for (int k = first; k <= last; ++k) {
+    if (y[k] == 0) continue;
+    y[k] *= inverse_[k];
+    const double* u = row(k) + half_bandwidth_;
+    for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
+    last = std::max(last, ends_[k] - 1);
+  }
 }
 
 }  // namespace nurbeam

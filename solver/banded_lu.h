@@ -15,6 +15,7 @@ struct BandOrder {
   std::vector<int> unknown;  ///< at each place of the order
   std::vector<int> place;    ///< of each unknown, -1 where it is left out
   std::vector<int> ends;     ///< one past the last column of each row, by places
+  std::vector<int> below;    ///< last row that has an entry in a column, or in one before it
   int half_bandwidth = 0;    ///< greatest distance of an entry from the diagonal
 
   /// An entry: its column, by places, and its index among the values of the pattern.
@@ -54,7 +55,10 @@ class BandedLu {
   double* row(int i) { return band_.get() + static_cast<std::size_t>(i) * width_; }
   const double* row(int i) const { return band_.get() + static_cast<std::size_t>(i) * width_; }
   void fill_band(const Eigen::SparseMatrix<double>& matrix);
-  int pivot_of(int column) const;
+  int pivot_of(int column, int last) const;
+  void exchange(int k, int p);
+  void take_out(int k, int last);
+  double eliminate_rows();
   void eliminate(int k, double* all) const;
   void substitute(int k, double* all) const;
 

@@ -292,19 +292,20 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   system_->residual(unaccelerated_, force_.head(n), force_.tail(m));
   constraint_force_.setZero(n);
   reference_.setConstant(std::numeric_limits<double>::min());
+  double* reference = reference_.data();
   const double* values = kkt_.valuePtr();
   const int *rows = kkt_.innerIndexPtr(), *starts = kkt_.outerIndexPtr();
   for (Eigen::Index column = 0; column < n; ++column) {
     const double rounding = floor * (std::abs(at.q[column]) + scale_[column]);
     const double moved = rounding + scaling * std::abs(at.a[column]);
     for (int k = starts[column]; k < starts[column + 1]; ++k)
-      reference_[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
+      reference[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
   }
   for (Eigen::Index column = n; column < n + m; ++column) {
     const double multiplier = at.lambda[column - n];
     const double rounding = floor * std::abs(multiplier) * scaling / mass_scale_;
     for (int k = starts[column]; k < starts[column + 1]; ++k) {
-      reference_[rows[k]] += rounding * std::abs(values[k]);
+      reference[rows[k]] += rounding * std::abs(values[k]);
       if (rows[k] < n) constraint_force_[rows[k]] += values[k] * multiplier;
     }
   }

@@ -1,13 +1,7 @@
 // The forces of many fixed elements at once, for the widest registers that the processor has.
 #include "fem/element/element_batch.h"
 
-#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define NURBEAM_FOR_EVERY_PROCESSOR [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
-#else
-#define NURBEAM_FOR_EVERY_PROCESSOR
-#endif
-// So that each of them has all of it.
-#define NURBEAM_WITHIN [[gnu::always_inline]] inline
+#include "solver/every_processor.h"
 
 namespace nurbeam {
 
