@@ -1,7 +1,6 @@
 #include "solver/banded_lu.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,10 +16,14 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 constexpr int block = 4;
 
-// A block of numbers that follow one another, anywhere.
-using Four = double __attribute__((vector_size(block * sizeof(double)), aligned(sizeof(double)), may_alias));
+using Four = BandedLu::Four;
 NURBEAM_WITHIN Four& four(double* at) { return *reinterpret_cast<Four*>(at); }
 NURBEAM_WITHIN const Four& four(const double* at) { return *reinterpret_cast<const Four*>(at); }
+using Square = std::array<std::array<double, block>, block>;
+NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
+  return (four(columns[0].data()) * x[0] + four(columns[1].data()) * x[1]) +
+         (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
+}
 NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
@@ -159,6 +162,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   pivots_.resize(padded);
   reach_.resize(padded / block);
   inverse_.resize(padded);
+  blocks_.resize(padded / block);
   room_ = padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block);
 }
 
@@ -223,6 +227,44 @@ NURBEAM_WITHIN void BandedLu::take_out(int k, int last) {
   }
 }
 
+NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
+  std::array<const double*, block> u;  // from column k on
+  for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+  Square &inverse = blocks_[k / block].upper, &next = blocks_[k / block].from_next;
+  for (int j = 0; j < block; ++j) {
+    inverse[j] = {};
+    inverse[j][j] = inverse_[k + j];
+    for (int i = j - 1; i >= 0; --i) {
+      double sum = 0;
+      for (int l = i + 1; l <= j; ++l) sum += u[i][l] * inverse[j][l];
+      inverse[j][i] = -inverse_[k + i] * sum;
+    }
+  }
+  for (int j = 0; j < block; ++j) {
+    Four sum = {};
+    for (int r = 0; r < block; ++r) sum += four(inverse[r].data()) * u[r][block + j];
+    four(next[j].data()) = sum;
+  }
+}
+
+NURBEAM_WITHIN void BandedLu::invert_lower(int k) {
+  Block& own = blocks_[k / block];
+  own.exchanged = false;
+  for (int c = 0; c < block; ++c) own.exchanged |= pivots_[k + c] != k + c;
+  if (own.exchanged) return;
+  const std::array<const double*, block> m = multipliers(k);
+  for (int j = 0; j < block; ++j) {
+    own.lower[j] = {};
+    own.lower[j][j] = 1;
+    for (int i = j + 1; i < block; ++i)
+      for (int l = j; l < i; ++l) own.lower[j][i] -= m[l][i - l - 1] * own.lower[j][l];
+  }
+  if (k == 0 || blocks_[k / block - 1].exchanged) return;
+  const std::array<const double*, block> before = multipliers(k - block);
+  for (int j = 0; j < block; ++j)
+    four(own.from_previous[j].data()) = product(own.lower, four(before[j] + block - 1 - j));
+}
+
 NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows() {
   const int n = static_cast<int>(order_->unknown.size());
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
@@ -238,6 +280,10 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows() {
     }
     if (k % block == 0) reach_[k / block] = 0;
     take_out(k, last);
+    if (k % block == block - 1) {
+      invert_upper(k - k % block);
+      invert_lower(k - k % block);
+    }
   }
   return largest > 0 ? smallest / largest : 0;
 }
@@ -247,41 +293,33 @@ double BandedLu::factorise(const Matrix& matrix) {
   return order_->unknown.empty() ? 1 : eliminate_rows();
 }
 
-// Takes a block of unknowns out of the right-hand sides below it.
-NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
+NURBEAM_WITHIN std::array<const double*, block> BandedLu::multipliers(int k) const {
   std::array<const double*, block> m;
   for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
-  double* y = all + k;
-  bool exchanged = false;
-  for (int c = 0; c < block; ++c) exchanged |= pivots_[k + c] != k + c;
-  if (exchanged) {
-    for (int c = 0; c < block; ++c) {
-      std::swap(y[c], all[pivots_[k + c]]);
-      for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
-    }
-    return;
-  }
-  y[1] -= m[0][0] * y[0];
-  y[2] -= m[0][1] * y[0] + m[1][0] * y[1];
-  y[3] -= m[0][2] * y[0] + m[1][1] * y[1] + m[2][0] * y[2];
-  for (int i = 0; k + block + i <= reach_[k / block]; i += block)
-    four(y + block + i) -= four(m[0] + i + 3) * y[0] + four(m[1] + i + 2) * y[1] + four(m[2] + i + 1) * y[2] +
-                           four(m[3] + i) * y[3];
+  return m;
 }
 
-// Finds a block of unknowns from those after it.
-NURBEAM_WITHIN void BandedLu::substitute(int k, double* all) const {
-  std::array<const double*, block> u;  // from column k on
-  for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+// Takes a block of unknowns whose rows stay out of the right-hand sides below it, from the `first` one on.
+NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, int first, double* y) const {
+  const std::array<const double*, block> m = multipliers(k);
+  for (int i = first; k + block + i <= reach_[k / block]; i += block)
+    four(y + block + i) -= four(m[0] + i + 3) * x[0] + four(m[1] + i + 2) * x[1] + four(m[2] + i + 1) * x[2] +
+                           four(m[3] + i) * x[3];
+}
+
+// Finds a block of unknowns and takes it out of the right-hand sides below it.
+NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
   double* y = all + k;
-  const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
-  Four sums[block] = {};
-  for (int j = block; j < length; j += block)
-    for (int r = 0; r < block; ++r) sums[r] += four(u[r] + j) * four(y + j);
-  y[3] = (y[3] - sum_of(sums[3])) * inverse_[k + 3];
-  y[2] = (y[2] - sum_of(sums[2]) - u[2][3] * y[3]) * inverse_[k + 2];
-  y[1] = (y[1] - sum_of(sums[1]) - u[1][2] * y[2] - u[1][3] * y[3]) * inverse_[k + 1];
-  y[0] = (y[0] - sum_of(sums[0]) - u[0][1] * y[1] - u[0][2] * y[2] - u[0][3] * y[3]) * inverse_[k];
+  if (!blocks_[k / block].exchanged) {
+    const Four x = product(blocks_[k / block].lower, four(y));
+    four(y) = x;
+    return take_out(k, x, 0, y);
+  }
+  const std::array<const double*, block> m = multipliers(k);
+  for (int c = 0; c < block; ++c) {
+    std::swap(y[c], all[pivots_[k + c]]);
+    for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
+  }
 }
 
 void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
@@ -290,8 +328,27 @@ void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
   std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y) const {
-  for (int k = 0; k < padded_; k += block) eliminate(k, y.data());
+// Block by block, each taken out of those after it: of the next one when its turn comes.
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& all) const {
+  Four before = {};
+  bool is_waiting = false;
+  for (int k = 0; k < padded_; k += block) {
+    double* y = all.data() + k;
+    const Block& own = blocks_[k / block];
+    if (own.exchanged) {
+      if (is_waiting) {
+        const std::array<const double*, block> m = multipliers(k - block);
+        for (int c = 0; c < block; ++c) four(y) -= four(m[c] + block - 1 - c) * before[c];
+      }
+      eliminate(k, all.data());
+    } else {
+      Four x = product(own.lower, four(y));
+      if (is_waiting) x -= product(own.from_previous, before);
+      four(y) = before = x;
+      take_out(k, x, block, y);
+    }
+    is_waiting = !own.exchanged;
+  }
 }
 
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last) const {
@@ -304,8 +361,21 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last
   }
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& y) const {
-  for (int k = padded_ - block; k >= 0; k -= block) substitute(k, y.data());
+// Block by block from those after it, of which the next one comes in last: it is waited for.
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
+  Four after = {};
+  for (int k = padded_ - block; k >= 0; k -= block) {
+    std::array<const double*, block> u;  // from column k on
+    for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+    double* y = all.data() + k;
+    const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
+    Four sums[block] = {};
+    for (int j = 2 * block; j < length; j += block)
+      for (int r = 0; r < block; ++r) sums[r] += four(u[r] + j) * four(y + j);
+    const Four rest = four(y) - Four{sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]), sum_of(sums[3])};
+    after = product(blocks_[k / block].upper, rest) - product(blocks_[k / block].from_next, after);
+    four(y) = after;
+  }
 }
 
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first, int& last) const {

@@ -49,18 +49,18 @@ struct Curvature {
     const Lanes8 A = dot<D>(rs, rs);
     if constexpr (D == 2) {
       const double twice_m = material ? 2 : 3;
-      const Lanes8 p = material ? 1 / A : 1 / (A * square_root(A));
+      const Lanes8 i = 1 / A, p = material ? i : i * square_root(i);
       value = p * (rs[0] * rss[1] - rs[1] * rss[0]);
-      const Lanes8 along = twice_m * value / A;
+      const Lanes8 along = twice_m * value * i;
       by_rs = {p * rss[1] - along * rs[0], -p * rss[0] - along * rs[1]};
       by_rss = {-p * rs[1], p * rs[0]};
     } else {
       const double m = material ? 2 : 3;
       const Lanes8 G = dot<D>(rss, rss), F = dot<D>(rs, rss);
-      const Lanes8 p = material ? 1 / (A * A) : 1 / (A * A * A);
+      const Lanes8 i = 1 / A, p = material ? i * i : i * i * i;
       const Lanes8 square = p * (A * G - F * F);
       value = square_root(square + curvature_rounding * curvature_rounding);
-      const Lanes8 q = p / value, along = m * square / (A * value);
+      const Lanes8 q = p / value, along = m * i * square / value;
       for (int d = 0; d < D; ++d) {
         by_rs[d] = q * (G * rs[d] - F * rss[d]) - along * rs[d];
         by_rss[d] = q * (A * rss[d] - F * rs[d]);
