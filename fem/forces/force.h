@@ -25,10 +25,10 @@
 /// the roll of the body of a joint(), with add_momentum; work(at, from, to), but for weight, between two
 /// states on one mesh [J]; loss(at, from, to), of energy between them [J], where it is no rate in add_energy;
 /// commit(at, state, memory), its part of State::memory after a step; add_actions(at, state, actions), what
-/// it does to points of beams; on_body(at, body, state), what it gives to a body [N]; on_element(e, state), the
-/// generalised force on an element of its `beam` with torsion, with per_length(state) about the tangent;
-/// `depends_on_multipliers`. State::load scales all loads. A description that is not itself such a force names
-/// its Bound<D>, made of (description, at, drawn); it may ask for nodes with for_each_node(visit).
+/// it does to points of beams; on_body(at, body, state), what it gives to a body [N]; on_element(e, state),
+/// the generalised force on an element of its `beam` with torsion, with per_length(state) about the tangent;
+/// `depends_on_multipliers`. State::load scales all loads. A description that is not itself such a force
+/// names its Bound<D>, made of (description, at, drawn); it may ask for nodes with for_each_node(visit).
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;

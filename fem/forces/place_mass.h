@@ -21,7 +21,8 @@ struct PlaceMass {
   using Bound = BoundPlaceMass<D>;
   template <class Visit>
   void for_each_node(Visit&& visit) const {
-    visit(beam, s, [](HomeNode& node) { node.kept = true; });
+    visit(
+        beam, s, [](HomeNode& node) { node.kept = true; });
   }
 };
 

@@ -129,7 +129,8 @@ struct BodyRolls {
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     if constexpr (D == 3)
-      for (int j = 0; j < static_cast<int>(binding.at.structure.joints.size()); ++j) bind_roll(j, binding, add);
+      for (int j = 0; j < static_cast<int>(binding.at.structure.joints.size()); ++j)
+        bind_roll(j, binding, add);
   }
 
  private:

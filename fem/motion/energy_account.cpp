@@ -36,7 +36,9 @@ bool is_driven(const BeamModel& m) {
              [](const Constraint& constraint) {
                return std::visit(
                    [](const auto& c) {
-                     if constexpr (requires { c.motion; }) return c.motion.has_value();
+                     if constexpr (
+                         requires { c.motion; })
+                       return c.motion.has_value();
                      return false;
                    },
                    constraint);

@@ -124,8 +124,7 @@ std::optional<Failure> wrong_sign(const BeamModel& model, const MeshedState& at)
     const Connector& connector = model.connectors[i];
     const bool tension = connector.type == ConnectorType::tension_only;
     if (!is_asked(connector) || !(tension || connector.type == ConnectorType::compression_only)) continue;
-    const auto [length, force] =
-        length_and_force(*at.system, at.state, i);
+    const auto [length, force] = length_and_force(*at.system, at.state, i);
     const double none = 1e-9 * connector.stiffness * length;
     if ((tension ? -force : force) > none)
       return Failure{

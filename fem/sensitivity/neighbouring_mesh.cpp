@@ -102,9 +102,8 @@ std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, c
 
 std::vector<bool> held_joints(const BeamSystem& system) {
   std::vector<bool> held;
-  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
+  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
     held.push_back(row_of_place(system, j) && !system.model().joints[j].motion);
-  }
   return held;
 }
 

@@ -59,7 +59,9 @@ struct Connector {
   template <class Visit>
   void for_each_node(Visit&& visit) const {
     for (const ConnectorEnd& end : ends)
-      if (end.beam >= 0) visit(end.beam, end.s, [](HomeNode& node) { node.kept = true; });
+      if (end.beam >= 0)
+        visit(
+            end.beam, end.s, [](HomeNode& node) { node.kept = true; });
   }
   bool jumps() const { return sign() != 0 && damping > 0; }
   /// Less is none, where its ends are that far apart [m].

@@ -181,7 +181,9 @@ typename Assembly<D>::Vector Assembly<D>::force_on_body(int body, const State& s
   for (const BoundForce<D>& force : forces_)
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.on_body(at, body, state); }) sum += f.on_body(at, body, state);
+          if constexpr (
+              requires { f.on_body(at, body, state); })
+            sum += f.on_body(at, body, state);
         },
         force);
   for_each_constraint([&](const auto& c, const Rows& rows) {
@@ -410,9 +412,15 @@ Eigen::VectorXd Assembly<D>::committed(const State& state) const {
 
 template <int D>
 bool Assembly<D>::forces_depend_on_multipliers() const {
-  return std::any_of(forces_.begin(), forces_.end(), [](const BoundForce<D>& force) {
-    return std::visit([](const auto& f) { return requires { f.depends_on_multipliers; }; }, force);
-  });
+  return std::any_of(
+      forces_.begin(), forces_.end(),
+      [](const BoundForce<D>& force) {
+        return std::visit(
+            [](const auto& f) {
+              return requires { f.depends_on_multipliers; };
+            },
+            force);
+      });
 }
 
 template class Assembly<2>;

@@ -69,9 +69,11 @@ double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.template work<D>(at, from, to); })
+          if constexpr (
+              requires { f.template work<D>(at, from, to); })
             sum += f.template work<D>(at, from, to);
-          else if constexpr (requires { f.work(at, from, to); })
+          else if constexpr (
+              requires { f.work(at, from, to); })
             sum += f.work(at, from, to);
         },
         force);
@@ -195,8 +197,7 @@ Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int jo
   if (mesh.plan.modes[joint] == JointMode::free) return Eigen::Vector3d::Zero();
   const int body = system.model().joints[joint].body;
   const Eigen::Vector3d given = with_assembly(
-      system,
-      [&]<int D>(const Assembly<D>& a) { return widened<D>(a.force_on_body(body, state)); });
+      system, [&]<int D>(const Assembly<D>& a) { return widened<D>(a.force_on_body(body, state)); });
   const Eigen::Vector3d acceleration = vector_at(system, state.a, mesh.bodies[body]);
   return system.model().bodies[body].mass * (acceleration - system.model().gravity) - given;
 }
