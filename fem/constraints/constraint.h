@@ -19,7 +19,9 @@
 /// Hessian contracted with y where that is not null, and, if it has them, rate(t) and acceleration(t) (dg/dt,
 /// d2g/dt2 at fixed q), `linear` (no Hessian), and of its multipliers y force(y) on the beam where that is
 /// not -y, couple(at, state, y), action(at, state, y) on a point of a beam, on_body(body, state, y), what it
-/// gives to a body [N], and work(from, to, y_from, y_to), done between two states on one mesh [J].
+/// gives to a body [N], and work(from, to, y_from, y_to), done between two states on one mesh [J]; body(),
+/// first coordinate of a body that follows what the other coordinates do; what it is for: the coordinate of a
+/// place(), a closed_stop(), a connector() with its length_and_force(state, y).
 namespace nurbeam {
 
 /// In either dimension, and `Others` besides.
