@@ -160,7 +160,7 @@ void Assembly<D>::choose_moving_part() {
     mark(element_blocks_[i].dofs);
     mark(twist_blocks_[i].dofs);
   }
-  for (int i = first_joint_constraint_; i < last_joint_constraint_; ++i) {
+  for (const int i : over_mesh_) {
     if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
       continue;
     moving_.constraints.push_back(i);
