@@ -20,6 +20,31 @@ bool keeps_motion(const Beam& beam, MeshChange change) {
   return change == MeshChange::merge && beam.merge != MergeRule::standard;
 }
 
+// With the moves of a neighbouring motion where there are such.
+std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, bool at_rest,
+                                   const std::vector<EnergyMove>* moves) {
+  const BeamModel& model = at.system->model();
+  const std::vector<bool> held(model.joints.size(), at_rest);
+  auto to = at.system->replanned(next.plan, held);
+  if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
+    State carried = interpolated(*at.system, at.state, *to);
+    if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};
+    return ChangedMesh{.now = {std::move(to), std::move(carried)}};
+  }
+  std::optional<Transferred> moved =
+      moves ? projected_like(*at.system, at.state, *to, *moves) : projected(*at.system, at.state, *to);
+  if (!moved) return {};
+  return ChangedMesh{
+      {std::move(to), std::move(moved->state)}, std::move(moved->impulse), std::move(moved->moves)};
+}
+
+std::optional<Failure> go_on_there(MeshedState& at, std::optional<ChangedMesh> changed) {
+  if (!changed)
+    return Failure{.kind = Failure::Kind::projection, .time = at.state.t, .places = places_of(at)};
+  at = std::move(changed->now);
+  return {};
+}
+
 }  // namespace
 
 MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
@@ -29,27 +54,17 @@ MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
   return {std::move(system), std::move(state)};
 }
 
-std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest,
-                                        double accuracy) {
-  const BeamModel& model = at.system->model();
-  const std::vector<bool> held(model.joints.size(), at_rest);
-  auto to = at.system->replanned(next.plan, held);
-  if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
-    State carried = interpolated(*at.system, at.state, *to);
-    if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};
-    return ChangedMesh{{std::move(to), std::move(carried)}};
-  }
-  std::optional<Transferred> moved = projected(*at.system, at.state, *to, accuracy);
-  if (!moved) return {};
-  return ChangedMesh{{std::move(to), std::move(moved->state)}, std::move(moved->impulse)};
+std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest) {
+  return changed(at, next, at_rest, nullptr);
 }
 
-std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest, double accuracy) {
-  std::optional<ChangedMesh> changed = changed_mesh(at, next, at_rest, accuracy);
-  if (!changed)
-    return Failure{.kind = Failure::Kind::projection, .time = at.state.t, .places = places_of(at)};
-  at = std::move(changed->now);
-  return {};
+std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
+  return go_on_there(at, changed(at, next, at_rest, nullptr));
+}
+
+std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
+                                        const std::vector<EnergyMove>& moves) {
+  return go_on_there(at, changed(at, next, false, &moves));
 }
 
 std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "fem/motion/simulation_report.h"
 #include "fem/motion/transfer.h"
@@ -19,17 +20,19 @@ struct MeshedState {
 /// A motion on another mesh.
 struct ChangedMesh {
   MeshedState now;
-  Eigen::VectorXd impulse = {};  ///< of the projection (see Transferred); empty where there was none
+  Eigen::VectorXd impulse = {};        ///< of the projection (see Transferred); empty where there was none
+  std::vector<EnergyMove> moves = {};  ///< see Transferred
 };
 
 /// On the mesh that length control asks for; `at_rest`: joints are held there, and there are no velocities to
-/// project. `accuracy`: of projected(). Empty where velocities cannot be projected.
-std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest,
-                                        double accuracy = kept_energy);
+/// project. Empty where velocities cannot be projected.
+std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest);
 
 /// Goes on there.
-[[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest,
-                                                 double accuracy = kept_energy);
+[[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
+/// The same as a neighbouring motion, which has been moved so to keep its energy.
+[[nodiscard]] std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
+                                                      const std::vector<EnergyMove>& moves);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
 /// than that can be.

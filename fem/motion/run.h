@@ -58,7 +58,4 @@ struct Run {
   double mechanical_energy() const;
 };
 
-/// The accuracy of kept energy where differences are taken of what comes out.
-constexpr double neighbours_accuracy = 1e-14;
-
 }  // namespace nurbeam

@@ -46,9 +46,9 @@ bool change_due_mesh(Run& run) {
     const std::vector<BeamRecord> before =
         observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
     run.at = std::move(changed->now);
-    run.follow([&next](MeshedState& of) {
+    run.follow([&](MeshedState& of) {
       const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
-      return !change_mesh(of, same, false, neighbours_accuracy);
+      return !change_mesh_like(of, same, changed->moves);
     });
     if (!run.restart()) return false;
     run.at.state = run.integrator->state();

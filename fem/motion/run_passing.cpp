@@ -1,5 +1,6 @@
 #include "fem/motion/run_passing.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,9 +32,9 @@ bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
   return true;
 }
 
-// A joint's body in the next element; of a neighbouring model with another accuracy of kept energy. False
-// where velocities cannot be projected.
-bool go_over(MeshedState& at, const Crossing& crossing, double accuracy) {
+// A joint's body in the next element: with the moves that keep the energy, or those of a neighbouring motion
+// where they are known. False where velocities cannot be projected.
+bool go_over(MeshedState& at, const Crossing& crossing, std::optional<std::vector<EnergyMove>>& moves) {
   const SlidingJoint& joint = at.system->model().joints[crossing.joint];
   const double beyond = landing_tolerance(at.system->model(), crossing.joint);
   at.state.q[at.system->mesh().joints[crossing.joint].place] =
@@ -47,8 +48,10 @@ bool go_over(MeshedState& at, const Crossing& crossing, double accuracy) {
   }
   // Curvature and twist jump from element to element, and with them the motion of a body that follows the
   // section: an impact.
-  std::optional<Transferred> moved = projected(*at.system, at.state, *next, accuracy);
+  std::optional<Transferred> moved =
+      moves ? projected_like(*at.system, at.state, *next, *moves) : projected(*at.system, at.state, *next);
   if (!moved) return false;
+  moves = std::move(moved->moves);
   at = {std::move(next), std::move(moved->state)};
   return true;
 }
@@ -118,9 +121,9 @@ bool rests_by(const Run& run, const StepEvent& event) {
 bool step_over(Run& run, const Crossing& crossing) {
   const bool follows_section = run.model->joints[crossing.joint].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
+  std::optional<std::vector<EnergyMove>> moves;  // of the run, which is the first to go over
   const bool gone = run.change([&](MeshedState& at) {
-    const double accuracy = &at == &run.at ? kept_energy : neighbours_accuracy;
-    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), accuracy);
+    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), moves);
   });
   if (!gone) return run.fail_in_impact(crossing.joint);
   if (follows_section) run.account.lose(before - run.mechanical_energy());

@@ -23,7 +23,7 @@ namespace {
 class Remap {
  public:
   Remap(const BeamSystem& from, const State& state, const BeamSystem& to)
-      : from_(from), state_(state), to_(to), enough_(closed_enough(from, state)) {}
+      : from_(from), state_(state), to_(to), enough_(closed_enough(from, state)), old_(energy(from, state)) {}
 
   // The velocities for the places next.q, by L2 projection: nothing when that is singular.
   std::optional<Transferred> with_velocities(State next) const {
@@ -46,11 +46,10 @@ class Remap {
   // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
   // axial strain that the old ones had not, and where these cannot bring it, their neighbours too, ring by
   // ring.
-  void keep_energy(Transferred& next, double accuracy) const {
-    const SystemEnergy old = energy(from_, state_);
+  void keep_energy(Transferred& next) const {
+    constexpr double accuracy = 1e-10;
     const double enough =
-        accuracy * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
-    const auto excess = [&](const State& x) { return energy(to_, x).mechanical() - old.mechanical(); };
+        accuracy * (old_.kinetic + old_.axial + old_.bending);  // the same wherever the model lies
     double e = excess(next.state);
     constexpr int most_rings = 4;
     for (int rings = 0; rings <= most_rings && std::abs(e) > enough; ++rings) {
@@ -58,13 +57,39 @@ class Remap {
       constexpr int most_moves = 10;
       for (int i = 0; i < most_moves && std::abs(e) > enough && !free.empty(); ++i) {
         const double before = std::abs(e);
-        if (!move_towards(next, free, excess, e)) break;
+        const std::optional<int> halvings = move_towards(next, free, e);
+        if (!halvings) break;
+        next.moves.push_back({rings, *halvings});
         if (std::abs(e) > 0.99 * before) break;
       }
     }
   }
 
+  // Whether these moves could be made.
+  bool repeat(const std::vector<EnergyMove>& moves, Transferred& next) const {
+    for (const EnergyMove& move : moves) {
+      const std::vector<int> free = free_coordinates(move.rings);
+      const Eigen::VectorXd whole = least_move(next.state, free, excess(next.state));
+      std::optional<Transferred> moved = with_move(next.state, free, std::ldexp(1.0, -move.halvings) * whole);
+      if (!moved) return false;
+      next = std::move(*moved);
+    }
+    next.moves = moves;
+    return true;
+  }
+
  private:
+  double excess(const State& x) const { return energy(to_, x).mechanical() - old_.mechanical(); }
+
+  // The free coordinates moved on; nothing where that cannot be.
+  std::optional<Transferred> with_move(const State& from, const std::vector<int>& free,
+                                       const Eigen::VectorXd& move) const {
+    State moved = from;
+    for (std::size_t i = 0; i < free.size(); ++i) moved.q[free[i]] += move[static_cast<long>(i)];
+    if (!to_.admissible(moved)) return std::nullopt;
+    return with_velocities(std::move(moved));
+  }
+
   // The momentum of the old motion over the new elements, plus the bodies' momenta.
   Eigen::VectorXd momentum_on(const State& next) const {
     const Mesh& old = from_.mesh();
@@ -83,23 +108,21 @@ class Remap {
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
-  // of the potential energy, or to its lowest. Returns whether |e| has fallen; else nothing changes.
-  template <class Excess>
-  bool move_towards(Transferred& next, const std::vector<int>& free, const Excess& excess, double& e) const {
+  // of the potential energy, or to its lowest. Returns how often it was halved until |e| fell; where it does
+  // not nothing changes.
+  std::optional<int> move_towards(Transferred& next, const std::vector<int>& free, double& e) const {
     Eigen::VectorXd move = least_move(next.state, free, e);
-    for (int attempt = 0; attempt < 4; ++attempt, move /= 2) {
-      State moved = next.state;
-      for (std::size_t i = 0; i < free.size(); ++i) moved.q[free[i]] += move[static_cast<long>(i)];
-      if (!to_.admissible(moved)) continue;
-      std::optional<Transferred> trial = with_velocities(std::move(moved));
+    for (int halvings = 0; halvings < 4; ++halvings, move /= 2) {
+      std::optional<Transferred> trial = with_move(next.state, free, move);
       if (!trial) continue;
       const double left = excess(trial->state);
       if (!(std::abs(left) < std::abs(e))) continue;
-      next = std::move(*trial);
+      next.state = std::move(trial->state);
+      next.impulse = std::move(trial->impulse);
       e = left;
-      return true;
+      return halvings;
     }
-    return false;
+    return std::nullopt;
   }
 
   // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy, and what constraints allow:
@@ -209,6 +232,7 @@ class Remap {
   const State& state_;
   const BeamSystem& to_;
   const double enough_;  // of closed constraints
+  const SystemEnergy old_;
 };
 
 // Position, slopes, sections and place of a node that the old mesh had too.
@@ -311,11 +335,18 @@ double closed_enough(const BeamSystem& from, const State& state) {
   return std::max(open_constraints(from, state), 1e-12 * state.q.lpNorm<Eigen::Infinity>());
 }
 
-std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                     double accuracy) {
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to) {
   const Remap remap(from, state, to);
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
-  if (next) remap.keep_energy(*next, accuracy);
+  if (next) remap.keep_energy(*next);
+  return next;
+}
+
+std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                          const std::vector<EnergyMove>& moves) {
+  const Remap remap(from, state, to);
+  std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
+  if (next && !remap.repeat(moves, *next)) return std::nullopt;
   return next;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "fem/motion/mesh_rules.h"
 
@@ -10,28 +11,37 @@ namespace nurbeam {
 /// old one, and with the pointwise strain the motion is. t, q and v are set; a and lambda are zero.
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to);
 
+/// A move of nodes towards the energy of before: those of new elements and of rings of neighbours around
+/// them, of 2^-halvings of what a parabola foretells.
+struct EnergyMove {
+  int rings, halvings;
+};
+
 /// A motion on another mesh, and what carrying it over took.
 struct Transferred {
   State state;
   /// Constraint impulse of the projection of velocities [N s]: the momentum on the new mesh changes by -G'
   /// impulse.
   Eigen::VectorXd impulse;
+  std::vector<EnergyMove> moves = {};  ///< that have kept the energy
 };
 
 /// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far
 /// as they were, or round-off.
 double closed_enough(const BeamSystem& from, const State& state);
 
-/// To what part of the kinetic and strain energy the energy is kept where nothing else is said.
-inline constexpr double kept_energy = 1e-10;
-
 /// The same for a mesh that cannot hold the motion exactly: velocities are the L2 projection of the material
 /// velocity field, and the nodes of new elements, if need be their neighbours too, move so that the total
-/// energy is kept: by the least displacements, in the mass norm, that bring it back. As interpolated, a
-/// merged element carries axial strain that the two had not (Ding & Ouyang choose weights instead, Eqs.
-/// 31-38). Such moves open no constraint. Where the energy cannot be reached it comes as near as they bring
-/// it. Returns nullopt when the projection is singular or the constraints cannot be closed.
-std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                     double accuracy = kept_energy);
+/// energy is kept, to 1e-10 of the kinetic and strain energy: by the least displacements, in the mass norm,
+/// that bring it back. As interpolated, a merged element carries axial strain that the two had not (Ding &
+/// Ouyang choose weights instead, Eqs. 31-38). Such moves open no constraint. Where the energy cannot be
+/// reached it comes as near as they bring it. Returns nullopt when the projection is singular or the
+/// constraints cannot be closed.
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);
+/// The same with these moves, whatever they bring, so that it is a smooth function of the state and of the
+/// model: where `moves` are those of a neighbouring motion, as far away from the energy's own as that one is.
+/// nullopt also where they cannot be made.
+std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                          const std::vector<EnergyMove>& moves);
 
 }  // namespace nurbeam

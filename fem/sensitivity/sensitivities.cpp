@@ -205,6 +205,24 @@ void Sensitivities::rests(const MeshedState& at) {
   }
 }
 
+// Of a step, by each parameter, from the tangents at its start: that of the system's step limit where this
+// has shortened it, or its part of what is left to the next time of the run; none where it lands on an event.
+Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
+  const double h = step.after.t - step.before.t, limit = system_->step_limit(step.before);
+  if (step.beyond) return Eigen::RowVectorXd::Zero(tangents_.parameters());
+  if (step.asked <= limit) return -h / step.rest * tangents_.t;
+  Eigen::RowVectorXd changes(tangents_.parameters());
+  for (Eigen::Index k = 0; k < changes.size(); ++k) {
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    const double p = parameter.pair.step;
+    const State tangent = tangents_.of(k);
+    const double more = parameter.more->step_limit(moved(step.before, tangent, p)),
+                 less = parameter.less->step_limit(moved(step.before, tangent, -p));
+    changes[k] = h / limit * (more - less) / (2 * p);
+  }
+  return changes;
+}
+
 Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step, const StepTangent& tangent) const {
   const double h = step.after.t - step.before.t, shift = 1e-4 * h;
   const Eigen::Index n = step.after.q.size(), m = step.after.lambda.size();
@@ -232,8 +250,7 @@ void Sensitivities::steps(const FollowedStep& step) {
   ++work_.tangents;
   if (!step_->take(step.before, step.history, step.after, step.repeated))
     throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
-  Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(tangents_.parameters());  // of the step's length
-  if (!step.beyond) change = -h / step.rest * tangents_.t;
+  const Eigen::RowVectorXd change = changes_of_length(step);
   find_residual_changes(step.after, tangents_.t + change, step_->stiffness());
   tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
   work_.solves += tangents_.parameters();

@@ -34,6 +34,7 @@ struct NeighbourPair {
 ///   - A step that lands on an event is longer by dh, for which the event stays where it is: beyond(end + dh
 ///     d(end)/dh) = 0; times of what comes after are later by as much, and later steps shorter, so that the
 ///     next time of the run is met again.
+///   - A step that the system's step limit has shortened is longer as this is.
 ///
 /// dR is half the difference of the residual of the neighbours at the state of the run, where they differ,
 /// and with the places of joints where they correspond: at the same place in metres of a curve that has
@@ -82,6 +83,7 @@ class Sensitivities final : public RunFollower {
   void go_on_from(const MeshedState& at);
   void find_residual_changes(const State& at, const Eigen::RowVectorXd& time,
                              const Eigen::SparseMatrix<double>& stiffness);
+  Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
   Longer by_length(const FollowedStep& step, const StepTangent& tangent) const;
 
   GeneralizedAlpha settings_;

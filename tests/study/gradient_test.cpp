@@ -284,6 +284,27 @@ TEST(Gradient, OfBodiesBehindAKnotThatMoves) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
+// A moving node comes to the one that its element ends with: the last step before it is shortened, by a
+// length that is another where the body comes sooner.
+TEST(Gradient, OfAStepThatTheElementLeftShortens) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 1, 1, 1, 1], "weights": [1, 0.9, 1.1, 1, 1],
+                         "control_points": [[0, 0, 0.9], [0.7, 0, 0.5], [1.3, 0, 0.3], [1.9, 0, 0.2], [2.7, 0, 0]]}},
+      "section": {"radius": "18 mm"}, "material": {"density": 2700, "youngs_modulus": "8 GPa"},
+      "elements": {"count": 14}}],
+    "bodies": [{"name": "bead", "mass": 0.9}],
+    "sliding_joints": [{"body": "bead", "beam": "beam", "at": {"length": 1.36}, "speed": 3}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped"}, {"beam": "beam", "at": "end", "type": "clamped"}],
+    "analysis": {"type": "dynamic", "end_time": 0.03, "step": "1 ms"}, "output": {"every": 0.03}})json",
+                 R"json("variables": [
+      {"name": "speed", "path": "sliding_joints[0].speed", "range": [2.8, 3.2]}],
+    "quantities": [{"name": "s", "value": "at(end, bead.s)"}, {"name": "v", "value": "at(end, bead.vx)"},
+      {"name": "U", "value": "at(end, energy.bending)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 1e-3, 1e-5);
+}
+
 TEST(Gradient, OfTheTimeAtWhichABodyLeaves) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
     "beams": [{"name": "rail", "rigid": true,
