@@ -1,5 +1,6 @@
 #include "solver/consistent.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -25,18 +26,16 @@ struct ScaledKkt {
  private:
   // Divides the rows and columns of coordinates by their largest diagonal entry.
   void scale_coordinates(int n) {
-    const auto for_each = [&](const auto& visit) {
-      for (int column = 0; column < n; ++column)
-        for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k)
-          if (const int row = matrix.innerIndexPtr()[k]; row < n) visit(row, column, matrix.valuePtr()[k]);
+    const int *rows = matrix.innerIndexPtr(), *starts = matrix.outerIndexPtr();
+    const auto first_at_least = [&](int row, int column) {
+      return static_cast<int>(std::lower_bound(rows + starts[column], rows + starts[column + 1], row) - rows);
     };
     double largest = 0;
-    for_each([&](int row, int column, double value) {
-      if (row == column) largest = std::fmax(largest, value);
-    });
+    for (int i = 0; i < n; ++i) largest = std::fmax(largest, matrix.valuePtr()[first_at_least(i, i)]);
     if (!(largest > 0) || !std::isfinite(largest)) return;
     scale = largest;
-    for_each([&](int, int, double& value) { value /= largest; });
+    for (int i = 0; i < n; ++i)
+      Eigen::Map<Eigen::ArrayXd>(matrix.valuePtr() + starts[i], first_at_least(n, i) - starts[i]) /= largest;
   }
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/arguments.h"
+#include "solver/finite.h"
 #include "solver/mass_scale.h"
 
 namespace nurbeam {
@@ -39,8 +40,8 @@ void check(const GeneralizedAlpha& settings) {
           " is negative");
 }
 
-bool all_finite(const State& state) {
-  return state.q.allFinite() && state.v.allFinite() && state.a.allFinite() && state.lambda.allFinite();
+bool is_finite(const State& state) {
+  return all_finite(state.q) && all_finite(state.v) && all_finite(state.a) && all_finite(state.lambda);
 }
 
 /// The residuals and corrections of one step, each with what the last correction left of the one before.
@@ -173,20 +174,20 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
 
 StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) {
   predict(step);
-  if (!all_finite(trial_)) return StepStatus::not_converged;
+  if (!is_finite(trial_)) return StepStatus::not_converged;
   if (!system_->admissible(trial_)) return StepStatus::inadmissible;
   if (!has_matrix_for(step)) linearisation_ = nullptr;
   const bool has_served = linearisation_ != nullptr;
   Convergence convergence;
   for (int i = 0; i < settings_.max_iterations; ++i) {
     evaluate_residual(step);
-    if (!residual_.allFinite()) return StepStatus::not_converged;
+    if (!all_finite(residual_)) return StepStatus::not_converged;
     ++report.newton_iterations;
     const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
     if (!is_kept && !linearise(trial_point(step))) return StepStatus::singular_matrix;
     report.residual_norm = residual_.cwiseProduct(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
-    if (!correction_.allFinite()) return StepStatus::not_converged;
+    if (!all_finite(correction_)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const double correction =
         correction_.head(scale_.size()).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();

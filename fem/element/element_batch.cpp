@@ -284,14 +284,17 @@ struct ElementBatch<D>::Kernel {
 
   NURBEAM_WITHIN Nodes gathered(const double* values) const {
     Nodes nodes;
-    for (int k = 0; k < nodal; ++k)
-      for (int i = 0; i < lanes; ++i) nodes[k / D][k % D].of[i] = values[batch.dofs_[k][i]];
+    for (int k = 0; k < nodal; ++k) {
+      const std::array<int, lanes>& at = batch.dofs_[k];
+      nodes[k / D][k % D] = Lanes8{{values[at[0]], values[at[1]], values[at[2]], values[at[3]], values[at[4]],
+                                    values[at[5]], values[at[6]], values[at[7]]}};
+    }
     return nodes;
   }
 
   NURBEAM_WITHIN void add_forces(const State& state, const Vector& load, double free_strain,
                                  double* forces) const {
-    Nodes e = gathered(state.q.data()), e_rate = {};
+    Nodes e = gathered(state.q.data()), e_rate;  // which nobody asks for without damping
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
     if (beam.is_damped()) e_rate = gathered(state.v.data());
     Nodes force = product(gathered(state.a.data()), batch.mass_);

@@ -6,10 +6,10 @@
 
 namespace nurbeam {
 
-/// One number of each of eight elements, side by side. Aligned for the widest registers, which the type of
-/// its numbers is not where the processor is not known to have them.
+/// One number of each of eight elements, side by side; no number until it is given one. Aligned for the
+/// widest registers, which the type of its numbers is not where the processor is not known to have them.
 struct alignas(8 * sizeof(double)) ElementLanes {
-  double __attribute__((vector_size(8 * sizeof(double)))) of = {};
+  double __attribute__((vector_size(8 * sizeof(double)))) of;
 };
 
 /// Up to eight elements of one beam whose ends are fixed, each on one part of the drawing, and their forces

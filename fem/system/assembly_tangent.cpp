@@ -77,7 +77,7 @@ void Assembly<D>::build_pattern() {
     coupling.add(n + constraint.row, constraint.rows);
     coupling.close();
   }
-  pattern_ = coupling.pattern();
+  coupling.pattern().swap(pattern_);
 
   const auto index_of = [&](int i, int j) { return value_index(pattern_, i, j); };
   for (Block& block : element_blocks_) locate(block, index_of);
