@@ -77,17 +77,11 @@ AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
 }
 
 template <int D>
-typename BeamElement<D>::TautViscosity BeamElement<D>::taut_viscosity(const ElementState<D>& x) const {
-  TautViscosity taut;
-  if (!(properties_->tension_damping > 0)) return taut;
+TautViscosity<D> BeamElement<D>::taut_viscosity(const ElementState<D>& x) const {
+  if (!(properties_->tension_damping > 0)) return {};
   AxialSums<D> sums = axial_sums(x.q);
   sums.take_out(x.free_strain);
-  const double I = sums.y[0], l = sums.y[3];
-  const double factor = properties_->tension_damping * properties_->axial_stiffness / l;
-  if (!(I > 0)) return taut;
-  taut.value = factor * I;
-  taut.gradient = factor * (sums.y_q.row(0) - I / l * sums.y_q.row(3)).transpose();
-  return taut;
+  return {*properties_, sums};
 }
 
 template <int D>
@@ -135,38 +129,49 @@ std::optional<AssumedStrain> BeamElement<D>::assumed_strain(const ElementVector<
 template <int D>
 ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& load) const {
   if (fixed()) return fixed_energy(x, load);
+  using Layout = ElementLayout<D>;
   ElementEnergy sum;
   const auto motion = MovingPoint<D>::motion(x);
   const ElementNodes<D>&e = motion.e, &e_rate = motion.e_rate;
   const std::array<double, 2>& w = motion.w;
+  const std::array<Jet, 2> ends{Jet::variable(x.q[Layout::place(0)], 0),
+                                Jet::variable(x.q[Layout::place(1)], 1)};
+  const MovingBasis basis(*curve_, chart_, ends[0], ends[1], Derivatives::one);
   AxialSums<D> axial(x.q);
-  AxialRates<D> axial_rates(motion);
+  Eigen::Vector3d axial_rate = Eigen::Vector3d::Zero();
   const double eta = taut_viscosity(x).value;
-  for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
-    const PointField<D> r(shape.value, e), rs(shape.d1, e), rss(shape.d2, e), rsss(shape.d3, e);
+  for_each_place(ends[0], ends[1], [&](const Jet& s, const Jet& weight) {
+    const MovingRows rows = basis.rows_at(s);
     const double s_rate = s.d(0) * w[0] + s.d(1) * w[1], omega = weight.value();
-    const Vector v = r.rate(e, e_rate, w) - rs.value * s_rate;
-    const EnergyDensity density = elastic_response<D>(*properties_, rs.value, rss.value, shape.kappa0.value(),
-                                                      curve_->strain(s.value()))
-                                      .energy;
-    Eigen::Matrix<double, 2 * D, 1> rate;
-    rate << rs.rate(e, e_rate, w) - rss.value * s_rate, rss.rate(e, e_rate, w) - rsss.value * s_rate;
+    const auto rate_of = [&](const MovingRows::Series& row) {
+      return Vector(e_rate * row.value + e * (row.first[0] * w[0] + row.first[1] * w[1]));
+    };
+    const Vector r = e * rows.r.value, rs = e * rows.rs.value, rss = e * rows.rss.value;
+    const Vector v = rate_of(rows.r) - rs * s_rate;
+    const EnergyDensity density =
+        elastic_response<D, Derivatives::one>(*properties_, rs, rss, rows.kappa0, curve_->strain(s.value()))
+            .energy;
     sum.kinetic += omega * properties_->mass_per_length * v.squaredNorm() / 2;
     sum.axial += omega * density.axial;
     sum.bending += omega * density.bending;
-    sum.external -= omega * load.dot(r.value);
-    axial.y[0] += omega * (rs.value.squaredNorm() - 1) / 2;
+    sum.external -= omega * load.dot(r);
+    axial.y[0] += omega * (rs.squaredNorm() - 1) / 2;
     sum.dissipation += omega * mass_viscosity() * v.squaredNorm();
     if (!(properties_->damping > 0 || eta > 0)) return;
-    sum.dissipation += omega * damping_response<D>(*properties_, rs.value, rss.value, rate, eta).power;
-    if (assumes_strain()) axial_rates.add(0, rs, rss, s, weight);
+    Eigen::Matrix<double, 2 * D, 1> rate;
+    rate << rate_of(rows.rs) - rss * s_rate, rate_of(rows.rss) - e * rows.rsss * s_rate;
+    sum.dissipation += omega * damping_response<D>(*properties_, rs, rss, rate, eta).power;
+    axial_rate[0] += omega * rs.dot(rate.template head<D>());
   });
   if (!assumes_strain()) return sum;
   axial.take_out(x.free_strain);
   sum.axial = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).value;
   if (!(properties_->damping > 0)) return sum;
-  add_ends(x.q, e, axial_rates);
-  sum.dissipation += axial_rates.power(axial_viscosity(), axial.y[3]);
+  for (const int end : {0, 1}) {
+    const Vector rss = e * basis.rows_at(ends[end]).rss.value;
+    axial_rate[1 + end] = e.col(2 * end + 1).dot(e_rate.col(2 * end + 1) - rss * w[end]);
+  }
+  sum.dissipation += axial_rate.dot(AssumedAxialDamping(axial_viscosity(), axial.y[3], axial_rate).stress);
   return sum;
 }
 

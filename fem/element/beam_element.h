@@ -109,9 +109,6 @@ class BeamElement {
   friend class ElementBatch<D>;  // has the same numbers side by side
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
-  ElementVector<D> undamped_force(const ElementState<D>& x, const Vector& load) const;
-  ElementMatrix<D> undamped_tangent(const ElementState<D>& x, const Vector& load,
-                                    const TangentWeights& t) const;
   void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0);
   void add_point_forces(const ElementState<D>& x, ElementNodes<D>& force) const;
   void add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const;
@@ -125,15 +122,10 @@ class BeamElement {
   };
   FixedStretch fixed_stretch(const ElementState<D>& x) const;
   AxialSums<D> fixed_sums(const ElementState<D>& x) const;
-  void add_ends(const ElementVector<D>& q, const ElementNodes<D>& e, AxialRates<D>& rates) const;
   bool assumes_strain() const;
   double axial_viscosity() const { return properties_->damping * properties_->axial_stiffness; }
   double mass_viscosity() const { return properties_->mass_damping * properties_->mass_per_length; }
-  struct TautViscosity {
-    double value = 0;                                      ///< eta = beta S [N s]
-    ElementVector<D> gradient = ElementVector<D>::Zero();  ///< in q
-  };
-  TautViscosity taut_viscosity(const ElementState<D>& x) const;
+  TautViscosity<D> taut_viscosity(const ElementState<D>& x) const;
 
   const ReferenceCurve* curve_;
   const BeamProperties* properties_;

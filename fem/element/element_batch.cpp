@@ -254,7 +254,7 @@ struct ElementBatch<D>::Kernel {
             b};
   }
 
-  // The assumed axial strain, its damping and that of the tension (BeamElement::TautViscosity).
+  // The assumed axial strain, its damping and that of the tension (TautViscosity).
   NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, double free_strain,
                                        Nodes& force) const {
     const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;

@@ -135,7 +135,7 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
     }
   }
   if (assumes_strain() && !mass_alone) add_fixed_axial_tangent(x, w, K);
-  const TautViscosity eta = mass_alone ? TautViscosity{} : taut_viscosity(x);
+  const TautViscosity<D> eta = mass_alone ? TautViscosity<D>{} : taut_viscosity(x);
   const Eigen::Matrix4d nodal =
       (w.mass + w.damping * properties_->mass_damping) * mass_ + w.damping * eta.value * stretch_;
   for (int k = 0; k < 4; ++k)

@@ -5,7 +5,6 @@
 #include "fem/element/jet.h"
 #include "fem/element/layout.h"
 #include "fem/element/rancf_basis.h"
-#include "solver/second_order_system.h"
 
 namespace nurbeam {
 
@@ -114,12 +113,9 @@ struct SecondRate {
   }
 };
 
-/// Inertia force of one quadrature point that moves over the material, and its tangents: the ALE terms.
-///
-/// Kinetic energy m w |v|^2/2 with v = dr/dt - r_s ds/dt the material velocity, w(q) and s(q) the point's
-/// weight and place (both linear in the end positions). With R = dr/dq, N = R - r_s s_q', L = (ds/dt) dr_s/dq
-/// - (dr_s/dt) s_q':
-///   f = m { N'(w dv/dt + (dw/dt) v) + w L'v - |v|^2 w_q / 2 }.
+/// Velocity and acceleration of the material at one quadrature point that moves over it: with R = dr/dq, the
+/// velocity is v = dr/dt - r_s ds/dt = N q', N = R - r_s s_q', w(q) and s(q) the point's weight and place,
+/// both linear in the end positions.
 template <int D>
 class PointInertia {
  public:
@@ -129,7 +125,6 @@ class PointInertia {
   using Nodes = Eigen::Matrix<double, D, 4>;
   using Gradient = Eigen::Matrix<double, D, n>;
   using Coordinates = Eigen::Matrix<double, n, 1>;
-  using Matrix = Eigen::Matrix<double, n, n>;
 
   struct Motion {
     Nodes e, e_rate, e_second;
@@ -138,11 +133,7 @@ class PointInertia {
 
   PointInertia(const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight, const PointField<D>& r,
                const PointField<D>& rs, const Motion& x)
-      : r_(r),
-        rs_(rs),
-        x_(x),
-        r2_(shape.value, r, x.e, x.e_rate, x.e_second, x.w, x.w_rate),
-        weight_(weight.value()) {
+      : r_(r), rs_(rs), x_(x), r2_(shape.value, r, x.e, x.e_rate, x.e_second, x.w, x.w_rate) {
     s_q_.setZero();
     weight_q_.setZero();
     for (int i = 0; i < 2; ++i) {
@@ -150,17 +141,12 @@ class PointInertia {
       weight_q_[Layout::place(i)] = weight.d(i);
       s_rate_ += s.d(i) * x.w[i];
       s_second_ += s.d(i) * x.w_rate[i];
-      weight_rate_ += weight.d(i) * x.w[i];
     }
     rs_rate_ = rs.rate(x.e, x.e_rate, x.w);
-    velocity_ = r.rate(x.e, x.e_rate, x.w) - rs.value * s_rate_;
     acceleration_ = r2_.value - rs_rate_ * s_rate_ - rs.value * s_second_;
     N_ = r.gradient - rs.value * s_q_.transpose();
-    L_ = s_rate_ * rs.gradient - rs_rate_ * s_q_.transpose();
-    momentum_rate_ = weight_ * acceleration_ + weight_rate_ * velocity_;
   }
 
-  const Vector& velocity() const { return velocity_; }
   /// v = N dq/dt.
   const Gradient& velocity_gradient() const { return N_; }
   double place_rate() const { return s_rate_; }
@@ -180,64 +166,15 @@ class PointInertia {
            s_rate_ * s_rate_ * rss.gradient;
   }
 
-  void add_force(double m, Coordinates& f) const {
-    f += m * (N_.transpose() * momentum_rate_ + weight_ * L_.transpose() * velocity_ -
-              velocity_.squaredNorm() / 2 * weight_q_);
-  }
-
-  /// Of a force -m v on the material velocity: m w N'v and its tangent.
-  void add_damping(double m, Coordinates& f) const { f += m * weight_ * N_.transpose() * velocity_; }
-  void add_damping_tangent(double m, const TangentWeights& t, Matrix& K) const {
-    if (t.damping != 0) K += (m * t.damping * weight_) * product(N_, N_);
-    if (t.stiffness == 0) return;
-    const double k = m * t.stiffness;
-    const Gradient v_q = r_.rate_gradient(x_.e, x_.e_rate, x_.w) - s_rate_ * rs_.gradient;
-    K += k * (N_.transpose() * velocity_ * weight_q_.transpose() +
-              weight_ * (product(N_, v_q) - s_q_ * (rs_.gradient.transpose() * velocity_).transpose()));
-    r_.add_hessian(velocity_, k * weight_, x_.e, K);
-  }
-
-  void add_tangent(double m, const TangentWeights& t, Matrix& K) const {
-    const Vector& v = velocity_;
-    const Gradient R_rate = r_.rate_gradient(x_.e, x_.e_rate, x_.w);
-    const Coordinates rs_v = rs_.gradient.transpose() * v;
-    if (t.mass != 0) K += (m * t.mass * weight_) * product(N_, N_);
-    if (t.damping != 0) {
-      const Gradient acceleration_v = 2 * R_rate - s_rate_ * rs_.gradient - rs_rate_ * s_q_.transpose();
-      const Gradient y_v = weight_ * acceleration_v + v * weight_q_.transpose() + weight_rate_ * N_;
-      K +=
-          (m * t.damping) * (product(N_, y_v) +
-                             weight_ * (rs_v * s_q_.transpose() - s_q_ * rs_v.transpose() + product(L_, N_)) -
-                             weight_q_ * (N_.transpose() * v).transpose());
-    }
-    if (t.stiffness != 0) {
-      const double k = m * t.stiffness;
-      const Gradient rs_rate_q = rs_.rate_gradient(x_.e, x_.e_rate, x_.w);
-      const Gradient v_q = R_rate - s_rate_ * rs_.gradient;
-      const Gradient acceleration_q = r2_.gradient - s_rate_ * rs_rate_q - s_second_ * rs_.gradient;
-      const Gradient y_q =
-          acceleration_ * weight_q_.transpose() + weight_ * acceleration_q + weight_rate_ * v_q;
-      r_.add_hessian(momentum_rate_, k, x_.e, K);
-      rs_.add_hessian(v, k * weight_ * s_rate_, x_.e, K);
-      K += k * (product(N_, y_q) - s_q_ * (rs_.gradient.transpose() * momentum_rate_).transpose() +
-                (L_.transpose() * v) * weight_q_.transpose() +
-                weight_ * (product(L_, v_q) - s_q_ * (rs_rate_q.transpose() * v).transpose()) -
-                weight_q_ * (v_q.transpose() * v).transpose());
-    }
-  }
-
  private:
-  // a'b, without the buffers that Eigen would take for matrices of this size.
-  static Matrix product(const Gradient& a, const Gradient& b) { return a.transpose().lazyProduct(b); }
-
   const PointField<D>& r_;
   const PointField<D>& rs_;
   const Motion& x_;
   SecondRate<D> r2_;
-  double weight_, weight_rate_ = 0, s_rate_ = 0, s_second_ = 0;
+  double s_rate_ = 0, s_second_ = 0;
   Coordinates s_q_, weight_q_;
-  Vector rs_rate_, velocity_, acceleration_, momentum_rate_;
-  Gradient N_, L_;
+  Vector rs_rate_, acceleration_;
+  Gradient N_;
 };
 
 }  // namespace nurbeam

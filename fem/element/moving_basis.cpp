@@ -202,6 +202,8 @@ MovingRows MovingBasis::uniform_rows(double x) const {
   rows.rss.first[1] << 2 * i * H2, -i * a2, -2 * i * H2, -i * b2;
   for (MovingRows::Series* series : {&rows.r, &rows.rs, &rows.rss}) series->first[0] = -series->first[1];
   for (MovingRows::Row& row : rows.r.second) row.setZero();
+  const double i2 = i * i;
+  rows.rsss << 12 * i2 * i, 6 * i2, -12 * i2 * i, 6 * i2;
   if (wanted_ == Derivatives::one) return rows;
   rows.rs.second[2] << -2 * i * i * H1, 0, 2 * i * i * H1, 0;
   rows.rss.second[2] << -6 * i * i * H2, 2 * i * i * a2, 6 * i * i * H2, 2 * i * i * b2;
@@ -210,6 +212,8 @@ MovingRows MovingBasis::uniform_rows(double x) const {
     series->second[1] = -series->second[2];
   }
   for (MovingRows::Row& row : rows.r_third) row.setZero();
+  rows.rsss_first[1] << -36 * i2 * i2, -12 * i2 * i, 36 * i2 * i2, -12 * i2 * i;
+  rows.rsss_first[0] = -rows.rsss_first[1];
   return rows;
 }
 
@@ -234,8 +238,11 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
   copy(shape.value, rows.r);
   copy(shape.d1, rows.rs);
   copy(shape.d2, rows.rss);
-  for (int k = 0; k < 4; ++k)
+  for (int k = 0; k < 4; ++k) {
     for (int m = 0; m < 4; ++m) rows.r_third[m][k] = shape.value[k].d(m / 3, m / 2, (m + 2) / 3);
+    rows.rsss[k] = shape.d3[k].value();
+    for (const int end : {0, 1}) rows.rsss_first[end][k] = shape.d3[k].d(end);
+  }
   set_curvature(shape.kappa0, rows);
   return rows;
 }
@@ -248,6 +255,7 @@ MovingRows MovingBasis::rational_rows(const Jet& s) const {
   MovingRows rows;
   const std::array<MovingRows::Series*, 3> series{&rows.r, &rows.rs, &rows.rss};
   for (int m = 0; m < 3; ++m) series[m]->value = still.row(m);
+  rows.rsss = still.row(3);
   std::array<Eigen::Matrix<double, 3, 4>, 2> moved;  // by the ends, at fixed s
   for (const int end : {0, 1}) {
     moved[end] = f.topRows<3>() * data_[1 + end];

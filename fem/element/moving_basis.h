@@ -18,7 +18,9 @@ struct MovingRows {
   };
   Series r, rs, rss;
   std::array<Row, 4> r_third;  ///< of r, by aaa, aab, abb, bbb; for tangents only
-  double kappa0 = 0;           ///< curvature of the drawing [1/m], and its derivatives by the end positions
+  Row rsss;
+  std::array<Row, 2> rsss_first;  ///< by a, b; for tangents only
+  double kappa0 = 0;  ///< curvature of the drawing [1/m], and its derivatives by the end positions
   std::array<double, 2> kappa0_first{};
   std::array<double, 3> kappa0_second{};  ///< for tangents only
 };

@@ -1,90 +1,135 @@
-// The forces of an element whose ends move, and its choice between these and those of a fixed one.
+// The force of an element whose ends move, by what acts on r, r_s and r_ss.
 #include "fem/element/beam_element.h"
 #include "fem/element/moving_point.h"
+#include "fem/element/moving_sums.h"
 
 namespace nurbeam {
 
 namespace {
 
-// Strain energy less the work of the dead load at one moving point: w (psi(z, kappa0) - load . r).
+using Row = MovingRows::Row;
+
+// Summed over the points.
 template <int D>
-class Potential {
+class ForceSum {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
+  using Pair = Eigen::Matrix<double, 2 * D, 1>;
 
-  Potential(const BeamProperties& properties, const MovingPoint<D>& p, const Vector& load)
-      : p_(p),
-        load_(load),
-        elastic_(elastic_response<D>(properties, p.rs.value, p.rss.value, p.kappa0.value())),
-        psi_q_(p.B.transpose() * elastic_.gradient - elastic_.moment * p.kappa_q),
-        load_q_(p.r.gradient.transpose() * load) {}
+  ForceSum(const BeamProperties& properties, const ElementState<D>& x, const Vector& load)
+      : properties_(properties), load_(load), x_(x), motion_(MovingPoint<D>::motion(x)) {}
 
-  void add_force(ElementVector<D>& f) const {
-    const ElementVector<D>& w_q = p_.weight_gradient();
-    f -= p_.weight * load_q_ + load_.dot(p_.r.value) * w_q;
-    f += p_.weight * psi_q_ + elastic_.energy.total() * w_q;
+  void add(const MovingRows& rows, const Jet& s, const Jet& weight) {
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const Vector r = e * rows.r.value, rs = e * rows.rs.value, rss = e * rows.rss.value;
+    const std::array<Vector, 2> r_i{e * rows.r.first[0], e * rows.r.first[1]},
+        rs_i{e * rows.rs.first[0], e * rows.rs.first[1]}, rss_i{e * rows.rss.first[0], e * rows.rss.first[1]};
+    const Row r_rate_row = rows.r.first[0] * w[0] + rows.r.first[1] * w[1];
+    const Row second_row = rows.r.second[0] * (w[0] * w[0]) + rows.r.second[1] * (2 * w[0] * w[1]) +
+                           rows.r.second[2] * (w[1] * w[1]);
+    const double s_rate = s.d(0) * w[0] + s.d(1) * w[1], s_second = s.d(0) * w_rate[0] + s.d(1) * w_rate[1];
+    const double dA = weight.value(), dA_rate = weight.d(0) * w[0] + weight.d(1) * w[1];
+    const double m = properties_.mass_per_length;
+
+    const Vector rs_rate = e_rate * rows.rs.value + rs_i[0] * w[0] + rs_i[1] * w[1];
+    const Vector v = e_rate * rows.r.value + r_i[0] * w[0] + r_i[1] * w[1] - rs * s_rate;
+    const Vector r_second = e_second * rows.r.value + 2 * e_rate * r_rate_row + e * second_row +
+                            r_i[0] * w_rate[0] + r_i[1] * w_rate[1];
+    const Vector momentum_rate = m * (dA * (r_second - rs_rate * s_rate - rs * s_second) + dA_rate * v);
+    const Vector momentum = (m * dA) * v;
+    const ElasticResponse<D> elastic =
+        elastic_response<D, Derivatives::one>(properties_, rs, rss, rows.kappa0);
+
+    Vector on_r = momentum_rate - dA * load_;
+    Vector on_rs = s_rate * momentum + dA * elastic.gradient.template head<D>();
+    Vector on_rss = dA * elastic.gradient.template tail<D>();
+    // What acts at a fixed material point: a place that moves leaves it behind.
+    double pull = rs.dot(momentum_rate) + rs_rate.dot(momentum);
+    const double lagrangian = m * v.squaredNorm() / 2 - elastic.energy.total() + load_.dot(r);
+    if (properties_.mass_damping > 0) {
+      const Vector drag = properties_.mass_damping * momentum;
+      on_r += drag;
+      pull += drag.dot(rs);
+    }
+    if (properties_.damping > 0) {
+      const Vector rsss = e * rows.rsss;
+      Pair rate;
+      rate << rs_rate - rss * s_rate,
+          e_rate * rows.rss.value + rss_i[0] * w[0] + rss_i[1] * w[1] - rsss * s_rate;
+      const Pair stress = dA * damping_response<D>(properties_, rs, rss, rate).stress;
+      on_rs += stress.template head<D>();
+      on_rss += stress.template tail<D>();
+      pull += stress.template head<D>().dot(rss) + stress.template tail<D>().dot(rsss);
+    }
+    force_.nodes.noalias() += on_r * rows.r.value.transpose();
+    force_.nodes.noalias() += on_rs * rows.rs.value.transpose();
+    force_.nodes.noalias() += on_rss * rows.rss.value.transpose();
+    for (const int i : {0, 1})
+      force_.places[i] += on_r.dot(r_i[i]) + on_rs.dot(rs_i[i]) + on_rss.dot(rss_i[i]) - pull * s.d(i) -
+                          dA * elastic.moment * rows.kappa0_first[i] - lagrangian * weight.d(i);
+
+    const double eps = (rs.squaredNorm() - 1) / 2;
+    stretch_integral_ += dA * eps;
+    stretch_.nodes.noalias() += (dA * rs) * rows.rs.value.transpose();
+    for (const int i : {0, 1}) stretch_.places[i] += dA * rs.dot(rs_i[i]) + eps * weight.d(i);
+    if (!properties_.is_damped()) return;
+    const Vector stretching = dA * (rs_rate - rss * s_rate);
+    stretch_rate_ += rs.dot(stretching);
+    taut_.nodes.noalias() += stretching * rows.rs.value.transpose();
+    for (const int i : {0, 1}) {
+      const Vector test = rs_i[i] - rss * s.d(i);
+      place_test_[i] += dA * rs.dot(test);
+      taut_.places[i] += stretching.dot(test);
+    }
   }
 
-  void add_tangent(const ElementNodes<D>& e, double k, ElementMatrix<D>& K) const {
-    const double w = p_.weight, EI = elastic_.bending_stiffness;
-    const auto& B = p_.B;
-    const ElementVector<D>&w_q = p_.weight_gradient(), &kappa_q = p_.kappa_q;
-    const ElementVector<D> potential_q = psi_q_ - load_q_;
-    const ElementVector<D> moment_q = B.transpose() * elastic_.moment_gradient;
-    K += k * (w * (B.transpose() * elastic_.hessian * B - kappa_q * moment_q.transpose() -
-                   moment_q * kappa_q.transpose() + EI * kappa_q * kappa_q.transpose()) +
-              potential_q * w_q.transpose() + w_q * potential_q.transpose());
-    p_.rs.add_hessian(elastic_.gradient.template head<D>(), k * w, e, K);
-    p_.rss.add_hessian(elastic_.gradient.template tail<D>(), k * w, e, K);
-    p_.r.add_hessian(load_, -k * w, e, K);
+  /// `basis`: that of the points.
+  ElementVector<D> total(bool assumed, const MovingBasis& basis) {
+    ElementVector<D> f = force_.vector();
+    if (!assumed && !(properties_.tension_damping > 0)) return f;
+    AxialSums<D> axial(x_.q);
+    axial.y[0] = stretch_integral_;
+    axial.y_q.row(0) = stretch_.vector().transpose();
+    axial.take_out(x_.free_strain);
+    f += TautViscosity<D>(properties_, axial).value * taut_.vector();
+    if (!assumed) return f;
+    axial.add_force(properties_.axial_stiffness, f);
+    if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, f);
+    return f;
+  }
+
+ private:
+  void add_axial_damping(double l, const MovingBasis& basis, ElementVector<D>& f) const {
     using Layout = ElementLayout<D>;
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j)
-        K(Layout::place(i), Layout::place(j)) -= k * w * elastic_.moment * p_.kappa0.d(i, j);
+    Eigen::Vector3d rate(stretch_rate_, 0, 0);
+    std::array<Vector, 2> slope, bend;
+    for (const int end : {0, 1}) {
+      const Jet s = Jet::variable(x_.q[Layout::place(end)], end);
+      slope[end] = motion_.e.col(2 * end + 1);
+      bend[end] = motion_.e * basis.rows_at(s).rss.value;
+      rate[1 + end] = slope[end].dot(motion_.e_rate.col(2 * end + 1) - bend[end] * motion_.w[end]);
+    }
+    const double viscosity = properties_.damping * properties_.axial_stiffness;
+    const Eigen::Vector3d stress = AssumedAxialDamping(viscosity, l, rate).stress;
+    f += stress[0] * Gradient<D>{stretch_.nodes, place_test_}.vector();
+    for (const int end : {0, 1}) {
+      f.template segment<D>(Layout::slope(end)) += stress[1 + end] * slope[end];
+      f[Layout::place(end)] -= stress[1 + end] * slope[end].dot(bend[end]);
+    }
   }
 
- private:
-  const MovingPoint<D>& p_;
+  const BeamProperties& properties_;
   const Vector& load_;
-  ElasticResponse<D> elastic_;
-  ElementVector<D> psi_q_, load_q_;
-};
-
-// Damping at one moving point: w Z' y(z, zeta).
-template <int D>
-class Damping {
- public:
-  Damping(const BeamProperties& properties, const ShapeFunctions<Jet>& shape, const MovingPoint<D>& p,
-          double eta)
-      : p_(p),
-        rates_(p.rates(shape)),
-        damping_(damping_response<D>(properties, p.rs.value, p.rss.value, rates_.zeta, eta)) {}
-
-  /// The derivative of the force by eta.
-  ElementVector<D> by_eta() const {
-    return p_.weight * rates_.Z.template topRows<D>().transpose() * rates_.zeta.template head<D>();
-  }
-
-  void add_force(ElementVector<D>& f) const { f += p_.weight * rates_.Z.transpose() * damping_.stress; }
-
-  void add_tangent(const ElementNodes<D>& e, const TangentWeights& t, ElementMatrix<D>& K) const {
-    const auto& Z = rates_.Z;
-    const double w = p_.weight;
-    if (t.damping != 0) K += (t.damping * w) * Z.transpose() * damping_.by_rate * Z;
-    if (t.stiffness == 0) return;
-    const double k = t.stiffness;
-    const auto [zeta_q, z_s_q] = p_.rate_gradients(rates_);
-    K += k * (Z.transpose() * damping_.stress * p_.weight_gradient().transpose() +
-              w * (Z.transpose() * (damping_.by_z * p_.B + damping_.by_rate * zeta_q) -
-                   p_.inertia.place_gradient() * (z_s_q.transpose() * damping_.stress).transpose()));
-    p_.rs.add_hessian(damping_.stress.template head<D>(), k * w, e, K);
-    p_.rss.add_hessian(damping_.stress.template tail<D>(), k * w, e, K);
-  }
-
- private:
-  const MovingPoint<D>& p_;
-  typename MovingPoint<D>::Rates rates_;
-  DampingResponse<D> damping_;
+  const ElementState<D>& x_;
+  typename MovingPoint<D>::Motion motion_;
+  Gradient<D> force_;
+  double stretch_integral_ = 0;  ///< I of AxialSums, and its gradient
+  Gradient<D> stretch_;
+  // Of damped elements: the rate of I at fixed material and its gradient in the rates of the places, and the
+  // force of a tension of viscosity 1.
+  double stretch_rate_ = 0;
+  std::array<double, 2> place_test_{};
+  Gradient<D> taut_;
 };
 
 }  // namespace
@@ -92,87 +137,15 @@ class Damping {
 template <int D>
 ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load) const {
   if (fixed()) return fixed_force(x, load);
-  if (!properties_->is_damped()) return undamped_force(x, load);
-  const auto motion = MovingPoint<D>::motion(x);
-  const double eta = taut_viscosity(x).value;
-  const bool damped = properties_->damping > 0 || eta > 0, assumed = assumes_strain();
-  ElementVector<D> f = ElementVector<D>::Zero();
-  AxialSums<D> axial(x.q);
-  std::optional<AxialRates<D>> axial_rates;
-  if (damped && assumed) axial_rates.emplace(motion);
-  for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
-    const MovingPoint<D> p(shape, s, weight, motion);
-    p.inertia.add_force(properties_->mass_per_length, f);
-    if (mass_viscosity() > 0) p.inertia.add_damping(mass_viscosity(), f);
-    Potential<D>(*properties_, p, load).add_force(f);
-    if (assumed) axial.add_point(p.rs, p.weight, p.weight_gradient());
-    if (damped) Damping<D>(*properties_, shape, p, eta).add_force(f);
-    if (axial_rates) axial_rates->add(0, p.rs, p.rss, s, weight);
-  });
-  axial.take_out(x.free_strain);
-  if (assumed) axial.add_force(properties_->axial_stiffness, f);
-  if (!axial_rates) return f;
-  add_ends(x.q, motion.e, *axial_rates);
-  axial_rates->add_force(axial_viscosity(), axial.y[3], f);
-  return f;
-}
-
-template <int D>
-ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector& load,
-                                         const TangentWeights& t) const {
-  if (fixed()) return fixed_tangent(x, t);
-  if (!properties_->is_damped()) return undamped_tangent(x, load, t);
-  const auto motion = MovingPoint<D>::motion(x);
-  const TautViscosity eta = taut_viscosity(x);
-  const bool damped = properties_->damping > 0 || eta.value > 0, assumed = assumes_strain();
-  ElementMatrix<D> K = ElementMatrix<D>::Zero(), I_qq = ElementMatrix<D>::Zero();
-  AxialSums<D> axial(x.q);
-  std::optional<AxialRates<D>> axial_rates;
-  if (damped && assumed) axial_rates.emplace(motion);
-  for_each_point(x.q, [&](const ShapeFunctions<Jet>& shape, const Jet& s, const Jet& weight) {
-    const MovingPoint<D> p(shape, s, weight, motion);
-    p.inertia.add_tangent(properties_->mass_per_length, t, K);
-    if (mass_viscosity() > 0) p.inertia.add_damping_tangent(mass_viscosity(), t, K);
-    if (t.stiffness != 0) Potential<D>(*properties_, p, load).add_tangent(motion.e, t.stiffness, K);
-    if (t.stiffness != 0 && assumed) {
-      axial.add_point(p.rs, p.weight, p.weight_gradient());
-      AxialSums<D>::add_hessian(p.rs, p.weight, p.weight_gradient(), motion.e, I_qq);
-    }
-    if (damped) {
-      const Damping<D> damping(*properties_, shape, p, eta.value);
-      damping.add_tangent(motion.e, t, K);
-      K += t.stiffness * damping.by_eta() * eta.gradient.transpose();
-    }
-    if (axial_rates) axial_rates->add(0, p.rs, p.rss, s, weight);
-  });
-  axial.take_out(x.free_strain);
-  if (t.stiffness != 0 && assumed) axial.add_tangent(properties_->axial_stiffness, t.stiffness, I_qq, K);
-  if (!axial_rates) return K;
-  add_ends(x.q, motion.e, *axial_rates);
-  axial_rates->add_tangent(axial_viscosity(), axial.y[3], t, K);
-  return K;
-}
-
-// The ends as points of weight 1.
-template <int D>
-void BeamElement<D>::add_ends(const ElementVector<D>& q, const ElementNodes<D>& e,
-                              AxialRates<D>& rates) const {
-  const std::array<Jet, 2> s{Jet::variable(q[ElementLayout<D>::place(0)], 0),
-                             Jet::variable(q[ElementLayout<D>::place(1)], 1)};
-  const MovingBasis basis(*curve_, chart_, s[0], s[1]);
-  for (const int end : {0, 1}) {
-    const ShapeFunctions<Jet> shape = basis.at(s[end]);
-    rates.add(1 + end, PointField<D>(shape.d1, e), PointField<D>(shape.d2, e), s[end], Jet(1));
-  }
+  using Layout = ElementLayout<D>;
+  const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
+  const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);
+  ForceSum<D> sum(*properties_, x, load);
+  for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });
+  return sum.total(assumes_strain(), basis);
 }
 
 template ElementVector<2> BeamElement<2>::force(const ElementState<2>&, const Vector&) const;
 template ElementVector<3> BeamElement<3>::force(const ElementState<3>&, const Vector&) const;
-template ElementMatrix<2> BeamElement<2>::tangent(const ElementState<2>&, const Vector&,
-                                                  const TangentWeights&) const;
-template ElementMatrix<3> BeamElement<3>::tangent(const ElementState<3>&, const Vector&,
-                                                  const TangentWeights&) const;
-template void BeamElement<2>::add_ends(const ElementVector<2>&, const ElementNodes<2>&, AxialRates<2>&) const;
-template void BeamElement<3>::add_ends(const ElementVector<3>&, const ElementNodes<3>&, AxialRates<3>&) const;
 
 }  // namespace nurbeam

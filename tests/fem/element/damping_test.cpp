@@ -5,6 +5,7 @@
 
 #include "fem/element/beam_element.h"
 #include "nurbs/primitives.h"
+#include "tests/fem/random_models.h"
 
 namespace nurbeam {
 namespace {
@@ -49,12 +50,12 @@ BeamProperties damped(const DampedCase& with) {
 }
 
 template <int D>
-void check_damping(Ends ends, const DampedCase& with) {
-  const ReferenceCurve curve({line_cubic({0, 0, 0}, {2, 0, 0})}, D);
+void check_damping(const ReferenceCurve& curve, const Chart& chart, Ends ends, const DampedCase& with) {
   const BeamProperties properties = damped(with), undamped = damped({0, 0, 0, with.strain});
-  const BeamElement<D> element(curve, properties, Chart{.segment = 0}, 0.4, 1.5, ends);
-  const BeamElement<D> elastic(curve, undamped, Chart{.segment = 0}, 0.4, 1.5, ends);
-  ElementState<D> x = moving_state<D>(0.4, 1.5, ends == Ends::moving);
+  const double s_a = 0.2 * curve.breaks()[1], s_b = 0.75 * curve.breaks()[1];
+  const BeamElement<D> element(curve, properties, chart, s_a, s_b, ends);
+  const BeamElement<D> elastic(curve, undamped, chart, s_a, s_b, ends);
+  ElementState<D> x = moving_state<D>(s_a, s_b, ends == Ends::moving);
   if (with.strain == AxialStrain::pointwise) x.free_strain = 0;
   const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::Constant(0.3);
   const ElementVector<D> force = element.force(x, load), lost = force - elastic.force(x, load);
@@ -89,8 +90,21 @@ TEST(Damping, OfMassAndStiffnessHasItsTangentAndItsWork) {
     for (const DampedCase& with :
          {DampedCase{0, 0.7, 0, strain}, DampedCase{0, 0, 0.02, strain}, DampedCase{0.01, 0.4, 0.03, strain}})
       for (const Ends ends : {Ends::fixed, Ends::moving}) {
-        check_damping<2>(ends, with);
-        check_damping<3>(ends, with);
+        const std::vector<RationalCubic> line{line_cubic({0, 0, 0}, {2, 0, 0})};
+        check_damping<2>(ReferenceCurve(line, 2), {.segment = 0}, ends, with);
+        check_damping<3>(ReferenceCurve(line, 3), {.segment = 0}, ends, with);
+      }
+}
+
+// Rational, and as plain cubics in arc length.
+TEST(Damping, OfACurvedElementHasItsTangentAndItsWork) {
+  std::mt19937 random(8);
+  const ReferenceCurve plane(testing::uneven_axis(random, 2), 2), space(testing::uneven_axis(random, 3), 3);
+  for (const AxialStrain strain : {AxialStrain::ends_and_mean, AxialStrain::pointwise})
+    for (const int segment : {0, -1})
+      for (const Ends ends : {Ends::fixed, Ends::moving}) {
+        check_damping<2>(plane, {.segment = segment}, ends, {0.01, 0.4, 0.03, strain});
+        check_damping<3>(space, {.segment = segment}, ends, {0.01, 0.4, 0.03, strain});
       }
 }
 

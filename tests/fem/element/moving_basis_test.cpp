@@ -48,6 +48,7 @@ void expect_rows(const MovingRows& rows, const ShapeFunctions<Jet>& y, Derivativ
   expect_same(jets(rows.r, rows.r_third, two ? 3 : 2), y.value, two ? 3 : 2, "row of r ");
   expect_same(jets(rows.rs, {}, two ? 2 : 1), y.d1, two ? 2 : 1, "row of r_s ");
   expect_same(jets(rows.rss, {}, two ? 2 : 1), y.d2, two ? 2 : 1, "row of r_ss ");
+  expect_same(jets({rows.rsss, rows.rsss_first, {}}, {}, two ? 1 : 0), y.d3, two ? 1 : 0, "row of r_sss ");
   Jet::Coefficients c{rows.kappa0, rows.kappa0_first[0], rows.kappa0_first[1]};
   if (two) c[3] = rows.kappa0_second[0] / 2, c[4] = rows.kappa0_second[1], c[5] = rows.kappa0_second[2] / 2;
   expect_same({Jet(c), {}, {}, {}}, {y.kappa0, {}, {}, {}}, two ? 2 : 1, "row of kappa0 ");

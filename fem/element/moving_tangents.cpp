@@ -1,0 +1,430 @@
+// The tangent of the force of an element whose ends move, by what acts on r, r_s and r_ss. Long because that
+// is one sum over the points.
+#include "fem/element/beam_element.h"
+#include "fem/element/moving_point.h"
+#include "fem/element/moving_sums.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Row = MovingRows::Row;
+
+// Summed over the points. With all rates weighted (TangentWeights), one increment of the
+// coordinates is one of positions, velocities and accelerations: each field varies by one number a node, as
+// it is linear in the nodes, and by one vector a place.
+template <int D>
+class TangentSum {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Pair = Eigen::Matrix<double, 2 * D, 1>;
+  using Nodes = ElementNodes<D>;
+  using Vectors = std::array<Vector, 2>;
+
+  TangentSum(const BeamProperties& properties, const ElementState<D>& x, const Vector& load,
+             const TangentWeights& t)
+      : properties_(properties),
+        load_(load),
+        x_(x),
+        t_(t),
+        assumed_(properties.axial_strain == AxialStrain::ends_and_mean),
+        motion_(MovingPoint<D>::motion(x)) {
+    nodal_.setZero();
+  }
+
+  void add(const MovingRows& rows, const Jet& s, const Jet& weight) {
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const double k = t_.stiffness, d = t_.damping, mass = t_.mass;
+    const double m = properties_.mass_per_length, A = weight.value();
+    const std::array<double, 2> s_i{s.d(0), s.d(1)}, A_i{weight.d(0), weight.d(1)};
+    const double s_rate = s_i[0] * w[0] + s_i[1] * w[1], s_second = s_i[0] * w_rate[0] + s_i[1] * w_rate[1],
+                 A_rate = A_i[0] * w[0] + A_i[1] * w[1];
+    const Field r(e, rows.r), rs(e, rows.rs), rss(e, rows.rss);
+
+    // Rates of the rows and what they vary by with the places.
+    const Row r1 = along(rows.r.first, w), rs1 = along(rows.rs.first, w);
+    const std::array<Row, 2> r1_i = along(rows.r.second, w), rs1_i = along(rows.rs.second, w);
+    const Row r2 = along(r1_i, w) + along(rows.r.first, w_rate);
+    std::array<Row, 2> r2_i = along(rows.r.second, w_rate);
+    for (const int i : {0, 1})
+      r2_i[i] += rows.r_third[i] * (w[0] * w[0]) + rows.r_third[i + 1] * (2 * w[0] * w[1]) +
+                 rows.r_third[i + 2] * (w[1] * w[1]);
+
+    const Vector rs_rate = e_rate * rows.rs.value + e * rs1;
+    const Vector v = e_rate * rows.r.value + e * r1 - rs.value * s_rate;
+    const Vector acceleration =
+        e_second * rows.r.value + 2 * e_rate * r1 + e * r2 - rs_rate * s_rate - rs.value * s_second;
+    const Vector momentum_rate = m * (A * acceleration + A_rate * v), momentum = (m * A) * v;
+    const ElasticResponse<D> elastic = elastic_response<D>(properties_, rs.value, rss.value, rows.kappa0);
+    const Vector g_s = elastic.gradient.template head<D>(), g_t = elastic.gradient.template tail<D>();
+    const Vector on_r = momentum_rate - A * load_, on_rs = s_rate * momentum + A * g_s, on_rss = A * g_t;
+
+    // What they vary by: of the nodes, then of the places.
+    const Row rs_rate_e = d * rows.rs.value + k * rs1;
+    const Row v_e = d * rows.r.value + k * (r1 - s_rate * rows.rs.value);
+    const Row acceleration_e =
+        mass * rows.r.value + 2 * d * r1 + k * (r2 - s_second * rows.rs.value) - s_rate * rs_rate_e;
+    const Row momentum_rate_e = m * (A * acceleration_e + A_rate * v_e), momentum_e = (m * A) * v_e;
+    Vectors rs_rate_i, v_i, momentum_rate_i, momentum_i, on_r_i, on_rs_i, on_rss_i, elastic_s, elastic_t;
+    for (const int i : {0, 1}) {
+      const Vector r1_along = e_rate * rows.r.first[i] + e * r1_i[i];
+      rs_rate_i[i] = k * (e_rate * rows.rs.first[i] + e * rs1_i[i]) + d * rs.first[i];
+      v_i[i] = k * (r1_along - rs.first[i] * s_rate) + d * (r.first[i] - rs.value * s_i[i]);
+      const Vector acceleration_i =
+          k * (e_second * rows.r.first[i] + 2 * e_rate * r1_i[i] + e * r2_i[i] - s_second * rs.first[i]) +
+          d * (2 * r1_along - s_i[i] * rs_rate) + mass * (r.first[i] - s_i[i] * rs.value) -
+          s_rate * rs_rate_i[i];
+      momentum_rate_i[i] =
+          m * (A * acceleration_i + k * A_i[i] * acceleration + A_rate * v_i[i] + d * A_i[i] * v);
+      momentum_i[i] = m * (A * v_i[i] + k * A_i[i] * v);
+      Pair z;
+      z << rs.first[i], rss.first[i];
+      const Pair g_i = elastic.hessian * z - elastic.moment_gradient * rows.kappa0_first[i];
+      elastic_s[i] = (k * A) * g_i.template head<D>();
+      elastic_t[i] = (k * A) * g_i.template tail<D>();
+      on_r_i[i] = momentum_rate_i[i] - k * A_i[i] * load_;
+      on_rs_i[i] = s_rate * momentum_i[i] + d * s_i[i] * momentum + k * A_i[i] * g_s + elastic_s[i];
+      on_rss_i[i] = k * A_i[i] * g_t + elastic_t[i];
+    }
+
+    // Forces on the nodes.
+    sums_.isotropic.noalias() += rows.r.value * momentum_rate_e.transpose();
+    sums_.isotropic.noalias() += rows.rs.value * (s_rate * momentum_e).transpose();
+    add_elastic(elastic.hessian, k * A, rows);
+    for (const int i : {0, 1}) {
+      sums_.by_place[i].noalias() += on_r_i[i] * rows.r.value.transpose();
+      sums_.by_place[i].noalias() += on_rs_i[i] * rows.rs.value.transpose();
+      sums_.by_place[i].noalias() += on_rss_i[i] * rows.rss.value.transpose();
+      Nodes shared = on_r * rows.r.first[i].transpose();
+      shared.noalias() += on_rs * rows.rs.first[i].transpose();
+      shared.noalias() += on_rss * rows.rss.first[i].transpose();
+      sums_.by_place[i] += k * shared;
+
+      // Forces on the places.
+      Nodes& of_nodes = sums_.of_place[i];
+      of_nodes += k * shared;
+      of_nodes.noalias() += r.first[i] * momentum_rate_e.transpose();
+      of_nodes.noalias() += rs.first[i] * (s_rate * momentum_e).transpose();
+      of_nodes.noalias() +=
+          (elastic_s[i] - s_i[i] * k * momentum_rate + A_i[i] * k * g_s) * rows.rs.value.transpose();
+      of_nodes.noalias() += (elastic_t[i] + A_i[i] * k * g_t) * rows.rss.value.transpose();
+      of_nodes.noalias() -= (A_i[i] * k) * load_ * rows.r.value.transpose();
+      of_nodes.noalias() -= (s_i[i] * rs.value) * momentum_rate_e.transpose();
+      of_nodes.noalias() -= (s_i[i] * momentum) * rs_rate_e.transpose();
+      of_nodes.noalias() -= (s_i[i] * rs_rate) * momentum_e.transpose();
+      of_nodes.noalias() -= (A_i[i] * m) * v * v_e.transpose();
+    }
+    for (const int j : {0, 1}) {
+      const double pull_j = k * rs.first[j].dot(momentum_rate) + rs.value.dot(momentum_rate_i[j]) +
+                            rs_rate_i[j].dot(momentum) + rs_rate.dot(momentum_i[j]);
+      const double lagrangian_j =
+          m * v.dot(v_i[j]) + k * (load_.dot(r.first[j]) - g_s.dot(rs.first[j]) - g_t.dot(rss.first[j]) +
+                                   elastic.moment * rows.kappa0_first[j]);
+      Pair z;
+      z << rs.first[j], rss.first[j];
+      const double moment_j =
+          k * (elastic.moment_gradient.dot(z) - elastic.bending_stiffness * rows.kappa0_first[j]);
+      for (const int i : {0, 1})
+        sums_.places(i, j) +=
+            on_r_i[j].dot(r.first[i]) + on_rs_i[j].dot(rs.first[i]) + on_rss_i[j].dot(rss.first[i]) +
+            k * (on_r.dot(r.second[i + j]) + on_rs.dot(rs.second[i + j]) + on_rss.dot(rss.second[i + j])) -
+            pull_j * s_i[i] - lagrangian_j * A_i[i] -
+            (A * moment_j + k * A_i[j] * elastic.moment) * rows.kappa0_first[i] -
+            k * A * elastic.moment * rows.kappa0_second[i + j];
+    }
+    if (k != 0 || d != 0) {
+      add_stretch(rows.rs, rs, A, A_i);
+      if (properties_.is_damped())
+        add_damping(rows, {r, rs, rss, s_i, A_i, A, s_rate, v, rs_rate, v_e, rs_rate_e, v_i, rs_rate_i});
+    }
+  }
+
+  /// `basis`: that of the points.
+  ElementMatrix<D> total(const MovingBasis& basis) const {
+    using Layout = ElementLayout<D>;
+    constexpr int nodal = Layout::nodal;
+    ElementMatrix<D> K = sums_.matrix();
+    K.template topLeftCorner<nodal, nodal>() += nodal_;
+    if (t_.stiffness == 0 && t_.damping == 0) return K;
+    if (!assumed_ && !(properties_.tension_damping > 0)) return K;
+    AxialSums<D> axial(x_.q);
+    axial.y[0] = stretch_integral_;
+    axial.y_q.row(0) = stretch_.vector().transpose();
+    axial.take_out(x_.free_strain);
+    if (const TautViscosity<D> eta(properties_, axial); eta.value > 0)
+      K += eta.value * taut_.matrix() + t_.stiffness * taut_force_.vector() * eta.gradient.transpose();
+    if (!assumed_) return K;
+    PlaceSums<D> I_qq = stretch_rates_;
+    I_qq.of_place = I_qq.by_place;
+    I_qq.places = stretch_places_;
+    if (t_.stiffness != 0) axial.add_tangent(properties_.axial_stiffness, t_.stiffness, I_qq.matrix(), K);
+    if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, K);
+    return K;
+  }
+
+ private:
+  // A field at a point and its derivatives by the places, aa, ab, bb.
+  struct Field {
+    Vector value;
+    Vectors first;
+    std::array<Vector, 3> second;
+
+    Field(const Nodes& e, const MovingRows::Series& rows)
+        : value(e * rows.value),
+          first{e * rows.first[0], e * rows.first[1]},
+          second{e * rows.second[0], e * rows.second[1], e * rows.second[2]} {}
+  };
+
+  static Row along(const std::array<Row, 2>& by, const std::array<double, 2>& w) {
+    return by[0] * w[0] + by[1] * w[1];
+  }
+  static std::array<Row, 2> along(const std::array<Row, 3>& by, const std::array<double, 2>& w) {
+    return {by[0] * w[0] + by[1] * w[1], by[1] * w[0] + by[2] * w[1]};
+  }
+
+  // What a point of a damped element has been found to be.
+  struct Point {
+    const Field &r, &rs, &rss;
+    const std::array<double, 2>&s_i, &A_i;
+    double A, s_rate;
+    const Vector &v, &rs_rate;
+    const Row &v_e, &rs_rate_e;
+    const Vectors &v_i, &rs_rate_i;
+  };
+
+  void add_elastic(const Eigen::Matrix<double, 2 * D, 2 * D>& hessian, double factor,
+                   const MovingRows& rows) {
+    using Block = Eigen::Matrix<double, D, D>;
+    const Block ss = factor * hessian.template topLeftCorner<D, D>(),
+                st = factor * hessian.template topRightCorner<D, D>(),
+                tt = factor * hessian.template bottomRightCorner<D, D>();
+    const Row &s = rows.rs.value, &t = rows.rss.value;
+    for (int k = 0; k < 4; ++k) {
+      const Block by_s = s[k] * ss + t[k] * st, by_t = s[k] * st.transpose() + t[k] * tt;
+      for (int l = 0; l < 4; ++l) nodal_.template block<D, D>(l * D, k * D) += s[l] * by_s + t[l] * by_t;
+    }
+  }
+
+  // I of AxialSums, its gradient and second derivatives.
+  void add_stretch(const MovingRows::Series& rows, const Field& rs, double A,
+                   const std::array<double, 2>& A_i) {
+    const double eps = (rs.value.squaredNorm() - 1) / 2;
+    stretch_integral_ += A * eps;
+    stretch_.nodes.noalias() += (A * rs.value) * rows.value.transpose();
+    stretch_rates_.isotropic.noalias() += (A * rows.value) * rows.value.transpose();
+    const std::array<double, 2> eps_i{rs.value.dot(rs.first[0]), rs.value.dot(rs.first[1])};
+    for (const int i : {0, 1}) {
+      stretch_.places[i] += A * eps_i[i] + eps * A_i[i];
+      Nodes& by_place = stretch_rates_.by_place[i];
+      by_place.noalias() += (A * rs.first[i] + A_i[i] * rs.value) * rows.value.transpose();
+      by_place.noalias() += (A * rs.value) * rows.first[i].transpose();
+      for (const int j : {0, 1})
+        stretch_places_(i, j) += A * (rs.first[i].dot(rs.first[j]) + rs.value.dot(rs.second[i + j])) +
+                                 A_i[j] * eps_i[i] + A_i[i] * eps_i[j];
+    }
+  }
+
+  void add_damping(const MovingRows& rows, const Point& p) {
+    const double k = t_.stiffness, d = t_.damping;
+    if (properties_.mass_damping > 0) add_drag(rows.r, rows.rs.value, p);
+    if (!(properties_.damping > 0 || properties_.tension_damping > 0)) return;
+    // The rate of r_s at fixed material, and what it varies by.
+    const Vector rate = p.rs_rate - p.rss.value * p.s_rate;
+    const Row rate_e = p.rs_rate_e - (k * p.s_rate) * rows.rss.value;
+    Vectors rate_i;
+    for (const int i : {0, 1})
+      rate_i[i] = p.rs_rate_i[i] - (k * p.s_rate) * p.rss.first[i] - (d * p.s_i[i]) * p.rss.value;
+    if (properties_.damping > 0) add_viscosity(rows, p, rate, rate_e, rate_i);
+    add_rate_of_stretch(rows, p, rate, rate_e, rate_i);
+  }
+
+  // Of a force on the material velocity.
+  void add_drag(const MovingRows::Series& rows, const Row& along, const Point& p) {
+    const double k = t_.stiffness;
+    const double c = properties_.mass_damping * properties_.mass_per_length, cA = c * p.A;
+    sums_.isotropic.noalias() += (cA * rows.value) * p.v_e.transpose();
+    for (const int i : {0, 1}) {
+      const Vector test = p.r.first[i] - p.s_i[i] * p.rs.value;
+      sums_.by_place[i].noalias() += (cA * p.v_i[i] + (c * k * p.A_i[i]) * p.v) * rows.value.transpose();
+      sums_.by_place[i].noalias() += (cA * k) * p.v * rows.first[i].transpose();
+      sums_.of_place[i].noalias() += cA * test * p.v_e.transpose();
+      sums_.of_place[i].noalias() += (cA * k) * p.v * (rows.first[i] - p.s_i[i] * along).transpose();
+      for (const int j : {0, 1})
+        sums_.places(i, j) +=
+            cA * (test.dot(p.v_i[j]) + k * p.v.dot(p.r.second[i + j] - p.s_i[i] * p.rs.first[j])) +
+            (c * k * p.A_i[j]) * test.dot(p.v);
+    }
+  }
+
+  // Of the stress of strains at the point, on r_s and r_ss.
+  void add_viscosity(const MovingRows& rows, const Point& p, const Vector& rs_rate, const Row& rs_rate_e,
+                     const Vectors& rs_rate_i) {
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const double k = t_.stiffness, d = t_.damping;
+    const Vector rsss = e * rows.rsss;
+    const Vectors rsss_i{e * rows.rsss_first[0], e * rows.rsss_first[1]};
+    const Row rss1 = along(rows.rss.first, w);
+    const std::array<Row, 2> rss1_i = along(rows.rss.second, w);
+    const Row rss_rate_e = d * rows.rss.value + k * rss1 - (k * p.s_rate) * rows.rsss;
+    Pair rate;
+    rate << rs_rate, e_rate * rows.rss.value + e * rss1 - rsss * p.s_rate;
+    const DampingResponse<D> damping = damping_response<D>(properties_, p.rs.value, p.rss.value, rate);
+    const Pair& y = damping.stress;
+    std::array<Pair, 2> tests, stress_i;
+    for (const int i : {0, 1}) {
+      tests[i] << p.rs.first[i] - p.s_i[i] * p.rss.value, p.rss.first[i] - p.s_i[i] * rsss;
+      Pair z_i, rate_i;
+      z_i << p.rs.first[i], p.rss.first[i];
+      rate_i << rs_rate_i[i], k * (e_rate * rows.rss.first[i] + e * rss1_i[i] - p.s_rate * rsss_i[i]) +
+                                  d * (p.rss.first[i] - p.s_i[i] * rsss);
+      stress_i[i] = k * damping.by_z * z_i + damping.by_rate * rate_i;
+    }
+    for (int l = 0; l < 4; ++l) {
+      using Block = Eigen::Matrix<double, 2 * D, D>;
+      const Block stress_e = (k * rows.rs.value[l]) * damping.by_z.template leftCols<D>() +
+                             (k * rows.rss.value[l]) * damping.by_z.template rightCols<D>() +
+                             rs_rate_e[l] * damping.by_rate.template leftCols<D>() +
+                             rss_rate_e[l] * damping.by_rate.template rightCols<D>();
+      for (int n = 0; n < 4; ++n)
+        nodal_.template block<D, D>(n * D, l * D) +=
+            (p.A * rows.rs.value[n]) * stress_e.template topRows<D>() +
+            (p.A * rows.rss.value[n]) * stress_e.template bottomRows<D>();
+      for (const int i : {0, 1})
+        sums_.of_place[i].col(l) +=
+            p.A * stress_e.transpose() * tests[i] +
+            (k * p.A) * ((rows.rs.first[i][l] - p.s_i[i] * rows.rss.value[l]) * y.template head<D>() +
+                         (rows.rss.first[i][l] - p.s_i[i] * rows.rsss[l]) * y.template tail<D>());
+    }
+    for (const int j : {0, 1}) {
+      const Pair on = p.A * stress_i[j] + (k * p.A_i[j]) * y;
+      Nodes& by_place = sums_.by_place[j];
+      by_place.noalias() += on.template head<D>() * rows.rs.value.transpose();
+      by_place.noalias() += on.template tail<D>() * rows.rss.value.transpose();
+      by_place.noalias() += (k * p.A) * y.template head<D>() * rows.rs.first[j].transpose();
+      by_place.noalias() += (k * p.A) * y.template tail<D>() * rows.rss.first[j].transpose();
+      for (const int i : {0, 1}) {
+        Pair test_j;
+        test_j << p.rs.second[i + j] - p.s_i[i] * p.rss.first[j], p.rss.second[i + j] - p.s_i[i] * rsss_i[j];
+        sums_.places(i, j) += on.dot(tests[i]) + (k * p.A) * y.dot(test_j);
+      }
+    }
+  }
+
+  // The rate of I at fixed material, and the force of a tension of viscosity 1, both for r_s alone.
+  void add_rate_of_stretch(const MovingRows& rows, const Point& p, const Vector& rate, const Row& rate_e,
+                           const Vectors& rate_i) {
+    const double k = t_.stiffness, A = p.A;
+    const Row& row = rows.rs.value;
+    const Vector& rs = p.rs.value;
+    stretch_rate_ += A * rs.dot(rate);
+    rate_gradient_.nodes.noalias() += (k * A) * rate * row.transpose();
+    rate_gradient_.nodes.noalias() += A * rs * rate_e.transpose();
+    taut_force_.nodes.noalias() += A * rate * row.transpose();
+    taut_.isotropic.noalias() += (A * row) * rate_e.transpose();
+    for (const int i : {0, 1}) {
+      const Vector test = p.rs.first[i] - p.s_i[i] * p.rss.value;
+      const Row test_row = rows.rs.first[i] - p.s_i[i] * rows.rss.value;
+      rate_gradient_.places[i] +=
+          A * (k * rate.dot(p.rs.first[i]) + rs.dot(rate_i[i])) + (k * p.A_i[i]) * rs.dot(rate);
+      test_places_[i] += A * rs.dot(test);
+      taut_force_.places[i] += A * rate.dot(test);
+      stretch_rates_.of_place[i].noalias() += A * test * row.transpose();
+      stretch_rates_.of_place[i].noalias() += A * rs * test_row.transpose();
+      taut_.by_place[i].noalias() += (A * rate_i[i] + (k * p.A_i[i]) * rate) * row.transpose();
+      taut_.by_place[i].noalias() += (k * A) * rate * rows.rs.first[i].transpose();
+      taut_.of_place[i].noalias() += A * test * rate_e.transpose();
+      taut_.of_place[i].noalias() += (k * A) * rate * test_row.transpose();
+      for (const int j : {0, 1}) {
+        const Vector test_j = p.rs.second[i + j] - p.s_i[i] * p.rss.first[j];
+        stretch_rates_.places(i, j) +=
+            A * (p.rs.first[j].dot(test) + rs.dot(test_j)) + p.A_i[j] * rs.dot(test);
+        taut_.places(i, j) +=
+            A * (test.dot(rate_i[j]) + k * rate.dot(test_j)) + (k * p.A_i[j]) * rate.dot(test);
+      }
+    }
+  }
+
+  // AssumedAxialDamping: stress of (I, eps_A, eps_B) at fixed material, on their gradients in the rates, Z.
+  void add_axial_damping(double l, const MovingBasis& basis, ElementMatrix<D>& K) const {
+    using Layout = ElementLayout<D>;
+    using Rows = Eigen::Matrix<double, 3, Layout::size>;
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const double k = t_.stiffness, d = t_.damping;
+    Eigen::Vector3d rate(stretch_rate_, 0, 0);
+    Rows Z = Rows::Zero(), rate_q = Rows::Zero();
+    Z.row(0) = Gradient<D>{stretch_.nodes, test_places_}.vector().transpose();
+    rate_q.row(0) = rate_gradient_.vector().transpose();
+    std::array<ElementMatrix<D>, 2> Z_q{ElementMatrix<D>::Zero(), ElementMatrix<D>::Zero()};
+    for (const int end : {0, 1}) {
+      // eps' = r_s . (dr_s/dt - r_ss ds/dt), with r_s the node's own slope.
+      const MovingRows::Series rss = basis.rows_at(Jet::variable(x_.q[Layout::place(end)], end)).rss;
+      const Vector slope = e.col(2 * end + 1), bend = e * rss.value;
+      const Vector slope_rate = e_rate.col(2 * end + 1) - bend * w[end];
+      const int at = Layout::slope(end), place = Layout::place(end);
+      rate[1 + end] = slope.dot(slope_rate);
+      Z.template block<1, D>(1 + end, at) = slope.transpose();
+      Z(1 + end, place) = -bend.dot(slope);
+      Gradient<D> bending;  // of slope . bend in bend alone
+      bending.nodes = slope * rss.value.transpose();
+      for (const int j : {0, 1}) bending.places[j] = slope.dot(e * rss.first[j]);
+      auto own_rate = rate_q.row(1 + end);
+      own_rate = -(k * w[end]) * bending.vector().transpose();
+      own_rate.template segment<D>(at) += (k * slope_rate + d * slope).transpose();
+      own_rate[place] -= d * bend.dot(slope);
+      ElementMatrix<D>& own = Z_q[end];
+      own.template block<D, D>(at, at).setIdentity();
+      own.row(place) = -bending.vector().transpose();
+      own.template block<1, D>(place, at) -= bend.transpose();
+    }
+    const AssumedAxialDamping damping(properties_.damping * properties_.axial_stiffness, l, rate);
+    Rows stress_q = damping.by_rate * rate_q;
+    stress_q.col(Layout::place(0)) -= k * damping.by_length;
+    stress_q.col(Layout::place(1)) += k * damping.by_length;
+    K += Z.transpose() * stress_q;
+    if (k == 0) return;
+    K += (k * damping.stress[0]) * stretch_rates_.matrix();
+    for (const int end : {0, 1}) K += (k * damping.stress[1 + end]) * Z_q[end];
+  }
+
+  const BeamProperties& properties_;
+  const Vector& load_;
+  const ElementState<D>& x_;
+  const TangentWeights& t_;
+  bool assumed_;
+  typename MovingPoint<D>::Motion motion_;
+  Eigen::Matrix<double, 4 * D, 4 * D> nodal_;
+  PlaceSums<D> sums_;
+  double stretch_integral_ = 0;  ///< I of AxialSums, and its gradient
+  Gradient<D> stretch_;
+  Eigen::Matrix2d stretch_places_ = Eigen::Matrix2d::Zero();  ///< its second derivatives by the places
+  // Of damped elements: the rate of I at fixed material, its gradients in the coordinates (with the rates
+  // weighted) and in the rates of the places, and the derivatives of its gradient in all rates, which in the
+  // rates of the nodes is that of I.
+  double stretch_rate_ = 0;
+  Gradient<D> rate_gradient_;
+  std::array<double, 2> test_places_{};
+  PlaceSums<D> stretch_rates_;
+  Gradient<D> taut_force_;
+  PlaceSums<D> taut_;
+};
+
+}  // namespace
+
+template <int D>
+ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector& load,
+                                         const TangentWeights& t) const {
+  if (fixed()) return fixed_tangent(x, t);
+  using Layout = ElementLayout<D>;
+  const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
+  const MovingBasis basis(*curve_, chart_, s_a, s_b);
+  TangentSum<D> sum(*properties_, x, load, t);
+  for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });
+  return sum.total(basis);
+}
+
+template ElementMatrix<2> BeamElement<2>::tangent(const ElementState<2>&, const Vector&,
+                                                  const TangentWeights&) const;
+template ElementMatrix<3> BeamElement<3>::tangent(const ElementState<3>&, const Vector&,
+                                                  const TangentWeights&) const;
+
+}  // namespace nurbeam
