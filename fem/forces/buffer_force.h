@@ -34,6 +34,7 @@ class BufferForce {
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
   double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  bool is_damper(const MeshedBeams<D>& at) const { return stop(at).buffer->damping > 0; }
   void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
 
  private:

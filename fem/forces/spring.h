@@ -45,6 +45,7 @@ class Spring {
   double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
   void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
 
+  bool is_damper(const MeshedBeams<D>& at) const { return described(at).damping > 0; }
   /// In the model.
   int connector() const { return number_; }
   /// |d| or n . d [m], and N [N].

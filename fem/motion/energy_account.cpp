@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/system/observables.h"
+#include "fem/system/with_assembly.h"
 
 namespace nurbeam {
 
@@ -14,13 +15,23 @@ bool has_damped_beams(const BeamModel& model) {
       model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.properties.is_damped(); });
 }
 
-bool has_dampers(const BeamModel& model) {
-  return std::any_of(
-             model.stops.begin(), model.stops.end(),
-             [](const Stop& stop) { return stop.buffer && stop.buffer->damping > 0; }) ||
-         std::any_of(
-             model.connectors.begin(), model.connectors.end(),
-             [](const Connector& connector) { return connector.damping > 0; });
+bool has_dampers(const BeamSystem& system) {
+  return with_assembly(
+      system,
+      [&](const auto& a) {
+        return std::any_of(
+            a.forces().begin(), a.forces().end(),
+            [&](const auto& force) {
+              return std::visit(
+                  [&](const auto& f) {
+                    if constexpr (
+                        requires { f.is_damper(a.beams()); })
+                      return f.is_damper(a.beams());
+                    return false;
+                  },
+                  force);
+            });
+      });
 }
 
 // Whether energy may come from outside.
@@ -57,7 +68,7 @@ double dissipated_between(const BeamSystem& system, const State& from, const Sta
 // Of what the accelerations of a restart leave out of balance (make_accelerations_smooth), where damping
 // ends it: transients that the step does not follow, of which the trapezoidal rule takes half.
 double unbalanced_work(const BeamSystem& system, const State& from, const State& to) {
-  if (!has_damped_beams(system.model()) && !has_dampers(system.model())) return 0;
+  if (!has_damped_beams(system.model()) && !has_dampers(system)) return 0;
   Eigen::VectorXd dynamics(system.coordinate_count()), closed(system.constraint_count());
   system.residual(from, dynamics, closed);
   return dynamics.dot(to.q - from.q) / 2;

@@ -309,12 +309,12 @@ struct Simulation::Implementation {
   }
 
   void take_snapshot() {
-    const Snapshot snapshot = present();
+    Snapshot snapshot = present();
     run_.steps.clear();
     iterations_written_ = run_.report.newton_iterations;
     if (!run_.options.statics) run_.account.record(snapshot, run_.report);
     last_written_ = run_.at.state.t;
-    if (run_.observer.snapshot) run_.observer.snapshot(snapshot);
+    if (run_.observer.snapshot) run_.observer.snapshot(std::move(snapshot));
     if (run_.observer.follower) run_.observer.follower->records(run_.at, run_.restarted);
   }
 

@@ -25,7 +25,7 @@ struct SimulationOptions {
 
 /// What happens on the way; what is empty is not told.
 struct SimulationObserver {
-  std::function<void(const Snapshot&)> snapshot = nullptr;    ///< at every output time
+  std::function<void(Snapshot)> snapshot = nullptr;           ///< at every output time
   std::function<void(const StepRecord&)> progress = nullptr;  ///< after every step
   std::function<bool()> interrupted =
       nullptr;  ///< true asks to end: a motion after its step, a search for rest at once
@@ -34,7 +34,7 @@ struct SimulationObserver {
       mesh_changed = nullptr;
   std::function<bool()> checkpoint_due = nullptr;  ///< asked after every step
   /// Takes checkpoints (`inputs` left empty): those asked for, and the last one.
-  std::function<void(const Checkpoint&)> checkpoint = nullptr;
+  std::function<void(Checkpoint)> checkpoint = nullptr;
   RunFollower* follower = nullptr;  ///< of a run that has not been interrupted
 };
 

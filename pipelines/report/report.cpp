@@ -334,7 +334,11 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
   stream << "</script>" << tail;
 }
 
-void write_report(const fs::path& directory) {
+namespace {
+
+// Of the frames that frames() opens.
+template <class Frames>
+void write_page(const fs::path& directory, Frames frames) {
   const fs::path file = directory / "report.html";
   const auto discard = [&] {
     std::error_code ignored;
@@ -343,12 +347,9 @@ void write_report(const fs::path& directory) {
   const std::string run_json = text_of(directory / "run.json");
   std::ofstream stream;
   try {
-    const StoredFrames stored(directory);
-    const ReportFrames frames{
-        stored.title(), stored.names(), stored.times(),
-        [&](std::size_t first, std::size_t count) { return stored.read(first, count); }};
+    const ReportFrames shown = frames();
     stream.open(temporary_name(file), std::ios::binary);
-    write_report_page(stream, frames, run_json);
+    write_report_page(stream, shown, run_json);
   } catch (const std::invalid_argument& error) {
     discard();
     throw std::invalid_argument(directory.string() + ": " + error.what());
@@ -363,6 +364,31 @@ void write_report(const fs::path& directory) {
     throw std::runtime_error(file.string() + ": cannot be written: " + reason);
   }
   publish(file);
+}
+
+}  // namespace
+
+void write_report(const fs::path& directory) {
+  std::optional<StoredFrames> stored;
+  write_page(directory, [&] {
+    stored.emplace(directory);
+    return ReportFrames{stored->title(), stored->names(), stored->times(),
+                        [&](std::size_t first, std::size_t count) { return stored->read(first, count); }};
+  });
+}
+
+void write_report(const fs::path& directory, const StoredResults& results) {
+  write_page(
+      directory,
+      [&] {
+        std::vector<double> times;
+        for (const Snapshot& frame : results.frames) times.push_back(frame.time);
+        return ReportFrames{results.title, results.names, std::move(times),
+                            [&](std::size_t first, std::size_t count) {
+                              const auto begin = results.frames.begin() + static_cast<std::ptrdiff_t>(first);
+                              return std::vector<Snapshot>(begin, begin + static_cast<std::ptrdiff_t>(count));
+                            }};
+      });
 }
 
 }  // namespace nurbeam

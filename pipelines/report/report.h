@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/motion/snapshot.h"
+#include "pipelines/results/results.h"
 
 namespace nurbeam {
 
@@ -30,5 +31,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
 /// std::invalid_argument (file and reason) when they are not there or cannot be read, and std::runtime_error
 /// when the page cannot be written.
 void write_report(const std::filesystem::path& directory);
+/// The same of frames that are those of results.nc.
+void write_report(const std::filesystem::path& directory, const StoredResults& results);
 
 }  // namespace nurbeam

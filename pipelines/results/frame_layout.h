@@ -15,7 +15,6 @@ using Type = NetcdfFile::Type;
 using Doubles = std::vector<double>;
 using Integers = std::vector<int>;
 
-inline constexpr std::size_t time_chunk = 128, row_chunk = 256;
 inline constexpr std::size_t sample_count = 4;
 
 struct EnergyPart {
@@ -179,6 +178,28 @@ std::vector<Part> with_own_axes(const Part (&always)[N], const Part (&own_axes)[
   std::vector<Part> parts(std::begin(always), std::end(always));
   if (sections) parts.insert(parts.end(), std::begin(own_axes), std::end(own_axes));
   return parts;
+}
+
+/// How many rows along each of the dimensions that grow.
+struct StoredRows {
+  std::size_t frames = 0, elements = 0, nodes = 0, steps = 0;
+
+  StoredRows& operator+=(const StoredRows& other) {
+    frames += other.frames;
+    elements += other.elements;
+    nodes += other.nodes;
+    steps += other.steps;
+    return *this;
+  }
+};
+
+inline StoredRows rows_of(const Snapshot& frame) {
+  StoredRows rows{.frames = 1, .steps = frame.steps.size()};
+  for (const BeamRecord& beam : frame.beams) {
+    rows.elements += beam.elements.size();
+    rows.nodes += beam.node_s.size();
+  }
+  return rows;
 }
 
 /// Files hold the fill value where there is no number.

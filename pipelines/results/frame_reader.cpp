@@ -25,6 +25,11 @@ FrameReader::FrameReader(const std::filesystem::path& file)
   step_counts_ = file_.integers("solver_step_count", {0}, {n});
 }
 
+StoredRows FrameReader::rows() const {
+  const auto total = [](const Integers& counts) { return sum(counts.begin(), counts.end()); };
+  return {times_.size(), total(element_counts_), total(node_counts_), total(step_counts_)};
+}
+
 std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) const {
   if (first + count > times_.size()) throw std::out_of_range("FrameReader::read: no such frame");
   std::vector<Snapshot> frames(count);

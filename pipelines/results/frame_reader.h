@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fem/motion/snapshot.h"
-#include "pipelines/results/netcdf_file.h"
+#include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {
 
@@ -17,6 +17,7 @@ class FrameReader {
   const std::string& title() const { return title_; }
   const SnapshotNames& names() const { return names_; }
   const std::vector<double>& times() const { return times_; }
+  StoredRows rows() const;
   /// Frames first, first + 1, ..., first + count - 1. Throws std::runtime_error (file and reason).
   std::vector<Snapshot> read(std::size_t first, std::size_t count) const;
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {
 
 FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& names,
-                       const std::string& title, bool packed)
+                       const std::string& title, bool packed, const StoredRows& expected)
     : file_(NetcdfFile::create(file, packed)),
       probe_count_(names.probes.size()),
       body_count_(names.bodies.size()),
@@ -20,7 +21,8 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
       body_parts_(known_body_parts(names)),
       section_parts_(with_own_axes(section_parts, own_axes_parts, names.sections)),
       beam_extremes_(with_own_axes(beam_extremes, own_axes_extremes, names.sections)),
-      sampled_fields_(with_own_axes(sampled_fields, own_axes_fields, names.sections)) {
+      sampled_fields_(with_own_axes(sampled_fields, own_axes_fields, names.sections)),
+      expected_(expected) {
   file_.put_attribute("", "Conventions", "CF-1.8");
   file_.put_attribute("", "title", title);
   file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
@@ -51,7 +53,7 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
 void FrameStore::define_of_time(const std::string& name, std::vector<std::string> dimensions,
                                 const std::string& unit, const std::string& long_name, Type type) {
   dimensions.insert(dimensions.begin(), "time");
-  file_.define(name, type, dimensions, unit, long_name, time_chunk);
+  file_.define(name, type, dimensions, unit, long_name, expected_.frames);
 }
 
 void FrameStore::define_scalars() {
@@ -94,7 +96,8 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   file_.put_attribute("node_count", "sample_dimension", "node");
   const auto define = [&](const char* name, const std::vector<std::string>& dimensions, const char* unit,
                           const char* long_name) {
-    file_.define(name, Type::real, dimensions, unit, long_name, row_chunk);
+    const bool nodal = dimensions.front() == "node";
+    file_.define(name, Type::real, dimensions, unit, long_name, nodal ? expected_.nodes : expected_.elements);
   };
   define("control_points", {"element", "control_point", "homogeneous"}, "m",
          "deformed rational cubic as (w x, w y, w z, w); the weight w has no unit");
@@ -143,7 +146,7 @@ void FrameStore::define_steps() {
   define_of_time("solver_step_count", {}, "1", "number of steps since the previous frame", Type::integer);
   file_.put_attribute("solver_step_count", "sample_dimension", "solver_step");
   const auto define = [&](const char* name, Type type, const char* unit, const char* long_name) {
-    file_.define(name, type, {"solver_step"}, unit, long_name, row_chunk);
+    file_.define(name, type, {"solver_step"}, unit, long_name, expected_.steps);
   };
   define("solver_step_time", Type::real, "s", "time at the end of the step");
   define("solver_step_size", Type::real, "s", "length of the step");
@@ -187,7 +190,7 @@ class FrameStore::PerFrame {
 
 void FrameStore::write(std::span<const Snapshot> frames) {
   if (frames.empty()) return;
-  const PerFrame each(file_, frames_, frames);
+  const PerFrame each(file_, written_.frames, frames);
   write_scalars(each);
   if (probe_count_ > 0) write_probes(each);
   if (body_count_ > 0) write_bodies(each);
@@ -197,7 +200,12 @@ void FrameStore::write(std::span<const Snapshot> frames) {
   write_elements(frames);
   write_nodes(frames);
   write_steps(frames);
-  frames_ += frames.size();
+  for (const Snapshot& frame : frames) written_ += rows_of(frame);
+}
+
+void FrameStore::copy(const std::filesystem::path& file, const StoredRows& rows) {
+  file_.append(NetcdfFile::open(file));
+  written_ += rows;
 }
 
 void FrameStore::write_scalars(const PerFrame& each) {
@@ -309,32 +317,59 @@ void FrameStore::write_connectors(const PerFrame& each) {
                });
 }
 
-void FrameStore::write_elements(std::span<const Snapshot> frames) {
-  std::size_t count = 0;
-  Doubles points, velocity;
-  std::vector<Doubles> scalars(std::size(element_fields)), fields(sampled_fields_.size()),
-      axes(sections_ ? std::size(section_axes) : 0);
-  for_each_element(frames, [&](const ElementRecord& e) {
+// Elements that are put together: not all of a frame, which may have many.
+class FrameStore::ElementBlock {
+ public:
+  explicit ElementBlock(FrameStore& store)
+      : store_(&store),
+        scalars_(std::size(element_fields)),
+        fields_(store.sampled_fields_.size()),
+        axes_(store.sections_ ? std::size(section_axes) : 0),
+        first_(store.written_.elements) {}
+
+  void add(const ElementRecord& e) {
     // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
-    append(points, e.control_points);
-    for (std::size_t i = 0; i < scalars.size(); ++i) scalars[i].push_back(e.*element_fields[i].value);
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      for (const double value : e.*sampled_fields_[i].values) fields[i].push_back(filled(value));
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      for (const double value : (e.*section_axes[i].values).reshaped()) axes[i].push_back(filled(value));
-    append(velocity, e.velocity);
-    ++count;
-  });
-  if (count == 0) return;
-  file_.put("control_points", {elements_, 0, 0}, {count, 4, 4}, points.data());
-  for (std::size_t i = 0; i < scalars.size(); ++i)
-    file_.put(element_fields[i].name, {elements_}, {count}, scalars[i].data());
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    file_.put(sampled_fields_[i].name, {elements_, 0}, {count, sample_count}, fields[i].data());
-  file_.put("velocity", {elements_, 0, 0}, {count, sample_count, 3}, velocity.data());
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    file_.put(section_axes[i].name, {elements_, 0, 0}, {count, sample_count, 3}, axes[i].data());
-  elements_ += count;
+    append(points_, e.control_points);
+    for (std::size_t i = 0; i < scalars_.size(); ++i) scalars_[i].push_back(e.*element_fields[i].value);
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      for (const double value : e.*store_->sampled_fields_[i].values) fields_[i].push_back(filled(value));
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      for (const double value : (e.*section_axes[i].values).reshaped()) axes_[i].push_back(filled(value));
+    append(velocity_, e.velocity);
+    if (++count_ == most) put();
+  }
+
+  void put() {
+    if (count_ == 0) return;
+    const auto put = [&](const std::string& name, NetcdfFile::Sizes shape, Doubles& values) {
+      NetcdfFile::Sizes start(shape.size() + 1, 0);
+      start[0] = first_;
+      shape.insert(shape.begin(), count_);
+      store_->file_.put(name, start, shape, values.data());
+      values.clear();
+    };
+    put("control_points", {4, 4}, points_);
+    for (std::size_t i = 0; i < scalars_.size(); ++i) put(element_fields[i].name, {}, scalars_[i]);
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      put(store_->sampled_fields_[i].name, {sample_count}, fields_[i]);
+    put("velocity", {sample_count, 3}, velocity_);
+    for (std::size_t i = 0; i < axes_.size(); ++i) put(section_axes[i].name, {sample_count, 3}, axes_[i]);
+    first_ += std::exchange(count_, 0);
+  }
+
+ private:
+  static constexpr std::size_t most = 4096;
+
+  FrameStore* store_;
+  Doubles points_, velocity_;
+  std::vector<Doubles> scalars_, fields_, axes_;
+  std::size_t first_, count_ = 0;
+};
+
+void FrameStore::write_elements(std::span<const Snapshot> frames) {
+  ElementBlock block(*this);
+  for_each_element(frames, [&](const ElementRecord& e) { block.add(e); });
+  block.put();
 }
 
 void FrameStore::write_nodes(std::span<const Snapshot> frames) {
@@ -346,10 +381,9 @@ void FrameStore::write_nodes(std::span<const Snapshot> frames) {
       s.insert(s.end(), beam.node_s.begin(), beam.node_s.end());
     }
   if (s.empty()) return;
-  file_.put("node_position", {nodes_, 0}, {s.size(), 3}, position.data());
-  file_.put("node_slope", {nodes_, 0}, {s.size(), 3}, slope.data());
-  file_.put("node_s", {nodes_}, {s.size()}, s.data());
-  nodes_ += s.size();
+  file_.put("node_position", {written_.nodes, 0}, {s.size(), 3}, position.data());
+  file_.put("node_slope", {written_.nodes, 0}, {s.size(), 3}, slope.data());
+  file_.put("node_s", {written_.nodes}, {s.size()}, s.data());
 }
 
 void FrameStore::write_steps(std::span<const Snapshot> frames) {
@@ -364,14 +398,13 @@ void FrameStore::write_steps(std::span<const Snapshot> frames) {
       rejected.push_back(step.rejected);
     }
   }
-  file_.put("solver_step_count", {frames_}, {counts.size()}, counts.data());
+  file_.put("solver_step_count", {written_.frames}, {counts.size()}, counts.data());
   if (time.empty()) return;
-  const NetcdfFile::Sizes start{steps_}, count{time.size()};
+  const NetcdfFile::Sizes start{written_.steps}, count{time.size()};
   file_.put("solver_step_time", start, count, time.data());
   file_.put("solver_step_size", start, count, size.data());
   file_.put("solver_step_newton_iterations", start, count, iterations.data());
   file_.put("solver_step_rejected", start, count, rejected.data());
-  steps_ += time.size();
 }
 
 }  // namespace nurbeam

@@ -32,11 +32,14 @@ namespace nurbeam {
 ///   _newton_iterations, _rejected (solver_step)
 class FrameStore {
  public:
-  /// Makes the file, without frames. This and the others throw std::runtime_error (file and reason).
+  /// Makes the file, without frames; `expected`: about how much is to come. This and the others throw
+  /// std::runtime_error (file and reason).
   FrameStore(const std::filesystem::path& file, const SnapshotNames& names, const std::string& title,
-             bool packed);
+             bool packed, const StoredRows& expected);
   /// Appends frames whose vectors fit the names.
   void write(std::span<const Snapshot> frames);
+  /// Appends what another store of the same names has written, of which there is so much.
+  void copy(const std::filesystem::path& file, const StoredRows& rows);
   void close() { file_.close(); }
 
  private:
@@ -56,6 +59,7 @@ class FrameStore {
   void write_reactions(const PerFrame& each);
   void write_connectors(const PerFrame& each);
   void write_elements(std::span<const Snapshot> frames);
+  class ElementBlock;
   void write_nodes(std::span<const Snapshot> frames);
   void write_steps(std::span<const Snapshot> frames);
 
@@ -66,7 +70,7 @@ class FrameStore {
   std::vector<SectionPart> section_parts_;
   std::vector<BeamExtreme> beam_extremes_;
   std::vector<SampledField> sampled_fields_;
-  std::size_t frames_ = 0, elements_ = 0, nodes_ = 0, steps_ = 0;
+  StoredRows expected_, written_;
 };
 
 }  // namespace nurbeam

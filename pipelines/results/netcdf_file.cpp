@@ -2,6 +2,7 @@
 
 #include <netcdf.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <functional>
@@ -26,6 +27,15 @@ std::string reason_of(int status) {
   return std::unique_lock(mutex);
 }
 
+// What a variable keeps in memory [B]: of one that is written or read in order, the end and what follows it.
+// The library's own cache holds a hundred times that of every variable, until the file is closed.
+constexpr std::size_t chunk_bytes = 128 * 1024, cache_bytes = 4 * chunk_bytes, cache_slots = 53;
+constexpr float cache_preemption = 0.75F;
+// Less is not worth compressing [B].
+constexpr std::size_t least_packed = 16 * 1024;
+
+void use_small_caches() { nc_set_chunk_cache(cache_bytes, cache_slots, cache_preemption); }
+
 std::size_t product(const NetcdfFile::Sizes& count) {
   return std::accumulate(count.begin(), count.end(), std::size_t{1}, std::multiplies<>());
 }
@@ -45,6 +55,7 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& file, bool packed) {
   const auto lock = one_at_a_time();
   int id = -1;
   errno = 0;
+  use_small_caches();
   const int status = nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
   NetcdfFile created(file, id, status);
   created.packed_ = packed;
@@ -55,6 +66,7 @@ NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
   const auto lock = one_at_a_time();
   int id = -1;
   errno = 0;
+  use_small_caches();
   const int status = nc_open(file.c_str(), NC_NOWRITE, &id);
   return {file, id, status};
 }
@@ -84,14 +96,17 @@ void NetcdfFile::define_plain(const std::string& name, Type type, const std::vec
 }
 
 void NetcdfFile::define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
-                        const std::string& unit, const std::string& long_name, std::size_t chunk) {
+                        const std::string& unit, const std::string& long_name, std::size_t rows) {
   const auto lock = one_at_a_time();
   const int variable = define_variable(name, type == Type::real ? NC_DOUBLE : NC_INT, dimensions);
-  Sizes chunks(dimensions.size());
-  for (std::size_t i = 0; i < dimensions.size(); ++i) chunks[i] = i == 0 ? chunk : size(dimensions[i]);
+  Sizes chunks{1};
+  for (std::size_t i = 1; i < dimensions.size(); ++i) chunks.push_back(size(dimensions[i]));
+  const std::size_t row_bytes = product(chunks) * (type == Type::real ? sizeof(double) : sizeof(int));
+  chunks[0] = std::clamp<std::size_t>(rows, 1, std::max<std::size_t>(1, chunk_bytes / row_bytes));
   check(nc_def_var_chunking(id_, variable, NC_CHUNKED, chunks.data()), name);
-  constexpr int shuffle = 1, deflate = 1, level = 2;
-  if (packed_) check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
+  constexpr int shuffle = 1, deflate = 1, level = 1;
+  if (packed_ && rows * row_bytes >= least_packed)
+    check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
   put_meaning(name, unit, long_name);
 }
 
@@ -142,6 +157,58 @@ void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& c
   const auto lock = one_at_a_time();
   put_texts();
   check(nc_put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
+}
+
+std::vector<int> NetcdfFile::unlimited_dimensions() const {
+  int count = 0;
+  check(nc_inq_unlimdims(id_, &count, nullptr), "dimensions");
+  std::vector<int> dimensions(count);
+  check(nc_inq_unlimdims(id_, &count, dimensions.data()), "dimensions");
+  return dimensions;
+}
+
+void NetcdfFile::append(const NetcdfFile& from) {
+  const auto lock = one_at_a_time();
+  put_texts();
+  for (const int along : from.unlimited_dimensions()) {
+    char name[NC_MAX_NAME + 1];
+    from.check(nc_inq_dimname(from.id_, along, name), "dimension");
+    if (!has_dimension(name)) continue;
+    const std::size_t rows = from.size(name), first = size(name);
+    int variables = 0;
+    from.check(nc_inq_nvars(from.id_, &variables), "variables");
+    for (int variable = 0; variable < variables && rows > 0; ++variable) {
+      int dimensions = 0;
+      from.check(nc_inq_varndims(from.id_, variable, &dimensions), "variable");
+      std::vector<int> over(dimensions);
+      from.check(nc_inq_vardimid(from.id_, variable, over.data()), "variable");
+      if (!over.empty() && over[0] == along) append_rows(from, variable, rows, first);
+    }
+  }
+}
+
+// Of a variable of another file, behind the first rows.
+void NetcdfFile::append_rows(const NetcdfFile& from, int variable, std::size_t rows, std::size_t first) {
+  char name[NC_MAX_NAME + 1];
+  from.check(nc_inq_varname(from.id_, variable, name), "variable");
+  if (!has_variable(name)) return;
+  int dimensions = 0;
+  nc_type type = NC_DOUBLE;
+  check(nc_inq_var(id_, this->variable(name), nullptr, &type, &dimensions, nullptr, nullptr), name);
+  std::vector<int> over(dimensions);
+  check(nc_inq_vardimid(id_, this->variable(name), over.data()), name);
+  Sizes start(dimensions, 0), count(dimensions, 1);
+  for (int d = 1; d < dimensions; ++d) check(nc_inq_dimlen(id_, over[d], &count[d]), name);
+  const std::size_t row_bytes = product(count) * (type == NC_INT ? sizeof(int) : sizeof(double));
+  const std::size_t at_once = std::max<std::size_t>(1, chunk_bytes / row_bytes);
+  std::vector<std::byte> values(std::min(at_once, rows) * row_bytes);
+  for (std::size_t done = 0; done < rows; done += count[0]) {
+    count[0] = std::min(at_once, rows - done);
+    start[0] = done;
+    from.check(nc_get_vara(from.id_, variable, start.data(), count.data(), values.data()), name);
+    start[0] = first + done;
+    check(nc_put_vara(id_, this->variable(name), start.data(), count.data(), values.data()), name);
+  }
 }
 
 std::vector<double> NetcdfFile::doubles(const std::string& name, const Sizes& start,

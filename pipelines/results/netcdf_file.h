@@ -29,10 +29,10 @@ class NetcdfFile {
   /// A variable without compression, of fixed size: what is read again soon.
   void define_plain(const std::string& name, Type type, const std::vector<std::string>& dimensions,
                     const std::string& unit, const std::string& long_name);
-  /// A variable that is compressed where the file is packed; `chunk` rows of its first dimension lie together
-  /// in the file.
+  /// A variable of which about `rows` of its first dimension are to come: what lies together in the file, and
+  /// whether it is worth compressing where the file is packed.
   void define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
-              const std::string& unit, const std::string& long_name, std::size_t chunk);
+              const std::string& unit, const std::string& long_name, std::size_t rows);
   void define_texts(const std::string& name, const std::string& dimension,
                     const std::vector<std::string>& texts);
   /// An attribute of a variable; of the file for "".
@@ -41,6 +41,9 @@ class NetcdfFile {
 
   void put(const std::string& name, const Sizes& start, const Sizes& count, const double* values);
   void put(const std::string& name, const Sizes& start, const Sizes& count, const int* values);
+  /// Puts what another file has along its unlimited dimensions behind what is there, of the variables that
+  /// both have.
+  void append(const NetcdfFile& from);
   std::vector<double> doubles(const std::string& name, const Sizes& start, const Sizes& count) const;
   std::vector<int> integers(const std::string& name, const Sizes& start, const Sizes& count) const;
   std::vector<std::string> texts(const std::string& name) const;
@@ -59,6 +62,8 @@ class NetcdfFile {
   void put_meaning(const std::string& name, const std::string& unit, const std::string& long_name);
 
   void put_texts();
+  std::vector<int> unlimited_dimensions() const;
+  void append_rows(const NetcdfFile& from, int variable, std::size_t rows, std::size_t first);
 
   std::filesystem::path file_;
   int id_;

@@ -24,12 +24,13 @@ class Writer {
     file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
   }
 
+  /// Takes them.
   void numbers(const std::string& name, const std::string& meaning, std::vector<double>& values) {
     if (values.empty()) return;
     const std::string dimension = name + "_count";
     file_.define_dimension(dimension, values.size());
     file_.define_plain(name, NetcdfFile::Type::real, {dimension}, "SI", meaning);
-    numbers_.emplace_back(name, values);
+    numbers_.emplace_back(name, std::move(values));
   }
   void texts(const std::string& name, std::vector<std::string>& values) {
     if (values.empty()) return;
@@ -321,11 +322,10 @@ void exchange(Archive& archive, Checkpoint& p) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& file, const Checkpoint& point) {
+void write_checkpoint(const std::filesystem::path& file, Checkpoint point) {
   try {
     Writer archive(temporary_name(file));
-    Checkpoint copy = point;
-    exchange(archive, copy);
+    exchange(archive, point);
     archive.close();
   } catch (const std::runtime_error&) {
     std::error_code ignored;

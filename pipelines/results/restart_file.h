@@ -7,7 +7,7 @@ namespace nurbeam {
 
 /// Writes a restart point as netCDF, to a temporary name that is renamed. Throws std::runtime_error (file and
 /// reason).
-void write_checkpoint(const std::filesystem::path& file, const Checkpoint& point);
+void write_checkpoint(const std::filesystem::path& file, Checkpoint point);
 /// Throws std::runtime_error (file and reason).
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 

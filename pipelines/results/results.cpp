@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/results/file_error.h"
@@ -59,9 +60,9 @@ enum class Use { passing, lasting };
 /// Removes its file's temporary name, unless it has been published, when writing fails.
 template <class Write>
 void write_file(const fs::path& file, Use use, const SnapshotNames& names, const std::string& title,
-                Write write) {
+                const StoredRows& expected, Write write) {
   try {
-    FrameStore store(temporary_name(file), names, title, use == Use::lasting);
+    FrameStore store(temporary_name(file), names, title, use == Use::lasting, expected);
     write(store);
     store.close();
   } catch (const std::runtime_error&) {
@@ -89,9 +90,9 @@ struct ResultsWriter::Implementation {
   SnapshotNames names;
   std::string title;
   HistoryTable histories;
-  std::size_t chunk_count = 0;
+  std::vector<StoredRows> chunk_rows;
   std::vector<Snapshot> open;
-  std::size_t open_elements = 0;
+  StoredRows open_rows;
 
   Implementation(fs::path where, SnapshotNames of, std::string name)
       : directory(created(where)),
@@ -101,19 +102,22 @@ struct ResultsWriter::Implementation {
 
   void close_chunk() {
     if (open.empty()) return;
-    write_file(chunk_file(directory, chunk_count + 1), Use::passing, names, title,
+    write_file(chunk_file(directory, chunk_rows.size() + 1), Use::passing, names, title, open_rows,
                [&](FrameStore& store) { store.write(open); });
-    ++chunk_count;
+    chunk_rows.push_back(std::exchange(open_rows, {}));
     open.clear();
-    open_elements = 0;
+  }
+
+  StoredRows all_rows() const {
+    StoredRows rows = open_rows;
+    for (const StoredRows& chunk : chunk_rows) rows += chunk;
+    return rows;
   }
 
   void merge() {
-    write_file(store_file(directory), Use::lasting, names, title, [&](FrameStore& store) {
-      for (const fs::path& file : chunks()) {
-        const FrameReader chunk(file);
-        for_each_batch(chunk, chunk.times().size(), [&](const auto& frames) { store.write(frames); });
-      }
+    write_file(store_file(directory), Use::lasting, names, title, all_rows(), [&](FrameStore& store) {
+      const std::vector<fs::path> files = chunks();
+      for (std::size_t i = 0; i < files.size(); ++i) store.copy(files[i], chunk_rows[i]);
       store.write(open);
     });
     for (const fs::path& file : chunks()) fs::remove(file);
@@ -121,7 +125,7 @@ struct ResultsWriter::Implementation {
 
   std::vector<fs::path> chunks() const {
     std::vector<fs::path> files;
-    for (std::size_t i = 1; i <= chunk_count; ++i) files.push_back(chunk_file(directory, i));
+    for (std::size_t i = 1; i <= chunk_rows.size(); ++i) files.push_back(chunk_file(directory, i));
     return files;
   }
 
@@ -138,8 +142,8 @@ struct ResultsWriter::Implementation {
         fs::remove(file);
         continue;
       }
-      ++chunk_count;
       left -= keep_frames(file, left, file);
+      chunk_rows.push_back(FrameReader(file).rows());
     }
     if (left > 0)
       fail(directory, "holds " + std::to_string(frames - left) +
@@ -157,7 +161,7 @@ struct ResultsWriter::Implementation {
     const FrameReader reader(from);
     const std::size_t count = std::min(most, reader.times().size());
     if (from != to || count < reader.times().size())
-      write_file(to, Use::passing, names, title, [&](FrameStore& store) {
+      write_file(to, Use::passing, names, title, reader.rows(), [&](FrameStore& store) {
         for_each_batch(reader, count, [&](const auto& frames) { store.write(frames); });
       });
     return count;
@@ -186,12 +190,20 @@ void ResultsWriter::write(Snapshot frame) {
   check_count("bodies", frame.bodies.size(), files.names.bodies.size());
   check_count("beams", frame.beams.size(), files.names.beams.size());
   files.histories.write(frame);
-  for (const BeamRecord& beam : frame.beams) files.open_elements += beam.elements.size();
+  files.open_rows += rows_of(frame);
   files.open.push_back(std::move(frame));
-  if (files.open_elements >= most_open_elements) files.close_chunk();
+  if (files.open_rows.elements >= most_open_elements) files.close_chunk();
 }
 
 void ResultsWriter::close_chunk() { implementation_->close_chunk(); }
+
+std::size_t ResultsWriter::frame_count() const { return implementation_->all_rows().frames; }
+
+std::optional<StoredResults> ResultsWriter::all_frames() {
+  Implementation& files = *implementation_;
+  if (!files.chunk_rows.empty()) return {};
+  return StoredResults{files.title, files.names, std::exchange(files.open, {})};
+}
 
 void ResultsWriter::finish() {
   Implementation& files = *implementation_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,13 @@
 #include "fem/motion/snapshot.h"
 
 namespace nurbeam {
+
+/// Everything in a results directory, in memory.
+struct StoredResults {
+  std::string title;
+  SnapshotNames names;
+  std::vector<Snapshot> frames;
+};
 
 /// Writes histories.csv and results.nc (FrameStore) into a directory, frame by frame.
 ///
@@ -32,6 +40,9 @@ class ResultsWriter {
   void close_chunk();
   /// Gives the files their names; nothing may be written after it. Throws std::runtime_error.
   void finish();
+  std::size_t frame_count() const;
+  /// After finish(): all that was written, where it still is in memory, and once.
+  std::optional<StoredResults> all_frames();
 
  private:
   struct Implementation;
@@ -62,12 +73,6 @@ class StoredFrames {
   std::vector<double> times_;
 };
 
-/// Everything in a results directory, in memory.
-struct StoredResults {
-  std::string title;
-  SnapshotNames names;
-  std::vector<Snapshot> frames;
-};
 /// Throws std::runtime_error (file and reason).
 StoredResults read_results(const std::filesystem::path& directory);
 

@@ -103,10 +103,13 @@ class Run {
         case_.analysis.has_modes() ? find_modes_into(outputs) : simulate_into(outputs);
     outputs.finish();
     // A run that ended before its first frame has nothing to show.
-    const bool with_report = case_.output.report && !StoredFrames(options_.out).times().empty();
+    const bool with_report = case_.output.report && outputs.frame_count() > 0;
     summarise(simulated, outputs, with_report);
     write_run_summary(options_.out / "run.json", summary_);
-    if (with_report) write_report(options_.out);
+    if (with_report) {
+      const std::optional<StoredResults> frames = outputs.all_frames();
+      frames ? write_report(options_.out, *frames) : write_report(options_.out);
+    }
     if (simulated.status != SimulationStatus::done)
       tell(case_.path.string() + ": error: " + outcome_text(simulated, built_.model));
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
@@ -162,9 +165,9 @@ class Run {
       logged.update(step);
       if (options_.progress) options_.progress(step);
     };
-    observer.snapshot = [&](const Snapshot& snapshot) { outputs.write(snapshot); };
+    observer.snapshot = [&](Snapshot snapshot) { outputs.write(std::move(snapshot)); };
     observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
-    observer.checkpoint = [&](const Checkpoint& point) { outputs.write(point); };
+    observer.checkpoint = [&](Checkpoint point) { outputs.write(std::move(point)); };
     SimulationReport simulated = simulate(built_.model, probe_places(built_), simulation_options(case_),
                                           observer, from_ ? &*from_ : nullptr);
     shown.finish();

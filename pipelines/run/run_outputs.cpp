@@ -51,9 +51,9 @@ void RunOutputs::timed(Work work) {
   seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void RunOutputs::write(const Snapshot& local) {
+void RunOutputs::write(Snapshot local) {
   timed([&] {
-    Snapshot frame = to_world(built_.frame, local);
+    Snapshot frame = to_world(built_.frame, std::move(local));
     if (paraview_) paraview_->write(frame);
     look_at(frame);
     cad_.write(frame, diagnostics_);
@@ -61,9 +61,9 @@ void RunOutputs::write(const Snapshot& local) {
   });
 }
 
-void RunOutputs::write_shape(const Snapshot& local) {
+void RunOutputs::write_shape(Snapshot local) {
   timed([&] {
-    Snapshot frame = to_world(built_.frame, local);
+    Snapshot frame = to_world(built_.frame, std::move(local));
     if (paraview_) paraview_->write(frame);
     cad_.write(frame, diagnostics_);
     results_.write(std::move(frame));
@@ -80,23 +80,22 @@ void RunOutputs::write_series(const std::string& name, const std::vector<Snapsho
 
 bool RunOutputs::checkpoint_due() const { return Clock::now() - last_restart_ >= restart_interval; }
 
-void RunOutputs::write(const Checkpoint& point) {
+void RunOutputs::write(Checkpoint point) {
   if (!checkpoint_due()) {
-    last_point_ = point;
+    last_point_ = std::move(point);
     return;
   }
   timed([&] {
     results_.close_chunk();
     if (paraview_) paraview_->write_index();
     cad_.flush();  // a run that goes on from here has what came before
-    put(point);
+    put(std::move(point));
   });
 }
 
-void RunOutputs::put(const Checkpoint& point) {
-  Checkpoint mine = point;
-  mine.inputs = inputs_;
-  write_checkpoint(directory_ / "restart.nc", mine);
+void RunOutputs::put(Checkpoint point) {
+  point.inputs = inputs_;
+  write_checkpoint(directory_ / "restart.nc", std::move(point));
   last_restart_ = Clock::now();
   last_point_.reset();
 }
@@ -106,7 +105,7 @@ void RunOutputs::finish() {
     results_.finish();
     if (paraview_) paraview_->write_index();
     cad_.flush();
-    if (last_point_) put(*last_point_);
+    if (last_point_) put(std::move(*last_point_));
   });
 }
 

@@ -23,17 +23,20 @@ class RunOutputs {
              std::string inputs, const Checkpoint* from);
 
   /// Writes one frame, in the model's own coordinates.
-  void write(const Snapshot& local);
+  void write(Snapshot local);
   /// Writes a frame that shows a shape, in the model's own coordinates: no extreme counts.
-  void write_shape(const Snapshot& local);
+  void write_shape(Snapshot local);
   /// Writes frames as a ParaView series NAME.pvd.
   void write_series(const std::string& name, const std::vector<Snapshot>& local);
   /// Whether the last restart point is old enough for another.
   bool checkpoint_due() const;
   /// Puts all frames so far, and the point, on the disk: at once where it is due, else, at the end of a run,
   /// with finish().
-  void write(const Checkpoint& point);
+  void write(Checkpoint point);
   void finish();
+  std::size_t frame_count() const { return results_.frame_count(); }
+  /// After finish(): the frames of results.nc, where they still are in memory, and once.
+  std::optional<StoredResults> all_frames() { return results_.all_frames(); }
   /// What could not be written into a CAD file; the run goes on.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   /// The largest over all frames.
@@ -48,7 +51,7 @@ class RunOutputs {
   template <class Work>
   void timed(Work work);
   void look_at(const Snapshot& frame);
-  void put(const Checkpoint& point);
+  void put(Checkpoint point);
 
   const BuiltModel& built_;
   std::filesystem::path directory_;
