@@ -63,18 +63,23 @@ class Window {
     return own;
   }
 
-  /// Whether the solution for it leaves the rows beyond it closed.
+  /// Whether the solution for it leaves the rows beyond it closed, but for round-off of what it moves.
   bool suffices(const Matrix& A, const Open& open, const Eigen::VectorXd& solution) const {
-    Eigen::VectorXd left = Eigen::VectorXd::Zero(A.rows());
-    std::vector<int> touched;
+    Eigen::VectorXd left = open.rows;
+    double largest = 0;
     for (int k = 0; k < size(); ++k)
-      for (Matrix::InnerIterator entry(A, unknowns_[k]); entry; ++entry)
-        if (place_[entry.row()] < 0) {
-          left[entry.row()] -= entry.value() * solution[k];
-          touched.push_back(static_cast<int>(entry.row()));
-        }
-    return std::all_of(touched.begin(), touched.end(),
-                       [&](int row) { return std::abs(open.rows[row] + left[row]) <= open.round_off[row]; });
+      for (Matrix::InnerIterator entry(A, unknowns_[k]); entry; ++entry) {
+        const double product = entry.value() * solution[k];
+        left[entry.row()] -= product;
+        largest = std::max(largest, std::abs(product));
+      }
+    const double moved = 4 * std::numeric_limits<double>::epsilon() * largest;
+    for (const int unknown : unknowns_)
+      for (Matrix::InnerIterator entry(A, unknown); entry; ++entry)
+        if (place_[entry.row()] < 0 &&
+            !(std::abs(left[entry.row()]) <= std::max(open.round_off[entry.row()], moved)))
+          return false;
+    return true;
   }
 
  private:
@@ -93,10 +98,11 @@ bool correct_locally(const Matrix& A, const Eigen::VectorXd& b, const std::vecto
   constexpr int first_reach = 40, growth = 3;
   const Open open(A, b, x);
   KktSolver solver;
-  for (int reach = first_reach;; reach *= growth) {
+  for (int reach = first_reach, last_size = 0;; reach *= growth) {
     const Window window(A, open, reach);
     if (window.size() == 0) return true;
-    if (2 * window.size() > A.cols()) break;
+    if (window.size() == last_size || 2 * window.size() > A.cols()) break;
+    last_size = window.size();
     if (!solver.factorise(window.matrix(A))) continue;  // it has cut a constraint
     const Eigen::VectorXd solution = solver.solve(window.part(open.rows));
     if (!solution.allFinite() || !window.suffices(A, open, solution)) continue;
