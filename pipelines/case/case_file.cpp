@@ -345,18 +345,28 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   return result;
 }
 
-// The case that a JSON value is, once its shape and what it refers to have been checked.
+// The case that a JSON value is, once its shape and what it refers to have been checked; but for its text.
 CaseFileReport checked_case(Json& json, const Shape& shape, const std::filesystem::path& file,
                             Findings& findings) {
   std::optional<CaseFile> value;
   put_in_tables(shape, json, "", std::filesystem::absolute(file).parent_path(), findings);
   if (check_shape(shape, json, findings)) {
     value = read_case(json, file, findings);
-    value->json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     check_across(json, *value, findings);
   }
   if (findings.has_errors()) value.reset();
   return {std::move(value), findings.take()};
+}
+
+CaseFileReport checked_host_case(Json& json, const std::filesystem::path& file, Findings& findings) {
+  CaseFileReport report = checked_case(json, host_keys(), file, findings);
+  if (report.value) report.value->laws = read_laws(json);
+  return report;
+}
+
+CaseFileReport with_text(CaseFileReport report, const Json& json) {
+  if (report.value) report.value->json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return report;
 }
 
 }  // namespace
@@ -367,7 +377,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   if (!json) return {{}, findings.take()};
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
-  CaseFileReport report = checked_case(*json, case_keys(), file, findings);
+  CaseFileReport report = with_text(checked_case(*json, case_keys(), file, findings), *json);
   if (!diagnostics.empty()) report.value.reset();
   report.diagnostics.insert(report.diagnostics.begin(), diagnostics.begin(), diagnostics.end());
   return report;
@@ -377,9 +387,12 @@ CaseFileReport read_case_text(const std::string& text, const std::filesystem::pa
   Findings findings(file.string());
   auto json = parse_json(text, findings);
   if (!json) return {{}, findings.take()};
-  CaseFileReport report = checked_case(*json, host_keys(), file, findings);
-  if (report.value) report.value->laws = read_laws(*json);
-  return report;
+  return with_text(checked_host_case(*json, file, findings), *json);
+}
+
+CaseFileReport read_case_json(nlohmann::ordered_json json, const std::filesystem::path& file) {
+  Findings findings(file.string());
+  return checked_host_case(json, file, findings);
 }
 
 CaseTextReport case_text(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -30,7 +30,8 @@ def run(name, out=None, **changes):
     file.write_text(json.dumps(study))
     done = subprocess.run([nurbeam, "study", file, "--out", scratch / out, "--quiet"], capture_output=True, text=True)
     assert done.returncode == 0, (name, done.stdout, done.stderr)
-    return {**json.loads((scratch / out / "study.json").read_text())["answer"], "printed": done.stdout}
+    answer = json.loads((scratch / out / "study.json").read_text())["answer"] or {}
+    return {**answer, "printed": done.stdout}
 
 
 def rows(name):
