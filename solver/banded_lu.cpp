@@ -1,21 +1,30 @@
 #include "solver/banded_lu.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "solver/every_processor.h"
 
 namespace nurbeam {
 
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-using Four = Eigen::Map<Eigen::Array4d>;
-using ConstFour = Eigen::Map<const Eigen::Array4d>;
 
 constexpr int block = 4;
+
+using Four = BandedLu::Four;
+NURBEAM_WITHIN Four& four(double* at) { return *reinterpret_cast<Four*>(at); }
+NURBEAM_WITHIN const Four& four(const double* at) { return *reinterpret_cast<const Four*>(at); }
+using Square = std::array<std::array<double, block>, block>;
+NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
+  return (four(columns[0].data()) * x[0] + four(columns[1].data()) * x[1]) +
+         (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
+}
+NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
 class Neighbours {
@@ -76,25 +85,25 @@ int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std:
   return levels;
 }
 
-// An unknown at an end of the component of `start`: from it the levels are the most that are easily found.
-// One that is coupled with what is left out, where from it they are nearly as many.
-int end_of_component(const Neighbours& neighbours, int start, Walks& walks) {
+// The component of `start`, by levels from an unknown at one of its ends: from there they are the most that
+// are easily found. From one that is coupled with what is left out, where from it they are nearly as many.
+std::vector<int> by_levels_from_end(const Neighbours& neighbours, int start, Walks& walks) {
   constexpr double nearly = 0.75;
   std::vector<int> order;
-  int levels = 0;
-  for (;;) {
+  for (int levels = 0;;) {
     order.clear();
     const int found = append_by_levels(neighbours, start, walks, order);
-    if (found <= levels) break;
+    if (found <= levels) {
+      const auto coupled =
+          std::find_if(order.begin(), order.end(), [&](int i) { return neighbours.is_coupled(i); });
+      if (coupled == order.end()) return order;
+      std::vector<int> other;
+      const int others = append_by_levels(neighbours, *coupled, walks, other);
+      return others >= nearly * levels ? other : order;
+    }
     levels = found;
     start = order.back();
   }
-  const auto coupled =
-      std::find_if(order.begin(), order.end(), [&](int i) { return neighbours.is_coupled(i); });
-  if (coupled == order.end()) return start;
-  const int other_start = *coupled;
-  order.clear();
-  return append_by_levels(neighbours, other_start, walks, order) >= nearly * levels ? other_start : start;
 }
 
 }  // namespace
@@ -105,31 +114,37 @@ BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
   Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
   for (const int i : left_out) walks.last[i] = Walks::never;
   for (int i = 0; i < n; ++i)
-    if (walks.last[i] == 0)
-      append_by_levels(neighbours, end_of_component(neighbours, i, walks), walks, unknown);
+    if (walks.last[i] == 0) {
+      const std::vector<int> component = by_levels_from_end(neighbours, i, walks);
+      unknown.insert(unknown.end(), component.begin(), component.end());
+    }
   std::reverse(unknown.begin(), unknown.end());
   place.assign(static_cast<std::size_t>(n), -1);
   const int held = static_cast<int>(unknown.size());
   ends.resize(unknown.size());
-  for (int k = 0; k < held; ++k) {
-    place[unknown[k]] = k;
-    ends[k] = k + 1;
-  }
+  for (int k = 0; k < held; ++k) place[unknown[k]] = k;
   row_starts.assign(unknown.size() + 1, 0);
-  for (const int i : unknown)
-    for (const int* j = neighbours.begin(i); j != neighbours.end(i); ++j) {
-      if (place[*j] < 0) continue;
-      half_bandwidth = std::max(half_bandwidth, std::abs(place[i] - place[*j]));
-      ends[place[*j]] = std::max(ends[place[*j]], place[i] + 1);
-      ++row_starts[place[*j] + 1];
-    }
+  for (int column = 0; column < held; ++column)
+    for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
+      if (const int row = place[*i]; row >= 0) ++row_starts[row + 1];
   std::partial_sum(row_starts.begin(), row_starts.end(), row_starts.begin());
   entries.resize(static_cast<std::size_t>(row_starts.back()));
   std::vector<int> next = row_starts;
   for (int column = 0; column < held; ++column)
     for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
-      if (place[*i] >= 0)
-        entries[next[place[*i]]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
+      if (const int row = place[*i]; row >= 0)
+        entries[next[row]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
+  // The entries of a row are in order.
+  below.assign(unknown.size(), 0);
+  for (int row = 0; row < held; ++row) {
+    ends[row] = row + 1;
+    if (row_starts[row] == row_starts[row + 1]) continue;
+    const int first = entries[row_starts[row]].column, last = entries[row_starts[row + 1] - 1].column;
+    ends[row] = std::max(ends[row], last + 1);
+    half_bandwidth = std::max({half_bandwidth, row - first, last - row});
+    below[first] = row;
+  }
+  for (int column = 1; column < held; ++column) below[column] = std::max(below[column], below[column - 1]);
 }
 
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
@@ -147,6 +162,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   pivots_.resize(padded);
   reach_.resize(padded / block);
   inverse_.resize(padded);
+  blocks_.resize(padded / block);
   room_ = padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block);
 }
 
@@ -173,11 +189,10 @@ void BandedLu::fill_band(const Matrix& matrix) {
   }
 }
 
-// The row below that takes the place: the one that is there if it is not much less than the largest, since
-// every exchange widens the band.
-int BandedLu::pivot_of(int column) const {
+// The row, down to `last`, that takes the place: the one that is there if it is not much less than the
+// largest, since every exchange widens the band.
+NURBEAM_WITHIN int BandedLu::pivot_of(int column, int last) const {
   constexpr double enough = 0.1;
-  const int last = std::min(padded_ - 1, column + half_bandwidth_);
   const auto size = [&](int i) { return std::abs(row(i)[column - i + half_bandwidth_]); };
   int pivot = column;
   double largest = size(column) / enough;
@@ -189,40 +204,122 @@ int BandedLu::pivot_of(int column) const {
   return pivot;
 }
 
-double BandedLu::factorise(const Matrix& matrix) {
-  fill_band(matrix);
-  const int b = half_bandwidth_;
+// Exchanges two rows from the first one's diagonal on.
+NURBEAM_WITHIN void BandedLu::exchange(int k, int p) {
+  const int b = half_bandwidth_, end = std::max(ends_[k], ends_[p]);
+  std::swap_ranges(row(k) + b, row(k) + b + end - k, row(p) + k - p + b);
+  std::swap(ends_[k], ends_[p]);
+}
+
+// Takes the unknown of a column out of the rows below, down to `last`.
+NURBEAM_WITHIN void BandedLu::take_out(int k, int last) {
+  const int b = half_bandwidth_, length = ends_[k] - k;
+  const double* upper = row(k) + b;
+  double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
+  int& reach = reach_[k / block];
+  for (int i = k + 1; i <= last; ++i) {
+    double* below = row(i) + k - i + b;
+    const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
+    if (factor == 0) continue;
+    reach = std::max(reach, i);
+    ends_[i] = std::max(ends_[i], ends_[k]);
+    for (int j = 1; j < length; j += block) four(below + j) -= factor * four(upper + j);
+  }
+}
+
+NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
+  std::array<const double*, block> u;  // from column k on
+  for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+  Square &inverse = blocks_[k / block].upper, &next = blocks_[k / block].from_next;
+  for (int j = 0; j < block; ++j) {
+    inverse[j] = {};
+    inverse[j][j] = inverse_[k + j];
+    for (int i = j - 1; i >= 0; --i) {
+      double sum = 0;
+      for (int l = i + 1; l <= j; ++l) sum += u[i][l] * inverse[j][l];
+      inverse[j][i] = -inverse_[k + i] * sum;
+    }
+  }
+  for (int j = 0; j < block; ++j) {
+    Four sum = {};
+    for (int r = 0; r < block; ++r) sum += four(inverse[r].data()) * u[r][block + j];
+    four(next[j].data()) = sum;
+  }
+}
+
+NURBEAM_WITHIN void BandedLu::invert_lower(int k) {
+  Block& own = blocks_[k / block];
+  own.exchanged = false;
+  for (int c = 0; c < block; ++c) own.exchanged |= pivots_[k + c] != k + c;
+  if (own.exchanged) return;
+  const std::array<const double*, block> m = multipliers(k);
+  for (int j = 0; j < block; ++j) {
+    own.lower[j] = {};
+    own.lower[j][j] = 1;
+    for (int i = j + 1; i < block; ++i)
+      for (int l = j; l < i; ++l) own.lower[j][i] -= m[l][i - l - 1] * own.lower[j][l];
+  }
+  if (k == 0 || blocks_[k / block - 1].exchanged) return;
+  const std::array<const double*, block> before = multipliers(k - block);
+  for (int j = 0; j < block; ++j)
+    four(own.from_previous[j].data()) = product(own.lower, four(before[j] + block - 1 - j));
+}
+
+NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows() {
+  const int n = static_cast<int>(order_->unknown.size());
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (int k = 0; k < padded_; ++k) {
-    const int p = pivots_[k] = pivot_of(k);
-    if (p != k) {
-      const int end = std::max(ends_[k], ends_[p]);
-      std::swap_ranges(row(k) + b, row(k) + b + end - k, row(p) + k - p + b);
-      std::swap(ends_[k], ends_[p]);
-    }
-    const double* upper = row(k) + b;
-    const double pivot = upper[0];
+    const int last = k < n ? order_->below[k] : k, p = pivots_[k] = pivot_of(k, last);
+    if (p != k) exchange(k, p);
+    const double pivot = row(k)[half_bandwidth_];
     if (pivot == 0) return 0;
     inverse_[k] = 1 / pivot;
-    if (k < static_cast<int>(order_->unknown.size())) {
+    if (k < n) {
       smallest = std::min(smallest, std::abs(pivot));
       largest = std::max(largest, std::abs(pivot));
     }
-    double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
-    int& reach = reach_[k / block];
-    if (k % block == 0) reach = 0;
-    const int length = ends_[k] - k, last = std::min(padded_ - 1, k + b);
-    for (int i = k + 1; i <= last; ++i) {
-      double* below = row(i) + k - i + b;
-      const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
-      if (factor == 0) continue;
-      reach = std::max(reach, i);
-      for (int j = 1; j < length; j += block) Four(below + j) -= factor * ConstFour(upper + j);
-      ends_[i] = std::max(ends_[i], ends_[k]);
+    if (k % block == 0) reach_[k / block] = 0;
+    take_out(k, last);
+    if (k % block == block - 1) {
+      invert_upper(k - k % block);
+      invert_lower(k - k % block);
     }
   }
-  if (order_->unknown.empty()) return 1;
   return largest > 0 ? smallest / largest : 0;
+}
+
+double BandedLu::factorise(const Matrix& matrix) {
+  fill_band(matrix);
+  return order_->unknown.empty() ? 1 : eliminate_rows();
+}
+
+NURBEAM_WITHIN std::array<const double*, block> BandedLu::multipliers(int k) const {
+  std::array<const double*, block> m;
+  for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
+  return m;
+}
+
+// Takes a block of unknowns whose rows stay out of the right-hand sides below it, from the `first` one on.
+NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, int first, double* y) const {
+  const std::array<const double*, block> m = multipliers(k);
+  for (int i = first; k + block + i <= reach_[k / block]; i += block)
+    four(y + block + i) -= four(m[0] + i + 3) * x[0] + four(m[1] + i + 2) * x[1] + four(m[2] + i + 1) * x[2] +
+                           four(m[3] + i) * x[3];
+}
+
+// Finds a block of unknowns and takes it out of the right-hand sides below it.
+NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
+  double* y = all + k;
+  if (!blocks_[k / block].exchanged) {
+    const Four x = product(blocks_[k / block].lower, four(y));
+    four(y) = x;
+    return take_out(k, x, 0, y);
+  }
+  const std::array<const double*, block> m = multipliers(k);
+  for (int c = 0; c < block; ++c) {
+    std::swap(y[c], all[pivots_[k + c]]);
+    for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
+  }
 }
 
 void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
@@ -231,11 +328,30 @@ void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
   std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
 }
 
-void BandedLu::lower(Places& y) const {
-  for (int k = 0; k < padded_; k += block) eliminate(k, y.data());
+// Block by block, each taken out of those after it: of the next one when its turn comes.
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& all) const {
+  Four before = {};
+  bool is_waiting = false;
+  for (int k = 0; k < padded_; k += block) {
+    double* y = all.data() + k;
+    const Block& own = blocks_[k / block];
+    if (own.exchanged) {
+      if (is_waiting) {
+        const std::array<const double*, block> m = multipliers(k - block);
+        for (int c = 0; c < block; ++c) four(y) -= four(m[c] + block - 1 - c) * before[c];
+      }
+      eliminate(k, all.data());
+    } else {
+      Four x = product(own.lower, four(y));
+      if (is_waiting) x -= product(own.from_previous, before);
+      four(y) = before = x;
+      take_out(k, x, block, y);
+    }
+    is_waiting = !own.exchanged;
+  }
 }
 
-void BandedLu::lower(Places& y, int first, int& last) const {
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last) const {
   // An exchange brings a row up by no more than the band.
   for (int k = std::max(0, first - half_bandwidth_) / block * block; k <= last; k += block) {
     const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
@@ -245,11 +361,24 @@ void BandedLu::lower(Places& y, int first, int& last) const {
   }
 }
 
-void BandedLu::upper(Places& y) const {
-  for (int k = padded_ - block; k >= 0; k -= block) substitute(k, y.data());
+// Block by block from those after it, of which the next one comes in last: it is waited for.
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
+  Four after = {};
+  for (int k = padded_ - block; k >= 0; k -= block) {
+    std::array<const double*, block> u;  // from column k on
+    for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+    double* y = all.data() + k;
+    const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
+    Four sums[block] = {};
+    for (int j = 2 * block; j < length; j += block)
+      for (int r = 0; r < block; ++r) sums[r] += four(u[r] + j) * four(y + j);
+    const Four rest = four(y) - Four{sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]), sum_of(sums[3])};
+    after = product(blocks_[k / block].upper, rest) - product(blocks_[k / block].from_next, after);
+    four(y) = after;
+  }
 }
 
-void BandedLu::upper_transposed(Places& y, int first, int& last) const {
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first, int& last) const {
   for (int k = first; k <= last; ++k) {
     if (y[k] == 0) continue;
     y[k] *= inverse_[k];
@@ -257,44 +386,6 @@ void BandedLu::upper_transposed(Places& y, int first, int& last) const {
     for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
     last = std::max(last, ends_[k] - 1);
   }
-}
-
-// Takes a block of unknowns out of the right-hand sides below it.
-void BandedLu::eliminate(int k, double* all) const {
-  std::array<const double*, block> m;
-  for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
-  double* y = all + k;
-  bool exchanged = false;
-  for (int c = 0; c < block; ++c) exchanged |= pivots_[k + c] != k + c;
-  if (exchanged) {
-    for (int c = 0; c < block; ++c) {
-      std::swap(y[c], all[pivots_[k + c]]);
-      for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
-    }
-    return;
-  }
-  y[1] -= m[0][0] * y[0];
-  y[2] -= m[0][1] * y[0] + m[1][0] * y[1];
-  y[3] -= m[0][2] * y[0] + m[1][1] * y[1] + m[2][0] * y[2];
-  for (int i = 0; k + block + i <= reach_[k / block]; i += block)
-    Four(y + block + i) -= ConstFour(m[0] + i + 3) * y[0] + ConstFour(m[1] + i + 2) * y[1] +
-                           ConstFour(m[2] + i + 1) * y[2] + ConstFour(m[3] + i) * y[3];
-}
-
-// Finds a block of unknowns from those after it.
-void BandedLu::substitute(int k, double* all) const {
-  std::array<const double*, block> u;  // from column k on
-  for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
-  double* y = all + k;
-  const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
-  std::array<Eigen::Array4d, block> sums;
-  sums.fill(Eigen::Array4d::Zero());
-  for (int j = block; j < length; j += block)
-    for (int r = 0; r < block; ++r) sums[r] += ConstFour(u[r] + j) * ConstFour(y + j);
-  y[3] = (y[3] - sums[3].sum()) * inverse_[k + 3];
-  y[2] = (y[2] - sums[2].sum() - u[2][3] * y[3]) * inverse_[k + 2];
-  y[1] = (y[1] - sums[1].sum() - u[1][2] * y[2] - u[1][3] * y[3]) * inverse_[k + 1];
-  y[0] = (y[0] - sums[0].sum() - u[0][1] * y[1] - u[0][2] * y[2] - u[0][3] * y[3]) * inverse_[k];
 }
 
 }  // namespace nurbeam

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct BandOrder {
   std::vector<int> unknown;  ///< at each place of the order
   std::vector<int> place;    ///< of each unknown, -1 where it is left out
   std::vector<int> ends;     ///< one past the last column of each row, by places
+  std::vector<int> below;    ///< last row that has an entry in a column, or in one before it
   int half_bandwidth = 0;    ///< greatest distance of an entry from the diagonal
 
   /// An entry: its column, by places, and its index among the values of the pattern.
@@ -29,6 +31,9 @@ struct BandOrder {
 /// of elements are: they are put into such an order and eliminated within the band.
 class BandedLu {
  public:
+  /// Four numbers that follow one another, anywhere.
+  using Four = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
   /// Makes room for matrices of the pattern that has this order.
   void take(std::shared_ptr<const BandOrder> order);
 
@@ -54,9 +59,15 @@ class BandedLu {
   double* row(int i) { return band_.get() + static_cast<std::size_t>(i) * width_; }
   const double* row(int i) const { return band_.get() + static_cast<std::size_t>(i) * width_; }
   void fill_band(const Eigen::SparseMatrix<double>& matrix);
-  int pivot_of(int column) const;
+  int pivot_of(int column, int last) const;
+  void exchange(int k, int p);
+  void take_out(int k, int last);
+  double eliminate_rows();
+  std::array<const double*, 4> multipliers(int k) const;
+  void take_out(int k, const Four& x, int first, double* y) const;
   void eliminate(int k, double* all) const;
-  void substitute(int k, double* all) const;
+  void invert_upper(int k);
+  void invert_lower(int k);
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;
@@ -66,10 +77,19 @@ class BandedLu {
   std::unique_ptr<double[]> band_;  ///< what is left to eliminate, then U
   std::vector<double> lower_;       ///< multipliers below the diagonal of each column
   std::vector<double> inverse_;     ///< of each pivot
-  std::vector<double> scale_;       ///< of each row of the matrix
-  std::vector<int> pivots_;         ///< row that was brought to each place
-  std::vector<int> reach_;          ///< last row that a block of four columns of multipliers changes
-  std::vector<int> ends_;           ///< one past the last column of each row of what is left, then of U
+  /// Of a block of four on the diagonals, D of U and C of L, and what stands beside it, E of U to its right
+  /// and B of L to its left: columns of inverses and of these times what it takes from the blocks next to it,
+  /// so that one waits for the other no longer than one product takes.
+  struct Block {
+    std::array<std::array<double, 4>, 4> upper, from_next;      ///< D^-1, D^-1 E
+    std::array<std::array<double, 4>, 4> lower, from_previous;  ///< C^-1, C^-1 B where rows stay
+    bool exchanged;                                             ///< rows with others: then none of the second
+  };
+  std::vector<Block> blocks_;
+  std::vector<double> scale_;  ///< of each row of the matrix
+  std::vector<int> pivots_;    ///< row that was brought to each place
+  std::vector<int> reach_;     ///< last row that a block of four columns of multipliers changes
+  std::vector<int> ends_;      ///< one past the last column of each row of what is left, then of U
   std::size_t room_ = 0;
 };
 

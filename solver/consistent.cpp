@@ -1,23 +1,50 @@
 #include "solver/consistent.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "solver/kkt_solver.h"
+#include "solver/local_solution.h"
 
 namespace nurbeam {
 
 namespace {
 
-/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, factorised with the first block divided by its scale.
+/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, the first block divided by its scale.
+struct ScaledKkt {
+  Eigen::SparseMatrix<double> matrix;
+  double scale = 1;
+
+  ScaledKkt(const SecondOrderSystem& system, const State& state, double h = 0)
+      : matrix(system.tangent_pattern()) {
+    system.tangent(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, matrix);
+    scale_coordinates(system.coordinate_count());
+  }
+
+ private:
+  // Divides the rows and columns of coordinates by their largest diagonal entry.
+  void scale_coordinates(int n) {
+    const int *rows = matrix.innerIndexPtr(), *starts = matrix.outerIndexPtr();
+    const auto first_at_least = [&](int row, int column) {
+      return static_cast<int>(std::lower_bound(rows + starts[column], rows + starts[column + 1], row) - rows);
+    };
+    double largest = 0;
+    for (int i = 0; i < n; ++i) largest = std::fmax(largest, matrix.valuePtr()[first_at_least(i, i)]);
+    if (!(largest > 0) || !std::isfinite(largest)) return;
+    scale = largest;
+    for (int i = 0; i < n; ++i)
+      Eigen::Map<Eigen::ArrayXd>(matrix.valuePtr() + starts[i], first_at_least(n, i) - starts[i]) /= largest;
+  }
+};
+
+/// The same, factorised.
 class FactorisedKkt {
  public:
   FactorisedKkt(const SecondOrderSystem& system, const State& state, double h = 0)
-      : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system.tangent_pattern()) {
-    system.tangent(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, kkt_);
-    scale_coordinates();
-    regular_ = solver_.factorise(kkt_, system.moving_unknowns());
+      : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system, state, h) {
+    regular_ = solver_.factorise(kkt_.matrix, system.moving_unknowns());
   }
 
   bool regular() const { return regular_; }
@@ -26,46 +53,29 @@ class FactorisedKkt {
   Eigen::VectorXd constraint_product(const Eigen::VectorXd& x) const {
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(n_ + m_);
     padded.head(n_) = x;
-    return (kkt_ * padded).tail(m_);
+    return (kkt_.matrix * padded).tail(m_);
   }
 
   /// (n) [M + (h/2) D + (h^2/4) K] x.
   Eigen::VectorXd coordinate_product(const Eigen::VectorXd& x) const {
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(n_ + m_);
     padded.head(n_) = x;
-    return scale_ * (kkt_ * padded).head(n_);
+    return kkt_.scale * (kkt_.matrix * padded).head(n_);
   }
 
   /// (n+m) [x; y] with M x + G'y = top (n), G x = bottom (m). Precondition: regular().
   Eigen::VectorXd solve(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom) const {
     Eigen::VectorXd rhs(n_ + m_);
-    rhs << top / scale_, bottom;
+    rhs << top / kkt_.scale, bottom;
     Eigen::VectorXd solution = solver_.solve(rhs);
-    solution.tail(m_) *= scale_;
+    solution.tail(m_) *= kkt_.scale;
     return solution;
   }
 
  private:
-  // Divides the rows and columns of coordinates by their largest diagonal entry.
-  void scale_coordinates() {
-    const auto for_each = [&](const auto& visit) {
-      for (int column = 0; column < n_; ++column)
-        for (int k = kkt_.outerIndexPtr()[column]; k < kkt_.outerIndexPtr()[column + 1]; ++k)
-          if (const int row = kkt_.innerIndexPtr()[k]; row < n_) visit(row, column, kkt_.valuePtr()[k]);
-    };
-    double largest = 0;
-    for_each([&](int row, int column, double value) {
-      if (row == column) largest = std::fmax(largest, value);
-    });
-    if (!(largest > 0) || !std::isfinite(largest)) return;
-    scale_ = largest;
-    for_each([&](int, int, double& value) { value /= largest; });
-  }
-
   int n_;
   int m_;
-  Eigen::SparseMatrix<double> kkt_;
-  double scale_ = 1;
+  ScaledKkt kkt_;
   KktSolver solver_;
   bool regular_ = false;
 };
@@ -175,12 +185,15 @@ Projection project_velocities(const SecondOrderSystem& system, State& state, dou
 
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
                                     State& state) {
-  const FactorisedKkt kkt(system, state);
-  if (!kkt.regular()) return {ConsistencyStatus::singular, {}};
-  const Eigen::VectorXd solution = kkt.solve(momentum, -system.constraint_rate(state));
-  if (!solution.allFinite()) return {ConsistencyStatus::singular, {}};
-  state.v = solution.head(system.coordinate_count());
-  return {ConsistencyStatus::done, solution.tail(system.constraint_count())};
+  const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
+  const ScaledKkt kkt(system, state);
+  Eigen::VectorXd b(n + m), x = Eigen::VectorXd::Zero(n + m);
+  b << momentum / kkt.scale, -system.constraint_rate(state);
+  x.head(n) = state.v;
+  if (!b.allFinite() || !x.allFinite() || !correct_locally(kkt.matrix, b, system.moving_unknowns(), x))
+    return {ConsistencyStatus::singular, {}};
+  state.v = x.head(n);
+  return {ConsistencyStatus::done, kkt.scale * x.tail(m)};
 }
 
 }  // namespace nurbeam

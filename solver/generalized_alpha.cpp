@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/arguments.h"
+#include "solver/finite.h"
 #include "solver/mass_scale.h"
 
 namespace nurbeam {
@@ -39,8 +40,8 @@ void check(const GeneralizedAlpha& settings) {
           " is negative");
 }
 
-bool all_finite(const State& state) {
-  return state.q.allFinite() && state.v.allFinite() && state.a.allFinite() && state.lambda.allFinite();
+bool is_finite(const State& state) {
+  return all_finite(state.q) && all_finite(state.v) && all_finite(state.a) && all_finite(state.lambda);
 }
 
 /// The residuals and corrections of one step, each with what the last correction left of the one before.
@@ -173,20 +174,20 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
 
 StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) {
   predict(step);
-  if (!all_finite(trial_)) return StepStatus::not_converged;
+  if (!is_finite(trial_)) return StepStatus::not_converged;
   if (!system_->admissible(trial_)) return StepStatus::inadmissible;
   if (!has_matrix_for(step)) linearisation_ = nullptr;
   const bool has_served = linearisation_ != nullptr;
   Convergence convergence;
   for (int i = 0; i < settings_.max_iterations; ++i) {
     evaluate_residual(step);
-    if (!residual_.allFinite()) return StepStatus::not_converged;
+    if (!all_finite(residual_)) return StepStatus::not_converged;
     ++report.newton_iterations;
     const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
     if (!is_kept && !linearise(trial_point(step))) return StepStatus::singular_matrix;
     report.residual_norm = residual_.cwiseProduct(reference_).lpNorm<Eigen::Infinity>();
     correct(step);
-    if (!correction_.allFinite()) return StepStatus::not_converged;
+    if (!all_finite(correction_)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const double correction =
         correction_.head(scale_.size()).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
@@ -292,17 +293,21 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   system_->residual(unaccelerated_, force_.head(n), force_.tail(m));
   constraint_force_.setZero(n);
   reference_.setConstant(std::numeric_limits<double>::min());
-  for (Eigen::Index column = 0; column < n + m; ++column) {
-    const bool is_multiplier = column >= n;
-    const double size = is_multiplier ? std::abs(at.lambda[column - n]) * scaling / mass_scale_
-                                      : std::abs(at.q[column]) + scale_[column];
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt_, column); entry; ++entry) {
-      const Eigen::Index row = entry.row();
-      reference_[row] += floor * std::abs(entry.value()) * size;
-      if (row >= n && !is_multiplier)
-        reference_[row] += scaling * std::abs(entry.value() * at.a[column]);
-      else if (row < n && is_multiplier)
-        constraint_force_[row] += entry.value() * at.lambda[column - n];
+  double* reference = reference_.data();
+  const double* values = kkt_.valuePtr();
+  const int *rows = kkt_.innerIndexPtr(), *starts = kkt_.outerIndexPtr();
+  for (Eigen::Index column = 0; column < n; ++column) {
+    const double rounding = floor * (std::abs(at.q[column]) + scale_[column]);
+    const double moved = rounding + scaling * std::abs(at.a[column]);
+    for (int k = starts[column]; k < starts[column + 1]; ++k)
+      reference[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
+  }
+  for (Eigen::Index column = n; column < n + m; ++column) {
+    const double multiplier = at.lambda[column - n];
+    const double rounding = floor * std::abs(multiplier) * scaling / mass_scale_;
+    for (int k = starts[column]; k < starts[column + 1]; ++k) {
+      reference[rows[k]] += rounding * std::abs(values[k]);
+      if (rows[k] < n) constraint_force_[rows[k]] += values[k] * multiplier;
     }
   }
   const double work = scale_.cwiseProduct(force_.head(n).cwiseAbs().cwiseMax(constraint_force_.cwiseAbs()))

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/banded_lu.h"
+#include "solver/finite.h"
 
 namespace nurbeam {
 
@@ -30,10 +31,6 @@ class Klu : public Eigen::KLU<Matrix> {
     return m_common.rcond;
   }
 };
-
-bool all_finite(const Matrix& matrix) {
-  return Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite();
-}
 
 // Of all unknowns but the last ones: as they come, where a band would be wide.
 std::shared_ptr<const BandOrder> order_of(const Matrix& matrix, const std::vector<int>& last) {
@@ -306,7 +303,9 @@ bool KktSolver::factorise(const Matrix& matrix, const std::vector<int>& part) {
   assert(matrix.isCompressed() && matrix.rows() == matrix.cols());
   Implementation& self = *implementation_;
   if (!self.pattern || !self.pattern->is_of(matrix, part)) self.analyse(matrix, part);
-  if (!all_finite(matrix) || !(self.inner.factorise(matrix) > smallest_reciprocal_condition)) return false;
+  if (!all_finite(Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros())) ||
+      !(self.inner.factorise(matrix) > smallest_reciprocal_condition))
+    return false;
   if (part.empty()) return true;
   self.eliminate_part(matrix);
   self.corner = self.schur;

@@ -2,7 +2,7 @@
 #include "fem/constraints/constraint_terms.h"
 #include "fem/constraints/held_angle.h"
 #include "fem/constraints/joined_sections.h"
-#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/binding.h"
 
 namespace nurbeam {
 
@@ -14,6 +14,13 @@ class CornerAngle {
       : angle_(HeldAngle<D>::drawn(curve.tangent(node.s, true), curve.tangent(node.s))) {
     for (const int slope : {node.slope_left, node.slope_right})
       for (int d = 0; d < D; ++d) dofs_.push_back(slope + d);
+  }
+
+  /// What the rigid corners of all beams ask for: the angle, or with torsion the orientation of both
+  /// sections.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    for (std::size_t b = 0; b < binding.at.mesh.nodes.size(); ++b) bind_corners(binding.at, b, add);
   }
 
   static constexpr int rows = 1;
@@ -31,14 +38,8 @@ class CornerAngle {
   }
 
  private:
-  HeldAngle<D> angle_;
-  std::vector<int> dofs_;
-};
-
-/// What the rigid corners of the beams ask for: the angle, or with torsion the orientation of both sections.
-template <int D, class Add>
-void bind_corners(const MeshedBeams<D>& at, Add&& add) {
-  for (std::size_t b = 0; b < at.mesh.nodes.size(); ++b) {
+  template <class Add>
+  static void bind_corners(const MeshedBeams<D>& at, std::size_t b, Add&& add) {
     const Beam& beam = at.structure.beams[b];
     const int first = at.mesh.first_span[b], spans = at.mesh.first_span[b + 1] - first;
     for (int i = 0; i < static_cast<int>(at.mesh.nodes[b].size()); ++i) {
@@ -50,9 +51,12 @@ void bind_corners(const MeshedBeams<D>& at, Add&& add) {
                              NodeSection(at.elements[first + i], 0)));
           continue;
         }
-      add(CornerAngle<D>(beam.curve, node));
+      add(CornerAngle(beam.curve, node));
     }
   }
-}
+
+  HeldAngle<D> angle_;
+  std::vector<int> dofs_;
+};
 
 }  // namespace nurbeam

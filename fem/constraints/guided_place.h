@@ -40,6 +40,14 @@ class GuidedPlace {
     return terms;
   }
 
+  /// Done on the way between two states on one mesh [J]: the mean force.
+  double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
+              const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
+    if (!motion_) return 0;
+    const Eigen::Vector3d moved = motion_->at(to.t).value - motion_->at(from.t).value;
+    return (force(y_from) + force(y_to)).dot(moved) / 2;
+  }
+
   /// dg/dt and d2g/dt2 at fixed q [m/s], [m/s^2].
   Eigen::Matrix<double, D - 1, 1> rate(double t) const {
     if (!motion_) return Eigen::Matrix<double, D - 1, 1>::Zero();

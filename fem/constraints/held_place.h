@@ -25,6 +25,13 @@ class HeldPlace {
     terms.gradient(0, 0) = 1;
     return terms;
   }
+  /// The coordinate that it holds.
+  int place() const { return dofs_[0]; }
+  /// Done on the way between two states on one mesh [J]: the mean force.
+  double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
+              const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
+    return -(y_from[0] + y_to[0]) / 2 * (to.q[place()] - from.q[place()]);
+  }
   /// dg/dt [m/s] and d2g/dt2 [m/s^2] at fixed q.
   Eigen::Matrix<double, 1, 1> rate(double t) const {
     return Eigen::Matrix<double, 1, 1>(motion_ ? -motion_->at(t).speed : 0.0);

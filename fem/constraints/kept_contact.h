@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "fem/constraints/constraint_terms.h"
-#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/binding.h"
 #include "fem/mesh/stop_distance.h"
 
 namespace nurbeam {
@@ -12,8 +12,21 @@ namespace nurbeam {
 template <int D>
 class KeptContact {
  public:
-  KeptContact(const MeshedBeams<D>& at, const Stop& stop)
-      : dofs_(places_of_stop(at.mesh, stop)), stop_(&stop) {}
+  KeptContact(const MeshedBeams<D>& at, int stop)
+      : dofs_(places_of_stop(at.mesh, at.structure.stops[stop])),
+        number_(stop),
+        stop_(&at.structure.stops[stop]) {}
+
+  /// Of all stops that are closed.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    const MeshedBeams<D>& at = binding.at;
+    for (int i = 0; i < static_cast<int>(at.structure.stops.size()); ++i)
+      if (at.mesh.plan.is_closed(i) && is_in_place(at.mesh, at.structure.stops[i])) add(KeptContact(at, i));
+  }
+
+  /// In the model.
+  int closed_stop() const { return number_; }
 
   static constexpr int rows = 1;
   static constexpr bool linear = true;  ///< no Hessian
@@ -30,6 +43,7 @@ class KeptContact {
 
  private:
   std::vector<int> dofs_;
+  int number_;
   const Stop* stop_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "fem/constraints/constraint_terms.h"
+#include "fem/mesh/binding.h"
 #include "fem/mesh/connector_axis.h"
 
 namespace nurbeam {
@@ -8,18 +9,32 @@ namespace nurbeam {
 template <int D>
 class KeptLength {
  public:
-  /// `connector` must outlive it.
-  KeptLength(const Connector& connector, const MeshedBeams<D>& at)
-      : connector_(&connector), axis_(connector, at.structure, at.mesh) {}
+  KeptLength(int connector, const MeshedBeams<D>& at)
+      : number_(connector),
+        connector_(&at.structure.connectors[connector]),
+        axis_(*connector_, at.structure, at.mesh) {}
+
+  /// Of all rods.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    const std::vector<Connector>& connectors = binding.at.structure.connectors;
+    for (int i = 0; i < static_cast<int>(connectors.size()); ++i)
+      if (connectors[i].type == ConnectorType::rod) add(KeptLength(i, binding.at));
+  }
 
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return axis_.dofs(); }
-  const Connector& connector() const { return *connector_; }
-  /// |d| or n . d [m].
-  double length(const State& state) const { return axis_.line(state).length; }
-  /// What it gives to a body when it pulls with N [N].
-  Eigen::Matrix<double, D, 1> on_body(int body, double N, const State& state) const {
-    const Eigen::Matrix<double, D, 1> pull = N * axis_.line(state).n;
+  /// In the model.
+  int connector() const { return number_; }
+  /// |d| or n . d [m], and N [N].
+  std::pair<double, double> length_and_force(const State& state,
+                                             const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return {axis_.line(state).length, y[0]};
+  }
+  /// What it gives to a body [N].
+  Eigen::Matrix<double, D, 1> on_body(int body, const State& state,
+                                      const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    const Eigen::Matrix<double, D, 1> pull = y[0] * axis_.line(state).n;
     Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
     if (axis_.body(0) == body) sum += pull;
     if (axis_.body(1) == body) sum -= pull;
@@ -38,6 +53,7 @@ class KeptLength {
   }
 
  private:
+  int number_;
   const Connector* connector_;
   ConnectorAxis<D> axis_;
 };

@@ -38,6 +38,14 @@ class HeldPosition {
     return terms;
   }
 
+  /// Done on the way between two states on one mesh [J]: the mean force.
+  double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
+              const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
+    if (!motion_) return 0;
+    const Eigen::Vector3d moved = motion_->at(to.t).value - motion_->at(from.t).value;
+    return -(y_from + y_to).dot(moved.template head<D>()) / 2;
+  }
+
   /// dg/dt [m/s] and d2g/dt2 [m/s^2] at fixed q.
   Vector rate(double t) const {
     return motion_ ? Vector(-motion_->at(t).rate.template head<D>()) : Vector::Zero();

@@ -19,6 +19,15 @@ namespace nurbeam {
 struct ElementEnergy {
   double kinetic = 0, axial = 0, bending = 0, external = 0;  ///< [J]; external: potential of the dead loads
   double dissipation = 0;                                    ///< [W]
+
+  ElementEnergy& operator+=(const ElementEnergy& other) {
+    kinetic += other.kinetic;
+    axial += other.axial;
+    bending += other.bending;
+    external += other.external;
+    dissipation += other.dissipation;
+    return *this;
+  }
 };
 
 /// Whether the ends of an element move over the material.

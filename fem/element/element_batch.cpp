@@ -1,13 +1,7 @@
 // The forces of many fixed elements at once, for the widest registers that the processor has.
 #include "fem/element/element_batch.h"
 
-#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define NURBEAM_FOR_EVERY_PROCESSOR [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
-#else
-#define NURBEAM_FOR_EVERY_PROCESSOR
-#endif
-// So that each of them has all of it.
-#define NURBEAM_WITHIN [[gnu::always_inline]] inline
+#include "solver/every_processor.h"
 
 namespace nurbeam {
 
@@ -55,18 +49,18 @@ struct Curvature {
     const Lanes8 A = dot<D>(rs, rs);
     if constexpr (D == 2) {
       const double twice_m = material ? 2 : 3;
-      const Lanes8 p = material ? 1 / A : 1 / (A * square_root(A));
+      const Lanes8 i = 1 / A, p = material ? i : i * square_root(i);
       value = p * (rs[0] * rss[1] - rs[1] * rss[0]);
-      const Lanes8 along = twice_m * value / A;
+      const Lanes8 along = twice_m * value * i;
       by_rs = {p * rss[1] - along * rs[0], -p * rss[0] - along * rs[1]};
       by_rss = {-p * rs[1], p * rs[0]};
     } else {
       const double m = material ? 2 : 3;
       const Lanes8 G = dot<D>(rss, rss), F = dot<D>(rs, rss);
-      const Lanes8 p = material ? 1 / (A * A) : 1 / (A * A * A);
+      const Lanes8 i = 1 / A, p = material ? i * i : i * i * i;
       const Lanes8 square = p * (A * G - F * F);
       value = square_root(square + curvature_rounding * curvature_rounding);
-      const Lanes8 q = p / value, along = m * square / (A * value);
+      const Lanes8 q = p / value, along = m * i * square / value;
       for (int d = 0; d < D; ++d) {
         by_rs[d] = q * (G * rs[d] - F * rss[d]) - along * rs[d];
         by_rss[d] = q * (A * rss[d] - F * rs[d]);
@@ -171,6 +165,12 @@ struct ElementBatch<D>::Kernel {
     return product;
   }
 
+  NURBEAM_WITHIN static Lanes8 sum_of_products(const Nodes& a, const Nodes& b) {
+    Lanes8 sum = dot<D>(a[0], b[0]);
+    for (int k = 1; k < 4; ++k) sum += dot<D>(a[k], b[k]);
+    return sum;
+  }
+
   NURBEAM_WITHIN static void add(const Lanes8& factor, const Nodes& term, Nodes& sum) {
     for (int k = 0; k < 4; ++k)
       for (int d = 0; d < D; ++d) sum[k][d] += factor * term[k][d];
@@ -216,17 +216,42 @@ struct ElementBatch<D>::Kernel {
     return stretch;
   }
 
+  // AssumedStrain.
+  struct Assumed {
+    Lanes8 c0, c1, c2;
+  };
+  NURBEAM_WITHIN Assumed assumed_strain(const Nodes& e, const Lanes8& I, double free_strain) const {
+    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
+    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
+    const Lanes8 c0 = I / batch.length_;
+    return {c0, (at_b - at_a) / 2, (at_a + at_b) / 2 - c0};
+  }
+
   // The gradient of AssumedAxialEnergy in I, eps_A and eps_B.
   struct AxialStress {
     Lanes8 on_I, on_a, on_b;
   };
   NURBEAM_WITHIN AxialStress axial_stress(const Nodes& e, const Lanes8& I, double EA,
                                           double free_strain) const {
-    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
-    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
     const Lanes8 l = batch.length_;
-    const Lanes8 c0 = I / l, c1 = (at_b - at_a) / 2, c2 = (at_a + at_b) / 2 - c0;
+    const auto [c0, c1, c2] = assumed_strain(e, I, free_strain);
     return {EA * (c0 - c2 / 5), EA * l * (c2 / 10 - c1 / 6), EA * l * (c2 / 10 + c1 / 6)};
+  }
+
+  // AssumedAxialDamping, and the rates that it is for.
+  struct AxialDamping {
+    Lanes8 on_I, on_a, on_b, I_rate, a_rate, b_rate;
+  };
+  NURBEAM_WITHIN AxialDamping axial_damping(const Nodes& e, const Nodes& e_rate, const Nodes& I_e,
+                                            double viscosity) const {
+    const Lanes8 l = batch.length_, I = sum_of_products(I_e, e_rate);
+    const Lanes8 a = dot<D>(e[1], e_rate[1]), b = dot<D>(e[3], e_rate[3]);
+    return {viscosity * (1.2 / l * I - 0.1 * (a + b)),
+            viscosity * (l * (2. / 15 * a - b / 30) - 0.1 * I),
+            viscosity * (l * (2. / 15 * b - a / 30) - 0.1 * I),
+            I,
+            a,
+            b};
   }
 
   // The assumed axial strain, its damping and that of the tension (BeamElement::TautViscosity).
@@ -245,12 +270,10 @@ struct ElementBatch<D>::Kernel {
     const double EA = beam.axial_stiffness, viscosity = beam.damping * EA;
     auto [on_I, on_a, on_b] = axial_stress(e, I, EA, free_strain);
     if (viscosity > 0) {
-      Lanes8 I_rate = {};
-      for (int k = 0; k < 4; ++k) I_rate += dot<D>(I_e[k], e_rate[k]);
-      const Lanes8 a_rate = dot<D>(e[1], e_rate[1]), b_rate = dot<D>(e[3], e_rate[3]);
-      on_I += viscosity * (1.2 / l * I_rate - 0.1 * (a_rate + b_rate));
-      on_a += viscosity * (l * (2. / 15 * a_rate - b_rate / 30) - 0.1 * I_rate);
-      on_b += viscosity * (l * (2. / 15 * b_rate - a_rate / 30) - 0.1 * I_rate);
+      const AxialDamping damping = axial_damping(e, e_rate, I_e, viscosity);
+      on_I += damping.on_I;
+      on_a += damping.on_a;
+      on_b += damping.on_b;
     }
     add(on_I, I_e, force);
     for (int d = 0; d < D; ++d) {
@@ -261,14 +284,17 @@ struct ElementBatch<D>::Kernel {
 
   NURBEAM_WITHIN Nodes gathered(const double* values) const {
     Nodes nodes;
-    for (int k = 0; k < nodal; ++k)
-      for (int i = 0; i < lanes; ++i) nodes[k / D][k % D].of[i] = values[batch.dofs_[k][i]];
+    for (int k = 0; k < nodal; ++k) {
+      const std::array<int, lanes>& at = batch.dofs_[k];
+      nodes[k / D][k % D] = Lanes8{{values[at[0]], values[at[1]], values[at[2]], values[at[3]], values[at[4]],
+                                    values[at[5]], values[at[6]], values[at[7]]}};
+    }
     return nodes;
   }
 
   NURBEAM_WITHIN void add_forces(const State& state, const Vector& load, double free_strain,
                                  double* forces) const {
-    Nodes e = gathered(state.q.data()), e_rate = {};
+    Nodes e = gathered(state.q.data()), e_rate;  // which nobody asks for without damping
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
     if (beam.is_damped()) e_rate = gathered(state.v.data());
     Nodes force = product(gathered(state.a.data()), batch.mass_);
@@ -283,6 +309,73 @@ struct ElementBatch<D>::Kernel {
     add_axial_forces(e, e_rate, free_strain, force);
     for (int i = 0; i < batch.count_; ++i)
       for (int k = 0; k < nodal; ++k) forces[batch.dofs_[k][i]] += force[k / D][k % D].of[i];
+  }
+
+  struct Energies {
+    Lanes8 kinetic = {}, axial = {}, bending = {}, external = {}, dissipation = {};
+  };
+  NURBEAM_WITHIN void add_point_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
+    const double EA = beam.pointwise_axial_stiffness(), EI = beam.axis_bending_stiffness();
+    const double c = beam.damping;
+    const bool material = beam.curvature == CurvatureMeasure::material;
+    for (const Point& p : batch.points_) {
+      const LaneVector<D> rs = combination(e, p.S1), rss = combination(e, p.S2);
+      const Curvature<D> K(rs, rss, material);
+      const Lanes8 bent = K.value - p.kappa0, stretched = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
+      Lanes8 bend = bent * bent;
+      if constexpr (D == 3)
+        bend -=
+            Lanes8{p.kappa0.of == 0 ? (Lanes8{} + curvature_rounding * curvature_rounding).of : Lanes8{}.of};
+      sum.axial += EA / 2 * (p.weight * stretched * stretched);
+      sum.bending += EI / 2 * (p.weight * bend);
+      if (!(c > 0)) continue;
+      const LaneVector<D> rs_rate = combination(e_rate, p.S1);
+      const Lanes8 bending = K.rate(rs_rate, combination(e_rate, p.S2)), stretching = dot<D>(rs, rs_rate);
+      sum.dissipation += c * (p.weight * (EI * (bending * bending) + EA * (stretching * stretching)));
+    }
+  }
+
+  // As add_axial_forces.
+  NURBEAM_WITHIN void add_axial_energies(const Nodes& e, const Nodes& e_rate, double free_strain,
+                                         Energies& sum) const {
+    const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
+    if (!assumed && !(beam.tension_damping > 0)) return;
+    const auto [I_e, I] = stretch(e, free_strain);
+    const Lanes8 l = batch.length_;
+    if (beam.tension_damping > 0) {
+      const double factor = beam.tension_damping * beam.axial_stiffness;
+      const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
+      sum.dissipation += eta * sum_of_products(e_rate, product(e_rate, batch.stretch_));
+    }
+    if (!assumed) return;
+    const double EA = beam.axial_stiffness, viscosity = beam.damping * EA;
+    const auto [c0, c1, c2] = assumed_strain(e, I, free_strain);
+    sum.axial += EA / 2 * (l * (c0 * c0 + c1 * c1 / 3 + c2 * c2 / 5));
+    if (!(viscosity > 0)) return;
+    const auto [on_I, on_a, on_b, I_rate, a_rate, b_rate] = axial_damping(e, e_rate, I_e, viscosity);
+    sum.dissipation += on_I * I_rate + on_a * a_rate + on_b * b_rate;
+  }
+
+  NURBEAM_WITHIN ElementEnergy energy(const State& state, const Vector& load, double free_strain) const {
+    Nodes e = gathered(state.q.data());
+    const Nodes e_rate = gathered(state.v.data());
+    for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
+    Energies sum;
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < D; ++d) sum.external -= load[d] * (e[k][d] * batch.load_factor_[k]);
+    sum.kinetic = sum_of_products(e_rate, product(e_rate, batch.mass_)) / 2;
+    sum.dissipation = 2 * beam.mass_damping * sum.kinetic;
+    add_point_energies(e, e_rate, sum);
+    add_axial_energies(e, e_rate, free_strain, sum);
+    ElementEnergy all;
+    for (int i = 0; i < batch.count_; ++i) {
+      all.kinetic += sum.kinetic.of[i];
+      all.axial += sum.axial.of[i];
+      all.bending += sum.bending.of[i];
+      all.external += sum.external.of[i];
+      all.dissipation += sum.dissipation.of[i];
+    }
+    return all;
   }
 
   // The tangent of add_point_forces; the blocks above the diagonal alone.
@@ -371,6 +464,18 @@ template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces) const {
   Kernel{*this, *properties_}.add_forces(state, load, free_strain, forces);
+}
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR ElementEnergy ElementBatch<2>::energy(const State& state, const Vector& load,
+                                                                  double free_strain) const {
+  return Kernel{*this, *properties_}.energy(state, load, free_strain);
+}
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR ElementEnergy ElementBatch<3>::energy(const State& state, const Vector& load,
+                                                                  double free_strain) const {
+  return Kernel{*this, *properties_}.energy(state, load, free_strain);
 }
 
 template <>

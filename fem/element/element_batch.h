@@ -6,10 +6,10 @@
 
 namespace nurbeam {
 
-/// One number of each of eight elements, side by side. Aligned for the widest registers, which the type of
-/// its numbers is not where the processor is not known to have them.
+/// One number of each of eight elements, side by side; no number until it is given one. Aligned for the
+/// widest registers, which the type of its numbers is not where the processor is not known to have them.
 struct alignas(8 * sizeof(double)) ElementLanes {
-  double __attribute__((vector_size(8 * sizeof(double)))) of = {};
+  double __attribute__((vector_size(8 * sizeof(double)))) of;
 };
 
 /// Up to eight elements of one beam whose ends are fixed, each on one part of the drawing, and their forces
@@ -37,6 +37,9 @@ class ElementBatch {
   /// Adds the forces of the elements to those of all coordinates. `load`: as BeamElement::force has it;
   /// `free_strain`: as ElementState has it.
   void add_forces(const State& state, const Vector& load, double free_strain, double* forces) const;
+
+  /// The sum of their energies; `load`: the dead load of which they have the potential [N/m].
+  ElementEnergy energy(const State& state, const Vector& load, double free_strain) const;
 
   /// Tangents in the coordinates of the nodes, by column and row.
   using Tangents = std::array<std::array<ElementLanes, nodal>, nodal>;

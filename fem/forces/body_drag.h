@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/binding.h"
 
 namespace nurbeam {
 
@@ -14,10 +14,22 @@ class BodyDrag {
 
   BodyDrag(const MeshedBeams<D>& at, int body);
 
+  /// Of all bodies on which the air pulls.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    const Structure& structure = binding.at.structure;
+    for (int body = 0; body < static_cast<int>(structure.bodies.size()); ++body)
+      if (structure.air.density * structure.bodies[body].drag_area > 0) add(BodyDrag(binding.at, body));
+  }
+
   int dragged_body() const { return body_; }
   const std::vector<int>& dofs() const { return dofs_; }
-  /// On the body [N].
+  /// On its body [N].
   Vector force(const MeshedBeams<D>& at, const State& state) const;
+  /// What it gives to a body [N].
+  Vector on_body(const MeshedBeams<D>& at, int body, const State& state) const {
+    return body == body_ ? force(at, state) : Vector::Zero();
+  }
 
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <class Sink>

@@ -2,7 +2,8 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
-#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/binding.h"
+#include "fem/mesh/stop_distance.h"
 
 namespace nurbeam {
 
@@ -15,6 +16,15 @@ template <int D>
 class BufferForce {
  public:
   BufferForce(const MeshedBeams<D>& at, int stop);
+
+  /// Of all buffers whose bodies are on their beams.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    const MeshedBeams<D>& at = binding.at;
+    for (int i = 0; i < static_cast<int>(at.structure.stops.size()); ++i)
+      if (at.structure.stops[i].buffer && is_in_place(at.mesh, at.structure.stops[i]))
+        add(BufferForce(at, i));
+  }
 
   const std::vector<int>& dofs() const { return dofs_; }
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;

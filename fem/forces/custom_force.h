@@ -6,8 +6,12 @@
 
 #include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
+#include "fem/structure/attachment.h"
 
 namespace nurbeam {
+
+template <int D>
+class BoundCustomForce;
 
 /// Forces at bodies and at material points of beams by a law of the caller's: springs, magnets, controllers,
 /// ...
@@ -15,14 +19,9 @@ namespace nurbeam {
 /// It works through a function pointer and with matrices of any size, outside the inner loops of the other
 /// forces.
 struct CustomForce {
-  /// A body, or a material point of a beam.
-  struct Attachment {
-    int body = -1;
-    int beam = -1;
-    double s = 0;  ///< [m]
-    static Attachment to_body(int body) { return {body, -1, 0}; }
-    static Attachment to_beam(int beam, double s) { return {-1, beam, s}; }
-  };
+  template <int D>
+  using Bound = BoundCustomForce<D>;
+  using Attachment = nurbeam::Attachment;
   struct Response {
     Eigen::Matrix3Xd force;       ///< (3 x points) [N]
     Eigen::MatrixXd by_position;  ///< (3 points x 3 points) [N/m]; empty: taken by central differences

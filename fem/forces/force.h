@@ -14,6 +14,7 @@
 #include "fem/forces/roll_inertia.h"
 #include "fem/forces/sliding_friction.h"
 #include "fem/forces/spring.h"
+#include "fem/structure/type_list.h"
 
 /// The lists of forces: all that has to be said of a new one outside its own file.
 ///
@@ -24,8 +25,12 @@
 /// the roll of the body of a joint(), with add_momentum; work(at, from, to), but for weight, between two
 /// states on one mesh [J]; loss(at, from, to), of energy between them [J], where it is no rate in add_energy;
 /// commit(at, state, memory), its part of State::memory after a step; add_actions(at, state, actions), what
-/// it does to points of beams. State::load scales all loads. A description that is not itself such a force
-/// needs bind_force.
+/// it does to points of beams; on_body(at, body, state), what it gives to a body [N]; on_element(e, state),
+/// the generalised force on an element of its `beam` with torsion, with per_length(state) about the tangent;
+/// `depends_on_multipliers`; what it is of: a dragged_body() with its force(at, state), a sliding_joint()
+/// with its friction(at, state), a connector() with its length_and_force(at, state). State::load scales all
+/// loads. A description that is not itself such a force names its Bound<D>, made of (description, at, drawn);
+/// it may ask for nodes with for_each_node(visit).
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;
@@ -40,17 +45,19 @@ using BoundForce =
     std::conditional_t<D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll>,
                        ForceList<D>>;
 
+/// What the parts of a structure bring by themselves, in the order in which forces are added up, before those
+/// of descriptions: each offers bind(binding, add).
+template <int D>
+using ForceSources =
+    TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>, Spring<D>>;
+
+/// A description in a mesh: itself, or its Bound<D>.
 template <int D, class Description>
-BoundForce<D> bind_force(const Description& force, const MeshedBeams<D>&, const Eigen::VectorXd&) {
-  return force;
-}
-template <int D>
-BoundForce<D> bind_force(const PlaceMass& mass, const MeshedBeams<D>& at, const Eigen::VectorXd&) {
-  return BoundPlaceMass<D>(mass, at);
-}
-template <int D>
-BoundForce<D> bind_force(const CustomForce& force, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn) {
-  return BoundCustomForce<D>(force, at, drawn);
+BoundForce<D> bind_force(const Description& force, const Binding<D>& binding) {
+  if constexpr (requires { typename Description::template Bound<D>; })
+    return typename Description::template Bound<D>(force, binding.at, binding.drawn);
+  else
+    return force;
 }
 
 }  // namespace nurbeam

@@ -5,7 +5,8 @@
 namespace nurbeam {
 
 template <int D>
-BoundPlaceMass<D>::BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at) : mass_(mass) {
+BoundPlaceMass<D>::BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at, const Eigen::VectorXd&)
+    : mass_(mass) {
   const int r = kept_position(at.structure, at.mesh, mass.beam, mass.s, "a mass");
   for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
 }

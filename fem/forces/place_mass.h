@@ -7,12 +7,23 @@
 
 namespace nurbeam {
 
+template <int D>
+class BoundPlaceMass;
+
 /// A lumped mass at a place of a beam that keeps its node.
 struct PlaceMass {
   int beam;
   double s;            ///< [m]
   double mass;         ///< [kg]
   bool weighs = true;  ///< else it has inertia alone: what hangs over a pulley pulls as a force
+
+  template <int D>
+  using Bound = BoundPlaceMass<D>;
+  template <class Visit>
+  void for_each_node(Visit&& visit) const {
+    visit(
+        beam, s, [](HomeNode& node) { node.kept = true; });
+  }
 };
 
 /// A PlaceMass in one mesh.
@@ -22,7 +33,7 @@ class BoundPlaceMass {
   using Vector = Eigen::Matrix<double, D, 1>;
 
   /// Throws std::invalid_argument where the beam has no node there.
-  BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at);
+  BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn);
 
   const std::vector<int>& dofs() const { return dofs_; }
   int beam() const { return mass_.beam; }

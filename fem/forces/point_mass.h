@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
-#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/binding.h"
 
 namespace nurbeam {
 
@@ -14,6 +14,12 @@ class PointMass {
 
   PointMass(const MeshedBeams<D>& at, int body) : mass_(at.structure.bodies[body].mass) {
     for (int d = 0; d < D; ++d) dofs_.push_back(at.mesh.bodies[body] + d);
+  }
+
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    for (int body = 0; body < static_cast<int>(binding.at.structure.bodies.size()); ++body)
+      add(PointMass(binding.at, body));
   }
 
   const std::vector<int>& dofs() const { return dofs_; }

@@ -3,6 +3,7 @@
 
 #include "fem/constraints/followed_section.h"
 #include "fem/forces/energy.h"
+#include "fem/mesh/binding.h"
 #include "fem/mesh/point_action.h"
 
 namespace nurbeam {
@@ -120,6 +121,32 @@ class FreeRoll {
 
  private:
   double energy_;
+};
+
+/// Of all bodies that roll with a section.
+template <int D>
+struct BodyRolls {
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    if constexpr (D == 3)
+      for (int j = 0; j < static_cast<int>(binding.at.structure.joints.size()); ++j)
+        bind_roll(j, binding, add);
+  }
+
+ private:
+  template <class Add>
+  static void bind_roll(int j, const Binding<3>& binding, Add&& add) {
+    const MeshedBeams<3>& at = binding.at;
+    const SlidingJoint& joint = at.structure.joints[j];
+    const double inertia = at.structure.body_of(joint).roll_inertia;
+    if (!joint.follows_section || inertia == 0) return;
+    if (at.mesh.plan.modes[j] == JointMode::free)
+      add(FreeRoll(inertia, at.mesh.plan.spin(j)));
+    else if (at.mesh.plan.modes[j] == JointMode::node)
+      add(RollInertia<FollowedNode>(at, binding.drawn, j));
+    else
+      add(RollInertia<FollowedPoint>(at, binding.drawn, j));
+  }
 };
 
 }  // namespace nurbeam

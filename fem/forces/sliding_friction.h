@@ -3,7 +3,7 @@
 
 #include "fem/forces/energy.h"
 #include "fem/forces/friction_law.h"
-#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/binding.h"
 
 namespace nurbeam {
 
@@ -16,6 +16,20 @@ class SlidingFriction {
   /// force on it.
   SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int joint, int first_multiplier);
 
+  /// Of all bodies that are on their beams and not held there.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    const MeshedBeams<D>& at = binding.at;
+    for (int j = 0; j < static_cast<int>(at.structure.joints.size()); ++j) {
+      const JointMode mode = at.mesh.plan.modes[j];
+      const bool slides = mode == JointMode::node || mode == JointMode::point;
+      if (at.structure.joints[j].friction && slides && !at.mesh.plan.holds(j))
+        add(SlidingFriction(at, binding.drawn, j, binding.ties[j]));
+    }
+  }
+
+  /// The multipliers are the normal force: the tangent has no symmetry in them.
+  static constexpr bool depends_on_multipliers = true;
   int sliding_joint() const { return joint_; }
   /// Those that its slopes have, its place, and its multipliers as coordinates behind all others.
   const std::vector<int>& dofs() const { return dofs_; }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/mesh/binding.h"
 #include "fem/mesh/connector_axis.h"
 
 namespace nurbeam {
@@ -23,6 +24,14 @@ class Spring {
  public:
   Spring(int connector, const MeshedBeams<D>& at)
       : number_(connector), axis_(at.structure.connectors[connector], at.structure, at.mesh) {}
+
+  /// Of all connectors but rods.
+  template <class Add>
+  static void bind(const Binding<D>& binding, Add&& add) {
+    const std::vector<Connector>& connectors = binding.at.structure.connectors;
+    for (int i = 0; i < static_cast<int>(connectors.size()); ++i)
+      if (connectors[i].type != ConnectorType::rod) add(Spring(i, binding.at));
+  }
 
   const std::vector<int>& dofs() const { return axis_.dofs(); }
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;

@@ -2,9 +2,19 @@
 
 namespace nurbeam {
 
+Eigen::VectorXd planned_places(const Mesh& mesh) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(mesh.coordinate_count);
+  for (const std::vector<MeshNode>& nodes : mesh.nodes)
+    for (const MeshNode& node : nodes)
+      if (node.place >= 0) q[node.place] = node.s;
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j)
+    if (mesh.joints[j].place >= 0) q[mesh.joints[j].place] = mesh.plan.places[j];
+  return q;
+}
+
 Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) {
   const int D = mesh.dimension;
-  Eigen::VectorXd q = Eigen::VectorXd::Zero(mesh.coordinate_count);
+  Eigen::VectorXd q = planned_places(mesh);
   for (std::size_t body = 0; body < structure.bodies.size(); ++body)
     q.segment(mesh.bodies[body], D) = structure.bodies[body].position.head(D);
   for (std::size_t b = 0; b < mesh.nodes.size(); ++b)
@@ -13,7 +23,6 @@ Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) 
       q.segment(node.r, D) = curve.position(node.s).head(D);
       q.segment(node.slope_left, D) = curve.tangent(node.s, true).head(D);
       q.segment(node.slope_right, D) = curve.tangent(node.s).head(D);
-      if (node.place >= 0) q[node.place] = node.s;
     }
   for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
     if (mesh.plan.modes[j] == JointMode::free) continue;
@@ -25,7 +34,6 @@ Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) 
       const DrawnSection section = curve.section(s);
       q.segment(mesh.bodies[joint.body], 3) += joint.offset[0] * section.d1 + joint.offset[1] * section.d2;
     }
-    q[mesh.joints[j].place] = s;
   }
   return q;
 }

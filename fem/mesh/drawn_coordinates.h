@@ -5,6 +5,9 @@
 
 namespace nurbeam {
 
+/// (mesh.coordinate_count) The places of moving nodes and of points where the plan has them; all others zero.
+Eigen::VectorXd planned_places(const Mesh& mesh);
+
 /// The coordinates of the drawn shape, (mesh.coordinate_count).
 Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh);
 

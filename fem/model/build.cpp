@@ -15,23 +15,12 @@ namespace {
 // Calls visit(beam, s, mark) for every place of a beam that keeps a node: mark(home node) says why.
 template <class Visit>
 void for_each_kept_place(const BeamModel& model, Visit&& visit) {
-  const auto join = [](HomeNode& node) { node.joined = true; };
-  const auto keep = [](HomeNode& node) { node.kept = true; };
-  for (const Constraint& constraint : model.constraints) {
-    if (const auto* support = std::get_if<Support>(&constraint)) {
-      const Hold hold = support->clamped ? Hold::clamp : Hold::position;
-      visit(support->beam, support->s, [hold](HomeNode& node) { node.hold = std::max(node.hold, hold); });
-    }
-    if (const auto* joint = std::get_if<BeamJoint>(&constraint)) {
-      visit(joint->beam_a, joint->s_a, join);
-      visit(joint->beam_b, joint->s_b, join);
-    }
-  }
-  for (const Force& force : model.forces)
-    if (const auto* mass = std::get_if<PlaceMass>(&force)) visit(mass->beam, mass->s, keep);
-  for (const Connector& connector : model.connectors)
-    for (const ConnectorEnd& end : connector.ends)
-      if (end.beam >= 0) visit(end.beam, end.s, keep);
+  const auto ask = [&](const auto& part) {
+    if constexpr (requires { part.for_each_node(visit); }) part.for_each_node(visit);
+  };
+  for (const Constraint& constraint : model.constraints) std::visit(ask, constraint);
+  for (const Force& force : model.forces) std::visit(ask, force);
+  std::for_each(model.connectors.begin(), model.connectors.end(), ask);
 }
 
 std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& division) {

@@ -81,9 +81,16 @@ class PresentSections {
 }  // namespace
 
 int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted) {
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes[i].home == wanted.home && nodes[i].joint == wanted.joint) return static_cast<int>(i);
-  return -1;
+  const auto is_same = [&](const MeshNode& node) {
+    return node.home == wanted.home && node.joint == wanted.joint;
+  };
+  // In both meshes they are ordered by s, which that of a home node is in each.
+  auto found = nodes.end();
+  if (wanted.home >= 0)
+    found = std::lower_bound(nodes.begin(), nodes.end(), wanted.s,
+                             [](const MeshNode& node, double s) { return node.s < s; });
+  if (found == nodes.end() || !is_same(*found)) found = std::find_if(nodes.begin(), nodes.end(), is_same);
+  return found == nodes.end() ? -1 : static_cast<int>(found - nodes.begin());
 }
 
 void carry_sections(const BeamSystem& system, const State& state, MeshPlan& plan) {

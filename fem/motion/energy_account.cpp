@@ -34,8 +34,14 @@ bool is_driven(const BeamModel& m) {
          std::any_of(
              m.constraints.begin(), m.constraints.end(),
              [](const Constraint& constraint) {
-               const auto* support = std::get_if<Support>(&constraint);
-               return support && support->motion;
+               return std::visit(
+                   [](const auto& c) {
+                     if constexpr (
+                         requires { c.motion; })
+                       return c.motion.has_value();
+                     return false;
+                   },
+                   constraint);
              });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/mesh/drawn_coordinates.h"
+#include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
 #include "solver/equilibrated_kkt.h"
 
@@ -27,7 +28,8 @@ class LengthEquations {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  LengthEquations(const Assembly<D>& a, const State& state) : a_(a), state_(state), drawn_(state) {
+  LengthEquations(const BeamSystem& system, const Assembly<D>& a, const State& state)
+      : system_(system), a_(a), state_(state), drawn_(state) {
     drawn_.q = drawn_coordinates(*a.model(), a.mesh());
   }
 
@@ -57,7 +59,7 @@ class LengthEquations {
         c.size[i] = axis.line(drawn_).length + connector.length;
         c.by_length.row(i) = row_of(n0, 0);
       } else {
-        c.residual[i] = a_.length_and_force(own, state_).second - connector.force;
+        c.residual[i] = length_and_force(system_, state_, own).second - connector.force;
         c.size[i] = std::abs(connector.force) + connector.stiffness * 1e-6 * axis.line(drawn_).length;
         c.by_length.row(i) = connector.stiffness * (row_of(n, 1) - row_of(n, 0));
         c.by_length(i, i) -= connector.stiffness;
@@ -82,7 +84,7 @@ class LengthEquations {
       const Connector& connector = a_.model()->connectors[connectors[k]];
       Eigen::VectorXd rhs = Eigen::VectorXd::Zero(kkt.rows());
       if (connector.type == ConnectorType::rod)
-        rhs[n + a_.rows_of_rod(connectors[k]).first] = 1;
+        rhs[n + *row_of_rod(system_, connectors[k])] = 1;
       else
         axis_of(connectors[k])
             .add_pull(connector.stiffness * axis_of(connectors[k]).line(state_).n, rhs.head(n));
@@ -91,6 +93,7 @@ class LengthEquations {
     return moved;
   }
 
+  const BeamSystem& system_;
   const Assembly<D>& a_;
   const State& state_;
   State drawn_;
@@ -98,7 +101,7 @@ class LengthEquations {
 
 LengthResiduals conditions_of(const BeamSystem& system, const State& state) {
   return with_assembly(
-      system, [&]<int D>(const Assembly<D>& a) { return LengthEquations<D>(a, state).conditions(); });
+      system, [&]<int D>(const Assembly<D>& a) { return LengthEquations<D>(system, a, state).conditions(); });
 }
 
 // With springs for what carries one sign alone.
@@ -121,8 +124,7 @@ std::optional<Failure> wrong_sign(const BeamModel& model, const MeshedState& at)
     const Connector& connector = model.connectors[i];
     const bool tension = connector.type == ConnectorType::tension_only;
     if (!is_asked(connector) || !(tension || connector.type == ConnectorType::compression_only)) continue;
-    const auto [length, force] =
-        with_assembly(*at.system, [&](const auto& a) { return a.length_and_force(i, at.state); });
+    const auto [length, force] = length_and_force(*at.system, at.state, i);
     const double none = 1e-9 * connector.stiffness * length;
     if ((tension ? -force : force) > none)
       return Failure{

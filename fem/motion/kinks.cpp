@@ -35,8 +35,13 @@ std::vector<double> kink_times(const BeamModel& model) {
         force);
   for (const Beam& beam : model.beams) add(beam.properties.free_strain.thermal);
   for (const Constraint& constraint : model.constraints)
-    if (const auto* support = std::get_if<Support>(&constraint); support && support->motion)
-      for (const auto& [time, displacement] : support->motion->rows()) times.push_back(time);
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { c.motion; })
+            if (c.motion)
+              for (const auto& [time, value] : c.motion->rows()) times.push_back(time);
+        },
+        constraint);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

@@ -38,25 +38,31 @@ class JointRules {
   }
 
  private:
-  // The nodes of the beam where they are now, those of a ring three times around.
+  // The joint's node and two on each side of it, where they are now: on a ring as often as it takes, else as
+  // many as there are.
   void look_around(const Eigen::VectorXd& q) {
+    constexpr int reach = 2;
     const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
     const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
-    const int first = mesh_.first_span[index_], around = beam_.is_ring() ? 1 : 0;
+    const int first = mesh_.first_span[index_];
     const double L = beam_.curve.length();
     const auto now = [&](int i) {
       return i + 1 < count || beam_.is_ring() ? mesh_.spans[first + i].start(q)
                                               : mesh_.spans[first + i - 1].end(q);
     };
     const int turns = beam_.is_ring() ? static_cast<int>(std::round((s_ - now(own)) / L)) : 0;
-    for (int turn = turns - around; turn <= turns + around; ++turn)
-      for (int i = 0; i < count; ++i) {
-        nodes_.push_back(nodes[i]);
-        nodes_.back().s = now(i) + turn * L;
-        if (nodes[i].home >= 0) nodes_.back().home += turn * beam_.home_intervals();
-      }
-    left_ = around * count + own - 1;
-    right_ = around * count + own + 1;
+    for (int k = own - reach; k <= own + reach; ++k) {
+      if (!beam_.is_ring() && (k < 0 || k >= count)) continue;
+      const int turn = k < 0 ? -((count - 1 - k) / count) : k / count, i = k - turn * count;
+      if (k == own) left_ = static_cast<int>(nodes_.size()) - 1;
+      nodes_.push_back(nodes[i]);
+      nodes_.back().s = now(i) + (turns + turn) * L;
+      if (nodes[i].home >= 0) nodes_.back().home += (turns + turn) * beam_.home_intervals();
+    }
+    right_ = left_ + 2;
+    // The home nodes from the left neighbour to the right one, of those that can come and go.
+    lowest_ = std::max(lowest(), beam_.home_interval(nodes_[left_].s));
+    highest_ = std::min(highest(), beam_.home_interval(nodes_[right_].s) + 1);
   }
 
   double at(int h) const { return beam_.home_place(h); }
@@ -98,7 +104,7 @@ class JointRules {
   // All hidden nodes around it return, but for those that another joint hides.
   bool become_point() {
     next_.plan.modes[joint_] = JointMode::point;
-    for (int h = lowest(); h <= highest(); ++h)
+    for (int h = lowest_; h <= highest_; ++h)
       if (hidden(h) && !another_joint_near(h, passing_zone_left)) insert(h);
     return change(MeshChange::becomes_point);
   }
@@ -122,7 +128,7 @@ class JointRules {
   }
 
   bool move_breaks() {
-    for (int h = lowest(); h <= highest(); ++h) {
+    for (int h = lowest_; h <= highest_; ++h) {
       if (!gives_way(h)) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
@@ -146,7 +152,7 @@ class JointRules {
   bool insert_towards(int neighbour) {
     const MeshNode& far = nodes_[neighbour];
     if (far.joint >= 0) return insert_between_joints(far);
-    for (int h = lowest(); h <= highest(); ++h) {
+    for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
       if (std::abs(far.s - s_) <= control_.max * std::abs(far.s - at(h))) continue;
       insert(h);
@@ -157,7 +163,7 @@ class JointRules {
 
   // The far end is another moving node: a hidden node returns when it is half a standard length from both.
   bool insert_between_joints(const MeshNode& far) {
-    for (int h = lowest(); h <= highest(); ++h) {
+    for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
       const double margin = (control_.max - 1) * spacing(at(h));
       if (std::abs(at(h) - s_) <= margin || std::abs(at(h) - far.s) <= margin) continue;
@@ -181,7 +187,7 @@ class JointRules {
     // Another hidden node comes back first, unless it is too near to a second joint and this one too near
     // here.
     constexpr double last_moment = 0.1;
-    for (int k = lowest(); k <= highest() && distance > last_moment * here; ++k)
+    for (int k = lowest_; k <= highest_ && distance > last_moment * here; ++k)
       if (hidden(k) && !home(k).permanent) return false;
     remove(h);
     return true;
@@ -202,7 +208,8 @@ class JointRules {
   NextPlan& next_;
   double s_ = 0, rate_;
   std::vector<MeshNode> nodes_;
-  int left_ = -1, right_ = -1;  // of nodes_
+  int left_ = -1, right_ = -1;     // of nodes_
+  int lowest_ = 0, highest_ = -1;  // of home nodes
 };
 
 // The present plan but for constant weights and charts, which still belong to the places of the old one.

@@ -48,7 +48,11 @@ Eigen::Vector3d support_impulse(const MeshedState& at, const Eigen::VectorXd& im
   if (impulse.size() == 0) return sum;
   const auto& constraints = at.system->model().constraints;
   for (int i = 0; i < static_cast<int>(constraints.size()); ++i)
-    if (std::holds_alternative<Support>(constraints[i]))
+    if (std::visit(
+            [](const auto& c) {
+              return requires { c.from_outside; };
+            },
+            constraints[i]))
       sum += reaction(*at.system, at.state, impulse, i).force;
   return sum;
 }

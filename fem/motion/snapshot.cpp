@@ -40,9 +40,6 @@ void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
   }
 }
 
-std::pair<int, double> first_place(const Support& support) { return {support.beam, support.s}; }
-std::pair<int, double> first_place(const BeamJoint& joint) { return {joint.beam_a, joint.s_a}; }
-
 // A guide, which is as it is drawn: its segments, with the strains and forces of none.
 BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& gravity) {
   BeamRecord record;
@@ -127,9 +124,11 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state,
 
 ReactionRecord record_reaction(const BeamSystem& system, const State& state, int i) {
   const Constraint& constraint = system.model().constraints[i];
-  const auto [beam, s] = std::visit([](const auto& c) { return first_place(c); }, constraint);
+  const Attachment at = std::visit([](const auto& c) { return c.place(); }, constraint);
   const Reaction given = reaction(system, state, state.lambda, i);
-  return {material_point(system, state, beam, s).r, given.force, given.couple};
+  const Eigen::Vector3d r = at.body >= 0 ? vector_at(system, state.q, system.mesh().bodies[at.body])
+                                         : material_point(system, state, at.beam, at.s).r;
+  return {r, given.force, given.couple};
 }
 
 PointRecord record_body(const BeamSystem& system, const State& state, int body) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "fem/mesh/drawn_coordinates.h"
 #include "fem/motion/carried_sections.h"
 #include "fem/motion/matched_node.h"
 #include "fem/system/initial_state.h"
@@ -295,9 +296,12 @@ void set_bubbles(const BeamSystem& from, const State& state, const BeamSystem& t
 }  // namespace
 
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to) {
-  State next = drawn_state(to);
+  State next;
   next.t = state.t;
   next.memory = state.memory;
+  next.q = planned_places(to.mesh());
+  next.v = next.a = Eigen::VectorXd::Zero(to.coordinate_count());
+  next.lambda = Eigen::VectorXd::Zero(to.constraint_count());
   const int D = to.dimension();
   const Mesh &old = from.mesh(), &mesh = to.mesh();
   std::vector<std::pair<int, int>> added;  // beam, node

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "fem/motion/run_follower.h"
-#include "fem/system/with_assembly.h"
+#include "fem/system/observables.h"
 
 namespace nurbeam {
 
@@ -102,11 +102,8 @@ std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, c
 
 std::vector<bool> held_joints(const BeamSystem& system) {
   std::vector<bool> held;
-  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
-    const bool has_row =
-        with_assembly(system, [&](const auto& assembly) { return assembly.rows_of_place(j).count > 0; });
-    held.push_back(has_row && !system.model().joints[j].motion);
-  }
+  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
+    held.push_back(row_of_place(system, j) && !system.model().joints[j].motion);
   return held;
 }
 

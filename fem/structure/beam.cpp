@@ -1,5 +1,6 @@
 #include "fem/structure/beam.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nurbeam {
@@ -21,8 +22,9 @@ double Beam::home_place(int h) const {
 
 int Beam::home_interval(double s) const {
   const double at = curve.wrapped(s);
-  int h = 0;
-  while (h + 1 < home_intervals() && home[h + 1].s <= at) ++h;
+  const auto above = std::upper_bound(home.begin() + 1, home.end() - 1, at,
+                                      [](double place, const HomeNode& node) { return place < node.s; });
+  const int h = static_cast<int>(above - home.begin()) - 1;
   return h + home_intervals() * static_cast<int>(std::round((s - at) / curve.length()));
 }
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "fem/structure/home_nodes.h"
+
 namespace nurbeam {
 
 /// What a connector is fastened to: a body, a place of a beam that keeps its node, or a point in space.
@@ -53,6 +55,13 @@ struct Connector {
   /// Of the types that carry one sign: 1 where that is a pull, -1 a push; 0 of the others.
   int sign() const {
     return type == ConnectorType::tension_only ? 1 : type == ConnectorType::compression_only ? -1 : 0;
+  }
+  template <class Visit>
+  void for_each_node(Visit&& visit) const {
+    for (const ConnectorEnd& end : ends)
+      if (end.beam >= 0)
+        visit(
+            end.beam, end.s, [](HomeNode& node) { node.kept = true; });
   }
   bool jumps() const { return sign() != 0 && damping > 0; }
   /// Less is none, where its ends are that far apart [m].

@@ -1,11 +1,16 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <string>
 
+#include "fem/structure/attachment.h"
 #include "fem/structure/displacement_table.h"
+#include "fem/structure/home_nodes.h"
 
 namespace nurbeam {
+
+struct Structure;
 
 /// Holds a place of a beam where it is drawn, or moves it from there.
 struct Support {
@@ -19,6 +24,16 @@ struct Support {
   std::optional<Eigen::Vector3d> axis = {};
   /// Held across this direction alone, along which the place is free.
   std::optional<Eigen::Vector3d> guide = {};
+
+  static constexpr bool from_outside = true;
+  Attachment place() const { return Attachment::to_beam(beam, s); }
+  /// "reaction.cable.start", where it has no name of its own.
+  std::string reaction_name(const Structure& structure) const;
+  template <class Visit>
+  void for_each_node(Visit&& visit) const {
+    const Hold by = clamped ? Hold::clamp : Hold::position;
+    visit(beam, s, [by](HomeNode& node) { node.hold = std::max(node.hold, by); });
+  }
 };
 
 }  // namespace nurbeam

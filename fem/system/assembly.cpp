@@ -33,10 +33,11 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
-  const Eigen::VectorXd drawn = drawn_coordinates(*model_, mesh_);
+  const Eigen::VectorXd drawn = planned_places(mesh_);
   batch_elements();
-  bind_constraints(held, drawn);
-  bind_forces(drawn);
+  Binding<D> binding{beams(), drawn, held};
+  bind_constraints(binding);
+  bind_forces(binding);
   build_pattern();
   choose_moving_part();
 }
@@ -63,90 +64,35 @@ void Assembly<D>::batch_elements() {
 }
 
 template <int D>
-void Assembly<D>::bind_constraints(const std::vector<bool>& held, const Eigen::VectorXd& drawn) {
-  const MeshedBeams<D> at = beams();
+void Assembly<D>::bind_constraints(Binding<D>& binding) {
   const auto add = [&](auto&& constraint) {
     const int rows = constraint.rows;
-    constraint_blocks_.push_back({constraint_count_, rows, {constraint.dofs(), {}}, {}, {}});
-    constraint_count_ += rows;
+    constraint_blocks_.push_back({binding.rows, rows, {constraint.dofs(), {}}, {}, {}});
+    binding.rows += rows;
     constraints_.emplace_back(std::move(constraint));
   };
   for (const Constraint& constraint : model_->constraints) {
-    const int first = constraint_count_;
-    std::visit([&](const auto& description) { bind<D>(description, at, drawn, add); }, constraint);
-    constraint_rows_.push_back({first, constraint_count_ - first});
+    const int first = binding.rows;
+    std::visit([&](const auto& description) { bind<D>(description, binding.at, binding.drawn, add); },
+               constraint);
+    constraint_rows_.push_back({first, binding.rows - first});
   }
-  place_rows_.resize(model_->joints.size());
-  first_joint_constraint_ = static_cast<int>(constraints_.size());
-  for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
-    const bool is_held = j < static_cast<int>(held.size()) && held[j];
-    body_rows_.push_back(constraint_count_);
-    bind_joint<D>(j, is_held, at, drawn, [&](auto&& constraint) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(constraint)>, HeldPlace<D>>)
-        place_rows_[j] = {constraint_count_, constraint.rows};
-      add(std::move(constraint));
-    });
-  }
-  last_joint_constraint_ = static_cast<int>(constraints_.size());
-  for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i) {
-    const bool rests = mesh_.plan.is_closed(i) && is_in_place(mesh_, model_->stops[i]);
-    contact_rows_.push_back(rests ? constraint_count_ : -1);
-    if (rests) add(KeptContact<D>(at, model_->stops[i]));
-  }
-  bind_corners<D>(at, add);
-  rod_rows_.resize(model_->connectors.size());
-  for (std::size_t i = 0; i < model_->connectors.size(); ++i) {
-    if (model_->connectors[i].type != ConnectorType::rod) continue;
-    rod_rows_[i] = {constraint_count_, 1};
-    add(KeptLength<D>(model_->connectors[i], at));
-  }
+  ConstraintSources<D>::for_each([&]<class Source>() {
+    const int first = static_cast<int>(constraints_.size());
+    Source::bind(binding, add);
+    if constexpr (requires { Source::moves; })
+      for (int i = first; i < static_cast<int>(constraints_.size()); ++i) over_mesh_.push_back(i);
+  });
+  constraint_count_ = binding.rows;
 }
 
 template <int D>
-void Assembly<D>::bind_forces(const Eigen::VectorXd& drawn) {
-  const MeshedBeams<D> at = beams();
-  for (int body = 0; body < static_cast<int>(model_->bodies.size()); ++body) {
-    forces_.emplace_back(PointMass<D>(at, body));
-    if (model_->air.density * model_->bodies[body].drag_area > 0) forces_.emplace_back(BodyDrag<D>(at, body));
-  }
-  for (int j = 0; j < static_cast<int>(model_->joints.size()); ++j) {
-    bind_roll(j, drawn);
-    bind_friction(j, drawn);
-  }
-  for (int i = 0; i < static_cast<int>(model_->stops.size()); ++i)
-    if (model_->stops[i].buffer && is_in_place(mesh_, model_->stops[i]))
-      forces_.emplace_back(BufferForce<D>(at, i));
-  for (int i = 0; i < static_cast<int>(model_->connectors.size()); ++i)
-    if (model_->connectors[i].type != ConnectorType::rod) forces_.emplace_back(Spring<D>(i, at));
+void Assembly<D>::bind_forces(const Binding<D>& binding) {
+  const auto add = [&](auto&& force) { forces_.emplace_back(std::move(force)); };
+  ForceSources<D>::for_each([&]<class Source>() { Source::bind(binding, add); });
   for (const Force& force : model_->forces)
-    forces_.push_back(std::visit(
-        [&](const auto& description) -> BoundForce<D> { return bind_force<D>(description, at, drawn); },
-        force));
-}
-
-// Of a body that is on its beam and not held there.
-template <int D>
-void Assembly<D>::bind_friction(int j, const Eigen::VectorXd& drawn) {
-  const JointMode mode = mesh_.plan.modes[j];
-  const bool slides = mode == JointMode::node || mode == JointMode::point;
-  if (model_->joints[j].friction && slides && !mesh_.plan.holds(j))
-    forces_.emplace_back(SlidingFriction<D>(beams(), drawn, j, body_rows_[j]));
-}
-
-// The inertia of the roll of a joint's body with its section.
-template <int D>
-void Assembly<D>::bind_roll(int j, const Eigen::VectorXd& drawn) {
-  if constexpr (D == 3) {
-    const SlidingJoint& joint = model_->joints[j];
-    const double inertia = model_->body_of(joint).roll_inertia;
-    if (!joint.follows_section || inertia == 0) return;
-    if (mesh_.plan.modes[j] == JointMode::free)
-      forces_.emplace_back(FreeRoll(inertia, mesh_.plan.spin(j)));
-    else if (mesh_.plan.modes[j] == JointMode::node)
-      forces_.emplace_back(RollInertia<FollowedNode>(beams(), drawn, j));
-    else
-      forces_.emplace_back(RollInertia<FollowedPoint>(beams(), drawn, j));
-  }
+    forces_.push_back(
+        std::visit([&](const auto& description) { return bind_force<D>(description, binding); }, force));
 }
 
 template <int D>
@@ -168,6 +114,18 @@ ElementVector<D> Assembly<D>::element_force(const MeshElement<D>& e, const State
                                             const Vector& load) const {
   const ElementState<D> x = gather<D>(e, state);
   return is_form_p(e) ? virtual_work::force<D>(e.element, x, load) : e.element.force(x, load);
+}
+
+template <int D>
+ElementEnergy Assembly<D>::axis_energy(const State& state) const {
+  ElementEnergy sum;
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    const auto& [batches, batched, others] = walks_[b];
+    const Vector weight = model_->beams[b].properties.mass_per_length * model_->gravity.head<D>();
+    for (const ElementBatch<D>& batch : batches) sum += batch.energy(state, weight, free_strain_of(b, state));
+    for (const int i : others) sum += elements_[i].element.energy(gather<D>(elements_[i], state), weight);
+  }
+  return sum;
 }
 
 template <int D>
@@ -229,26 +187,22 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const S
 }
 
 template <int D>
-typename Assembly<D>::Vector Assembly<D>::pull_on_body(int body, const State& state) const {
+typename Assembly<D>::Vector Assembly<D>::force_on_body(int body, const State& state) const {
+  const MeshedBeams<D> at = beams();
   Vector sum = Vector::Zero();
   for (const BoundForce<D>& force : forces_)
-    if (const auto* spring = std::get_if<Spring<D>>(&force)) sum += spring->on_body(beams(), body, state);
-  for (std::size_t i = 0; i < constraints_.size(); ++i)
-    if (const auto* rod = std::get_if<KeptLength<D>>(&constraints_[i]))
-      sum += rod->on_body(body, state.lambda[constraint_blocks_[i].row], state);
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (
+              requires { f.on_body(at, body, state); })
+            sum += f.on_body(at, body, state);
+        },
+        force);
+  for_each_constraint([&](const auto& c, const Rows& rows) {
+    const auto y = [&] { return state.lambda.segment(rows.first, rows.count); };
+    if constexpr (requires { c.on_body(body, state, y()); }) sum += c.on_body(body, state, y());
+  });
   return sum;
-}
-
-template <int D>
-std::pair<double, double> Assembly<D>::length_and_force(int i, const State& state) const {
-  for (const BoundForce<D>& force : forces_)
-    if (const auto* spring = std::get_if<Spring<D>>(&force); spring && spring->connector() == i)
-      return spring->length_and_force(beams(), state);
-  for (const BoundConstraint<D>& constraint : constraints_)
-    if (const auto* rod = std::get_if<KeptLength<D>>(&constraint);
-        rod && &rod->connector() == &model_->connectors[i])
-      return {rod->length(state), state.lambda[rod_rows_[i].first]};
-  return {};
 }
 
 template <int D>
@@ -472,7 +426,13 @@ template <int D>
 bool Assembly<D>::forces_depend_on_multipliers() const {
   return std::any_of(
       forces_.begin(), forces_.end(),
-      [](const BoundForce<D>& force) { return std::holds_alternative<SlidingFriction<D>>(force); });
+      [](const BoundForce<D>& force) {
+        return std::visit(
+            [](const auto& f) {
+              return requires { f.depends_on_multipliers; };
+            },
+            force);
+      });
 }
 
 template class Assembly<2>;

@@ -7,6 +7,7 @@
 
 #include "fem/constraints/constraint.h"
 #include "fem/element/element_batch.h"
+#include "fem/forces/force.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
 
@@ -21,8 +22,7 @@ constexpr bool is_linear() {
 /// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
 /// elements.
 ///
-/// Multipliers: of the model's constraints in order, then of its sliding joints, of its stops, of its rigid
-/// corners, of its rods.
+/// Multipliers: of the model's constraints in order, then those of ConstraintSources.
 template <int D>
 class Assembly final : public SecondOrderSystem {
  public:
@@ -42,26 +42,25 @@ class Assembly final : public SecondOrderSystem {
   const std::vector<BoundForce<D>>& forces() const { return forces_; }
   MeshedBeams<D> beams() const { return {*model_, mesh_, elements_}; }
 
-  /// First multiplier and number of multipliers of constraint i of the model; of the place of joint j (none:
-  /// 0).
+  /// First multiplier and number of multipliers of a constraint.
   struct Rows {
     int first = 0, count = 0;
   };
-  Rows rows_of_constraint(int i) const { return constraint_rows_[i]; }
-  Rows rows_of_place(int j) const { return place_rows_[j]; }
-  /// Of connector i, where it is a rod.
-  Rows rows_of_rod(int i) const { return rod_rows_[i]; }
-  /// That of a stop which a body rests against, -1 else.
-  int row_of_contact(int stop) const { return contact_rows_[stop]; }
+  /// Calls visit(constraint, rows) for every constraint of the mesh in turn.
+  template <class Visit>
+  void for_each_constraint(Visit&& visit) const {
+    for (std::size_t i = 0; i < constraints_.size(); ++i)
+      std::visit([&](const auto& c) { visit(c, Rows{constraint_blocks_[i].row, c.rows}); }, constraints_[i]);
+  }
 
   /// The multipliers' force and couple on the beam that constraint i of the model holds, on the first of two
   /// [N], [N m]; impulses where `multipliers` are.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
                                                        const Eigen::VectorXd& multipliers) const;
-  /// What connectors give to a body [N].
-  Vector pull_on_body(int body, const State& state) const;
-  /// The length of connector i and its pull.
-  std::pair<double, double> length_and_force(int i, const State& state) const;
+  /// What all but weight, inertia and joints gives to a body [N].
+  Vector force_on_body(int body, const State& state) const;
+  /// The sum of the elements' energies, of the axis alone; with the potential of gravity.
+  ElementEnergy axis_energy(const State& state) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
   /// Which parts of the walk over elements, in its order, answer otherwise to a state than those of `other`,
@@ -134,10 +133,8 @@ class Assembly final : public SecondOrderSystem {
   struct Sink;
 
   void batch_elements();
-  void bind_constraints(const std::vector<bool>& held, const Eigen::VectorXd& drawn);
-  void bind_forces(const Eigen::VectorXd& drawn);
-  void bind_friction(int j, const Eigen::VectorXd& drawn);
-  void bind_roll(int j, const Eigen::VectorXd& drawn);
+  void bind_constraints(Binding<D>& binding);
+  void bind_forces(const Binding<D>& binding);
   void build_pattern();
   void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
@@ -171,13 +168,11 @@ class Assembly final : public SecondOrderSystem {
   std::vector<BoundForce<D>> forces_;
 
   int constraint_count_ = 0;
-  std::vector<Rows> constraint_rows_, place_rows_, rod_rows_;
-  std::vector<int> contact_rows_;
-  std::vector<int> body_rows_;  // first of those that tie a joint's body to its beam, where there are such
+  std::vector<Rows> constraint_rows_;  // of the model's
   std::vector<Block> element_blocks_, force_blocks_;
   std::vector<Block> twist_blocks_;  // of the elements of beams with torsion, empty for others
   std::vector<ConstraintBlock> constraint_blocks_;
-  int first_joint_constraint_ = 0, last_joint_constraint_ = 0;  // those of sliding joints; one past the last
+  std::vector<int> over_mesh_;  // constraints that move over the mesh
   MovingPart moving_;
   Eigen::SparseMatrix<double> pattern_;
 };

@@ -77,7 +77,7 @@ void Assembly<D>::build_pattern() {
     coupling.add(n + constraint.row, constraint.rows);
     coupling.close();
   }
-  pattern_ = coupling.pattern();
+  coupling.pattern().swap(pattern_);
 
   const auto index_of = [&](int i, int j) { return value_index(pattern_, i, j); };
   for (Block& block : element_blocks_) locate(block, index_of);
@@ -92,13 +92,20 @@ template <int D>
 template <class IndexOf>
 void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
   const std::vector<int>& dofs = block.dofs;
+  const std::size_t size = dofs.size();
+  std::size_t runs = 0, columns = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    columns += dofs[i] >= 0;
+    runs += dofs[i] >= 0 && (i == 0 || dofs[i] != dofs[i - 1] + 1);
+  }
   block.runs.clear();
-  for (std::size_t j = 0; j < dofs.size(); ++j) {
+  block.runs.reserve(columns * runs);
+  for (std::size_t j = 0; j < size; ++j) {
     if (dofs[j] < 0) continue;
-    for (std::size_t i = 0; i < dofs.size();) {
+    for (std::size_t i = 0; i < size;) {
       const std::size_t first = i++;
       if (dofs[first] < 0) continue;
-      while (i < dofs.size() && dofs[i] == dofs[i - 1] + 1) ++i;
+      while (i < size && dofs[i] == dofs[i - 1] + 1) ++i;
       block.runs.push_back({index_of(dofs[first], dofs[j]), static_cast<std::uint8_t>(j),
                             static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(i - first)});
     }
@@ -153,7 +160,7 @@ void Assembly<D>::choose_moving_part() {
     mark(element_blocks_[i].dofs);
     mark(twist_blocks_[i].dofs);
   }
-  for (int i = first_joint_constraint_; i < last_joint_constraint_; ++i) {
+  for (const int i : over_mesh_) {
     if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
       continue;
     moving_.constraints.push_back(i);

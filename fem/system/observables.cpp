@@ -20,18 +20,15 @@ template <int D>
 SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
   SystemEnergy sum;
   const MeshedBeams<D> at = a.beams();
-  const Eigen::Matrix<double, D, 1> g = a.model()->gravity.template head<D>();
-  for (const MeshElement<D>& e : a.elements()) {
-    const Eigen::Matrix<double, D, 1> weight = e.element.properties().mass_per_length * g;
-    const ElementEnergy part = e.element.energy(gather<D>(e, state), weight);
-    sum.kinetic += part.kinetic;
-    sum.axial += part.axial;
-    sum.bending += part.bending;
-    sum.gravity += part.external;
-    sum.dissipation += part.dissipation;
-    if constexpr (D == 3)
+  const ElementEnergy axes = a.axis_energy(state);
+  sum.kinetic = axes.kinetic;
+  sum.axial = axes.axial;
+  sum.bending = axes.bending;
+  sum.gravity = axes.external;
+  sum.dissipation = axes.dissipation;
+  if constexpr (D == 3)
+    for (const MeshElement<D>& e : a.elements())
       if (e.twist) add_twist_energy(e, state, sum);
-  }
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
@@ -69,29 +66,18 @@ double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.template work<D>(at, from, to); })
+          if constexpr (
+              requires { f.template work<D>(at, from, to); })
             sum += f.template work<D>(at, from, to);
-          else if constexpr (requires { f.work(at, from, to); })
+          else if constexpr (
+              requires { f.work(at, from, to); })
             sum += f.work(at, from, to);
         },
         force);
-  for (std::size_t j = 0; j < a.model()->joints.size(); ++j) {
-    const auto rows = a.rows_of_place(static_cast<int>(j));
-    const int place = a.mesh().joints[j].place;
-    if (rows.count == 0 || place < 0) continue;
-    const double holding = -(from.lambda[rows.first] + to.lambda[rows.first]) / 2;
-    sum += holding * (to.q[place] - from.q[place]);
-  }
-  for (std::size_t i = 0; i < a.model()->constraints.size(); ++i) {
-    const auto* support = std::get_if<Support>(&a.model()->constraints[i]);
-    if (!support || !support->motion) continue;
-    const auto force = [&](const State& state) {
-      return a.reaction(static_cast<int>(i), state, state.lambda).first;
-    };
-    sum +=
-        (force(from) + force(to)).dot(support->motion->at(to.t).value - support->motion->at(from.t).value) /
-        2;
-  }
+  a.for_each_constraint([&](const auto& c, const auto& rows) {
+    const auto y = [&](const State& state) { return state.lambda.segment(rows.first, rows.count); };
+    if constexpr (requires { c.work(from, to, y(from), y(to)); }) sum += c.work(from, to, y(from), y(to));
+  });
   return sum + heating_of(a, from, to);
 }
 
@@ -190,42 +176,74 @@ double beam_length(const BeamSystem& system, const State& state, int beam) {
 }
 
 Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body) {
-  return with_assembly(
-      system,
-      [&]<int D>(const Assembly<D>& a) {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const BoundForce<D>& force : a.forces())
-          if (const auto* drag = std::get_if<BodyDrag<D>>(&force); drag && drag->dragged_body() == body)
-            sum += widened<D>(drag->force(a.beams(), state));
-        return sum;
-      });
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  with_assembly(system, [&]<int D>(const Assembly<D>& a) {
+    for (const BoundForce<D>& force : a.forces())
+      std::visit(
+          [&](const auto& f) {
+            if constexpr (requires { f.dragged_body(); })
+              if (f.dragged_body() == body) sum += widened<D>(f.force(a.beams(), state));
+          },
+          force);
+  });
+  return sum;
 }
 
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint) {
   const Mesh& mesh = system.mesh();
   if (mesh.plan.modes[joint] == JointMode::free) return Eigen::Vector3d::Zero();
-  const int body = system.model().joints[joint].body, D = system.dimension();
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-  acceleration.head(D) = state.a.segment(mesh.bodies[body], D);
-  Eigen::Vector3d connected = Eigen::Vector3d::Zero();
-  connected.head(D) =
-      with_assembly(system, [&](const auto& a) { return Eigen::VectorXd(a.pull_on_body(body, state)); });
-  return system.model().bodies[body].mass * (acceleration - system.model().gravity) - connected -
-         air_drag(system, state, body);
+  const int body = system.model().joints[joint].body;
+  const Eigen::Vector3d given = with_assembly(
+      system, [&]<int D>(const Assembly<D>& a) { return widened<D>(a.force_on_body(body, state)); });
+  const Eigen::Vector3d acceleration = vector_at(system, state.a, mesh.bodies[body]);
+  return system.model().bodies[body].mass * (acceleration - system.model().gravity) - given;
+}
+
+std::optional<int> row_of_place(const BeamSystem& system, int joint) {
+  std::optional<int> found;
+  const int place = system.mesh().joints[joint].place;
+  with_assembly(system, [&](const auto& a) {
+    a.for_each_constraint([&](const auto& c, const auto& rows) {
+      if constexpr (requires { c.place(); })
+        if (c.place() == place) found = rows.first;
+    });
+  });
+  return found;
 }
 
 double holding_force(const BeamSystem& system, const State& state, int joint) {
-  return with_assembly(
-      system,
-      [&](const auto& a) {
-        const auto rows = a.rows_of_place(joint);
-        return rows.count > 0 ? -state.lambda[rows.first] : 0;
-      });
+  const std::optional<int> row = row_of_place(system, joint);
+  return row ? -state.lambda[*row] : 0;
 }
 
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector) {
-  return with_assembly(
-      system, [&](const auto& a) { return a.length_and_force(connector, state); });
+  std::pair<double, double> found;
+  with_assembly(system, [&](const auto& a) {
+    for (const auto& force : a.forces())
+      std::visit(
+          [&](const auto& f) {
+            if constexpr (requires { f.connector(); })
+              if (f.connector() == connector) found = f.length_and_force(a.beams(), state);
+          },
+          force);
+    a.for_each_constraint([&](const auto& c, const auto& rows) {
+      if constexpr (requires { c.connector(); })
+        if (c.connector() == connector)
+          found = c.length_and_force(state, state.lambda.segment(rows.first, rows.count));
+    });
+  });
+  return found;
+}
+
+std::optional<int> row_of_rod(const BeamSystem& system, int connector) {
+  std::optional<int> found;
+  with_assembly(system, [&](const auto& a) {
+    a.for_each_constraint([&](const auto& c, const auto& rows) {
+      if constexpr (requires { c.connector(); })
+        if (c.connector() == connector) found = rows.first;
+    });
+  });
+  return found;
 }
 
 std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector) {
@@ -246,12 +264,14 @@ std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const St
 }
 
 double contact_force(const BeamSystem& system, const State& state, int stop) {
-  return with_assembly(
-      system,
-      [&](const auto& a) {
-        const int row = a.row_of_contact(stop);
-        return row < 0 ? 0 : -state.lambda[row];
-      });
+  double force = 0;
+  with_assembly(system, [&](const auto& a) {
+    a.for_each_constraint([&](const auto& c, const auto& rows) {
+      if constexpr (requires { c.closed_stop(); })
+        if (c.closed_stop() == stop) force = -state.lambda[rows.first];
+    });
+  });
+  return force;
 }
 
 std::optional<double> place(const BeamSystem& system, const State& state, int joint) {

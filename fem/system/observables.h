@@ -23,10 +23,11 @@ double beam_length(const BeamSystem& system, const State& state, int beam);
 
 /// Of the air on a body [N].
 Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body);
-/// Force of the beams on the body of a joint, m (a - g) less the drag of the air and what connectors give to
-/// it [N].
+/// Force of the beams on the body of a joint, m (a - g) less what all else gives to it [N].
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint);
-/// Multiplier of a held or prescribed joint: the force along the beam [N] that keeps it there.
+/// The row of the multiplier of a held or prescribed joint; empty where its place is free.
+std::optional<int> row_of_place(const BeamSystem& system, int joint);
+/// The negative of that multiplier: the force along the beam [N] that keeps it there.
 double holding_force(const BeamSystem& system, const State& state, int joint);
 /// The force of a hard stop on the body that rests against it, or between two that rest against each other
 /// [N]; 0 where none does.
@@ -35,6 +36,8 @@ double contact_force(const BeamSystem& system, const State& state, int stop);
 std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int joint);
 /// Length of a connector [m], or its part along its direction, and its pull [N].
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector);
+/// The row of the multiplier of a rod; empty where a connector is none.
+std::optional<int> row_of_rod(const BeamSystem& system, int connector);
 /// Where the ends of a connector are [m].
 std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector);
 /// s of a joint's body [m], on a ring with the turns since the start; empty when it flies free.

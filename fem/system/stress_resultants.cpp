@@ -82,10 +82,15 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
     if (e.twist) {
       on.add(e.twist->element.force(gather_twist(e, state)));
       for (const BoundForce<3>& force : a.forces())
-        if (const auto* load = std::get_if<LineTorque>(&force); load && load->beam == e.beam) {
-          on.add(-load->on_element(e, state));
-          torque += load->per_length(state);
-        }
+        std::visit(
+            [&](const auto& f) {
+              if constexpr (requires { f.on_element(e, state); })
+                if (f.beam == e.beam) {
+                  on.add(-f.on_element(e, state));
+                  torque += f.per_length(state);
+                }
+            },
+            force);
     }
   std::vector<SpanResultants::Inside> placed;
   for (const PointAction& action : inside) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "nurbs/number_text.h"
-
 namespace nurbeam {
 
 namespace {
@@ -11,21 +9,6 @@ namespace {
 void to_world(const ModelFrame& f, PointRecord& p) {
   p.position = f.to_world(p.position);
   p.velocity = f.direction_to_world(p.velocity);
-}
-
-// "reaction.cable.start", where the support has no name of its own.
-std::string reaction_name(const BeamModel& model, const Support& support) {
-  if (!support.name.empty()) return support.name;
-  const Beam& beam = model.beams[support.beam];
-  const bool open = !beam.is_ring();
-  const std::string place = open && support.s == 0                     ? ".start"
-                            : open && support.s == beam.curve.length() ? ".end"
-                                                                       : "@" + text_of(support.s);
-  return "reaction." + beam.name + place;
-}
-std::string reaction_name(const BeamModel& model, const BeamJoint& joint) {
-  if (!joint.name.empty()) return joint.name;
-  return "joint." + model.beams[joint.beam_a].name + "." + model.beams[joint.beam_b].name;
 }
 
 // With a number behind it where others have the name.
@@ -88,7 +71,7 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   }
   for (const Constraint& constraint : built.model.constraints)
     names.reactions.push_back(
-        std::visit([&](const auto& of) { return distinct(reaction_name(built.model, of), names.reactions); },
+        std::visit([&](const auto& of) { return distinct(of.reaction_name(built.model), names.reactions); },
                    constraint));
   for (const Connector& connector : built.model.connectors) names.connectors.push_back(connector.name);
   return names;

@@ -215,8 +215,11 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
     json["bodies"].push_back(
         {{"name", body.name}, {"mass [kg]", body.mass}, {"roll inertia [kg m^2]", body.roll_inertia}});
   for (const Constraint& constraint : model.constraints)
-    if (const auto* support = std::get_if<Support>(&constraint))
-      json["supports"].push_back(to_json(*support, built));
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { to_json(c, built); }) json["supports"].push_back(to_json(c, built));
+        },
+        constraint);
   for (const SlidingJoint& joint : model.joints) json["joints"].push_back(to_json(joint, model));
   for (const Connector& connector : model.connectors) json["connectors"].push_back(to_json(connector, built));
   for (const Force& force : model.forces)

@@ -9,6 +9,16 @@
 namespace nurbeam {
 namespace {
 
+void expect_same(const ElementEnergy& a, const ElementEnergy& b) {
+  constexpr double rounding = 1e-13;
+  EXPECT_NEAR(a.kinetic, b.kinetic, rounding * b.kinetic);
+  EXPECT_NEAR(a.axial, b.axial, rounding * b.axial);
+  EXPECT_NEAR(a.bending, b.bending, rounding * b.bending);
+  EXPECT_NEAR(a.external, b.external, 100 * rounding * std::abs(b.external));  // its parts cancel
+  EXPECT_NEAR(a.dissipation, b.dissipation, rounding * b.dissipation);
+  for (const double part : {b.kinetic, b.axial, b.bending, std::abs(b.external)}) EXPECT_GT(part, 1e-3);
+}
+
 template <int D>
 void check_batches(const BeamProperties& properties, int seed) {
   std::mt19937 random(seed);
@@ -19,17 +29,23 @@ void check_batches(const BeamProperties& properties, int seed) {
   const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::LinSpaced(0.7, -1.3);
   const auto& elements = system.assembly<D>()->elements();
   Eigen::VectorXd one_by_one = Eigen::VectorXd::Zero(system.coordinate_count()), batched = one_by_one;
+  ElementEnergy energy, batched_energy;
   std::vector<ElementBatch<D>> batches;
   for (const MeshElement<D>& e : elements) {
     ASSERT_TRUE(ElementBatch<D>::takes(e.element));
     const ElementVector<D> force = e.element.force(gather<D>(e, state), load);
     for (int k = 0; k < ElementLayout<D>::nodal; ++k) one_by_one[e.dofs[k]] += force[k];
+    energy += e.element.energy(gather<D>(e, state), load);
     if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
     batches.back().add(e.element, e.dofs, e.slope_offset);
   }
   EXPECT_EQ(batches.size(), 2u);
-  for (const ElementBatch<D>& batch : batches)
+  for (const ElementBatch<D>& batch : batches) {
     batch.add_forces(state, load, free_strain(elements[0], state), batched.data());
+    batched_energy += batch.energy(state, load, free_strain(elements[0], state));
+  }
+  expect_same(batched_energy, energy);
+  EXPECT_EQ(energy.dissipation > 0, properties.is_damped());
   EXPECT_LT((batched - one_by_one).norm(), 1e-13 * one_by_one.norm());
   EXPECT_GT(one_by_one.norm(), 1);
   if (properties.is_damped()) return;
@@ -67,8 +83,8 @@ void check_all_kinds() {
       }
 }
 
-TEST(ElementBatch, HasTheForcesAndTangentsOfItsElementsInThePlane) { check_all_kinds<2>(); }
-TEST(ElementBatch, HasTheForcesAndTangentsOfItsElementsInSpace) { check_all_kinds<3>(); }
+TEST(ElementBatch, HasTheForcesEnergiesAndTangentsOfItsElementsInThePlane) { check_all_kinds<2>(); }
+TEST(ElementBatch, HasTheForcesEnergiesAndTangentsOfItsElementsInSpace) { check_all_kinds<3>(); }
 
 TEST(ElementBatch, TakesNoElementWhoseEndsMove) {
   std::mt19937 random(3);

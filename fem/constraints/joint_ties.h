@@ -1,0 +1,59 @@
+#pragma once
+#include "fem/constraints/body_on_guide.h"
+#include "fem/constraints/body_on_node.h"
+#include "fem/constraints/body_on_point.h"
+#include "fem/constraints/body_on_section.h"
+#include "fem/constraints/held_place.h"
+#include "fem/constraints/passed_roll.h"
+#include "fem/mesh/binding.h"
+
+namespace nurbeam {
+
+/// Where the body of a sliding joint is: one constraint, or none where it has no coordinates of its own.
+template <int D, class Add>
+void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  if (at.structure.beam_of(at.structure.joints[j]).rigid) return add(BodyOnGuide<D>(at, j));
+  const bool is_node = at.mesh.plan.modes[j] == JointMode::node;
+  if constexpr (D == 3) {
+    if (at.structure.joints[j].is_offset()) {
+      if (is_node) return add(BodyOnSection<FollowedNode>(at, drawn, j));
+      return add(BodyOnSection<FollowedPoint>(at, drawn, j));
+    }
+  }
+  if (!is_node) return add(BodyOnPoint<D>(at, drawn, j));
+  if (at.structure.joints[j].stands_apart()) add(BodyOnNode<D>(at, j));
+}
+
+/// What sliding joints ask for as they are carried in a mesh.
+template <int D>
+struct JointTies {
+  /// They last less than the rest: they move over the mesh.
+  static constexpr bool moves = true;
+
+  template <class Add>
+  static void bind(Binding<D>& binding, Add&& add) {
+    for (int j = 0; j < static_cast<int>(binding.at.structure.joints.size()); ++j) {
+      binding.ties.push_back(binding.rows);
+      if (binding.at.mesh.plan.modes[j] != JointMode::free) bind_joint(j, binding, add);
+    }
+  }
+
+ private:
+  template <class Add>
+  static void bind_joint(int j, const Binding<D>& binding, Add&& add) {
+    const MeshedBeams<D>& at = binding.at;
+    const JointMode mode = at.mesh.plan.modes[j];
+    bind_body<D>(j, at, binding.drawn, add);
+    const SlidingJoint& joint = at.structure.joints[j];
+    if constexpr (D == 3)
+      if (mode == JointMode::node && !joint.continuous_slope && at.structure.beam_of(joint).has_torsion())
+        add(PassedRoll(at, j));
+    const int place = at.mesh.joints[j].place;
+    if (mode == JointMode::stopped || binding.holds(j) || at.mesh.plan.holds(j))
+      add(HeldPlace<D>(place, at.mesh.plan.places[j]));
+    else if (joint.motion)
+      add(HeldPlace<D>(place, *joint.motion));
+  }
+};
+
+}  // namespace nurbeam

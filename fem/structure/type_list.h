@@ -1,0 +1,15 @@
+#pragma once
+
+namespace nurbeam {
+
+/// Types in an order.
+template <class... Types>
+struct TypeList {
+  /// Calls visit.template operator()<Type>() for each in turn.
+  template <class Visit>
+  static void for_each(Visit&& visit) {
+    (visit.template operator()<Types>(), ...);
+  }
+};
+
+}  // namespace nurbeam

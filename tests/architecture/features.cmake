@@ -1,0 +1,47 @@
+# cmake -DROOT=<source tree> -P features.cmake: fails where the system, the motion or the sensitivities name one of
+# the forces, constraints and descriptions in the lists. They ask for what each of these offers: a new one is new files
+# and a line in a list.
+
+cmake_minimum_required(VERSION 3.25)
+set(lists fem/structure/constraint.h fem/constraints/constraint.h fem/forces/force.h)
+set(askers fem/system fem/motion fem/sensitivity)
+
+# The names in the angle brackets of the lists of a header, less its parameters.
+function(listed_names header result)
+  file(READ ${ROOT}/${header} text)
+  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+  string(REGEX MATCHALL "using [A-Za-z]+ =[^;]*;" lists "${text}")
+  string(REGEX MATCHALL "[<, \n][A-Z][A-Za-z]+[<,>]" names "${lists}")
+  list(TRANSFORM names REPLACE "[<,> \n]" "")
+  list(REMOVE_DUPLICATES names)
+  list(REMOVE_ITEM names D Others ConstraintList ForceList TypeList)
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
+set(names "")
+foreach(header IN LISTS lists)
+  listed_names(${header} found)
+  list(APPEND names ${found})
+endforeach()
+list(LENGTH names count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no force or constraint found in ${lists} under ${ROOT}")
+endif()
+
+set(complaints 0)
+list(JOIN names "|" any)
+foreach(folder IN LISTS askers)
+  file(GLOB files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp)
+  foreach(file IN LISTS files)
+    file(READ ${ROOT}/${file} text)
+    string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+    if(text MATCHES "[^A-Za-z_:](${any})[^A-Za-z_]")
+      message("${file} names ${CMAKE_MATCH_1}: ask what it offers, so that others can offer it too")
+      math(EXPR complaints "${complaints} + 1")
+    endif()
+  endforeach()
+endforeach()
+if(complaints)
+  message(FATAL_ERROR "${complaints} files name what stands in a list")
+endif()
+message(STATUS "none of ${count} forces and constraints is named")

@@ -1,0 +1,3 @@
+#pragma once
+template <int D, class... Others>
+using ConstraintList = std::variant<HeldPosition<D>, Others...>;

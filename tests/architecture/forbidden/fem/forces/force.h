@@ -1,0 +1,2 @@
+#pragma once
+using Force = std::variant<PointLoad>;

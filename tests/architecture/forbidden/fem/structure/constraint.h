@@ -1,0 +1,2 @@
+#pragma once
+using Constraint = std::variant<Support, BeamJoint>;
