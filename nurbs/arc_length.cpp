@@ -36,8 +36,7 @@ Panels finer(const Panels& panels, const Speed& speed) {
   return fine;
 }
 
-/// Where the speed is least, looked for around the slowest break: panels crowd where the speed nearly
-/// vanishes.
+/// Where the speed is least, looked for around the slowest break.
 double slowest_place(const Speed& speed, const Panels& panels, const std::vector<double>& break_speeds) {
   const std::size_t last = break_speeds.size() - 1;
   const std::size_t i = std::min_element(break_speeds.begin(), break_speeds.end()) - break_speeds.begin();
@@ -80,6 +79,9 @@ ArcLengthMap::ArcLengthMap(const RationalCubic& cubic)
     : speed_(cubic),
       panels_(speed_.uniform() ? panels_of(speed_, 0, 1) : finer(panels_of(speed_, 0, 1), speed_)) {
   for (const double u : panels_.breaks) break_speeds_.push_back(speed_(u));
+  // Panels crowd where the speed nearly vanishes: it is small at some break then.
+  constexpr double far_from_vanishing = 1e-2;
+  if (*std::min_element(break_speeds_.begin(), break_speeds_.end()) > far_from_vanishing * length()) return;
   const double u = slowest_place(speed_, panels_, break_speeds_);
   if (speed_(u) > 1e-10 * length()) return;
   std::ostringstream message;

@@ -317,46 +317,38 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   for_each_item(
       json, "loads", "",
       [&](const Json& load, const std::string& path) { result.loads.push_back(read_load(load, path)); });
-  for_each_item(
-      json, "supports", "",
-      [&](const Json& support, const std::string& path) {
-        result.supports.push_back(read_support(support, path, findings));
-      });
-  for_each_item(
-      json, "sliding_joints", "",
-      [&](const Json& joint, const std::string& path) {
-        result.sliding_joints.push_back(read_sliding_joint(joint, path, findings));
-      });
-  for_each_item(
-      json, "stops", "",
-      [&](const Json& stop, const std::string& path) {
-        result.stops.push_back(read_stop(stop, path, findings));
-      });
-  for_each_item(
-      json, "joints", "",
-      [&](const Json& joint, const std::string& path) {
-        result.joints.push_back(read_beam_joint(joint, path, findings));
-      });
-  for_each_item(json, "connectors", "", [&](const Json& connector, const std::string& path) {
-    result.connectors.push_back(read_connector(connector, path, findings));
-  });
+  const auto read_all = [&](const char* key, auto& list, auto read) {
+    for_each_item(json, key, "", [&](const Json& item, const std::string& path) {
+      list.push_back(read(item, path, findings));
+    });
+  };
+  read_all("supports", result.supports, read_support);
+  read_all("sliding_joints", result.sliding_joints, read_sliding_joint);
+  read_all("stops", result.stops, read_stop);
+  read_all("joints", result.joints, read_beam_joint);
+  read_all("connectors", result.connectors, read_connector);
   result.analysis = read_analysis(part(json, "analysis"), findings);
   result.output = read_output(part(json, "output"), result.analysis);
   return result;
 }
 
-// The case that a JSON value is, once its shape and what it refers to have been checked.
+// The case that a JSON value is, once its shape and what it refers to have been checked; but for its text.
 CaseFileReport checked_case(Json& json, const Shape& shape, const std::filesystem::path& file,
                             Findings& findings) {
   std::optional<CaseFile> value;
   put_in_tables(shape, json, "", std::filesystem::absolute(file).parent_path(), findings);
   if (check_shape(shape, json, findings)) {
     value = read_case(json, file, findings);
-    value->json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    value->laws = read_laws(json);
     check_across(json, *value, findings);
   }
   if (findings.has_errors()) value.reset();
   return {std::move(value), findings.take()};
+}
+
+CaseFileReport with_text(CaseFileReport report, const Json& json) {
+  if (report.value) report.value->json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return report;
 }
 
 }  // namespace
@@ -367,7 +359,7 @@ CaseFileReport read_case_file(const std::filesystem::path& file, const std::vect
   if (!json) return {{}, findings.take()};
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
-  CaseFileReport report = checked_case(*json, case_keys(), file, findings);
+  CaseFileReport report = with_text(checked_case(*json, case_keys(), file, findings), *json);
   if (!diagnostics.empty()) report.value.reset();
   report.diagnostics.insert(report.diagnostics.begin(), diagnostics.begin(), diagnostics.end());
   return report;
@@ -377,9 +369,12 @@ CaseFileReport read_case_text(const std::string& text, const std::filesystem::pa
   Findings findings(file.string());
   auto json = parse_json(text, findings);
   if (!json) return {{}, findings.take()};
-  CaseFileReport report = checked_case(*json, host_keys(), file, findings);
-  if (report.value) report.value->laws = read_laws(*json);
-  return report;
+  return with_text(checked_case(*json, host_keys(), file, findings), *json);
+}
+
+CaseFileReport read_case_json(nlohmann::ordered_json json, const std::filesystem::path& file) {
+  Findings findings(file.string());
+  return checked_case(json, host_keys(), file, findings);
 }
 
 CaseTextReport case_text(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -289,7 +290,7 @@ struct CaseLaw {
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
 struct CaseFile {
   std::filesystem::path path;
-  std::string json;  ///< as read, overrides applied, without comments and spaces
+  std::string json = {};  ///< as read, overrides applied, without comments and spaces
   std::string name;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);
   Air air = {};
@@ -321,6 +322,8 @@ CaseFileReport read_case_file(const std::filesystem::path& file,
 /// The same of a text made by a program, which may have the keys of host_keys() besides; `file` heads the
 /// messages, and files that the text names are relative to its folder.
 CaseFileReport read_case_text(const std::string& text, const std::filesystem::path& file);
+/// The same of the JSON itself, whose numbers are finite; the case has no text.
+CaseFileReport read_case_json(nlohmann::ordered_json json, const std::filesystem::path& file);
 
 /// The text of a case file as JSON without comments, overrides applied; empty, with errors, where it cannot
 /// be read as JSON. Nothing else is checked.

@@ -93,8 +93,7 @@ struct VariantGradient::NeighbouringRun {
   static std::unique_ptr<const BuiltModel> build(const StudyFile& study, const StudyCase& study_case,
                                                  const std::vector<double>& values,
                                                  const SimulationOptions& options) {
-    const CaseFileReport read =
-        read_case_text(study_case.variant(study.variables, values), study_case.file());
+    const CaseFileReport read = study_case.read(study.variables, values);
     if (!read.value) throw std::invalid_argument("a neighbouring variant is no case");
     if (!same_times(options, simulation_options(*read.value)))
       throw std::invalid_argument("variables that change the times of a run have no derivative");

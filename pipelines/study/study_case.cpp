@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -249,11 +250,30 @@ std::map<std::string, NurbsCurve> StudyCase::moved(const std::vector<StudyVariab
   return curves;
 }
 
+StudyCase::StudyCase(const std::string& json, std::filesystem::path file,
+                     std::map<std::string, StudyCurve> curves, std::vector<std::filesystem::path> inputs)
+    : json_(std::make_shared<const Json>(Json::parse(json))),
+      file_(std::move(file)),
+      curves_(std::move(curves)),
+      inputs_(std::move(inputs)) {}
+
 std::string StudyCase::variant(const std::vector<StudyVariable>& variables,
                                const std::vector<double>& values) const {
-  Json json = Json::parse(json_);
+  return json_of(variables, values).dump();
+}
+
+CaseFileReport StudyCase::read(const std::vector<StudyVariable>& variables,
+                               const std::vector<double>& values) const {
+  return read_case_json(json_of(variables, values), file_);
+}
+
+Json StudyCase::json_of(const std::vector<StudyVariable>& variables,
+                        const std::vector<double>& values) const {
+  Json json = *json_;
   for (std::size_t i = 0; i < variables.size(); ++i)
     with_target(variables[i], [&](const auto& target) {
+      if (!std::isfinite(values[i]))
+        throw std::invalid_argument(text_of(values[i]) + " cannot stand in a case");
       if constexpr (requires { target.paths; }) {
         std::vector<Diagnostic> wrong;
         for (const std::string& path : target.paths)
@@ -263,7 +283,7 @@ std::string StudyCase::variant(const std::vector<StudyVariable>& variables,
     });
   for (const auto& [name, curve] : moved(variables, values))
     json["beams"][curves_.at(name).beam]["axis"] = inline_axis(curve);
-  return json.dump();
+  return json;
 }
 
 StudyCaseReport read_study_case(const StudyFile& study) {

@@ -1,10 +1,13 @@
 #pragma once
 #include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "nurbs/nurbs_curve.h"
+#include "pipelines/case/case_file.h"
 #include "pipelines/study/study_file.h"
 
 namespace nurbeam {
@@ -21,17 +24,15 @@ class StudyCase {
  public:
   /// `json`: the text of the case, overrides applied; `file` heads its messages, and files that it names are
   /// relative to its folder.
-  StudyCase(std::string json, std::filesystem::path file, std::map<std::string, StudyCurve> curves,
-            std::vector<std::filesystem::path> inputs)
-      : json_(std::move(json)),
-        file_(std::move(file)),
-        curves_(std::move(curves)),
-        inputs_(std::move(inputs)) {}
+  StudyCase(const std::string& json, std::filesystem::path file, std::map<std::string, StudyCurve> curves,
+            std::vector<std::filesystem::path> inputs);
 
   /// The case of the variant in which the variables have these values, one for each: a case file's text, in
   /// which moved curves stand as inline "nurbs". Throws std::invalid_argument, with the name of the variable,
   /// where a value cannot be set or a curve cannot be.
   std::string variant(const std::vector<StudyVariable>& variables, const std::vector<double>& values) const;
+  /// That case, read. Throws likewise.
+  CaseFileReport read(const std::vector<StudyVariable>& variables, const std::vector<double>& values) const;
 
   /// The curves that variables move as they are in that variant, by the name of their beam. Throws likewise.
   std::map<std::string, NurbsCurve> moved(const std::vector<StudyVariable>& variables,
@@ -44,7 +45,10 @@ class StudyCase {
   const std::map<std::string, StudyCurve>& curves() const { return curves_; }
 
  private:
-  std::string json_;
+  nlohmann::ordered_json json_of(const std::vector<StudyVariable>& variables,
+                                 const std::vector<double>& values) const;
+
+  std::shared_ptr<const nlohmann::ordered_json> json_;
   std::filesystem::path file_;
   std::map<std::string, StudyCurve> curves_;
   std::vector<std::filesystem::path> inputs_;

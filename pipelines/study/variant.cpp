@@ -65,7 +65,7 @@ struct VariantModel {
 
 VariantModel model_of(const StudyFile& study, const StudyCase& study_case,
                       const std::vector<double>& values) {
-  VariantModel model{.read = read_case_text(study_case.variant(study.variables, values), study_case.file())};
+  VariantModel model{.read = study_case.read(study.variables, values)};
   if (!model.read.value) {
     model.problem = first_error(model.read.diagnostics);
   } else if (model.read.value->analysis.has_modes()) {
