@@ -47,10 +47,6 @@ std::vector<int> changed(const Assembly<D>& from, const Assembly<D>& to) {
     for (const int dof : e.dofs)
       if (dof >= 0) unknowns.push_back(dof);
   }
-  to.for_each_constraint([&](const auto& c, const auto& rows) {
-    if (is_linear<std::decay_t<decltype(c)>>()) return;
-    for (int row = 0; row < rows.count; ++row) unknowns.push_back(to.coordinate_count() + rows.first + row);
-  });
   std::sort(unknowns.begin(), unknowns.end());
   unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
   return unknowns;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "fem/system/assembly.h"
+#include "fem/system/beam_system.h"
 
 namespace nurbeam {
 
@@ -12,8 +13,8 @@ template <int D>
 std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const Assembly<D>& from);
 
 /// Unknowns of `to` in whose rows equations that `from` satisfies may be open, its rates carried over: those
-/// of elements that `from` has not, and the multipliers of constraints that are not linear. Empty where they
-/// may be in all rows: with torsion, or where joints or stops have other modes.
+/// of elements that `from` has not. Constraints that nodes near there open by their moves are near too. Empty
+/// where they may be in all rows: with torsion, or where joints or stops have other modes.
 std::vector<int> changed_unknowns(const BeamSystem& from, const BeamSystem& to);
 
 }  // namespace nurbeam

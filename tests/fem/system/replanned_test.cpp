@@ -104,9 +104,9 @@ TEST(Replanned, DiffersInTheElementsAroundTheChangeAlone) {
         [](const BeamSystem& from, const BeamSystem& to, const BeamSystem&, std::mt19937&) {
           const std::vector<int> changed = changed_unknowns(from, to);
           ASSERT_FALSE(changed.empty());
-          // Two elements that are new or three, with four nodes at most.
+          // One element to three that are new, with two nodes to four, of which one moves.
           const auto per_node = static_cast<std::size_t>(2 * to.dimension());
-          EXPECT_GE(changed.size(), 3 * per_node);
+          EXPECT_GE(changed.size(), 2 * per_node + 1);
           EXPECT_LE(changed.size(), 4 * per_node + 1);
         });
 }
@@ -180,7 +180,7 @@ TEST(LocalAccelerations, AreThoseOfAllUnknownsWhereTheOthersAre) {
       const State start = local;
       ASSERT_EQ(make_accelerations_smooth(to, h, around, local), ConsistencyStatus::done);
       EXPECT_LT((local.a - whole.a).lpNorm<Eigen::Infinity>(), 1e-9 * whole.a.lpNorm<Eigen::Infinity>());
-      EXPECT_LT((local.lambda - whole.lambda).norm(), 1e-9 * (1 + whole.lambda.norm()));
+      EXPECT_LT((local.lambda - whole.lambda).norm(), 1e-8 * (1 + whole.lambda.norm()));
       EXPECT_LT(changes(local.a, start.a), local.a.size() / 2) << "those far away";
     });
 }
