@@ -276,7 +276,9 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
   dynamics.setZero();
   for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
     const Vector load = line_load(b, state);
-    for (int part = 0; part < part_count(b); ++part) add_part(b, part, state, load, dynamics);
+    const int batch_count = static_cast<int>(walks_[b].batches.size());
+    for_each_batch(walks_[b], [&](int part) { add_part(b, part, state, load, dynamics); });
+    for (int part = batch_count; part < part_count(b); ++part) add_part(b, part, state, load, dynamics);
   }
   add_forces_and_constraints(state, dynamics, constraints);
 }

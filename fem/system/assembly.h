@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "fem/forces/force.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -144,6 +146,8 @@ class Assembly final : public SecondOrderSystem {
   void locate(Block& block, const IndexOf& index_of) const;
   template <class IndexOf>
   void locate(ConstraintBlock& block, const IndexOf& index_of) const;
+  template <class Work>
+  static void for_each_batch(const Walk& walk, const Work& work);
   Vector line_load(int beam, const State& state) const;
   void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
                            const Block& block, const Block& twist_block, double* values) const;
@@ -176,6 +180,27 @@ class Assembly final : public SecondOrderSystem {
   MovingPart moving_;
   Eigen::SparseMatrix<double> pattern_;
 };
+
+// Calls work(i) for each batch, in a long beam several at a time: first in every other one of an even number
+// of pieces, then in the others, so that two with a node in common, on a ring the first and the last too, are
+// never worked on at once. No node has more than the two elements beside it: sums do not depend on the order.
+template <int D>
+template <class Work>
+void Assembly<D>::for_each_batch(const Walk& walk, const Work& work) {
+  constexpr int shortest = 32, fewest = 8;
+  const int count = static_cast<int>(walk.batches.size());
+  const int pieces = count / (2 * shortest) * 2;
+  const auto begin = [&](int piece) { return static_cast<int>(static_cast<long>(count) * piece / pieces); };
+  if (pieces < fewest) {
+    for (int i = 0; i < count; ++i) work(i);
+    return;
+  }
+  for (int first : {0, 1})
+    side_by_side(pieces / 2, [&](int k) {
+      const int piece = 2 * k + first;
+      for (int i = begin(piece); i < begin(piece + 1); ++i) work(i);
+    });
+}
 
 extern template class Assembly<2>;
 extern template class Assembly<3>;

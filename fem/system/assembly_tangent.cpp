@@ -206,17 +206,17 @@ void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& l
 template <int D>
 void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
                                      double* values) const {
-  const auto& [batches, batched, others] = walks_[beam];
+  const auto& batches = walks_[beam].batches;
+  const auto& batched = walks_[beam].batched;
   if (batches.empty()) return;  // a guide has no elements
   const double strain = free_strain_of(beam, state);
-  auto index = batched.begin();
-  typename ElementBatch<D>::Tangents K;
-  for (const ElementBatch<D>& batch : batches) {
-    batch.tangents(state, strain, w, K);
-    for (int lane = 0; lane < batch.count(); ++lane, ++index)
-      for (const Run& run : element_blocks_[*index].runs)
-        for (int i = 0; i < run.count; ++i) values[run.value + i] += K[run.column][run.row + i].of[lane];
-  }
+  for_each_batch(walks_[beam], [&](int i) {
+    typename ElementBatch<D>::Tangents K;
+    batches[i].tangents(state, strain, w, K);
+    for (int lane = 0; lane < batches[i].count(); ++lane)
+      for (const Run& run : element_blocks_[batched[i * ElementBatch<D>::lanes + lane]].runs)
+        for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of[lane];
+  });
 }
 
 template <int D>

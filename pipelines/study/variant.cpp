@@ -15,6 +15,7 @@
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/gradient.h"
 #include "pipelines/study/histories.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -219,6 +220,7 @@ std::vector<double> all_values(const StudyFile& study, const std::vector<double>
 Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
                     std::vector<double> values) {
   const auto start = std::chrono::steady_clock::now();
+  const ThreadLimit alone(1);  // variants themselves run side by side
   Variant variant{.number = number, .values = std::move(values)};
   try {
     const ExpressionScope scope = scope_of_variables(study, variant.values);
