@@ -176,7 +176,7 @@ struct KktSolver::Implementation {
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
     for_each_strand([&](Strand& strand) { strand.lower(rhs); });
     x.resize(rhs.size());
-    part.resize(0);
+    part.resize(static_cast<Eigen::Index>(pattern->part.size()));
     if (!pattern->part.empty()) solve_part(rhs, x);
     for_each_strand([&](Strand& strand) { strand.upper(part, x); });
   }

@@ -61,6 +61,7 @@ int check_command(const Arguments& arguments, Streams streams) {
 int run_command(const Arguments& arguments, Streams streams) {
   if (arguments.value("--out", "results").empty())
     throw UsageError("--out: is empty; give the directory for the results");
+  const int threads = whole_number(arguments, "--threads", 0, 1, 1024);
   const BrokenPipeGuard guard;  // a run outlives the reader of its messages
   const auto case_file = read_case(arguments, streams);
   if (!case_file) return exit_bad_input;
@@ -68,7 +69,7 @@ int run_command(const Arguments& arguments, Streams streams) {
   return run_case(*case_file, {.out = arguments.value("--out", default_out),
                                .quiet = arguments.has("--quiet"),
                                .resume = arguments.has("--resume"),
-                               .threads = whole_number(arguments, "--threads", 0, 1, 1024)});
+                               .threads = threads});
 }
 
 std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time,
