@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "solver/close_order.h"
 #include "solver/every_processor.h"
 
 namespace nurbeam {
@@ -106,19 +108,26 @@ std::vector<int> by_levels_from_end(const Neighbours& neighbours, int start, Wal
   }
 }
 
-}  // namespace
-
-BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
-  const Neighbours neighbours(pattern, left_out);
+// The reverse order of Cuthill and McKee.
+std::vector<int> by_levels(const Neighbours& neighbours, const std::vector<int>& left_out) {
   const int n = neighbours.size();
   Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
   for (const int i : left_out) walks.last[i] = Walks::never;
+  std::vector<int> order;
   for (int i = 0; i < n; ++i)
     if (walks.last[i] == 0) {
       const std::vector<int> component = by_levels_from_end(neighbours, i, walks);
-      unknown.insert(unknown.end(), component.begin(), component.end());
+      order.insert(order.end(), component.begin(), component.end());
     }
-  std::reverse(unknown.begin(), unknown.end());
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+}  // namespace
+
+BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
+  std::optional<std::vector<int>> close = close_order(pattern, left_out);
+  unknown = close ? std::move(*close) : by_levels(Neighbours(pattern, left_out), left_out);
   place_unknowns(pattern);
 }
 

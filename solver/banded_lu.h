@@ -6,8 +6,9 @@
 
 namespace nurbeam {
 
-/// The reverse order of Cuthill and McKee of the unknowns of a square pattern, which should be symmetric:
-/// else the order is poor, not wrong.
+/// An order of the unknowns of a square pattern, which should be symmetric: else the order is poor, not
+/// wrong. As they are numbered where that is narrow (close_order), else the reverse order of Cuthill and
+/// McKee.
 struct BandOrder {
   /// Of all unknowns but those `left_out`. What is coupled with these comes last in its component where that
   /// makes no wider band.

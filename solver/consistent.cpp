@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "solver/kkt_solver.h"
@@ -37,6 +38,68 @@ struct ScaledKkt {
     for (int i = 0; i < n; ++i)
       Eigen::Map<Eigen::ArrayXd>(matrix.valuePtr() + starts[i], first_at_least(n, i) - starts[i]) /= largest;
   }
+};
+
+/// The same in the rows near some unknowns alone.
+class LocalKkt {
+ public:
+  /// So many levels of unknowns that are coupled: what changes a velocity there changes none beyond.
+  static constexpr int reach = 40;
+
+  LocalKkt(const SecondOrderSystem& system, const State& state, double h, const std::vector<int>& around)
+      : n_(system.coordinate_count()), pattern_(system.tangent_pattern()), near_(pattern_, around, reach) {
+    if (!is_worth_it()) return;
+    // Nobody looks at the other columns.
+    values_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(pattern_.nonZeros()));
+    const int* starts = pattern_.outerIndexPtr();
+    for (const int i : near_.unknowns)
+      std::fill(values_.get() + starts[i], values_.get() + starts[i + 1], 0.0);
+    std::vector<bool> is_near(static_cast<std::size_t>(pattern_.cols()), false);
+    for (std::size_t k = 0; k < near_.rows; ++k) is_near[near_.unknowns[k]] = true;
+    system.tangent_near(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, is_near, values_.get());
+    scale_coordinates();
+  }
+
+  /// Whether much of the system lies beyond.
+  bool is_worth_it() const {
+    return 4 * near_.unknowns.size() < 3 * static_cast<std::size_t>(pattern_.cols());
+  }
+
+  /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m). Precondition: is_worth_it().
+  bool correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Beyond beyond, Eigen::VectorXd& x,
+               Eigen::VectorXd& y) const {
+    Eigen::VectorXd right(top.size() + bottom.size()), left(right.size());
+    right << top / scale_, bottom;
+    left << x, y / scale_;
+    const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(pattern_.rows(), pattern_.cols(),
+                                                               pattern_.nonZeros(), pattern_.outerIndexPtr(),
+                                                               pattern_.innerIndexPtr(), values_.get());
+    if (!right.allFinite() || !left.allFinite() || !correct_around(matrix, right, near_, beyond, left))
+      return false;
+    x = left.head(x.size());
+    y = scale_ * left.tail(y.size());
+    return true;
+  }
+
+ private:
+  void scale_coordinates() {
+    const int *starts = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();
+    double largest = 0;
+    for (std::size_t k = 0; k < near_.rows; ++k)
+      if (const int i = near_.unknowns[k]; i < n_)
+        largest =
+            std::fmax(largest, values_[std::lower_bound(rows + starts[i], rows + starts[i + 1], i) - rows]);
+    if (!(largest > 0) || !std::isfinite(largest)) return;
+    scale_ = largest;
+    for (const int i : near_.unknowns)
+      for (int k = starts[i]; k < starts[i + 1] && i < n_ && rows[k] < n_; ++k) values_[k] /= largest;
+  }
+
+  int n_;
+  const Eigen::SparseMatrix<double>& pattern_;
+  Surroundings near_;
+  std::unique_ptr<double[]> values_;
+  double scale_ = 1;
 };
 
 /// The same, factorised.
@@ -89,10 +152,8 @@ State unloaded(const SecondOrderSystem& system, State state) {
 
 /// (m) g(q, t).
 Eigen::VectorXd constraint_values(const SecondOrderSystem& system, const State& moving) {
-  const State state = unloaded(system, moving);
-  Eigen::VectorXd dynamics(system.coordinate_count());
   Eigen::VectorXd constraints(system.constraint_count());
-  system.residual(state, dynamics, constraints);
+  system.constraints(moving, constraints);
   return constraints;
 }
 
@@ -158,6 +219,17 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   return ConsistencyStatus::done;
 }
 
+ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
+                                            const std::vector<int>& around, State& state) {
+  if (around.empty() || system.forces_depend_on_multipliers())
+    return make_accelerations_smooth(system, h, state);
+  const LocalKkt kkt(system, unloaded(system, state), h, around);
+  if (!kkt.is_worth_it() || !kkt.correct(force(system, state), -system.constraint_curvature(state),
+                                         Beyond::given, state.a, state.lambda))
+    return make_accelerations_smooth(system, h, state);
+  return ConsistencyStatus::done;
+}
+
 ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
   return make_accelerations_smooth(system, 0, state);
 }
@@ -204,6 +276,17 @@ Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen
     return {ConsistencyStatus::singular, {}};
   state.v = x.head(n);
   return {ConsistencyStatus::done, kkt.scale * x.tail(m)};
+}
+
+Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
+                                    const std::vector<int>& around, State& state) {
+  if (around.empty()) return velocities_from_momentum(system, momentum, state);
+  const LocalKkt kkt(system, state, 0, around);
+  Eigen::VectorXd impulse = Eigen::VectorXd::Zero(system.constraint_count());
+  if (!kkt.is_worth_it() ||
+      !kkt.correct(momentum, -system.constraint_rate(state), Beyond::closed, state.v, impulse))
+    return velocities_from_momentum(system, momentum, state);
+  return {ConsistencyStatus::done, impulse};
 }
 
 }  // namespace nurbeam

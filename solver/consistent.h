@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
@@ -18,6 +20,10 @@ enum class ConsistencyStatus {
 /// h)^2.
 [[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
                                                           State& state);
+/// The same for those that belong to a state already, but near these unknowns, of the coordinates and then
+/// the multipliers: solved for there alone, where nothing else asks for more.
+[[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
+                                                          const std::vector<int>& around, State& state);
 
 /// The largest of what is left of the constraints g(q, t), in their units.
 double open_constraints(const SecondOrderSystem& system, const State& state);
@@ -41,5 +47,10 @@ struct Projection {
 /// The velocity with M v + G' impulse = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum, State& state);
+/// The same where the velocities of the state already have that momentum, but in the rows of these unknowns,
+/// of the coordinates and then the multipliers: solved for near them, as far as it takes.
+[[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
+                                                  const Eigen::VectorXd& momentum,
+                                                  const std::vector<int>& around, State& state);
 
 }  // namespace nurbeam

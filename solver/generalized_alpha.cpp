@@ -91,7 +91,14 @@ GeneralizedAlphaIntegrator::Parameters GeneralizedAlphaIntegrator::parameters(do
 
 GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
                                                        const SecondOrderSystem& system, State start)
-    : settings_(settings), system_(&system), state_(std::move(start)) {
+    : GeneralizedAlphaIntegrator(settings, system, std::move(start), 1) {
+  mass_scale_ = nurbeam::mass_scale(system, state_, kkt_);
+}
+
+GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
+                                                       const SecondOrderSystem& system, State start,
+                                                       double mass_scale)
+    : settings_(settings), system_(&system), state_(std::move(start)), mass_scale_(mass_scale) {
   check(settings_);
   const int n = system.coordinate_count();
   const int m = system.constraint_count();
@@ -100,7 +107,6 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
   kkt_ = system.tangent_pattern();
-  mass_scale_ = mass_scale(system, state_, kkt_);
   scale_ = system.coordinate_scale();
   inverse_scale_ = scale_.cwiseInverse();
   trial_ = state_;
@@ -138,7 +144,7 @@ StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const Integra
   last_step_ = last_error_ = 0;
   linearisation_ = nullptr;
   jerk_.setZero();
-  mass_scale_ = mass_scale(*system_, state_, kkt_);
+  mass_scale_ = nurbeam::mass_scale(*system_, state_, kkt_);
   return advance_within(step, 0, 0);
 }
 

@@ -52,8 +52,13 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range and for a
   /// start of the wrong size.
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
+  /// With the scale of masses of another one.
+  GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start,
+                             double mass_scale);
 
   const State& state() const override { return state_; }
+  /// What its dynamic rows are divided by (mass_scale.h).
+  double mass_scale() const { return mass_scale_; }
   /// Its own acceleration variable and jerk (n each), last step, last error and mass scale, and where its
   /// matrix was taken.
   IntegratorHistory history() const override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/kkt_solver.h"
 
@@ -11,52 +12,82 @@ namespace nurbeam {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
+using View = Eigen::Map<const Matrix>;
+
+View view(const Matrix& A) {
+  return {A.rows(), A.cols(), A.nonZeros(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
+}
 
 // b - A x, and what of it is round-off.
 struct Open {
   Eigen::VectorXd rows, round_off;
 
-  Open(const Matrix& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x)
+  // With some columns of A, or with all.
+  Open(const View& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x, const std::vector<int>& columns)
       : rows(b), round_off(b.cwiseAbs()) {
-    for (int column = 0; column < A.cols(); ++column) {
-      if (x[column] == 0) continue;
-      for (Matrix::InnerIterator entry(A, column); entry; ++entry) {
-        const double product = entry.value() * x[column];
-        rows[entry.row()] -= product;
-        round_off[entry.row()] += std::abs(product);
-      }
-    }
+    for (const int column : columns) take(A, x, column);
+    round_off *= 32 * std::numeric_limits<double>::epsilon();
+  }
+  Open(const View& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x) : rows(b), round_off(b.cwiseAbs()) {
+    for (int column = 0; column < A.cols(); ++column) take(A, x, column);
     round_off *= 32 * std::numeric_limits<double>::epsilon();
   }
   bool at(Eigen::Index row) const { return !(std::abs(rows[row]) <= round_off[row]); }
+
+ private:
+  void take(const View& A, const Eigen::VectorXd& x, int column) {
+    if (x[column] == 0) return;
+    for (View::InnerIterator entry(A, column); entry; ++entry) {
+      const double product = entry.value() * x[column];
+      rows[entry.row()] -= product;
+      round_off[entry.row()] += std::abs(product);
+    }
+  }
 };
+
+// Adds to `unknowns`, of which those from `begin` on are of the last level, what is coupled with these and
+// has no place yet. Returns where the new ones begin.
+std::size_t append_coupled(const int* starts, const int* rows, std::size_t begin, std::vector<int>& unknowns,
+                           std::vector<int>& place) {
+  const std::size_t end = unknowns.size();
+  for (; begin < end; ++begin)
+    for (int k = starts[unknowns[begin]]; k < starts[unknowns[begin] + 1]; ++k)
+      if (std::exchange(place[rows[k]], 0) < 0) unknowns.push_back(rows[k]);
+  return end;
+}
 
 // Some of the unknowns, and the matrix of their rows and columns.
 class Window {
  public:
   /// What is open, and what is coupled with it over so many others.
-  Window(const Matrix& A, const Open& open, int reach) : place_(static_cast<std::size_t>(A.cols()), -1) {
+  Window(const View& A, const Open& open, int reach) : place_(static_cast<std::size_t>(A.cols()), -1) {
     for (int i = 0; i < A.cols(); ++i)
-      if (open.at(i)) take(i);
-    for (std::size_t begin = 0; reach > 0 && begin < unknowns_.size(); --reach) {
-      const std::size_t end = unknowns_.size();
-      for (; begin < end; ++begin)
-        for (Matrix::InnerIterator entry(A, unknowns_[begin]); entry; ++entry)
-          if (place_[entry.row()] < 0) take(static_cast<int>(entry.row()));
-    }
-    std::sort(unknowns_.begin(), unknowns_.end());
-    for (std::size_t k = 0; k < unknowns_.size(); ++k) place_[unknowns_[k]] = static_cast<int>(k);
+      if (open.at(i)) {
+        place_[i] = 0;
+        unknowns_.push_back(i);
+      }
+    for (std::size_t begin = 0; reach > 0 && begin < unknowns_.size(); --reach)
+      begin = append_coupled(A.outerIndexPtr(), A.innerIndexPtr(), begin, unknowns_, place_);
+    number();
+  }
+  Window(const View& A, std::vector<int> unknowns)
+      : unknowns_(std::move(unknowns)), place_(static_cast<std::size_t>(A.cols()), -1) {
+    number();
   }
 
   int size() const { return static_cast<int>(unknowns_.size()); }
   Eigen::VectorXd part(const Eigen::VectorXd& all) const { return all(unknowns_); }
   void add(const Eigen::VectorXd& part, Eigen::VectorXd& all) const { all(unknowns_) += part; }
 
-  Matrix matrix(const Matrix& A) const {
+  Matrix matrix(const View& A) const {
     Matrix own(size(), size());
+    Eigen::Index entries = 0;
+    for (const int unknown : unknowns_)
+      entries += A.outerIndexPtr()[unknown + 1] - A.outerIndexPtr()[unknown];
+    own.reserve(entries);
     for (int k = 0; k < size(); ++k) {
       own.startVec(k);
-      for (Matrix::InnerIterator entry(A, unknowns_[k]); entry; ++entry)
+      for (View::InnerIterator entry(A, unknowns_[k]); entry; ++entry)
         if (place_[entry.row()] >= 0) own.insertBack(place_[entry.row()], k) = entry.value();
     }
     own.finalize();
@@ -64,18 +95,18 @@ class Window {
   }
 
   /// Whether the solution for it leaves the rows beyond it closed, but for round-off of what it moves.
-  bool suffices(const Matrix& A, const Open& open, const Eigen::VectorXd& solution) const {
+  bool suffices(const View& A, const Open& open, const Eigen::VectorXd& solution) const {
     Eigen::VectorXd left = open.rows;
     double largest = 0;
     for (int k = 0; k < size(); ++k)
-      for (Matrix::InnerIterator entry(A, unknowns_[k]); entry; ++entry) {
+      for (View::InnerIterator entry(A, unknowns_[k]); entry; ++entry) {
         const double product = entry.value() * solution[k];
         left[entry.row()] -= product;
         largest = std::max(largest, std::abs(product));
       }
     const double moved = 4 * std::numeric_limits<double>::epsilon() * largest;
     for (const int unknown : unknowns_)
-      for (Matrix::InnerIterator entry(A, unknown); entry; ++entry)
+      for (View::InnerIterator entry(A, unknown); entry; ++entry)
         if (place_[entry.row()] < 0 &&
             !(std::abs(left[entry.row()]) <= std::max(open.round_off[entry.row()], moved)))
           return false;
@@ -83,9 +114,9 @@ class Window {
   }
 
  private:
-  void take(int unknown) {
-    place_[unknown] = 0;
-    unknowns_.push_back(unknown);
+  void number() {
+    std::sort(unknowns_.begin(), unknowns_.end());
+    for (std::size_t k = 0; k < unknowns_.size(); ++k) place_[unknowns_[k]] = static_cast<int>(k);
   }
 
   std::vector<int> unknowns_, place_;  // where each is among them, -1: it is not
@@ -93,9 +124,10 @@ class Window {
 
 }  // namespace
 
-bool correct_locally(const Matrix& A, const Eigen::VectorXd& b, const std::vector<int>& last,
+bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
                      Eigen::VectorXd& x) {
   constexpr int first_reach = 40, growth = 3;
+  const View A = view(matrix);
   const Open open(A, b, x);
   KktSolver solver;
   for (int reach = first_reach, last_size = 0;; reach *= growth) {
@@ -109,10 +141,40 @@ bool correct_locally(const Matrix& A, const Eigen::VectorXd& b, const std::vecto
     window.add(solution, x);
     return true;
   }
-  if (!solver.factorise(A, last)) return false;
+  if (!solver.factorise(matrix, last)) return false;
   const Eigen::VectorXd correction = solver.solve(open.rows);
   if (!correction.allFinite()) return false;
   x += correction;
+  return true;
+}
+
+Surroundings::Surroundings(const Matrix& pattern, const std::vector<int>& around, int reach)
+    : unknowns(around) {
+  std::vector<int> place(static_cast<std::size_t>(pattern.cols()), -1);
+  for (const int unknown : around) place[unknown] = 0;
+  std::size_t begin = 0;
+  const auto go_on = [&] {
+    begin = append_coupled(pattern.outerIndexPtr(), pattern.innerIndexPtr(), begin, unknowns, place);
+  };
+  for (; reach > 0 && begin < unknowns.size(); --reach) go_on();
+  inner = unknowns.size();
+  go_on();
+  rows = unknowns.size();
+  go_on();
+}
+
+bool correct_around(const View& A, const Eigen::VectorXd& b, const Surroundings& around, Beyond beyond,
+                    Eigen::VectorXd& x) {
+  const Open open(A, b, x, around.unknowns);
+  const auto end_of_inner = around.unknowns.begin() + static_cast<std::ptrdiff_t>(around.inner);
+  const Window window(A, std::vector<int>(around.unknowns.begin(), end_of_inner));
+  KktSolver solver;
+  if (window.size() == 0) return true;
+  if (!solver.factorise(window.matrix(A))) return false;
+  const Eigen::VectorXd solution = solver.solve(window.part(open.rows));
+  if (!solution.allFinite() || (beyond == Beyond::closed && !window.suffices(A, open, solution)))
+    return false;
+  window.add(solution, x);
   return true;
 }
 

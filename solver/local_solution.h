@@ -11,4 +11,23 @@ namespace nurbeam {
 [[nodiscard]] bool correct_locally(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b,
                                    const std::vector<int>& last, Eigen::VectorXd& x);
 
+/// Unknowns of a symmetric pattern, those first that are coupled with some over the fewest others.
+struct Surroundings {
+  std::vector<int> unknowns;  ///< two levels beyond the reach
+  std::size_t inner, rows;    ///< how many of these are within it, and one level beyond
+
+  Surroundings(const Eigen::SparseMatrix<double>& pattern, const std::vector<int>& around, int reach);
+};
+
+enum class Beyond {
+  closed,  ///< the rows next to the unknowns that are solved for must stay closed, to round-off
+  given    ///< what x holds beyond is given, whatever it leaves open there
+};
+/// Corrects the inner ones of x until their rows of A x = b are closed to round-off. `A`: right in the rows
+/// of the first `around.rows` alone. Returns false, x unchanged, where it has no regular matrix of the inner
+/// ones, or where they do not suffice.
+[[nodiscard]] bool correct_around(const Eigen::Map<const Eigen::SparseMatrix<double>>& A,
+                                  const Eigen::VectorXd& b, const Surroundings& around, Beyond beyond,
+                                  Eigen::VectorXd& x);
+
 }  // namespace nurbeam

@@ -18,7 +18,7 @@ struct TangentWeights {
 /// M(q) a + G'lambda = f(q, v, t), g(q, t) = 0, and their tangents: the only thing an integrator may know.
 ///
 /// n = coordinate_count(), m = constraint_count(); G = dg/dq (m x n). All calls are const and without side
-/// effect; none allocates once the output arguments have their sizes.
+/// effect; those of an integrator's step allocate nothing once the output arguments have their sizes.
 class SecondOrderSystem {
  public:
   virtual ~SecondOrderSystem() = default;
@@ -29,15 +29,33 @@ class SecondOrderSystem {
   virtual void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                         Eigen::Ref<Eigen::VectorXd> constraints) const = 0;
 
+  /// constraints (m) = g(q, t) alone.
+  virtual void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const {
+    Eigen::VectorXd dynamics(coordinate_count());
+    residual(state, dynamics, constraints);
+  }
+
   /// An (n+m) x (n+m) compressed matrix with the fixed pattern of `tangent` (diagonal of the (2,2) block
   /// included as explicit zeros), values zero.
-  virtual Eigen::SparseMatrix<double> tangent_pattern() const = 0;
+  virtual const Eigen::SparseMatrix<double>& tangent_pattern() const = 0;
 
   /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, dF/dlambda], [G, 0]], F = dynamics at
   /// `state` (lambda included), into a matrix made by tangent_pattern(). dF/dlambda is G' where all weights
   /// are 0.
   virtual void tangent(const State& state, const TangentWeights& w,
                        Eigen::SparseMatrix<double>& kkt) const = 0;
+
+  /// The same where an unknown is `near` (n+m), added to `values`, of the entries of tangent_pattern(): in
+  /// the columns of these unknowns and in those of all that is coupled with them, and right in their rows
+  /// alone.
+  virtual void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
+                            double* values) const {
+    Eigen::SparseMatrix<double> whole = tangent_pattern();
+    tangent(state, w, whole);
+    for (Eigen::Index column = 0; column < whole.cols(); ++column)
+      for (int k = whole.outerIndexPtr()[column]; k < whole.outerIndexPtr()[column + 1]; ++k)
+        if (near[whole.innerIndexPtr()[k]]) values[k] += whole.valuePtr()[k];
+  }
 
   /// Unknowns, among the n coordinates and then the m multipliers, of a part of the tangent that lasts less
   /// than the rest: of elements that move over the material, with what constraints tie to them, so that the

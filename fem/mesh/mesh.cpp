@@ -47,13 +47,21 @@ class Numbering {
     const Beam& beam = structure_.beams[b];
     std::vector<MeshNode> nodes;
     if (beam.rigid) return nodes;
+    nodes.reserve(beam.home.size() + structure_.joints.size());
     for (int h = 0; h < beam.home_intervals() + (beam.is_ring() ? 0 : 1); ++h)
       if (plan_.beams[b].present[h]) nodes.push_back({beam.home[h].s, h, -1, 0, 0, 0, -1});
     for (int j = 0; j < static_cast<int>(structure_.joints.size()); ++j)
       if (structure_.joints[j].beam == b && plan_.modes[j] == JointMode::node)
-        nodes.push_back({beam.curve.wrapped(plan_.places[j]), -1, j, 0, 0, 0, -1});
-    std::sort(nodes.begin(), nodes.end(), [](const MeshNode& x, const MeshNode& y) { return x.s < y.s; });
+        insert({beam.curve.wrapped(plan_.places[j]), -1, j, 0, 0, 0, -1}, nodes);
     return nodes;
+  }
+
+  // Among nodes in order.
+  static void insert(const MeshNode& node, std::vector<MeshNode>& nodes) {
+    nodes.insert(
+        std::upper_bound(
+            nodes.begin(), nodes.end(), node, [](const MeshNode& x, const MeshNode& y) { return x.s < y.s; }),
+        node);
   }
 
   void number(MeshNode& node, int b, int i) {

@@ -134,13 +134,12 @@ double strain_noise(const BeamModel& model) {
   return stiffness * 1e-22 / 2;
 }
 
-bool changes_energy(const BeamSystem& system, const State& state, const RunEvent& event,
+bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,
                     const SimulationReport& report) {
   constexpr double most = 1e-3, round_off = 1e-10;
-  const Beam& beam = system.model().beams[event.beam];
+  const Beam& beam = model.beams[event.beam];
   if (beam.merge != MergeRule::standard || beam.properties.axial_strain == AxialStrain::pointwise)
     return false;
-  const SystemEnergy now = energy(system, state);
   const double jump = event.energy_after - event.energy_before;
   const double moves = std::max(now.kinetic, now.strain());
   const double allowed = most * moves + round_off * (moves + std::abs(now.gravity)) + report.strain_noise;

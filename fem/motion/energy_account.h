@@ -49,9 +49,9 @@ class EnergyAccount {
 /// The energy of strains that are round-off, 1e-11, in all beams [J].
 double strain_noise(const BeamModel& model);
 
-/// A change of the mesh that changes the energy by too much, as its event has it; beams with the elements and
-/// rules of the papers, which are there for comparison, do as they do.
-bool changes_energy(const BeamSystem& system, const State& state, const RunEvent& event,
+/// A change of the mesh that changes the energy, which is this by `now`, by too much, as its event has it;
+/// beams with the elements and rules of the papers, which are there for comparison, do as they do.
+bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,
                     const SimulationReport& report);
 
 }  // namespace nurbeam

@@ -12,7 +12,9 @@ namespace nurbeam {
 using IntegratorSettings = std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta>;
 
 /// An integrator that goes on from a state with consistent accelerations. The system must outlive it.
+/// `before`: one with these settings on another mesh of the same model, whose scales last.
 std::unique_ptr<Integrator> start_integrator(const IntegratorSettings& settings,
-                                             const SecondOrderSystem& system, const State& from);
+                                             const SecondOrderSystem& system, const State& from,
+                                             const Integrator* before = nullptr);
 
 }  // namespace nurbeam

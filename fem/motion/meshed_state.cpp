@@ -7,6 +7,7 @@
 #include "fem/motion/sliding_bodies.h"
 #include "fem/motion/transfer.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/same_elements.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
@@ -20,22 +21,26 @@ bool keeps_motion(const Beam& beam, MeshChange change) {
   return change == MeshChange::merge && beam.merge != MergeRule::standard;
 }
 
-// With the moves of a neighbouring motion where there are such.
+// `project(to)`: the motion on a mesh that does not keep it.
+template <class Project>
 std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, bool at_rest,
-                                   const std::vector<EnergyMove>* moves) {
+                                   const Project& project) {
   const BeamModel& model = at.system->model();
   const std::vector<bool> held(model.joints.size(), at_rest);
   auto to = at.system->replanned(next.plan, held);
   if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
     State carried = interpolated(*at.system, at.state, *to);
     if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};
-    return ChangedMesh{.now = {std::move(to), std::move(carried)}};
+    std::vector<int> around = changed_unknowns(*at.system, *to);
+    return ChangedMesh{.now = {std::move(to), std::move(carried)}, .around = std::move(around)};
   }
-  std::optional<Transferred> moved =
-      moves ? projected_like(*at.system, at.state, *to, *moves) : projected(*at.system, at.state, *to);
+  std::optional<Transferred> moved = project(*to);
   if (!moved) return {};
-  return ChangedMesh{
-      {std::move(to), std::move(moved->state)}, std::move(moved->impulse), std::move(moved->moves)};
+  std::vector<int> around = changed_unknowns(*at.system, *to);
+  return ChangedMesh{{std::move(to), std::move(moved->state)},
+                     std::move(moved->impulse),
+                     std::move(moved->moves),
+                     std::move(around)};
 }
 
 std::optional<Failure> go_on_there(MeshedState& at, std::optional<ChangedMesh> changed) {
@@ -55,16 +60,26 @@ MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
 }
 
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest) {
-  return changed(at, next, at_rest, nullptr);
+  return changed(
+      at, next, at_rest, [&](const BeamSystem& to) { return projected(*at.system, at.state, to); });
+}
+
+std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next,
+                                        const SystemEnergy& energy) {
+  return changed(
+      at, next, false, [&](const BeamSystem& to) { return projected(*at.system, at.state, energy, to); });
 }
 
 std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
-  return go_on_there(at, changed(at, next, at_rest, nullptr));
+  return go_on_there(at, changed_mesh(at, next, at_rest));
 }
 
 std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
                                         const std::vector<EnergyMove>& moves) {
-  return go_on_there(at, changed(at, next, false, &moves));
+  return go_on_there(
+      at, changed(
+              at, next, false,
+              [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, moves); }));
 }
 
 std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count) {

@@ -22,11 +22,15 @@ struct ChangedMesh {
   MeshedState now;
   Eigen::VectorXd impulse = {};        ///< of the projection (see Transferred); empty where there was none
   std::vector<EnergyMove> moves = {};  ///< see Transferred
+  std::vector<int> around = {};        ///< unknowns that changed (changed_unknowns)
 };
 
 /// On the mesh that length control asks for; `at_rest`: joints are held there, and there are no velocities to
 /// project. Empty where velocities cannot be projected.
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest);
+/// Of a motion whose energy is known.
+std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next,
+                                        const SystemEnergy& energy);
 
 /// Goes on there.
 [[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);

@@ -8,12 +8,16 @@
 
 namespace nurbeam {
 
-bool Run::restart() {
-  const bool consistent = change([time = shortest_time()](MeshedState& of) {
-    return make_accelerations_smooth(*of.system, time, of.state) == ConsistencyStatus::done;
+bool Run::restart(const std::vector<int>& changed) {
+  // Other methods than this one want accelerations that are consistent everywhere.
+  const std::vector<int> around =
+      std::holds_alternative<GeneralizedAlpha>(options.integrator) ? changed : std::vector<int>{};
+  const bool consistent = change([&around, time = shortest_time()](MeshedState& of) {
+    return make_accelerations_smooth(*of.system, time, around, of.state) == ConsistencyStatus::done;
   });
   if (!consistent) return fail(Failure::Kind::mass_matrix);
-  integrator = start_integrator(options.integrator, *at.system, at.state);
+  const Integrator* before = around.empty() ? nullptr : integrator.get();
+  integrator = start_integrator(options.integrator, *at.system, at.state, before);
   restarted = true;
   return true;
 }

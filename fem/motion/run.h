@@ -41,7 +41,10 @@ struct Run {
     if (observer.follower) observer.follower->changes(at, change);
   }
   /// New integrator from the present state, with consistent accelerations.
-  bool restart();
+  bool restart() { return restart({}); }
+  /// After a change of the mesh that left all but these unknowns as they were (changed_unknowns):
+  /// accelerations beyond what is near them are carried over.
+  bool restart(const std::vector<int>& around);
   /// Writes an event down.
   void note(RunEvent event);
 

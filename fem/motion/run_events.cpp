@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "fem/system/observables.h"
-
 namespace nurbeam {
 
 EventKind kind_of(MeshChange change) {
@@ -23,6 +21,11 @@ EventKind kind_of(MeshChange change) {
 }
 
 RunEvent event_before(const MeshedState& at, EventKind kind, int joint) {
+  return event_before(at, kind, joint,
+                      motion_sums(*at.system, at.state, at.system->model().joints[joint].beam));
+}
+
+RunEvent event_before(const MeshedState& at, EventKind kind, int joint, const MotionSums& sums) {
   const SlidingJoint& sliding = at.system->model().joints[joint];
   RunEvent event;
   event.time = at.state.t;
@@ -31,16 +34,20 @@ RunEvent event_before(const MeshedState& at, EventKind kind, int joint) {
   event.body = sliding.body;
   if (const auto s = place(*at.system, at.state, joint))
     event.s = at.system->model().beam_of(sliding).curve.wrapped(*s);
-  event.energy_before = energy(*at.system, at.state).mechanical();
-  event.momentum_before = momentum(*at.system, at.state);
-  event.length_before = beam_length(*at.system, at.state, sliding.beam);
+  event.energy_before = sums.energy.mechanical();
+  event.momentum_before = sums.momentum;
+  event.length_before = sums.length;
   return event;
 }
 
 void finish_event(const MeshedState& at, RunEvent& event) {
-  event.energy_after = energy(*at.system, at.state).mechanical();
-  event.momentum_after = momentum(*at.system, at.state);
-  event.length_after = beam_length(*at.system, at.state, event.beam);
+  finish_event(motion_sums(*at.system, at.state, event.beam), event);
+}
+
+void finish_event(const MotionSums& sums, RunEvent& event) {
+  event.energy_after = sums.energy.mechanical();
+  event.momentum_after = sums.momentum;
+  event.length_after = sums.length;
 }
 
 Eigen::Vector3d support_impulse(const MeshedState& at, const Eigen::VectorXd& impulse) {

@@ -30,10 +30,15 @@ bool change_due_mesh(Run& run) {
   for (int first = 0;;) {
     const NextPlan next = next_plan(*run.at.system, run.at.state, run.options.length_control, first);
     if (next.change == MeshChange::none) return false;
-    RunEvent event = event_before(run.at, kind_of(next.change), next.joint);
-    std::optional<ChangedMesh> changed = changed_mesh(run.at, next, false);
-    if (changed) finish_event(changed->now, event);
-    if (!changed || changes_energy(*changed->now.system, changed->now.state, event, run.report)) {
+    MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->joints[next.joint].beam);
+    RunEvent event = event_before(run.at, kind_of(next.change), next.joint, sums);
+    std::optional<ChangedMesh> changed = changed_mesh(run.at, next, sums.energy);
+    if (changed) {
+      sums = carried_sums(sums, *run.at.system, run.at.state, *changed->now.system, changed->now.state,
+                          event.beam);
+      finish_event(sums, event);
+    }
+    if (!changed || changes_energy(*run.model, sums.energy, event, run.report)) {
       if (!can_wait(*run.at.system, run.at.state, next)) {
         const double cost = event.energy_after - event.energy_before;
         refuse(run, next, changed ? std::optional(cost) : std::nullopt);
@@ -50,7 +55,7 @@ bool change_due_mesh(Run& run) {
       const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
       return !change_mesh_like(of, same, changed->moves);
     });
-    if (!run.restart()) return false;
+    if (!run.restart(changed->around)) return false;
     run.at.state = run.integrator->state();
     event.support_impulse = support_impulse(run.at, changed->impulse);
     run.note(std::move(event));

@@ -13,17 +13,24 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
+#include "fem/system/same_elements.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
 
 namespace {
 
+constexpr int no_beam = -1;
+
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
  public:
   Remap(const BeamSystem& from, const State& state, const BeamSystem& to)
-      : from_(from), state_(state), to_(to), enough_(closed_enough(from, state)), old_(energy(from, state)) {}
+      : from_(from),
+        state_(state),
+        to_(to),
+        around_(changed_unknowns(from, to)),
+        enough_(closed_enough(from, state)) {}
 
   // The velocities for the places next.q, by L2 projection: nothing when that is singular.
   std::optional<Transferred> with_velocities(State next) const {
@@ -38,7 +45,7 @@ class Remap {
     }
     carry_bodies(to_, next);
     if (!close_constraints(to_, enough_, next)) return std::nullopt;
-    const Projection projection = velocities_from_momentum(to_, momentum_on(next), next);
+    const Projection projection = velocities_from_momentum(to_, momentum_on(next), around_, next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
   }
@@ -46,10 +53,10 @@ class Remap {
   // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
   // axial strain that the old ones had not, and where these cannot bring it, their neighbours too, ring by
   // ring.
-  void keep_energy(Transferred& next) const {
+  void keep_energy(const SystemEnergy& old, Transferred& next) const {
     constexpr double accuracy = 1e-10;
     const double enough =
-        accuracy * (old_.kinetic + old_.axial + old_.bending);  // the same wherever the model lies
+        accuracy * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
     double e = excess(next.state);
     constexpr int most_rings = 4;
     for (int rings = 0; rings <= most_rings && std::abs(e) > enough; ++rings) {
@@ -79,7 +86,9 @@ class Remap {
   }
 
  private:
-  double excess(const State& x) const { return energy(to_, x).mechanical() - old_.mechanical(); }
+  double excess(const State& x) const {
+    return carried_sums({}, from_, state_, to_, x, no_beam).energy.mechanical();
+  }
 
   // The free coordinates moved on; nothing where that cannot be.
   std::optional<Transferred> with_move(const State& from, const std::vector<int>& free,
@@ -231,8 +240,8 @@ class Remap {
   const BeamSystem& from_;
   const State& state_;
   const BeamSystem& to_;
-  const double enough_;  // of closed constraints
-  const SystemEnergy old_;
+  const std::vector<int> around_;  // where rows of the new mesh may be open
+  const double enough_;            // of closed constraints
 };
 
 // Position, slopes, sections and place of a node that the old mesh had too.
@@ -240,6 +249,7 @@ void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, i
   const auto copy = [&](int target, int source, int n) {
     next.q.segment(target, n) = state.q.segment(source, n);
     next.v.segment(target, n) = state.v.segment(source, n);
+    next.a.segment(target, n) = state.a.segment(source, n);
   };
   copy(node.r, kept.r, D);
   copy(node.slope_left, kept.slope_left, D);
@@ -301,7 +311,8 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   next.memory = state.memory;
   next.q = planned_places(to.mesh());
   next.v = next.a = Eigen::VectorXd::Zero(to.coordinate_count());
-  next.lambda = Eigen::VectorXd::Zero(to.constraint_count());
+  next.lambda = state.lambda;
+  if (next.lambda.size() != to.constraint_count()) next.lambda.setZero(to.constraint_count());
   const int D = to.dimension();
   const Mesh &old = from.mesh(), &mesh = to.mesh();
   std::vector<std::pair<int, int>> added;  // beam, node
@@ -319,11 +330,13 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
     next.q.segment(mesh.bodies[body], D) = state.q.segment(old.bodies[body], D);
     next.v.segment(mesh.bodies[body], D) = state.v.segment(old.bodies[body], D);
+    next.a.segment(mesh.bodies[body], D) = state.a.segment(old.bodies[body], D);
   }
   for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
     if (mesh.joints[j].place < 0 || old.joints[j].place < 0) continue;
     next.q[mesh.joints[j].place] = state.q[old.joints[j].place];
     next.v[mesh.joints[j].place] = state.v[old.joints[j].place];
+    next.a[mesh.joints[j].place] = state.a[old.joints[j].place];
   }
   set_bubbles(from, state, to, next);
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
@@ -335,11 +348,16 @@ double closed_enough(const BeamSystem& from, const State& state) {
   return std::max(open_constraints(from, state), 1e-12 * state.q.lpNorm<Eigen::Infinity>());
 }
 
-std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to) {
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const SystemEnergy& energy,
+                                     const BeamSystem& to) {
   const Remap remap(from, state, to);
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
-  if (next) remap.keep_energy(*next);
+  if (next) remap.keep_energy(energy, *next);
   return next;
+}
+
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to) {
+  return projected(from, state, energy(from, state), to);
 }
 
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,

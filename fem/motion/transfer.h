@@ -2,13 +2,15 @@
 #include <optional>
 #include <vector>
 
+#include "fem/forces/energy.h"
 #include "fem/motion/mesh_rules.h"
 
 namespace nurbeam {
 
 /// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them and their rates from the
 /// old curve, moved by match_axial_strain(). Where nodes were only inserted (a split) the axial energy is the
-/// old one, and with the pointwise strain the motion is. t, q and v are set; a and lambda are zero.
+/// old one, and with the pointwise strain the motion is. Accelerations are those of kept nodes and of bodies,
+/// of new nodes zero; multipliers stay where they are as many, else they are zero.
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to);
 
 /// A move of nodes towards the energy of before: those of new elements and of rings of neighbours around
@@ -38,6 +40,9 @@ double closed_enough(const BeamSystem& from, const State& state);
 /// reached it comes as near as they bring it. Returns nullopt when the projection is singular or the
 /// constraints cannot be closed.
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);
+/// With the energy of (from, state), where that is known.
+std::optional<Transferred> projected(const BeamSystem& from, const State& state, const SystemEnergy& energy,
+                                     const BeamSystem& to);
 /// The same with these moves, whatever they bring, so that it is a smooth function of the state and of the
 /// model: where `moves` are those of a neighbouring motion, as far away from the energy's own as that one is.
 /// nullopt also where they cannot be made.

@@ -34,7 +34,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
   const Eigen::VectorXd drawn = planned_places(mesh_);
-  batch_elements();
+  batch_elements(like);
   Binding<D> binding{beams(), drawn, held};
   bind_constraints(binding);
   bind_forces(binding);
@@ -42,25 +42,49 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   choose_moving_part();
 }
 
+// A batch of another mesh is taken over where it has the same elements with the same coordinates.
 template <int D>
-void Assembly<D>::batch_elements() {
+void Assembly<D>::batch_elements(const Assembly* like) {
   walks_.resize(model_->beams.size());
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
     auto& [batches, batched, others] = walks_[e.beam];
-    if (e.twist || !ElementBatch<D>::takes(e.element)) {
-      others.push_back(i);
-      continue;
-    }
-    if (batches.empty()) {
-      const auto count = static_cast<std::size_t>(mesh_.first_span[e.beam + 1] - i);
-      batches.reserve(count / ElementBatch<D>::lanes + 1);
-      batched.reserve(count);
-    }
-    if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
-    batches.back().add(e.element, e.dofs, e.slope_offset);
-    batched.push_back(i);
+    (e.twist || !ElementBatch<D>::takes(e.element) ? others : batched).push_back(i);
   }
+  constexpr int lanes = ElementBatch<D>::lanes;
+  for (int b = 0; b < static_cast<int>(walks_.size()); ++b) {
+    auto& [batches, batched, others] = walks_[b];
+    const int count = static_cast<int>(batched.size());
+    batches.reserve(static_cast<std::size_t>((count + lanes - 1) / lanes));
+    for (int first = 0; first < count; first += lanes) {
+      const int k = first / lanes;
+      if (like && has_batch(b, k, *like)) {
+        batches.push_back(like->walks_[b].batches[k]);
+        continue;
+      }
+      batches.emplace_back(model_->beams[b].properties);
+      for (int i = first; i < std::min(first + lanes, count); ++i) {
+        const MeshElement<D>& e = elements_[batched[i]];
+        batches.back().add(e.element, e.dofs, e.slope_offset);
+      }
+    }
+  }
+}
+
+// Whether the other system's batch k of a beam is that of this one.
+template <int D>
+bool Assembly<D>::has_batch(int beam, int k, const Assembly& like) const {
+  constexpr int lanes = ElementBatch<D>::lanes;
+  const std::vector<int>&own = walks_[beam].batched, &others = like.walks_[beam].batched;
+  const int first = k * lanes, end = std::min(first + lanes, static_cast<int>(own.size()));
+  if (end != std::min(first + lanes, static_cast<int>(others.size()))) return false;
+  for (int i = first; i < end; ++i) {
+    const MeshElement<D>&e = elements_[own[i]], &other = like.elements_[others[i]];
+    if (e.s_a != other.s_a || e.s_b != other.s_b || e.dofs != other.dofs ||
+        !(e.element.chart() == other.element.chart()))
+      return false;
+  }
+  return true;
 }
 
 template <int D>
@@ -268,6 +292,17 @@ void Assembly<D>::add_forces_and_constraints(const State& state, Eigen::Ref<Eige
         dynamics[block.block.dofs[k]] +=
             terms.gradient.col(static_cast<Eigen::Index>(k)).dot(state.lambda.segment(block.row, rows));
   }
+}
+
+template <int D>
+void Assembly<D>::constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const {
+  const MeshedBeams<D> at = beams();
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    std::visit(
+        [&](const auto& c) {
+          constraints.segment(constraint_blocks_[i].row, c.rows) = c.terms(at, state, nullptr).value;
+        },
+        constraints_[i]);
 }
 
 template <int D>

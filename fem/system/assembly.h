@@ -89,8 +89,11 @@ class Assembly final : public SecondOrderSystem {
   int constraint_count() const override { return constraint_count_; }
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
-  Eigen::SparseMatrix<double> tangent_pattern() const override { return pattern_; }
+  void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
+  const Eigen::SparseMatrix<double>& tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
+                    double* values) const override;
   /// Of elements whose ends move and of the places of joints, and what constraints tie to them.
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
@@ -132,9 +135,13 @@ class Assembly final : public SecondOrderSystem {
     std::vector<ElementBatch<D>> batches;
     std::vector<int> batched, others;
   };
+  template <class Wanted>
   struct Sink;
+  struct All;
+  struct Near;
 
-  void batch_elements();
+  void batch_elements(const Assembly* like);
+  bool has_batch(int beam, int k, const Assembly& like) const;
   void bind_constraints(Binding<D>& binding);
   void bind_forces(const Binding<D>& binding);
   void build_pattern();
@@ -151,7 +158,11 @@ class Assembly final : public SecondOrderSystem {
   Vector line_load(int beam, const State& state) const;
   void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
                            const Block& block, const Block& twist_block, double* values) const;
-  void add_batch_tangents(int beam, const State& state, const TangentWeights& w, double* values) const;
+  template <class Wanted>
+  void add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted, double* values) const;
+  template <class Wanted>
+  void add_batch_tangents(int beam, const State& state, const TangentWeights& w, const Wanted& wanted,
+                          double* values) const;
   void add_constraint_tangent(int i, const State& state, const TangentWeights& w,
                               const ConstraintBlock& block, double* values) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;

@@ -11,11 +11,30 @@ namespace nurbeam {
 
 namespace {
 
-int value_index(const Eigen::SparseMatrix<double>& A, int row, int column) {
-  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
-}
+// Where the entries of a sparse matrix are among its values.
+struct SparsePlaces {
+  const Eigen::SparseMatrix<double>& of;
+
+  int start(int column) const { return of.outerIndexPtr()[column]; }
+  /// `guess`: how far it may be from the start of its column.
+  int operator()(int row, int column, int guess) const {
+    const int* const all = of.innerIndexPtr();
+    const int begin = start(column), end = start(column + 1);
+    if (guess < end - begin && all[begin + guess] == row) return begin + guess;
+    return static_cast<int>(std::lower_bound(all + begin, all + end, row) - all);
+  }
+};
+
+// The same of the dense matrix of some unknowns, in order.
+struct DensePlaces {
+  const std::vector<int>& unknowns;
+
+  int place(int unknown) const {
+    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  }
+  int start(int column) const { return place(column) * static_cast<int>(unknowns.size()); }
+  int operator()(int row, int column, int) const { return start(column) + place(row); }
+};
 
 // The coordinates of a bound force in its own block, where it has one.
 template <class Force>
@@ -36,19 +55,51 @@ void Assembly<D>::scatter(const Block& block, const Matrix& matrix, double* valu
     for (int i = 0; i < run.count; ++i) values[run.value + i] += matrix(run.row + i, run.column);
 }
 
+// Of which contributions the tangents are asked for: all, or those to the rows of unknowns that are near.
+template <int D>
+struct Assembly<D>::All {
+  bool operator()(int) const { return true; }
+  bool operator()(const Block&) const { return true; }
+  bool operator()(const ConstraintBlock&) const { return true; }
+};
+template <int D>
+struct Assembly<D>::Near {
+  const Assembly& of;
+  const std::vector<bool>& near;
+
+  bool operator()(const Block& block) const {
+    return std::any_of(
+        block.dofs.begin(), block.dofs.end(), [&](int dof) { return dof >= 0 && near[dof]; });
+  }
+  bool operator()(int element) const {
+    return (*this)(of.element_blocks_[element]) || (*this)(of.twist_blocks_[element]);
+  }
+  bool operator()(const ConstraintBlock& constraint) const {
+    const auto first = near.begin() + of.mesh_.coordinate_count + constraint.row;
+    return (*this)(constraint.block) ||
+           std::find(first, first + constraint.rows, true) != first + constraint.rows;
+  }
+};
+
 // Takes the tangent matrices of one force.
 template <int D>
+template <class Wanted>
 struct Assembly<D>::Sink {
   const std::vector<Block>&element_blocks, &twist_blocks;
   const Block& own_block;
+  const Wanted& wanted;
   double* values;
 
-  void element(int index, const ElementMatrix<D>& K) const { scatter(element_blocks[index], K, values); }
+  void element(int index, const ElementMatrix<D>& K) const {
+    if (wanted(index)) scatter(element_blocks[index], K, values);
+  }
   /// In the coordinates of an element with its sections.
-  void twist(int index, const TwistLayout::Matrix& K) const { scatter(twist_blocks[index], K, values); }
+  void twist(int index, const TwistLayout::Matrix& K) const {
+    if (wanted(index)) scatter(twist_blocks[index], K, values);
+  }
   template <class Matrix>
   void own(const Matrix& K) const {
-    scatter(own_block, K, values);
+    if (wanted(own_block)) scatter(own_block, K, values);
   }
 };
 
@@ -79,7 +130,7 @@ void Assembly<D>::build_pattern() {
   }
   coupling.pattern().swap(pattern_);
 
-  const auto index_of = [&](int i, int j) { return value_index(pattern_, i, j); };
+  const SparsePlaces index_of{pattern_};
   for (Block& block : element_blocks_) locate(block, index_of);
   for (Block& block : twist_blocks_) locate(block, index_of);
   for (Block& block : force_blocks_) locate(block, index_of);
@@ -87,7 +138,8 @@ void Assembly<D>::build_pattern() {
 }
 
 // Puts down where the entries of a block are; `index_of` gives that of a row and a column. Rows that follow
-// one another do so among all entries, which hold each of them.
+// one another do so among all entries, which hold each of them. In the columns of one node they are as far
+// from the start.
 template <int D>
 template <class IndexOf>
 void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
@@ -100,15 +152,18 @@ void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
   }
   block.runs.clear();
   block.runs.reserve(columns * runs);
+  int previous = -1;  // start of the column before
   for (std::size_t j = 0; j < size; ++j) {
     if (dofs[j] < 0) continue;
     for (std::size_t i = 0; i < size;) {
       const std::size_t first = i++;
       if (dofs[first] < 0) continue;
       while (i < size && dofs[i] == dofs[i - 1] + 1) ++i;
-      block.runs.push_back({index_of(dofs[first], dofs[j]), static_cast<std::uint8_t>(j),
+      const int guess = previous < 0 ? 0 : block.runs[block.runs.size() - runs].value - previous;
+      block.runs.push_back({index_of(dofs[first], dofs[j], guess), static_cast<std::uint8_t>(j),
                             static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(i - first)});
     }
+    previous = index_of.start(dofs[j]);
   }
 }
 
@@ -121,8 +176,8 @@ void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const 
   block.transposed_values.clear();
   for (int dof : block.block.dofs)
     for (int r = block.row; r < block.row + block.rows; ++r) {
-      block.gradient_values.push_back(dof >= 0 ? index_of(n + r, dof) : -1);
-      block.transposed_values.push_back(dof >= 0 ? index_of(dof, n + r) : -1);
+      block.gradient_values.push_back(dof >= 0 ? index_of(n + r, dof, 0) : -1);
+      block.transposed_values.push_back(dof >= 0 ? index_of(dof, n + r, 0) : -1);
     }
 }
 
@@ -179,12 +234,7 @@ void Assembly<D>::choose_moving_part() {
     moving_ = {};
     return;
   }
-  const auto place_of = [&](int unknown) {
-    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
-  };
-  const auto index_of = [&](int i, int j) {
-    return place_of(i) + place_of(j) * static_cast<int>(unknowns.size());
-  };
+  const DensePlaces index_of{unknowns};
   for (Block& block : moving_.element_blocks) locate(block, index_of);
   for (Block& block : moving_.twist_blocks) locate(block, index_of);
   for (ConstraintBlock& block : moving_.constraint_blocks) locate(block, index_of);
@@ -202,20 +252,26 @@ void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& l
     if (e.twist) scatter(twist_block, e.twist->element.tangent(gather_twist(e, state), w), values);
 }
 
-// Of all batches of a beam.
+// Of all batches of a beam that hold a wanted element.
 template <int D>
+template <class Wanted>
 void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
-                                     double* values) const {
+                                     const Wanted& wanted, double* values) const {
   const auto& batches = walks_[beam].batches;
   const auto& batched = walks_[beam].batched;
   if (batches.empty()) return;  // a guide has no elements
   const double strain = free_strain_of(beam, state);
   for_each_batch(walks_[beam], [&](int i) {
+    const int* begin = batched.data() + i * ElementBatch<D>::lanes;
+    const int count = batches[i].count();
+    if (std::none_of(begin, begin + count, wanted)) return;
     typename ElementBatch<D>::Tangents K;
     batches[i].tangents(state, strain, w, K);
-    for (int lane = 0; lane < batches[i].count(); ++lane)
-      for (const Run& run : element_blocks_[batched[i * ElementBatch<D>::lanes + lane]].runs)
+    for (int lane = 0; lane < count; ++lane) {
+      if (!wanted(begin[lane])) continue;
+      for (const Run& run : element_blocks_[begin[lane]].runs)
         for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of[lane];
+    }
   });
 }
 
@@ -241,26 +297,26 @@ void Assembly<D>::add_constraint_tangent(int i, const State& state, const Tangen
       constraints_[i]);
 }
 
+// Of what is wanted.
 template <int D>
-void Assembly<D>::tangent(const State& state, const TangentWeights& w,
-                          Eigen::SparseMatrix<double>& kkt) const {
+template <class Wanted>
+void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted,
+                               double* values) const {
   const MeshedBeams<D> at = beams();
-  double* values = kkt.valuePtr();
-  std::fill(values, values + kkt.nonZeros(), 0.0);
   const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
   for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
     const Vector load = line_load(b, state);
     const auto add_one = [&](int i) {
-      add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
+      if (wanted(i)) add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
     };
     if (model_->beams[b].properties.is_damped())
       std::for_each(walks_[b].batched.begin(), walks_[b].batched.end(), add_one);
     else
-      add_batch_tangents(b, state, w, values);
+      add_batch_tangents(b, state, w, wanted, values);
     std::for_each(walks_[b].others.begin(), walks_[b].others.end(), add_one);
   }
   for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
-    const Sink sink{element_blocks_, twist_blocks_, force_blocks_[i], values};
+    const Sink<Wanted> sink{element_blocks_, twist_blocks_, force_blocks_[i], wanted, values};
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
@@ -271,7 +327,21 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
         forces_[i]);
   }
   for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
-    add_constraint_tangent(i, state, w, constraint_blocks_[i], values);
+    if (wanted(constraint_blocks_[i])) add_constraint_tangent(i, state, w, constraint_blocks_[i], values);
+}
+
+template <int D>
+void Assembly<D>::tangent(const State& state, const TangentWeights& w,
+                          Eigen::SparseMatrix<double>& kkt) const {
+  double* values = kkt.valuePtr();
+  std::fill(values, values + kkt.nonZeros(), 0.0);
+  add_tangents(state, w, All{}, values);
+}
+
+template <int D>
+void Assembly<D>::tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
+                               double* values) const {
+  add_tangents(state, w, Near{*this, near}, values);
 }
 
 template <int D>
@@ -291,6 +361,10 @@ template void Assembly<2>::choose_moving_part();
 template void Assembly<3>::choose_moving_part();
 template void Assembly<2>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
 template void Assembly<3>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
+template void Assembly<2>::tangent_near(const State&, const TangentWeights&, const std::vector<bool>&,
+                                        double*) const;
+template void Assembly<3>::tangent_near(const State&, const TangentWeights&, const std::vector<bool>&,
+                                        double*) const;
 template void Assembly<2>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
 template void Assembly<3>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
 

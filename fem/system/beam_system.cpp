@@ -63,10 +63,17 @@ void BeamSystem::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynami
                           Eigen::Ref<Eigen::VectorXd> constraints) const {
   system_->residual(state, dynamics, constraints);
 }
-Eigen::SparseMatrix<double> BeamSystem::tangent_pattern() const { return system_->tangent_pattern(); }
+void BeamSystem::constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const {
+  system_->constraints(state, constraints);
+}
+const Eigen::SparseMatrix<double>& BeamSystem::tangent_pattern() const { return system_->tangent_pattern(); }
 void BeamSystem::tangent(const State& state, const TangentWeights& w,
                          Eigen::SparseMatrix<double>& kkt) const {
   system_->tangent(state, w, kkt);
+}
+void BeamSystem::tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
+                              double* values) const {
+  system_->tangent_near(state, w, near, values);
 }
 const std::vector<int>& BeamSystem::moving_unknowns() const { return system_->moving_unknowns(); }
 void BeamSystem::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {

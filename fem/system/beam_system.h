@@ -41,8 +41,11 @@ class BeamSystem final : public SecondOrderSystem {
   int constraint_count() const override;
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
-  Eigen::SparseMatrix<double> tangent_pattern() const override;
+  void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
+  const Eigen::SparseMatrix<double>& tangent_pattern() const override;
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
+                    double* values) const override;
   const std::vector<int>& moving_unknowns() const override;
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;

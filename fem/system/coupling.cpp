@@ -13,11 +13,25 @@ Eigen::SparseMatrix<double> Coupling::pattern() const {
   for (int g = 0; g + 1 < static_cast<int>(group_starts_.size()); ++g)
     for (int k = group_starts_[g]; k < group_starts_[g + 1]; ++k) groups[next[members_[k]]++] = g;
 
+  // Of unknowns in the same groups, as those of one node are, the columns have the same rows.
+  const auto is_like_previous = [&](int column) {
+    if (column == 0) return false;
+    const int begin = first_group[column], end = first_group[column + 1], before = first_group[column - 1];
+    return begin < end && end - begin == begin - before &&
+           std::equal(groups.begin() + begin, groups.begin() + end, groups.begin() + before);
+  };
   std::vector<int> rows, last_column(static_cast<std::size_t>(size_), -1);
   rows.reserve(2 * members_.size());
   Eigen::SparseMatrix<double> matrix(size_, size_);
   for (int column = 0; column < size_; ++column) {
     const auto begin = static_cast<std::ptrdiff_t>(rows.size());
+    if (is_like_previous(column)) {
+      const auto previous = matrix.outerIndexPtr()[column - 1];
+      rows.resize(rows.size() + static_cast<std::size_t>(begin - previous));
+      std::copy_n(rows.begin() + previous, begin - previous, rows.begin() + begin);
+      matrix.outerIndexPtr()[column + 1] = static_cast<int>(rows.size());
+      continue;
+    }
     const auto take = [&](int row) {
       if (last_column[row] == column) return;
       last_column[row] = column;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
+#include "fem/system/same_elements.h"
 #include "fem/system/with_assembly.h"
 
 namespace nurbeam {
@@ -188,28 +189,6 @@ void add_momentum(const MeshElement<D>& e, const State& state,
     }
 }
 
-// Per element of `to` that of `from` which is the same, with fixed ends and without torsion; none where there
-// is no such.
-template <int D>
-std::vector<const MeshElement<D>*> unchanged_elements(const Assembly<D>& to, const Assembly<D>& from) {
-  std::vector<const MeshElement<D>*> same(to.elements().size(), nullptr);
-  for (std::size_t beam = 0; beam + 1 < to.mesh().first_span.size(); ++beam) {
-    int k = from.mesh().first_span[beam];
-    const int end = from.mesh().first_span[beam + 1];
-    for (int i = to.mesh().first_span[beam]; i < to.mesh().first_span[beam + 1]; ++i) {
-      const MeshElement<D>& e = to.elements()[i];
-      while (k < end && from.elements()[k].s_a < e.s_a) ++k;
-      if (k == end) break;
-      const MeshElement<D>& old = from.elements()[k];
-      if (old.s_a == e.s_a && old.s_b == e.s_b && old.element.fixed() && e.element.fixed() && !e.twist &&
-          old.element.chart().segment == e.element.chart().segment &&
-          old.element.chart().constant_weights == e.element.chart().constant_weights)
-        same[i] = &old;
-    }
-  }
-  return same;
-}
-
 // The momentum of an element that moves as it does in another mesh.
 template <int D>
 void add_momentum(const MeshElement<D>& e, const MeshElement<D>& same, const State& motion,
@@ -357,10 +336,10 @@ Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& stat
   std::vector<std::vector<double>> places;
   for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b) places.push_back(breaks(b));
   with_assembly(system, [&]<int N>(const Assembly<N>& assembly) {
-    const auto same = unchanged_elements<N>(assembly, *from.assembly<N>());
+    const auto same = same_elements<N>(assembly, *from.assembly<N>());
     for (std::size_t i = 0; i < same.size(); ++i) {
       const MeshElement<N>& e = assembly.elements()[i];
-      if (same[i])
+      if (same[i] && e.element.fixed() && !e.twist)
         add_momentum<N>(e, *same[i], motion, p);
       else
         add_momentum(e, state, field, places[e.beam], p);

@@ -2,6 +2,7 @@
 
 #include "fem/mesh/connector_axis.h"
 #include "fem/mesh/widened.h"
+#include "fem/system/same_elements.h"
 #include "fem/system/with_assembly.h"
 
 namespace nurbeam {
@@ -16,25 +17,33 @@ void add_twist_energy(const MeshElement<3>& e, const State& state, SystemEnergy&
   sum.dissipation += part.dissipation;
 }
 
+void add_axis_energy(const ElementEnergy& axis, SystemEnergy& sum) {
+  sum.kinetic += axis.kinetic;
+  sum.axial += axis.axial;
+  sum.bending += axis.bending;
+  sum.gravity += axis.external;
+  sum.dissipation += axis.dissipation;
+}
+
 template <int D>
-SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
-  SystemEnergy sum;
+void add_force_energies(const Assembly<D>& a, const State& state, SystemEnergy& sum) {
   const MeshedBeams<D> at = a.beams();
-  const ElementEnergy axes = a.axis_energy(state);
-  sum.kinetic = axes.kinetic;
-  sum.axial = axes.axial;
-  sum.bending = axes.bending;
-  sum.gravity = axes.external;
-  sum.dissipation = axes.dissipation;
-  if constexpr (D == 3)
-    for (const MeshElement<D>& e : a.elements())
-      if (e.twist) add_twist_energy(e, state, sum);
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.add_energy(at, state, sum); }) f.add_energy(at, state, sum);
         },
         force);
+}
+
+template <int D>
+SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
+  SystemEnergy sum;
+  add_axis_energy(a.axis_energy(state), sum);
+  if constexpr (D == 3)
+    for (const MeshElement<D>& e : a.elements())
+      if (e.twist) add_twist_energy(e, state, sum);
+  add_force_energies(a, state, sum);
   return sum;
 }
 
@@ -82,30 +91,88 @@ double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
 }
 
 template <int D>
-Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
+Eigen::Matrix<double, D, 1> momentum_of(const MeshElement<D>& e, const ElementState<D>& x,
+                                        const State& state) {
   using Layout = ElementLayout<D>;
-  Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
-  for (const MeshElement<D>& e : a.elements()) {
-    const ElementState<D> x = gather<D>(e, state);
-    if (e.element.fixed()) {
-      const ElementNodes<D> nodal = e.element.nodal_momentum(x.node_rates());
-      sum += nodal.col(0) + nodal.col(2);
-      continue;
-    }
-    const ElementVector<D>& q = x.q;
-    const double rho = e.element.properties().mass_per_length;
-    e.element.for_each_point(q[Layout::place(0)], q[Layout::place(1)],
-                             [&](const ShapeFunctions<double>&, double s, double weight) {
-                               sum += rho * weight * material_point<D>(e, state.q, state.v, s).velocity;
-                             });
+  if (e.element.fixed()) {
+    const ElementNodes<D> nodal = e.element.nodal_momentum(x.node_rates());
+    return nodal.col(0) + nodal.col(2);
   }
+  Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
+  const double rho = e.element.properties().mass_per_length;
+  e.element.for_each_point(x.q[Layout::place(0)], x.q[Layout::place(1)],
+                           [&](const ShapeFunctions<double>&, double s, double weight) {
+                             sum += rho * weight * material_point<D>(e, state.q, state.v, s).velocity;
+                           });
+  return sum;
+}
+
+template <int D>
+void add_force_momenta(const Assembly<D>& a, const State& state, Eigen::Matrix<double, D, 1>& sum) {
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.momentum(state); }) sum += f.momentum(state);
+          if constexpr (
+              requires { f.momentum(state); })
+            sum += f.momentum(state);
         },
         force);
+}
+
+template <int D>
+Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
+  Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
+  for (const MeshElement<D>& e : a.elements()) sum += momentum_of<D>(e, gather<D>(e, state), state);
+  add_force_momenta(a, state, sum);
   return widened<D>(sum);
+}
+
+// The sums over forces and some elements.
+template <int D>
+MotionSums sums_of(const Assembly<D>& a, const State& state, int beam,
+                   const std::vector<const MeshElement<D>*>& elements) {
+  MotionSums sums;
+  Eigen::Matrix<double, D, 1> momentum = Eigen::Matrix<double, D, 1>::Zero();
+  for (const MeshElement<D>* e : elements) {
+    const ElementState<D> x = gather<D>(*e, state);
+    add_axis_energy(
+        e->element.energy(x, e->element.properties().mass_per_length * a.model()->gravity.template head<D>()),
+        sums.energy);
+    if constexpr (D == 3)
+      if (e->twist) add_twist_energy(*e, state, sums.energy);
+    momentum += momentum_of<D>(*e, x, state);
+    if (e->beam == beam) sums.length += e->element.length(x.q);
+  }
+  add_force_energies(a, state, sums.energy);
+  add_force_momenta(a, state, momentum);
+  sums.momentum = widened<D>(momentum);
+  return sums;
+}
+
+void add(const MotionSums& other, double factor, MotionSums& sums) {
+  SystemEnergy& energy = sums.energy;
+  energy.kinetic += factor * other.energy.kinetic;
+  energy.gravity += factor * other.energy.gravity;
+  energy.axial += factor * other.energy.axial;
+  energy.bending += factor * other.energy.bending;
+  energy.torsion += factor * other.energy.torsion;
+  energy.spring += factor * other.energy.spring;
+  energy.dissipation += factor * other.energy.dissipation;
+  sums.momentum += factor * other.momentum;
+  sums.length += factor * other.length;
+}
+
+// Whether an element moves as another, the same, does: exactly so.
+template <int D>
+bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<D>& other,
+                 const State& other_state) {
+  if (e.twist || e.start(state.q) != other.start(other_state.q) || e.end(state.q) != other.end(other_state.q))
+    return false;
+  for (int k = 0; k < element_size<D>; ++k) {
+    const int i = e.dofs[k], j = other.dofs[k];
+    if (i >= 0 && (state.q[i] != other_state.q[j] || state.v[i] != other_state.v[j])) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -155,6 +222,35 @@ std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const St
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state) {
   return with_assembly(
       system, [&](const auto& a) { return momentum_of(a, state); });
+}
+
+MotionSums motion_sums(const BeamSystem& system, const State& state, int beam) {
+  return {energy(system, state), momentum(system, state), beam_length(system, state, beam)};
+}
+
+MotionSums carried_sums(const MotionSums& sums, const BeamSystem& from, const State& state,
+                        const BeamSystem& to, const State& next, int beam) {
+  return with_assembly(
+      to,
+      [&]<int D>(const Assembly<D>& fresh) {
+        const Assembly<D>& old = *from.assembly<D>();
+        const std::vector<const MeshElement<D>*> same = same_elements(fresh, old);
+        std::vector<const MeshElement<D>*> added, removed;
+        std::vector<bool> stays(old.elements().size(), false);
+        for (std::size_t i = 0; i < same.size(); ++i) {
+          const MeshElement<D>& e = fresh.elements()[i];
+          if (same[i] && moves_alike(e, next, *same[i], state))
+            stays[static_cast<std::size_t>(same[i] - old.elements().data())] = true;
+          else
+            added.push_back(&e);
+        }
+        for (std::size_t i = 0; i < stays.size(); ++i)
+          if (!stays[i]) removed.push_back(&old.elements()[i]);
+        MotionSums carried = sums;
+        add(sums_of(fresh, next, beam, added), 1, carried);
+        add(sums_of(old, state, beam, removed), -1, carried);
+        return carried;
+      });
 }
 
 Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, int first) {

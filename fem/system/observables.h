@@ -16,6 +16,17 @@ double input_work(const BeamSystem& system, const State& from, const State& to);
 double lost_energy(const BeamSystem& system, const State& from, const State& to);
 /// Linear momentum [N s] of beams and bodies.
 Eigen::Vector3d momentum(const BeamSystem& system, const State& state);
+/// Sums over all elements of a motion.
+struct MotionSums {
+  SystemEnergy energy;
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< as momentum() has it [N s]
+  double length = 0;                                   ///< of one beam, deformed [m]
+};
+MotionSums motion_sums(const BeamSystem& system, const State& state, int beam);
+/// Those of a motion `next` on another mesh, from those of (from, state): of the elements that are in both
+/// and move alike nothing is found anew. Sums of the others from both sides are to round-off those of all.
+MotionSums carried_sums(const MotionSums& sums, const BeamSystem& from, const State& state,
+                        const BeamSystem& to, const State& next, int beam);
 /// y(first), ... as a vector in space, z = 0 in the plane.
 Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, int first);
 /// Deformed length of a beam [m].

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -135,7 +136,41 @@ TEST(BandOrder, LeavesUnknownsOutAndPutsWhatIsCoupledWithThemLast) {
       if (parts.unknown[k] / 5 != first / 5) return false;
     return true;
   };
-  EXPECT_TRUE(ends_with(25, 25) && ends_with(45, 15)) << "the blocks beside it";
+  EXPECT_TRUE(ends_with(20, 15) && ends_with(45, 25)) << "the blocks beside it";
+}
+
+/// A chain of blocks of four, numbered one after the other, of which the first and the last are held by two
+/// multipliers at the end of all numbers, and the ninth is left out.
+TEST(BandOrder, TakesAChainAsItIsNumberedWithItsMultipliersBesideIt) {
+  constexpr int size = 4, links = 20, n = size * links;
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n + 4, n + 4);
+  for (int k = 0; k + 1 < links; ++k) chain.block<2 * size, 2 * size>(size * k, size * k).setOnes();
+  for (int r = 0; r < 4; ++r) {
+    const int held = r < 2 ? r : n - size + r;
+    chain(n + r, held) = chain(held, n + r) = 1;
+  }
+  const auto last_block = [](const BandOrder& order, int end) { return order.unknown[end - 1] / size; };
+  const BandOrder whole(chain.sparseView());
+  EXPECT_LE(whole.half_bandwidth, 2 * size + 1);
+  EXPECT_EQ(whole.unknown.size(), static_cast<std::size_t>(n + 4));
+  const BandOrder parts(chain.sparseView(), {36, 37, 38, 39});
+  EXPECT_LE(parts.half_bandwidth, 2 * size + 1);
+  EXPECT_EQ(last_block(parts, 38), 8) << "before what is left out";
+  EXPECT_EQ(last_block(parts, n), 10) << "behind it, turned round";
+  std::vector<int> sorted = parts.unknown;
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  EXPECT_EQ(sorted.size(), static_cast<std::size_t>(n));
+}
+
+TEST(BandOrder, IsByLevelsWhereTheNumbersAreFarApart) {
+  constexpr int n = 200;
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Identity(n, n);
+  for (int k = 0; k + 1 < n; ++k) {
+    const int a = 77 * k % n, b = 77 * (k + 1) % n;
+    chain(a, b) = chain(b, a) = 1;
+  }
+  EXPECT_EQ(BandOrder(chain.sparseView()).half_bandwidth, 1);
 }
 
 }  // namespace

@@ -8,11 +8,11 @@ namespace nurbeam::testing {
 /// A small system given by dense matrices: fills the sparse tangent with a full pattern.
 class DenseSystem : public SecondOrderSystem {
  public:
-  Eigen::SparseMatrix<double> tangent_pattern() const override {
+  const Eigen::SparseMatrix<double>& tangent_pattern() const override {
     const int size = coordinate_count() + constraint_count();
-    Eigen::SparseMatrix<double> pattern = Eigen::MatrixXd::Ones(size, size).sparseView();
-    pattern.coeffs().setZero();
-    return pattern;
+    pattern_ = Eigen::MatrixXd::Ones(size, size).sparseView();
+    pattern_.coeffs().setZero();
+    return pattern_;
   }
 
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
@@ -47,6 +47,9 @@ class DenseSystem : public SecondOrderSystem {
   virtual Eigen::MatrixXd constraint_jacobian(const State&) const {
     return Eigen::MatrixXd::Zero(constraint_count(), coordinate_count());
   }
+
+ private:
+  mutable Eigen::SparseMatrix<double> pattern_;
 };
 
 }  // namespace nurbeam::testing

@@ -1,0 +1,85 @@
+#include "fem/system/same_elements.h"
+
+#include <algorithm>
+
+#include "fem/system/with_assembly.h"
+
+namespace nurbeam {
+
+namespace {
+
+bool is_same(const MeshNode& a, const MeshNode& b) { return a.home == b.home && a.joint == b.joint; }
+
+// The spans of one beam by the nodes where they begin.
+class SpansByStart {
+ public:
+  SpansByStart(const Structure& structure, const Mesh& mesh, int beam)
+      : mesh_(mesh), of_home_(structure.beams[beam].home.size(), -1), of_joint_(structure.joints.size(), -1) {
+    for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i)
+      of(mesh.node_a(mesh.spans[i])) = i;
+  }
+
+  /// -1 where there is none.
+  int span_between(const MeshNode& a, const MeshNode& b) {
+    const int span = of(a);
+    return span >= 0 && is_same(mesh_.node_b(mesh_.spans[span]), b) ? span : -1;
+  }
+
+ private:
+  int& of(const MeshNode& node) { return node.home >= 0 ? of_home_[node.home] : of_joint_[node.joint]; }
+
+  const Mesh& mesh_;
+  std::vector<int> of_home_, of_joint_;
+};
+
+template <int D>
+std::vector<int> changed(const Assembly<D>& from, const Assembly<D>& to) {
+  const MeshPlan &before = from.mesh().plan, &plan = to.mesh().plan;
+  if (before.modes != plan.modes || before.held != plan.held || before.closed != plan.closed ||
+      from.constraint_count() != to.constraint_count() || from.forces().size() != to.forces().size())
+    return {};
+  std::vector<int> unknowns;
+  const std::vector<const MeshElement<D>*> same = same_elements(to, from);
+  for (std::size_t i = 0; i < same.size(); ++i) {
+    const MeshElement<D>& e = to.elements()[i];
+    if (e.twist) return {};
+    if (same[i]) continue;
+    for (const int dof : e.dofs)
+      if (dof >= 0) unknowns.push_back(dof);
+  }
+  to.for_each_constraint([&](const auto& c, const auto& rows) {
+    if (is_linear<std::decay_t<decltype(c)>>()) return;
+    for (int row = 0; row < rows.count; ++row) unknowns.push_back(to.coordinate_count() + rows.first + row);
+  });
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  return unknowns;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const Assembly<D>& from) {
+  const Mesh& mesh = to.mesh();
+  std::vector<const MeshElement<D>*> same(to.elements().size(), nullptr);
+  for (int beam = 0; beam + 1 < static_cast<int>(mesh.first_span.size()); ++beam) {
+    SpansByStart spans(*to.model(), from.mesh(), beam);
+    for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i) {
+      const MeshElement<D>& e = to.elements()[i];
+      const int span = spans.span_between(mesh.node_a(e), mesh.node_b(e));
+      if (span >= 0 && from.elements()[span].element.chart() == e.element.chart())
+        same[i] = &from.elements()[span];
+    }
+  }
+  return same;
+}
+
+std::vector<int> changed_unknowns(const BeamSystem& from, const BeamSystem& to) {
+  return with_assembly(
+      to, [&]<int D>(const Assembly<D>& assembly) { return changed(*from.assembly<D>(), assembly); });
+}
+
+template std::vector<const MeshElement<2>*> same_elements<2>(const Assembly<2>&, const Assembly<2>&);
+template std::vector<const MeshElement<3>*> same_elements<3>(const Assembly<3>&, const Assembly<3>&);
+
+}  // namespace nurbeam

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "fem/system/assembly.h"
+
+namespace nurbeam {
+
+/// Per element of `to` that of `from`, a system of the same model in another mesh, which is the same: between
+/// the same nodes, on the same chart; none where there is no such. Those of beams with torsion may have other
+/// charts of their sections.
+template <int D>
+std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const Assembly<D>& from);
+
+/// Unknowns of `to` in whose rows equations that `from` satisfies may be open, its rates carried over: those
+/// of elements that `from` has not, and the multipliers of constraints that are not linear. Empty where they
+/// may be in all rows: with torsion, or where joints or stops have other modes.
+std::vector<int> changed_unknowns(const BeamSystem& from, const BeamSystem& to);
+
+}  // namespace nurbeam
