@@ -27,7 +27,7 @@ std::vector<std::vector<Entry>> unit_rows(const SecondOrderSystem& system, const
   for (std::vector<Entry>& row : rows) {
     double square = 0;
     for (const Entry& entry : row) square += entry.value * entry.value;
-    for (Entry& entry : row) entry.value /= std::sqrt(square);
+    for (Entry& entry : row) entry.value /= std::sqrt(square);  // an empty one stays
   }
   return rows;
 }
@@ -64,6 +64,7 @@ std::vector<int> dependent(const std::vector<std::vector<Entry>>& rows, const st
   for (std::size_t i = 0; i < set.size(); ++i)
     for (const Entry& entry : rows[set[i]])
       G(static_cast<Eigen::Index>(i), columns.at(entry.coordinate)) = entry.value;
+  if (columns.empty()) return set;  // it fixes nothing
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(G, Eigen::ComputeFullU | Eigen::ComputeThinV);
   svd.setThreshold(nothing);
   const Eigen::MatrixXd factors = svd.matrixU().rightCols(G.rows() - svd.rank());
