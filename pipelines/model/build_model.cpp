@@ -16,6 +16,7 @@
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/check_drawing.h"
+#include "pipelines/model/check_freedom.h"
 #include "pipelines/model/check_guides.h"
 #include "pipelines/model/connectors.h"
 #include "pipelines/model/divide_beam.h"
@@ -499,6 +500,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
   built.adapted = adapt_elements(resolved, built.model, interrupted, findings);
+  if (findings.has_errors()) return {};
+  check_freedom(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
