@@ -117,6 +117,8 @@ class Inner {
     return klu_.info() == Eigen::Success ? klu_.reciprocal_condition() : 0;
   }
 
+  // The band, where there is one.
+  const BandedLu* band() const { return is_banded_ ? &band_ : nullptr; }
   double scale(int place) const { return is_banded_ ? band_.scale(place) : 1; }
   void load(const Eigen::VectorXd& rhs, Places& y) const {
     if (is_banded_)
@@ -319,6 +321,18 @@ bool KktSolver::renew(const Eigen::MatrixXd& change) {
 
 void KktSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
   implementation_->solve(rhs, x);
+}
+
+void KktSolver::solve(const Columns& rhs, Columns& x) const {
+  const Implementation& self = *implementation_;
+  if (const BandedLu* band = self.inner.band(); band && self.pattern->part.empty())
+    return band->solve(rhs, x);
+  x.resize(rhs.rows(), rhs.cols());
+  Eigen::VectorXd of_one;
+  for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
+    self.solve(rhs.col(column), of_one);
+    x.col(column) = of_one;
+  }
 }
 
 Eigen::VectorXd KktSolver::solve(const Eigen::VectorXd& rhs) const {
