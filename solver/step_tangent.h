@@ -64,8 +64,8 @@ class StepTangent {
   Eigen::VectorXd jerk_, start_algorithmic_, end_algorithmic_;
   Eigen::SparseMatrix<double> mass_, damping_, stiffness_;  // with G, and dF/dlambda in the last
   Eigen::SparseMatrix<double> kkt_;
-  std::vector<Entry> entries_;     // of the columns of coordinates, row by row
-  std::vector<int> row_starts_;    // of each row in `entries_`, and the end
+  std::vector<Entry> entries_;       // of the columns of coordinates, row by row
+  std::vector<int> row_starts_;      // of each row in `entries_`, and the end
   std::vector<int> of_constraints_;  // values of G and dF/dlambda
   bool damped_ = false;
   KktSolver solver_;

@@ -50,16 +50,19 @@ TEST(KktSolver, SolvesForManyRightHandSidesAtOnce) {
       full(i, j) = number(random);
       if (std::abs(i - j) <= 3 && i != j) band(i, j) = number(random);
     }
-  for (const auto& [dense, part] : {std::pair(band, std::vector<int>{}), std::pair(band, std::vector<int>{7, 8, 30}),
-                                    std::pair(full, std::vector<int>{})}) {
+  for (const auto& [dense, part] :
+       {std::pair(band, std::vector<int>{}), std::pair(band, std::vector<int>{7, 8, 30}),
+        std::pair(full, std::vector<int>{})}) {
     const Eigen::SparseMatrix<double> matrix = dense.sparseView();
     KktSolver solver;
     ASSERT_TRUE(solver.factorise(matrix, part));
     for (const int count : {1, 3, 8, 20}) {
-      const KktSolver::Columns expected = KktSolver::Columns::NullaryExpr(n, count, [&] { return number(random); });
+      const KktSolver::Columns expected =
+          KktSolver::Columns::NullaryExpr(n, count, [&] { return number(random); });
       KktSolver::Columns x;
       solver.solve(KktSolver::Columns(dense * expected), x);
-      EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm()) << count << " of a matrix with " << part.size();
+      EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm())
+          << count << " of a matrix with " << part.size();
     }
   }
 }
