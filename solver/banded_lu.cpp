@@ -26,6 +26,9 @@ NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
   return (four(columns[0].data()) * x[0] + four(columns[1].data()) * x[1]) +
          (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
 }
+// A number of each of eight right-hand sides.
+constexpr int lanes = 8;
+using Eight = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
@@ -421,6 +424,40 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first
     const double* u = diagonal(k);
     for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
     last = std::max(last, ends_[k] - 1);
+  }
+}
+
+// Of as many right-hand sides as there are lanes, side by side at each place.
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_beside(double* y) const {
+  Eight* at = reinterpret_cast<Eight*>(y);
+  const int n = static_cast<int>(order_->unknown.size());
+  for (int k = 0; k < n; ++k) {
+    const Eight x = at[pivots_[k]];
+    at[pivots_[k]] = at[k];
+    at[k] = x;
+    const double* multipliers = lower_.data() + lower_begin_[k];
+    for (int i = k + 1; i <= order_->below[k]; ++i) at[i] -= multipliers[i - k - 1] * x;
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    const double* upper = diagonal(k) - k;
+    Eight rest = at[k];
+    for (int j = k + 1; j < ends_[k]; ++j) rest -= upper[j] * at[j];
+    at[k] = inverse_[k] * rest;
+  }
+}
+
+void BandedLu::solve(const Columns& rhs, Columns& x) const {
+  const auto n = static_cast<Eigen::Index>(order_->unknown.size());
+  x.resize(rhs.rows(), rhs.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor> y(n, lanes);
+  for (Eigen::Index first = 0; first < rhs.cols(); first += lanes) {
+    const Eigen::Index count = std::min<Eigen::Index>(lanes, rhs.cols() - first);
+    if (count < lanes) y.setZero();
+    for (Eigen::Index k = 0; k < n; ++k)
+      y.row(k).head(count) = scale_[k] * rhs.row(order_->unknown[k]).segment(first, count);
+    solve_beside(y.data());
+    for (Eigen::Index k = 0; k < n; ++k)
+      x.row(order_->unknown[k]).segment(first, count) = y.row(k).head(count);
   }
 }
 

@@ -62,6 +62,11 @@ class BandedLu {
   /// y <- U^-T y, where y is zero but from place `first` to `last`, which becomes the last one that is not.
   void upper_transposed(Places& y, int first, int& last) const;
 
+  /// Right-hand sides or solutions, a column each.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// A^-1 of many right-hand sides, by unknowns; eight at a time. Precondition: the order leaves none out.
+  void solve(const Columns& rhs, Columns& x) const;
+
  private:
   double* diagonal(int i) { return band_.get() + diagonal_[i]; }
   const double* diagonal(int i) const { return band_.get() + diagonal_[i]; }
@@ -75,6 +80,7 @@ class BandedLu {
   void eliminate(int k, double* all) const;
   void invert_upper(int k);
   void invert_lower(int k);
+  void solve_beside(double* y) const;
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;

@@ -223,6 +223,18 @@ void KktSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const {
   implementation_->solve(rhs, x);
 }
 
+void KktSolver::solve(const Columns& rhs, Columns& x) const {
+  const Implementation& self = *implementation_;
+  const BandedLu* band = self.strands.size() == 1 ? self.strands.front().banded() : nullptr;
+  if (band && self.pattern->part.empty()) return band->solve(rhs, x);
+  x.resize(rhs.rows(), rhs.cols());
+  Eigen::VectorXd of_one;
+  for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
+    solve(rhs.col(column), of_one);
+    x.col(column) = of_one;
+  }
+}
+
 Eigen::VectorXd KktSolver::solve(const Eigen::VectorXd& rhs) const {
   Eigen::VectorXd x;
   solve(rhs, x);

@@ -39,6 +39,8 @@ class Strand {
   /// Takes W V from what is left of S.
   void take_from(Eigen::MatrixXd& schur) const;
 
+  /// Its band, where it has a narrow one.
+  const BandedLu* banded() const { return is_banded_ ? &lu_ : nullptr; }
   /// y = L^-1 b of its share of a right-hand side.
   void lower(const Eigen::VectorXd& rhs);
   /// W y of one row.

@@ -41,6 +41,35 @@ TEST(KktSolver, FollowsAChangeOfValuesOfPatternAndOfSize) {
   }
 }
 
+// Of a band whose rows are exchanged, of one with a part that is eliminated last, and of a matrix that has no
+// narrow band: with more right-hand sides than are taken side by side, and fewer.
+TEST(KktSolver, SolvesForManyRightHandSidesAtOnce) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const int n = 61;
+  Eigen::MatrixXd band = Eigen::MatrixXd::Zero(n, n), full(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      full(i, j) = number(random);
+      if (std::abs(i - j) <= 3 && i != j) band(i, j) = number(random);
+    }
+  for (const auto& [dense, part] :
+       {std::pair(band, std::vector<int>{}), std::pair(band, std::vector<int>{7, 8, 30}),
+        std::pair(full, std::vector<int>{})}) {
+    const Eigen::SparseMatrix<double> matrix = dense.sparseView();
+    KktSolver solver;
+    ASSERT_TRUE(solver.factorise(matrix, part));
+    for (const int count : {1, 3, 8, 20}) {
+      const KktSolver::Columns expected =
+          KktSolver::Columns::NullaryExpr(n, count, [&] { return number(random); });
+      KktSolver::Columns x;
+      solver.solve(KktSolver::Columns(dense * expected), x);
+      EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm())
+          << count << " of a matrix with " << part.size();
+    }
+  }
+}
+
 TEST(KktSolver, ReportsASingularMatrixAndRecoversFromIt) {
   Eigen::MatrixXd dense = saddle_point();
   dense.col(2) = dense.col(0) / 3;
