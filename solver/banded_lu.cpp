@@ -26,6 +26,9 @@ NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
   return (four(columns[0].data()) * x[0] + four(columns[1].data()) * x[1]) +
          (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
 }
+// A number of each of eight right-hand sides.
+constexpr int lanes = 8;
+using Eight = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
@@ -126,25 +129,37 @@ std::vector<int> by_levels(const Neighbours& neighbours, const std::vector<int>&
 }  // namespace
 
 BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
-  const Neighbours neighbours(pattern, left_out);
-  const int n = neighbours.size();
   std::optional<std::vector<int>> close = close_order(pattern, left_out);
-  unknown = close ? std::move(*close) : by_levels(neighbours, left_out);
-  place.assign(static_cast<std::size_t>(n), -1);
+  unknown = close ? std::move(*close) : by_levels(Neighbours(pattern, left_out), left_out);
+  place_unknowns(pattern);
+}
+
+BandOrder BandOrder::of(const Matrix& pattern, std::vector<int> unknowns) {
+  BandOrder order;
+  order.unknown = std::move(unknowns);
+  order.place_unknowns(pattern);
+  return order;
+}
+
+// All that follows from `unknown`.
+void BandOrder::place_unknowns(const Matrix& pattern) {
+  place.assign(static_cast<std::size_t>(pattern.cols()), -1);
   const int held = static_cast<int>(unknown.size());
   ends.resize(unknown.size());
   for (int k = 0; k < held; ++k) place[unknown[k]] = k;
+  // Calls visit(row, column, index of the value) for each entry, column by column.
+  const auto for_each_entry = [&](const auto& visit) {
+    for (int column = 0; column < held; ++column)
+      for (int k = pattern.outerIndexPtr()[unknown[column]]; k < pattern.outerIndexPtr()[unknown[column] + 1];
+           ++k)
+        if (const int row = place[pattern.innerIndexPtr()[k]]; row >= 0) visit(row, column, k);
+  };
   row_starts.assign(unknown.size() + 1, 0);
-  for (int column = 0; column < held; ++column)
-    for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
-      if (const int row = place[*i]; row >= 0) ++row_starts[row + 1];
+  for_each_entry([&](int row, int, int) { ++row_starts[row + 1]; });
   std::partial_sum(row_starts.begin(), row_starts.end(), row_starts.begin());
   entries.resize(static_cast<std::size_t>(row_starts.back()));
   std::vector<int> next = row_starts;
-  for (int column = 0; column < held; ++column)
-    for (const int* i = neighbours.begin(unknown[column]); i != neighbours.end(unknown[column]); ++i)
-      if (const int row = place[*i]; row >= 0)
-        entries[next[row]++] = {column, static_cast<int>(i - pattern.innerIndexPtr())};
+  for_each_entry([&](int row, int column, int value) { entries[next[row]++] = {column, value}; });
   // The entries of a row are in order.
   below.assign(unknown.size(), 0);
   for (int row = 0; row < held; ++row) {
@@ -158,18 +173,33 @@ BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
   for (int column = 1; column < held; ++column) below[column] = std::max(below[column], below[column - 1]);
 }
 
+// Rows and columns of multipliers are as long as what is eliminated can make them. All is done by blocks of
+// four; what they reach beyond that is zero.
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   order_ = std::move(order);
   half_bandwidth_ = order_->half_bandwidth;
-  const auto n = order_->unknown.size();
-  // All is done by blocks of four; what they reach beyond the band is zero.
-  padded_ = (static_cast<int>(n) + block - 1) / block * block;
-  width_ = 3 * half_bandwidth_ + 2 * block;
-  height_ = half_bandwidth_ + 2 * block;
+  const int n = static_cast<int>(order_->unknown.size());
+  padded_ = (n + block - 1) / block * block;
   const auto padded = static_cast<std::size_t>(padded_);
-  scale_.resize(n);
-  band_ = std::make_unique_for_overwrite<double[]>(padded * static_cast<std::size_t>(width_));
-  lower_.assign(padded * static_cast<std::size_t>(height_), 0);
+  // The last row that the elimination of a column reaches; the end of the longest of the rows up to one.
+  const auto below = [&](int k) { return k < n ? order_->below[k] : k; };
+  std::vector<int> longest = order_->ends;
+  for (int i = 1; i < n; ++i) longest[i] = std::max(longest[i], longest[i - 1]);
+  row_begin_.resize(padded + 1);
+  diagonal_.resize(padded);
+  lower_begin_.resize(padded + 1);
+  row_begin_[0] = lower_begin_[0] = 0;
+  for (int i = 0, first = 0; i < padded_; ++i) {
+    while (first < i && below(first) < i) ++first;
+    const int last = std::min(i / block * block + block, n) - 1, reach = below(last);
+    const int end = std::max(i + 1, longest[reach]);
+    diagonal_[i] = row_begin_[i] + i - first;
+    row_begin_[i + 1] = row_begin_[i] + (end - first) + 2 * block;
+    lower_begin_[i + 1] = lower_begin_[i] + std::max(reach, i) - i + 2 * block;
+  }
+  band_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(row_begin_.back()));
+  lower_.assign(static_cast<std::size_t>(lower_begin_.back()), 0);
+  scale_.resize(order_->unknown.size());
   pivots_.resize(padded);
   reach_.resize(padded / block);
   inverse_.resize(padded);
@@ -180,10 +210,9 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
 void BandedLu::fill_band(const Matrix& matrix) {
   const int n = static_cast<int>(order_->unknown.size());
   const double* values = matrix.valuePtr();
+  std::fill_n(band_.get(), row_begin_.back(), 0.0);
   for (int i = 0; i < n; ++i) {
-    double* entries = row(i);
-    std::fill_n(entries, width_, 0.0);
-    entries += half_bandwidth_ - i;
+    double* entries = diagonal(i) - i;
     const auto first = order_->entries.begin() + order_->row_starts[i],
                last = order_->entries.begin() + order_->row_starts[i + 1];
     double largest = 0;
@@ -194,8 +223,7 @@ void BandedLu::fill_band(const Matrix& matrix) {
   }
   ends_ = order_->ends;
   for (int i = n; i < padded_; ++i) {
-    std::fill_n(row(i), width_, 0.0);
-    row(i)[half_bandwidth_] = 1;
+    *diagonal(i) = 1;
     ends_.push_back(i + 1);
   }
 }
@@ -204,7 +232,7 @@ void BandedLu::fill_band(const Matrix& matrix) {
 // largest, since every exchange widens the band.
 NURBEAM_WITHIN int BandedLu::pivot_of(int column, int last) const {
   constexpr double enough = 0.1;
-  const auto size = [&](int i) { return std::abs(row(i)[column - i + half_bandwidth_]); };
+  const auto size = [&](int i) { return std::abs(diagonal(i)[column - i]); };
   int pivot = column;
   double largest = size(column) / enough;
   for (int i = column + 1; i <= last; ++i)
@@ -217,19 +245,19 @@ NURBEAM_WITHIN int BandedLu::pivot_of(int column, int last) const {
 
 // Exchanges two rows from the first one's diagonal on.
 NURBEAM_WITHIN void BandedLu::exchange(int k, int p) {
-  const int b = half_bandwidth_, end = std::max(ends_[k], ends_[p]);
-  std::swap_ranges(row(k) + b, row(k) + b + end - k, row(p) + k - p + b);
+  const int end = std::max(ends_[k], ends_[p]);
+  std::swap_ranges(diagonal(k), diagonal(k) + end - k, diagonal(p) + k - p);
   std::swap(ends_[k], ends_[p]);
 }
 
 // Takes the unknown of a column out of the rows below, down to `last`.
 NURBEAM_WITHIN void BandedLu::take_out(int k, int last) {
-  const int b = half_bandwidth_, length = ends_[k] - k;
-  const double* upper = row(k) + b;
-  double* multipliers = lower_.data() + static_cast<std::size_t>(k) * height_;
+  const int length = ends_[k] - k;
+  const double* upper = diagonal(k);
+  double* multipliers = lower_.data() + lower_begin_[k];
   int& reach = reach_[k / block];
   for (int i = k + 1; i <= last; ++i) {
-    double* below = row(i) + k - i + b;
+    double* below = diagonal(i) + k - i;
     const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
     if (factor == 0) continue;
     reach = std::max(reach, i);
@@ -240,7 +268,7 @@ NURBEAM_WITHIN void BandedLu::take_out(int k, int last) {
 
 NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
   std::array<const double*, block> u;  // from column k on
-  for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+  for (int r = 0; r < block; ++r) u[r] = diagonal(k + r) - r;
   Square &inverse = blocks_[k / block].upper, &next = blocks_[k / block].from_next;
   for (int j = 0; j < block; ++j) {
     inverse[j] = {};
@@ -282,7 +310,7 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows() {
   for (int k = 0; k < padded_; ++k) {
     const int last = k < n ? order_->below[k] : k, p = pivots_[k] = pivot_of(k, last);
     if (p != k) exchange(k, p);
-    const double pivot = row(k)[half_bandwidth_];
+    const double pivot = *diagonal(k);
     if (pivot == 0) return 0;
     inverse_[k] = 1 / pivot;
     if (k < n) {
@@ -306,7 +334,7 @@ double BandedLu::factorise(const Matrix& matrix) {
 
 NURBEAM_WITHIN std::array<const double*, block> BandedLu::multipliers(int k) const {
   std::array<const double*, block> m;
-  for (int c = 0; c < block; ++c) m[c] = lower_.data() + static_cast<std::size_t>(k + c) * height_;
+  for (int c = 0; c < block; ++c) m[c] = lower_.data() + lower_begin_[k + c];
   return m;
 }
 
@@ -329,7 +357,7 @@ NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
   const std::array<const double*, block> m = multipliers(k);
   for (int c = 0; c < block; ++c) {
     std::swap(y[c], all[pivots_[k + c]]);
-    for (int i = 0; i < half_bandwidth_; ++i) y[c + 1 + i] -= m[c][i] * y[c];
+    for (int i = 0; k + c + 1 + i <= reach_[k / block]; ++i) y[c + 1 + i] -= m[c][i] * y[c];
   }
 }
 
@@ -377,7 +405,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
   Four after = {};
   for (int k = padded_ - block; k >= 0; k -= block) {
     std::array<const double*, block> u;  // from column k on
-    for (int r = 0; r < block; ++r) u[r] = row(k + r) + half_bandwidth_ - r;
+    for (int r = 0; r < block; ++r) u[r] = diagonal(k + r) - r;
     double* y = all.data() + k;
     const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
     Four sums[block] = {};
@@ -393,9 +421,43 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first
   for (int k = first; k <= last; ++k) {
     if (y[k] == 0) continue;
     y[k] *= inverse_[k];
-    const double* u = row(k) + half_bandwidth_;
+    const double* u = diagonal(k);
     for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
     last = std::max(last, ends_[k] - 1);
+  }
+}
+
+// Of as many right-hand sides as there are lanes, side by side at each place.
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_beside(double* y) const {
+  Eight* at = reinterpret_cast<Eight*>(y);
+  const int n = static_cast<int>(order_->unknown.size());
+  for (int k = 0; k < n; ++k) {
+    const Eight x = at[pivots_[k]];
+    at[pivots_[k]] = at[k];
+    at[k] = x;
+    const double* multipliers = lower_.data() + lower_begin_[k];
+    for (int i = k + 1; i <= order_->below[k]; ++i) at[i] -= multipliers[i - k - 1] * x;
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    const double* upper = diagonal(k) - k;
+    Eight rest = at[k];
+    for (int j = k + 1; j < ends_[k]; ++j) rest -= upper[j] * at[j];
+    at[k] = inverse_[k] * rest;
+  }
+}
+
+void BandedLu::solve(const Columns& rhs, Columns& x) const {
+  const auto n = static_cast<Eigen::Index>(order_->unknown.size());
+  x.resize(rhs.rows(), rhs.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor> y(n, lanes);
+  for (Eigen::Index first = 0; first < rhs.cols(); first += lanes) {
+    const Eigen::Index count = std::min<Eigen::Index>(lanes, rhs.cols() - first);
+    if (count < lanes) y.setZero();
+    for (Eigen::Index k = 0; k < n; ++k)
+      y.row(k).head(count) = scale_[k] * rhs.row(order_->unknown[k]).segment(first, count);
+    solve_beside(y.data());
+    for (Eigen::Index k = 0; k < n; ++k)
+      x.row(order_->unknown[k]).segment(first, count) = y.row(k).head(count);
   }
 }
 

@@ -13,6 +13,8 @@ struct BandOrder {
   /// Of all unknowns but those `left_out`. What is coupled with these comes last in its component where that
   /// makes no wider band.
   explicit BandOrder(const Eigen::SparseMatrix<double>& pattern, const std::vector<int>& left_out = {});
+  /// Of these unknowns alone, in the order in which they come.
+  static BandOrder of(const Eigen::SparseMatrix<double>& pattern, std::vector<int> unknowns);
 
   std::vector<int> unknown;  ///< at each place of the order
   std::vector<int> place;    ///< of each unknown, -1 where it is left out
@@ -26,6 +28,10 @@ struct BandOrder {
   };
   std::vector<Entry> entries;   ///< row by row
   std::vector<int> row_starts;  ///< of each row in `entries`, and the end
+
+ private:
+  BandOrder() = default;
+  void place_unknowns(const Eigen::SparseMatrix<double>& pattern);
 };
 
 /// LU with threshold pivoting of one matrix pattern whose unknowns are few levels apart, as those of a chain
@@ -56,9 +62,14 @@ class BandedLu {
   /// y <- U^-T y, where y is zero but from place `first` to `last`, which becomes the last one that is not.
   void upper_transposed(Places& y, int first, int& last) const;
 
+  /// Right-hand sides or solutions, a column each.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// A^-1 of many right-hand sides, by unknowns; eight at a time. Precondition: the order leaves none out.
+  void solve(const Columns& rhs, Columns& x) const;
+
  private:
-  double* row(int i) { return band_.get() + static_cast<std::size_t>(i) * width_; }
-  const double* row(int i) const { return band_.get() + static_cast<std::size_t>(i) * width_; }
+  double* diagonal(int i) { return band_.get() + diagonal_[i]; }
+  const double* diagonal(int i) const { return band_.get() + diagonal_[i]; }
   void fill_band(const Eigen::SparseMatrix<double>& matrix);
   int pivot_of(int column, int last) const;
   void exchange(int k, int p);
@@ -69,15 +80,17 @@ class BandedLu {
   void eliminate(int k, double* all) const;
   void invert_upper(int k);
   void invert_lower(int k);
+  void solve_beside(double* y) const;
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;
-  int padded_ = 0;                  ///< unknowns with those that fill the last block: rows of one
-  int width_ = 0;                   ///< of a row in storage: columns i - b to i + 2 b, and zeros
-  int height_ = 0;                  ///< of a column of multipliers: b, and zeros
-  std::unique_ptr<double[]> band_;  ///< what is left to eliminate, then U
-  std::vector<double> lower_;       ///< multipliers below the diagonal of each column
-  std::vector<double> inverse_;     ///< of each pivot
+  int padded_ = 0;                           ///< unknowns with those that fill the last block: rows of one
+  std::unique_ptr<double[]> band_;           ///< what is left to eliminate, then U
+  std::vector<std::ptrdiff_t> row_begin_;    ///< of each row in the band, and the end
+  std::vector<std::ptrdiff_t> diagonal_;     ///< of each row in the band
+  std::vector<double> lower_;                ///< multipliers below the diagonal of each column
+  std::vector<std::ptrdiff_t> lower_begin_;  ///< of each column in them, and the end
+  std::vector<double> inverse_;              ///< of each pivot
   /// Of a block of four on the diagonals, D of U and C of L, and what stands beside it, E of U to its right
   /// and B of L to its left: columns of inverses and of these times what it takes from the blocks next to it,
   /// so that one waits for the other no longer than one product takes.

@@ -166,6 +166,15 @@ Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
   return -dynamics;
 }
 
+/// (m) G v + dg/dt.
+Eigen::VectorXd constraint_speeds(const SecondOrderSystem& system, const State& state) {
+  Eigen::SparseMatrix<double> gradient = system.tangent_pattern();
+  system.tangent(state, {}, gradient);
+  Eigen::VectorXd padded = Eigen::VectorXd::Zero(gradient.cols());
+  padded.head(state.v.size()) = state.v;
+  return (gradient * padded).tail(system.constraint_count()) + system.constraint_rate(state);
+}
+
 /// Newton's iteration for accelerations and multipliers of which the forces depend on the multipliers;
 /// whether it has converged.
 bool correct_accelerations(const SecondOrderSystem& system, double h, State& state) {
@@ -246,9 +255,10 @@ bool close_constraints(const SecondOrderSystem& system, double enough, State& st
 }
 
 Projection project_velocities(const SecondOrderSystem& system, State& state, double h) {
+  const Eigen::VectorXd excess = constraint_speeds(system, state);
+  if (excess.isZero(0)) return {ConsistencyStatus::done, excess};
   const FactorisedKkt kkt(system, unloaded(system, state), h);
   if (!kkt.regular()) return {ConsistencyStatus::singular, {}};
-  const Eigen::VectorXd excess = kkt.constraint_product(state.v) + system.constraint_rate(state);
   const Eigen::VectorXd solution = kkt.solve(Eigen::VectorXd::Zero(state.v.size()), -excess);
   if (!solution.allFinite()) return {ConsistencyStatus::singular, {}};
   state.v += solution.head(system.coordinate_count());

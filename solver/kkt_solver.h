@@ -30,6 +30,9 @@ class KktSolver {
   /// x with matrix x = rhs. Precondition: what came before returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
+  /// The same for many right-hand sides, a column each.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  void solve(const Columns& rhs, Columns& x) const;
 
  private:
   struct Implementation;

@@ -1,6 +1,25 @@
 #include "solver/step_tangent.h"
 
+#include <numeric>
+
+#include "solver/every_processor.h"
+
 namespace nurbeam {
+
+namespace {
+
+// Numbers of as many parameters, side by side.
+struct Eight {
+  using Side = double __attribute__((vector_size(8 * sizeof(double)), aligned(sizeof(double)), may_alias));
+};
+struct Four {
+  using Side = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+};
+struct One {
+  using Side = double;
+};
+
+}  // namespace
 
 MotionTangents MotionTangents::zero(Eigen::Index coordinates, Eigen::Index constraints,
                                     Eigen::Index parameters) {
@@ -41,7 +60,20 @@ StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSyst
       mass_(system.tangent_pattern()),
       damping_(mass_),
       stiffness_(mass_),
-      kkt_(mass_) {}
+      kkt_(mass_),
+      row_starts_(static_cast<std::size_t>(mass_.rows()) + 1, 0) {
+  const int n = system.coordinate_count();
+  const int *starts = kkt_.outerIndexPtr(), *rows = kkt_.innerIndexPtr();
+  for (int k = 0; k < starts[n]; ++k) ++row_starts_[rows[k] + 1];
+  std::partial_sum(row_starts_.begin(), row_starts_.end(), row_starts_.begin());
+  entries_.resize(static_cast<std::size_t>(starts[n]));
+  std::vector<int> next = row_starts_;
+  for (int column = 0; column < kkt_.cols(); ++column)
+    for (int k = starts[column]; k < starts[column + 1]; ++k) {
+      if (column < n) entries_[next[rows[k]]++] = {column, k};
+      if (column >= n || rows[k] >= n) of_constraints_.push_back(k);
+    }
+}
 
 bool StepTangent::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
@@ -61,35 +93,36 @@ bool StepTangent::take(const State& before, const IntegratorHistory& history, co
   system_->tangent(after, {.mass = 1}, mass_);
   system_->tangent(after, {.damping = 1}, damping_);
   system_->tangent(after, {.stiffness = 1}, stiffness_);
-  const int n = system_->coordinate_count();
-  for (int column = 0; column < kkt_.cols(); ++column)
-    for (int k = kkt_.outerIndexPtr()[column]; k < kkt_.outerIndexPtr()[column + 1]; ++k)
-      kkt_.valuePtr()[k] =
-          column < n && kkt_.innerIndexPtr()[k] < n
-              ? ((1 - alpha_m) / (1 - alpha_f) * mass_.valuePtr()[k] + gamma * h_ * damping_.valuePtr()[k] +
-                 beta * h_ * h_ * stiffness_.valuePtr()[k]) /
-                    mass_scale_
-              : stiffness_.valuePtr()[k];
+  for (const int k : of_constraints_) mass_.valuePtr()[k] = damping_.valuePtr()[k] = 0;
+  const auto values = [](auto& matrix) { return matrix.coeffs(); };
+  damped_ = !values(damping_).isZero(0);
+  values(kkt_) = ((1 - alpha_m) / (1 - alpha_f) / mass_scale_) * values(mass_) +
+                 (gamma * h_ / mass_scale_) * values(damping_) +
+                 (beta * h_ * h_ / mass_scale_) * values(stiffness_);
+  for (const int k : of_constraints_) kkt_.valuePtr()[k] = stiffness_.valuePtr()[k];
   return solver_.factorise(kkt_);
 }
 
 MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVectorXd& step,
                                 const Matrix& dynamics, const Matrix& constraints) const {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const Eigen::Index n = start.q.rows(), m = start.lambda.rows(), parameters = start.parameters();
-  Matrix alg = start_ == Start::afresh ? start.a : start.algorithmic_acceleration;
+  const Eigen::Index n = start.q.rows(), m = start.lambda.rows();
+  const bool other_length = !step.isZero(0);
+  Matrix moved;
   if (start_ == Start::moved) {
-    alg += (alpha_m - alpha_f) * (h_ - last_step_) * start.jerk;
-    alg.noalias() += (alpha_m - alpha_f) * jerk_ * (step - start.last_step);
+    moved = start.algorithmic_acceleration + (alpha_m - alpha_f) * (h_ - last_step_) * start.jerk;
+    moved.noalias() += (alpha_m - alpha_f) * jerk_ * (step - start.last_step);
   }
+  const Matrix& alg = start_ == Start::moved    ? moved
+                      : start_ == Start::afresh ? start.a
+                                                : start.algorithmic_acceleration;
 
   // With the algorithmic acceleration at the end as it is.
-  MotionTangents end = MotionTangents::zero(n, m, parameters);
+  MotionTangents end;
   end.t = start.t + step;
   end.q = start.q + h_ * start.v + h_ * h_ * (0.5 - beta) * alg;
   end.v = start.v + h_ * (1 - gamma) * alg;
-  end.a = (alpha_m * alg - alpha_f * start.a) / (1 - alpha_f);
-  const bool other_length = !step.isZero(0);
+  end.a = alpha_m / (1 - alpha_f) * alg - alpha_f / (1 - alpha_f) * start.a;
   if (other_length) {
     end.q.noalias() +=
         (before_.v + 2 * h_ * ((0.5 - beta) * start_algorithmic_ + beta * end_algorithmic_)) * step;
@@ -97,48 +130,53 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
   }
 
   // The correction of q for which the residual stays zero, and what follows it.
-  Matrix rhs = -residual_of(end);
-  rhs.topRows(n) -= dynamics;
-  rhs.bottomRows(m) -= constraints;
+  Matrix rhs(n + m, start.parameters()), x;
+  rhs << -dynamics, -constraints;
+  subtract_residual(end, rhs);
   rhs.topRows(n) *= beta * h_ * h_ / mass_scale_;
-  const Matrix x = solve(rhs);
+  solver_.solve(rhs, x);
   const auto dq = x.topRows(n);
   const double acceleration = 1 / (beta * h_ * h_);
   end.algorithmic_acceleration = acceleration * dq;
   end.q += dq;
-  end.v += gamma * h_ * end.algorithmic_acceleration;
-  end.a += (1 - alpha_m) / (1 - alpha_f) * end.algorithmic_acceleration;
+  end.v += gamma * h_ * acceleration * dq;
+  end.a += (1 - alpha_m) / (1 - alpha_f) * acceleration * dq;
   end.lambda = mass_scale_ * acceleration * x.bottomRows(m);
-  end.jerk = (end.algorithmic_acceleration - alg) / h_;
+  end.jerk = acceleration / h_ * dq - 1 / h_ * alg;
   if (other_length) end.jerk.noalias() -= (end_algorithmic_ - start_algorithmic_) / (h_ * h_) * step;
   end.last_step = step;
   return end;
 }
 
-// M a + D v + K q with the rows of constraints, G q, of all parameters.
-StepTangent::Matrix StepTangent::residual_of(const MotionTangents& end) const {
-  const Eigen::Index n = end.q.rows();
-  Matrix sum = Matrix::Zero(n + end.lambda.rows(), end.parameters());
-  for (Eigen::Index column = 0; column < n; ++column)
-    for (int k = stiffness_.outerIndexPtr()[column]; k < stiffness_.outerIndexPtr()[column + 1]; ++k) {
-      const int row = stiffness_.innerIndexPtr()[k];
-      sum.row(row) += stiffness_.valuePtr()[k] * end.q.row(column);
-      if (row >= n) continue;
-      if (const double d = damping_.valuePtr()[k]; d != 0) sum.row(row) += d * end.v.row(column);
-      if (const double m = mass_.valuePtr()[k]; m != 0) sum.row(row) += m * end.a.row(column);
+// M a + D v + K q with the rows of constraints, G q, of as many parameters as there are lanes.
+template <class Lanes>
+NURBEAM_WITHIN void StepTangent::subtract_products(const MotionTangents& end, Eigen::Index first,
+                                                   Matrix& rhs) const {
+  using Side = typename Lanes::Side;
+  const Eigen::Index stride = rhs.cols();
+  const auto rows = [&](const double* columns) { return columns + first; };
+  const double *q = rows(end.q.data()), *v = rows(end.v.data()), *a = rows(end.a.data());
+  const double *K = stiffness_.valuePtr(), *D = damping_.valuePtr(), *M = mass_.valuePtr();
+  double* result = rhs.data() + first;
+  for (std::size_t row = 0; row + 1 < row_starts_.size(); ++row) {
+    Side sum = {};
+    for (int k = row_starts_[row]; k < row_starts_[row + 1]; ++k) {
+      const auto [column, value] = entries_[k];
+      sum += K[value] * *reinterpret_cast<const Side*>(q + column * stride) +
+             M[value] * *reinterpret_cast<const Side*>(a + column * stride);
+      if (damped_) sum += D[value] * *reinterpret_cast<const Side*>(v + column * stride);
     }
-  return sum;
+    *reinterpret_cast<Side*>(result + static_cast<Eigen::Index>(row) * stride) -= sum;
+  }
 }
 
-StepTangent::Matrix StepTangent::solve(const Matrix& rhs) const {
-  Matrix x(rhs.rows(), rhs.cols());
-  Eigen::VectorXd right, left;
-  for (Eigen::Index parameter = 0; parameter < rhs.cols(); ++parameter) {
-    right = rhs.col(parameter);
-    solver_.solve(right, left);
-    x.col(parameter) = left;
-  }
-  return x;
+NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::subtract_residual(const MotionTangents& end,
+                                                                Matrix& rhs) const {
+  const Eigen::Index parameters = rhs.cols();
+  Eigen::Index first = 0;
+  for (; first + 8 <= parameters; first += 8) subtract_products<Eight>(end, first, rhs);
+  for (; first + 4 <= parameters; first += 4) subtract_products<Four>(end, first, rhs);
+  for (; first < parameters; ++first) subtract_products<One>(end, first, rhs);
 }
 
 }  // namespace nurbeam

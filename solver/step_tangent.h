@@ -47,9 +47,14 @@ class StepTangent {
 
  private:
   enum class Start { as_it_is, moved, afresh };  // what becomes of the algorithmic acceleration
+  // An entry of the matrices: its column, and its index among their values.
+  struct Entry {
+    int column, value;
+  };
 
-  Matrix residual_of(const MotionTangents& end) const;
-  Matrix solve(const Matrix& rhs) const;
+  template <class Lanes>
+  void subtract_products(const MotionTangents& end, Eigen::Index first, Matrix& rhs) const;
+  void subtract_residual(const MotionTangents& end, Matrix& rhs) const;
 
   GeneralizedAlphaIntegrator::Parameters parameters_;
   const SecondOrderSystem* system_;
@@ -59,6 +64,10 @@ class StepTangent {
   Eigen::VectorXd jerk_, start_algorithmic_, end_algorithmic_;
   Eigen::SparseMatrix<double> mass_, damping_, stiffness_;  // with G, and dF/dlambda in the last
   Eigen::SparseMatrix<double> kkt_;
+  std::vector<Entry> entries_;       // of the columns of coordinates, row by row
+  std::vector<int> row_starts_;      // of each row in `entries_`, and the end
+  std::vector<int> of_constraints_;  // values of G and dF/dlambda
+  bool damped_ = false;
   KktSolver solver_;
 };
 

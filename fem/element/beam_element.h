@@ -56,6 +56,14 @@ class BeamElement {
   BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart, double s_a,
               double s_b, Ends ends);
 
+  /// The same on another curve, which is drawn alike from end to end, with equal properties.
+  BeamElement on(const ReferenceCurve& curve, const BeamProperties& properties) const {
+    BeamElement element = *this;
+    element.curve_ = &curve;
+    element.properties_ = &properties;
+    return element;
+  }
+
   const ReferenceCurve& curve() const { return *curve_; }
   const BeamProperties& properties() const { return *properties_; }
   const Chart& chart() const { return chart_; }

@@ -308,7 +308,8 @@ struct ElementBatch<D>::Kernel {
     add_point_forces(e, e_rate, force);
     add_axial_forces(e, e_rate, free_strain, force);
     for (int i = 0; i < batch.count_; ++i)
-      for (int k = 0; k < nodal; ++k) forces[batch.dofs_[k][i]] += force[k / D][k % D].of[i];
+      for (int k = 0; k < nodal; ++k)
+        forces[batch.forces_at_[i] + batch.dofs_[k][i]] += force[k / D][k % D].of[i];
   }
 
   struct Energies {
@@ -500,8 +501,9 @@ ElementBatch<D>::ElementBatch(const BeamProperties& properties) : properties_(&p
 
 template <int D>
 void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
-                          const Vector& slope_offset) {
+                          const Vector& slope_offset, std::ptrdiff_t forces_at) {
   const PointPack& pack = element.packs_.front();
+  forces_at_[count_] = forces_at;
   // The last element fills the lanes beyond it.
   for (int i = count_; i < lanes; ++i) {
     for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];

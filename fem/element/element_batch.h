@@ -30,9 +30,10 @@ class ElementBatch {
   bool is_full() const { return count_ == lanes; }
   int count() const { return count_; }
   /// Adds an element of the same properties; `dofs`: its global coordinates; `slope_offset`: of the slope at
-  /// its end B from what stands there. Precondition: takes(element), !is_full().
+  /// its end B from what stands there; `forces_at`: where its forces begin, of those that are added to.
+  /// Precondition: takes(element), !is_full().
   void add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
-           const Vector& slope_offset);
+           const Vector& slope_offset, std::ptrdiff_t forces_at = 0);
 
   /// Adds the forces of the elements to those of all coordinates. `load`: as BeamElement::force has it;
   /// `free_strain`: as ElementState has it.
@@ -58,6 +59,7 @@ class ElementBatch {
   const BeamProperties* properties_;
   int count_ = 0;
   std::array<std::array<int, lanes>, nodal> dofs_ = {};
+  std::array<std::ptrdiff_t, lanes> forces_at_ = {};
   std::array<ElementLanes, D> slope_offset_ = {};
   std::array<Point, points> points_ = {};
   std::array<std::array<ElementLanes, 4>, 4> mass_ = {}, stretch_ = {};  ///< of BeamElement

@@ -29,13 +29,26 @@ EndSeries<N> operator-(const EndSeries<N>& x, const EndSeries<N>& y) {
 }
 template <int N>
 EndSeries<N> operator*(const EndSeries<N>& x, const EndSeries<N>& y) {
+  static_assert(N <= 3);
+  const auto& p = x.c;
+  const auto& q = y.c;
   EndSeries<N> z;
-  for (int d = 0; d <= N; ++d)
-    for (int e = 0; d + e <= N; ++e)
-      for (int j = 0; j <= d; ++j)
-        for (int k = 0; k <= e; ++k)
-          z.c[EndSeries<N>::index(d + e - j - k, j + k)] +=
-              x.c[EndSeries<N>::index(d - j, j)] * y.c[EndSeries<N>::index(e - k, k)];
+  z.c[0] = p[0] * q[0];
+  if constexpr (N > 0) {
+    z.c[1] = p[0] * q[1] + p[1] * q[0];
+    z.c[2] = p[0] * q[2] + p[2] * q[0];
+  }
+  if constexpr (N > 1) {
+    z.c[3] = p[0] * q[3] + p[1] * q[1] + p[3] * q[0];
+    z.c[4] = p[0] * q[4] + p[1] * q[2] + p[2] * q[1] + p[4] * q[0];
+    z.c[5] = p[0] * q[5] + p[2] * q[2] + p[5] * q[0];
+  }
+  if constexpr (N > 2) {
+    z.c[6] = p[0] * q[6] + p[1] * q[3] + p[3] * q[1] + p[6] * q[0];
+    z.c[7] = p[0] * q[7] + p[1] * q[4] + p[2] * q[3] + p[3] * q[2] + p[4] * q[1] + p[7] * q[0];
+    z.c[8] = p[0] * q[8] + p[1] * q[5] + p[2] * q[4] + p[4] * q[2] + p[5] * q[1] + p[8] * q[0];
+    z.c[9] = p[0] * q[9] + p[2] * q[5] + p[5] * q[2] + p[9] * q[0];
+  }
   return z;
 }
 

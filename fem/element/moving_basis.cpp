@@ -2,34 +2,16 @@
 
 #include <cmath>
 
+#include "fem/element/chart_place.h"
 #include "fem/element/hermite_series.h"
 
 namespace nurbeam {
 
 namespace {
 
-// f(u(s)) and its s-derivatives.
-std::array<double, 4> along(const std::array<double, 4>& f, const std::array<double, 4>& u) {
-  return {f[0], f[1] * u[1], f[2] * u[1] * u[1] + f[1] * u[2],
-          f[3] * u[1] * u[1] * u[1] + 3 * f[2] * u[1] * u[2] + f[1] * u[3]};
-}
-
 std::array<double, 4> product(const std::array<double, 4>& f, const std::array<double, 4>& g) {
   return {f[0] * g[0], f[1] * g[0] + f[0] * g[1], f[2] * g[0] + 2 * f[1] * g[1] + f[0] * g[2],
           f[3] * g[0] + 3 * f[2] * g[1] + 3 * f[1] * g[2] + f[0] * g[3]};
-}
-
-// kappa_0 as series at s, from it and its first two derivatives along s.
-Jet curvature_at(const std::array<double, 3>& kappa0, const Jet& s) {
-  const auto& [k0, k1, k2] = kappa0;
-  const double a = s.d(0), b = s.d(1);
-  return Jet(Jet::Coefficients{k0, a * k1, b * k1, a * a * k2 / 2, a * b * k2, b * b * k2 / 2});
-}
-
-void set_curvature(const Jet& kappa0, MovingRows& rows) {
-  rows.kappa0 = kappa0.value();
-  rows.kappa0_first = {kappa0.d(0), kappa0.d(1)};
-  rows.kappa0_second = {kappa0.d(0, 0), kappa0.d(0, 1), kappa0.d(1, 1)};
 }
 
 // l^m, l = b - a.
@@ -38,32 +20,13 @@ Jet power_of_length(double l, int m) {
   return Jet(Jet::Coefficients{f, -d1, d1, d2, -2 * d2, d2, -d3, 3 * d3, -3 * d3, d3});
 }
 
-// The drawn curve at one place, by the parameter u of the chart and along s.
-struct ChartPlace {
-  std::array<double, 4> u;       // and its s-derivatives
-  std::array<double, 4> J, W;    // and their u-derivatives
-  std::array<double, 3> kappa0;  // and its s-derivatives
-};
-
-ChartPlace place_of(const ReferenceCurve& curve, int segment, double s) {
-  const int j = segment < 0 ? curve.segment_at(s) : segment;
-  const double u = curve.parameter(j, s);
-  const ChartGeometry g = curve.geometry(j, u);
-  const double i = 1 / g.stretch[0], i3 = i * i * i, J1 = g.stretch[1];
-  const std::array<double, 4> u_along{u, i, -J1 * i3,
-                                      (3 * J1 * J1 - g.stretch[0] * g.stretch[2]) * i3 * i * i};
-  const auto k = along(g.curvature, u_along);
-  if (segment < 0) return {{s, 1, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}, {k[0], k[1], k[2]}};
-  return {u_along, g.stretch, g.weight, {k[0], k[1], k[2]}};
-}
-
 }  // namespace
 
 MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b,
                          Derivatives wanted)
     : curve_(&curve), segment_(chart.segment), wanted_(wanted) {
   if (chart.constant_weights) {
-    series_.emplace(curve, chart, s_a, s_b);
+    constant_weights_.emplace(curve, chart, s_a.value(), s_b.value());
     return;
   }
   if (segment_ < 0 || curve.is_uniform_line(segment_)) {
@@ -118,35 +81,6 @@ MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const 
   else
     set_all(std::integral_constant<int, 3>());
 }
-
-namespace {
-
-// Rows: H / W of the four Hermite functions and its first four s-derivatives.
-Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, double l) {
-  const double xi = (p.u[0] - u_a) / l, xi2 = xi * xi, xi3 = xi2 * xi, i = 1 / l;
-  Eigen::Matrix<double, 5, 4> f;  // by u
-  f.row(0) << 1 - 3 * xi2 + 2 * xi3, l * (xi - 2 * xi2 + xi3), 3 * xi2 - 2 * xi3, l * (xi3 - xi2);
-  f.row(1) << 6 * i * (xi2 - xi), 1 - 4 * xi + 3 * xi2, 6 * i * (xi - xi2), 3 * xi2 - 2 * xi;
-  f.row(2) << i * i * (12 * xi - 6), i * (6 * xi - 4), i * i * (6 - 12 * xi), i * (6 * xi - 2);
-  f.row(3) << 12 * i * i * i, 6 * i * i, -12 * i * i * i, 6 * i * i;
-  f.row(4).setZero();
-  const double iW = 1 / p.W[0], W1 = p.W[1], W2 = p.W[2], W3 = p.W[3];
-  f.row(0) *= iW;
-  f.row(1) = (f.row(1) - W1 * f.row(0)) * iW;
-  f.row(2) = (f.row(2) - 2 * W1 * f.row(1) - W2 * f.row(0)) * iW;
-  f.row(3) = (f.row(3) - 3 * W1 * f.row(2) - 3 * W2 * f.row(1) - W3 * f.row(0)) * iW;
-  f.row(4) = (-4 * W1 * f.row(3) - 6 * W2 * f.row(2) - 4 * W3 * f.row(1)) * iW;
-  const auto& [J, J1, J2, J3] = p.J;
-  const double iJ = 1 / J, iJ2 = iJ * iJ;
-  f.row(1) *= iJ;
-  f.row(2) = (f.row(2) - J1 * f.row(1)) * iJ2;
-  f.row(3) = (f.row(3) - J2 * f.row(1) - 3 * J1 * J * f.row(2)) * iJ2 * iJ;
-  f.row(4) = (f.row(4) - J3 * f.row(1) - (4 * J * J2 + 3 * J1 * J1) * f.row(2) - 6 * J * J * J1 * f.row(3)) *
-             iJ2 * iJ2;
-  return f;
-}
-
-}  // namespace
 
 std::pair<double, bool> MovingBasis::fraction(const Jet& s) const {
   constexpr double round_off = 1e-12;
@@ -221,11 +155,11 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
   if (uniform_)
     if (const auto [xi, moves_with_ends] = fraction(s); moves_with_ends) {
       MovingRows rows = uniform_rows(xi);
-      if (has_curvature())
-        set_curvature(curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s), rows);
+      if (has_curvature()) rows.set_curvature(curvature_at(place_of(*curve_, segment_, s.value()).kappa0, s));
       return rows;
     }
-  if (!uniform_ && !series_ && wanted_ == Derivatives::one) return rational_rows(s);
+  if (constant_weights_) return constant_weights_->rows_at(s, wanted_);
+  if (!uniform_ && wanted_ == Derivatives::one) return rational_rows(s);
   const ShapeFunctions<Jet> shape = at(s);
   MovingRows rows;
   const auto copy = [](const std::array<Jet, 4>& jets, MovingRows::Series& series) {
@@ -243,7 +177,7 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
     rows.rsss[k] = shape.d3[k].value();
     for (const int end : {0, 1}) rows.rsss_first[end][k] = shape.d3[k].d(end);
   }
-  set_curvature(shape.kappa0, rows);
+  rows.set_curvature(shape.kappa0);
   return rows;
 }
 
@@ -273,7 +207,7 @@ MovingRows MovingBasis::rational_rows(const Jet& s) const {
 }
 
 ShapeFunctions<Jet> MovingBasis::at(const Jet& s) const {
-  if (series_) return series_->at(s);
+  if (constant_weights_) return constant_weights_->at(s);
   if (uniform_) return uniform_at(s);
   const ChartPlace p = place_of(*curve_, segment_, s.value());
   const Eigen::Matrix<double, 5, 4> f = hermite_along(p, u_a_, length_);

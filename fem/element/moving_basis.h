@@ -2,28 +2,12 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "fem/element/constant_weight_basis.h"
+#include "fem/element/moving_rows.h"
 #include "fem/element/rancf_basis.h"
 #include "fem/material/strain.h"
 
 namespace nurbeam {
-
-/// Of the shape functions and their derivatives along s what forces need, and with two derivatives wanted
-/// what tangents need besides; one column a shape function.
-struct MovingRows {
-  using Row = Eigen::Vector4d;
-  struct Series {
-    Row value;
-    std::array<Row, 2> first;   ///< by the end positions a, b
-    std::array<Row, 3> second;  ///< by aa, ab, bb; of r_s and r_ss for tangents only
-  };
-  Series r, rs, rss;
-  std::array<Row, 4> r_third;  ///< of r, by aaa, aab, abb, bbb; for tangents only
-  Row rsss;
-  std::array<Row, 2> rsss_first;  ///< by a, b; for tangents only
-  double kappa0 = 0;  ///< curvature of the drawing [1/m], and its derivatives by the end positions
-  std::array<double, 2> kappa0_first{};
-  std::array<double, 3> kappa0_second{};  ///< for tangents only
-};
 
 /// The shape functions of ElementBasis and their derivatives in the end positions, without series at the
 /// points.
@@ -37,8 +21,8 @@ struct MovingRows {
 ///
 /// Where u is s but for a factor and W is constant (arc length as chart, straight lines) the shape functions
 /// are the Hermite ones of xi = (s - s_A) / l times powers of l: at a fixed fraction xi of the element only
-/// these powers have derivatives. Charts with constant weights, whose W moves with the ends, are left to the
-/// series of ElementBasis.
+/// these powers have derivatives. Charts with constant weights, whose W moves with the ends, have a basis of
+/// their own.
 class MovingBasis {
  public:
   /// `wanted`: one for rows_at() alone.
@@ -73,7 +57,7 @@ class MovingBasis {
   /// (P, Q, R, T) of the four shape functions (columns), by derivative; the last four unset where one is
   /// wanted.
   std::array<Eigen::Matrix4d, derivatives> data_;
-  std::optional<ElementBasis<Jet>> series_;  // with constant weights
+  std::optional<ConstantWeightBasis> constant_weights_;
 };
 
 }  // namespace nurbeam

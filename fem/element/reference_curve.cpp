@@ -39,17 +39,20 @@ bool uniform_line(const RationalCubic& cubic) {
 
 }  // namespace
 
-ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric, bool closed)
+ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric, bool closed,
+                               const ReferenceCurve* like)
     : segments_(std::move(segments)), dimension_(dimension), metric_(metric), closed_(closed) {
   if (segments_.empty())
     throw std::invalid_argument("a reference curve needs at least one segment, got none");
   if (dimension != 2 && dimension != 3)
     throw std::invalid_argument("a reference curve has dimension 2 or 3, got " + std::to_string(dimension));
   breaks_.push_back(0);
-  for (const RationalCubic& segment : segments_) {
-    maps_.emplace_back(segment);
+  for (std::size_t j = 0; j < segments_.size(); ++j) {
+    const RationalCubic& segment = segments_[j];
+    const bool same = like && j < like->segments_.size() && segment.points() == like->segments_[j].points();
+    maps_.push_back(same ? like->maps_[j] : std::make_shared<const ArcLengthMap>(segment));
     uniform_line_.push_back(uniform_line(segment));
-    breaks_.push_back(breaks_.back() + maps_.back().length());
+    breaks_.push_back(breaks_.back() + maps_.back()->length());
   }
   if (!closed_) return;
   if (segment_count() < 2 || metric_ == Metric::label)
@@ -73,6 +76,13 @@ double ReferenceCurve::next_break(double s) const {
   if (next != end && *next + turns <= s) ++next;  // round-off of a full turn
   if (next != end) return *next + turns;
   return closed_ ? length() + breaks_[1] + turns : std::numeric_limits<double>::infinity();
+}
+
+bool ReferenceCurve::draws_alike(const ReferenceCurve& other, int j, double s, double other_s) const {
+  constexpr double round_off = 1e-12;  // of the length
+  return dimension_ == other.dimension_ && metric_ == other.metric_ && straight_ == other.straight_ &&
+         j < other.segment_count() && segments_[j].points() == other.segments_[j].points() &&
+         std::abs((s - breaks_[j]) - (other_s - other.breaks_[j])) <= round_off * segment_length(j);
 }
 
 int ReferenceCurve::segment_at(double s, bool from_left) const {

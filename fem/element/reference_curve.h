@@ -44,9 +44,10 @@ class ReferenceCurve {
  public:
   /// Throws std::invalid_argument when there is no segment, the dimension is not 2 or 3, or the speed
   /// vanishes; for a `closed` curve also when it has less than two segments or no metric, or its end is not
-  /// its start to 1e-9 of its length.
+  /// its start to 1e-9 of its length. Segments that are the same in `like`, which may be null, are not
+  /// measured again.
   ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric = Metric::arc_length,
-                 bool closed = false);
+                 bool closed = false, const ReferenceCurve* like = nullptr);
 
   /// The same curve, of a beam whose stress-free shape has this length but no curvature.
   ReferenceCurve straightened() const {
@@ -90,17 +91,21 @@ class ReferenceCurve {
   /// The first break between segments after s; infinity where none follows.
   double next_break(double s) const;
 
+  /// Whether segment j is the same drawing on both curves, and s and `other_s` [m] are one place of it, to
+  /// round-off: what is found there of the one holds for the other.
+  bool draws_alike(const ReferenceCurve& other, int j, double s, double other_s) const;
+
   /// The segment that covers s; at a break the one before it when `from_left`, else the one after it.
   int segment_at(double s, bool from_left = false) const;
   /// u of segment j at s [m]; slightly outside it extrapolates.
   double parameter(int j, double s) const {
     s = unrolled(s, (breaks_[j] + breaks_[j + 1]) / 2);
     return metric_ == Metric::label ? (s - breaks_[j]) / segment_length(j)
-                                    : maps_[j].parameter(s - breaks_[j]);
+                                    : maps_[j]->parameter(s - breaks_[j]);
   }
   /// Reference arc length [m] at parameter u of segment j, the inverse of parameter().
   double arc_length(int j, double u) const {
-    return breaks_[j] + (metric_ == Metric::label ? u * segment_length(j) : maps_[j].arc_length(u));
+    return breaks_[j] + (metric_ == Metric::label ? u * segment_length(j) : maps_[j]->arc_length(u));
   }
   ChartGeometry geometry(int j, double u) const;
   /// Position at s, 3 [m] (third coordinate 0 in a planar model).
@@ -120,7 +125,7 @@ class ReferenceCurve {
   double segment_length(int j) const { return breaks_[j + 1] - breaks_[j]; }
 
   std::vector<RationalCubic> segments_;
-  std::vector<ArcLengthMap> maps_;
+  std::vector<std::shared_ptr<const ArcLengthMap>> maps_;  // immutable, shared by copies
   std::vector<double> breaks_;
   std::vector<bool> uniform_line_;
   int dimension_;

@@ -15,6 +15,7 @@ struct FreeStrain {
   double at(double t) const {
     return thermal.empty() ? constant : constant + value_and_slope(thermal, t).first;
   }
+  bool operator==(const FreeStrain&) const = default;
   bool is_none() const { return constant == 0 && thermal.empty() && of_tension == 0; }
 };
 

@@ -43,6 +43,8 @@ struct SectionStiffness {
   double bending_product = 0;           ///< EI12 [N m^2]
   double torsion = 0;                   ///< GJ [N m^2]
   double spin_inertia = 0;              ///< rho (I_x + I_y) [kg m]
+
+  bool operator==(const SectionStiffness&) const = default;
 };
 
 /// Plain numbers in SI: what the constitutive law needs of a cross section and its material.
@@ -83,6 +85,8 @@ struct BeamProperties {
     p.free_strain.constant = (stretch * stretch - 1) / 2;
     return p;
   }
+
+  bool operator==(const BeamProperties&) const = default;
 
   BeamProperties() = default;
   BeamProperties(double EA, double EI, double rho_A, double c = 0,

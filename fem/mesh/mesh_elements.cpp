@@ -30,7 +30,9 @@ Chart choose_chart(const Beam& beam, const MeshPlan& plan, const MeshSpan& span,
 // The drawn slope before a node minus that after it, for the element before it.
 template <int D>
 Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& node) {
-  if (node.joint >= 0 || node.slope_left != node.slope_right) return Eigen::Matrix<double, D, 1>::Zero();
+  const bool is_break = beam.curve.segment_at(node.s, true) != beam.curve.segment_at(node.s);
+  if (!is_break || node.joint >= 0 || node.slope_left != node.slope_right)
+    return Eigen::Matrix<double, D, 1>::Zero();
   return (beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s)).template head<D>();
 }
 
@@ -86,17 +88,34 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
       MeshTwist{dofs, is_kept ? same->twist->element : new_twist(mesh, e, beam)});
 }
 
+// Whether both are on one segment that is drawn alike, and made of the same.
+template <int D>
+bool axis_is(const MeshElement<D>& e, const MeshSpan& span, const Chart& chart, const ReferenceCurve& curve,
+             const BeamProperties& properties) {
+  return e.element.fixed() && e.beam == span.beam && chart.segment >= 0 && e.element.chart() == chart &&
+         e.element.curve().draws_alike(curve, chart.segment, e.s_a, span.s_a) &&
+         e.element.curve().draws_alike(curve, chart.segment, e.s_b, span.s_b) &&
+         e.element.properties() == properties;
+}
+
 // Finds elements with fixed ends of one mesh in another one, in the order of both.
 template <int D>
 class SameElements {
  public:
-  explicit SameElements(const std::optional<MeshedElements<D>>& like) : like_(like) {}
+  SameElements(const Structure& structure, const std::optional<MeshedBeams<D>>& like)
+      : structure_(&structure), like_(like) {}
 
   const Mesh* mesh() const { return like_ ? &like_->mesh : nullptr; }
 
-  const MeshElement<D>* find(const MeshSpan& span, const Chart& chart) {
+  // Of a neighbouring model that draws it alike: in a mesh with as many.
+  const MeshElement<D>* find(std::size_t index, std::size_t count, const MeshSpan& span, const Chart& chart,
+                             const Beam& beam) {
     if (!like_) return nullptr;
     const std::vector<MeshElement<D>>& others = like_->elements;
+    if (&like_->structure != structure_)
+      return others.size() == count && axis_is(others[index], span, chart, beam.curve, beam.properties)
+                 ? &others[index]
+                 : nullptr;
     const auto comes_before = [&](const MeshSpan& other) {
       return other.beam != span.beam ? other.beam < span.beam : other.s_a < span.s_a;
     };
@@ -109,7 +128,8 @@ class SameElements {
   }
 
  private:
-  const std::optional<MeshedElements<D>>& like_;
+  const Structure* structure_;
+  const std::optional<MeshedBeams<D>>& like_;
   std::size_t next_ = 0;
 };
 
@@ -117,8 +137,8 @@ class SameElements {
 
 template <int D>
 std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
-                                          const std::optional<MeshedElements<D>>& like) {
-  SameElements<D> others(like);
+                                          const std::optional<MeshedBeams<D>>& like) {
+  SameElements<D> others(structure, like);
   std::vector<MeshElement<D>> elements;
   elements.reserve(mesh.spans.size());
   for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
@@ -131,14 +151,17 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
           "a beam with the pointwise axial strain is as long as it is drawn when free");
     const Ends ends = span.place_a < 0 && span.place_b < 0 ? Ends::fixed : Ends::moving;
     Chart chart = choose_chart(beam, mesh.plan, span, is_arc_length_span(structure, mesh, i));
-    const MeshElement<D>* same = ends == Ends::fixed ? others.find(span, chart) : nullptr;
+    const MeshElement<D>* same =
+        ends == Ends::fixed ? others.find(elements.size(), mesh.spans.size(), span, chart, beam) : nullptr;
+    const bool of_model = same && &same->element.curve() == &beam.curve;
     elements.push_back(
         {span, dofs_of<D>(mesh, span),
-         same ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
-         same ? same->element
+         of_model ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
+         same ? same->element.on(beam.curve, beam.properties)
               : BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
     if constexpr (D == 3)
-      elements.back().twist = make_twist(mesh, elements.back(), beam, others.mesh(), same);
+      elements.back().twist =
+          make_twist(mesh, elements.back(), beam, others.mesh(), of_model ? same : nullptr);
   }
   return elements;
 }
@@ -185,6 +208,13 @@ TwistState gather_twist(const MeshElement<3>& e, const State& state) {
 }
 
 template <int D>
+bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other) {
+  constexpr double round_off = 1e-12;
+  return other.element.fixed() && (e.slope_offset - other.slope_offset).norm() <= round_off &&
+         axis_is(e, other, other.element.chart(), other.element.curve(), other.element.properties());
+}
+
+template <int D>
 MaterialPoint<D> material_point(const ElementState<D>& x, const ShapeFunctions<double>& shape) {
   const ElementNodes<D> nodes = x.nodes(), rates = x.node_rates();
   const auto sum = [](const ElementNodes<D>& of, const std::array<double, 4>& functions) {
@@ -209,9 +239,11 @@ MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& 
 }
 
 template std::vector<MeshElement<2>> make_elements<2>(const Structure&, const Mesh&,
-                                                      const std::optional<MeshedElements<2>>&);
+                                                      const std::optional<MeshedBeams<2>>&);
 template std::vector<MeshElement<3>> make_elements<3>(const Structure&, const Mesh&,
-                                                      const std::optional<MeshedElements<3>>&);
+                                                      const std::optional<MeshedBeams<3>>&);
+template bool same_axis<2>(const MeshElement<2>&, const MeshElement<2>&);
+template bool same_axis<3>(const MeshElement<3>&, const MeshElement<3>&);
 template ElementVector<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&);
 template ElementVector<3> gather<3>(const MeshElement<3>&, const Eigen::VectorXd&);
 template ElementState<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&, const Eigen::VectorXd&,

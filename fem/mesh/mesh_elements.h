@@ -36,18 +36,24 @@ struct MeshElement : MeshSpan {
   }
 };
 
-/// The elements of a mesh with the mesh.
+/// What constraints and forces see of a structure: its mesh and its elements.
 template <int D>
-struct MeshedElements {
+struct MeshedBeams {
+  const Structure& structure;
   const Mesh& mesh;
   const std::vector<MeshElement<D>>& elements;
+
+  const MeshElement<D>& element_at(const Eigen::VectorXd& q, int beam, double s) const {
+    return elements[find_span(structure, mesh, q, beam, s)];
+  }
 };
 
 /// The elements of a mesh, in the order of its spans. The structure must outlive them. What those of another
-/// mesh of the same structure have in common with them is taken from these.
+/// mesh of the same structure have in common with them is taken from these, and what they have in common with
+/// those of one mesh of a neighbouring structure.
 template <int D>
 std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
-                                          const std::optional<MeshedElements<D>>& like = {});
+                                          const std::optional<MeshedBeams<D>>& like = {});
 
 /// The axial strain without axial force of an element's beam, as State::load has it.
 template <int D>
@@ -70,21 +76,14 @@ ElementState<D> gather(const MeshElement<D>& e, const State& state) {
 template <int D>
 ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q);
 
+/// Whether two elements of one mesh of neighbouring models have the same axis, to round-off: fixed, on one
+/// segment that both draw alike, with equal properties.
+template <int D>
+bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other);
+
 /// Those of an element of a beam with torsion.
 TwistState gather_twist(const MeshElement<3>& e, const State& state);
 TwistLayout::Coordinates gather_twist(const MeshElement<3>& e, const Eigen::VectorXd& q);
-
-/// What constraints and forces see of a structure: its mesh and its elements.
-template <int D>
-struct MeshedBeams {
-  const Structure& structure;
-  const Mesh& mesh;
-  const std::vector<MeshElement<D>>& elements;
-
-  const MeshElement<D>& element_at(const Eigen::VectorXd& q, int beam, double s) const {
-    return elements[find_span(structure, mesh, q, beam, s)];
-  }
-};
 
 /// Position and material velocity fields at one material point; on a ring s may be any full turns away.
 template <int D>

@@ -90,8 +90,10 @@ std::vector<bool> closed_contacts(const MeshedState& at) {
   return closed;
 }
 
+constexpr double shortest_rebound = 0.01;  // of a step, that is followed
+
 // The velocities without those across a stop that is to be kept; what else was kept and would be pulled is
-// let go.
+// let go, unless the force that presses it would bring it back at once.
 std::optional<MeshedState> stopped(const MeshedState& at, int stop, double step) {
   std::vector<bool> closed = closed_contacts(at);
   closed[stop] = true;
@@ -103,7 +105,9 @@ std::optional<MeshedState> stopped(const MeshedState& at, int stop, double step)
     impulse.lambda = projection.impulse;
     bool pulled = false;
     for (int i = 0; i < static_cast<int>(closed.size()); ++i) {
-      if (!closed[i] || i == stop || contact_force(*kept.system, impulse, i) >= 0) continue;
+      if (!closed[i] || i == stop) continue;
+      const double pressed = std::max(0.0, contact_force(*at.system, at.state, i));
+      if (contact_force(*kept.system, impulse, i) >= -pressed * shortest_rebound / 2 * step) continue;
       closed[i] = false;
       pulled = true;
     }
@@ -112,7 +116,6 @@ std::optional<MeshedState> stopped(const MeshedState& at, int stop, double step)
 }
 
 bool hit_stop(MeshedState& at, int stop, double step, bool presses) {
-  constexpr double followed = 0.01;  // of a step, the shortest rebound
   const Stop& of = stop_of(*at.system, stop);
   std::optional<MeshedState> kept = stopped(at, stop, step);
   if (!kept) return false;
@@ -125,7 +128,7 @@ bool hit_stop(MeshedState& at, int stop, double step, bool presses) {
   if (make_accelerations_smooth(*open.system, step, moving) != ConsistencyStatus::done) return false;
   const double away = opening_rate(*open.system, open.state, stop),
                pushed = -stop_rate(open.system->mesh(), of, moving.a);
-  const bool rests = (presses && closing <= 0) || (pushed > 0 && away < 2 * pushed * followed * step);
+  const bool rests = (presses && closing <= 0) || (pushed > 0 && away < 2 * pushed * shortest_rebound * step);
   at = rests ? std::move(*kept) : std::move(open);
   return true;
 }

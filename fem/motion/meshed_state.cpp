@@ -52,9 +52,11 @@ std::optional<Failure> go_on_there(MeshedState& at, std::optional<ChangedMesh> c
 
 }  // namespace
 
-MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model) {
+MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model, const BeamSystem* like) {
   MeshPlan plan = initial_plan(*model);
-  auto system = std::make_unique<BeamSystem>(std::move(model), std::move(plan));
+  auto system =
+      like ? std::make_unique<BeamSystem>(std::move(model), std::move(plan), std::vector<bool>{}, *like)
+           : std::make_unique<BeamSystem>(std::move(model), std::move(plan));
   State state = drawn_state(*system);
   return {std::move(system), std::move(state)};
 }

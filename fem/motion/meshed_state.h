@@ -13,8 +13,8 @@ struct MeshedState {
   std::unique_ptr<BeamSystem> system;
   State state;
 
-  /// The model as it is drawn.
-  static MeshedState drawn(std::shared_ptr<const BeamModel> model);
+  /// The model as it is drawn; `like`, which may be null, is that of a neighbouring model.
+  static MeshedState drawn(std::shared_ptr<const BeamModel> model, const BeamSystem* like = nullptr);
 };
 
 /// A motion on another mesh.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/motion/carried_sections.h"
+#include "fem/motion/descent.h"
 #include "fem/motion/friction_modes.h"
 #include "fem/motion/recentring.h"
 #include "fem/motion/sliding_bodies.h"
@@ -44,94 +45,6 @@ std::vector<double> present_places(const MeshedState& at) {
   for (std::size_t j = 0; j < places.size(); ++j)
     if (const auto s = place(*at.system, at.state, static_cast<int>(j))) places[j] = *s;
   return places;
-}
-
-// A sliding body on its way to where it rests.
-struct Descent {
-  double most;                         // of the next move [m]; 0 for one that does not move
-  double s = 0, force = 0, moved = 0;  // before the last move, that held it there [m], [N], and the move [m]
-  bool arrived = false, at_end = false;  // the latter: of the beam
-  int balanced = 0;                      // places in a row at which nothing held it
-  int way = 0;                           // that it slides against its friction
-};
-
-// Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
-// [m].
-double push_off(Descent& body) {
-  ++body.balanced;
-  return body.balanced == 1 ? body.most : body.balanced == 2 ? -body.moved : 0;
-}
-
-// What round-off makes of the force that holds a body where nothing pulls it [N]: strains are differences of
-// coordinates over the length of an element.
-double force_of_round_off(const MeshedState& at, int joint) {
-  const BeamModel& model = at.system->model();
-  const double elements = at.state.q.lpNorm<Eigen::Infinity>() / home_spacing(model, joint);
-  return 8 * std::numeric_limits<double>::epsilon() *
-         model.beam_of(model.joints[joint]).properties.axial_stiffness * (1 + elements);
-}
-
-// Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it
-// shows where it does not want to go.
-double step_down(const Descent& body, double s, double force) {
-  const double downhill = force < 0 ? body.most : -body.most;
-  if (body.moved == 0) return downhill;
-  const double slope = (force - body.force) / (s - body.s);
-  return slope > 0 ? std::clamp(-force / slope, -body.most, body.most) : downhill;
-}
-
-// The force that holds a body less what its friction holds: one that sticks is held by that alone, one that
-// slides goes on until its friction of sliding holds it.
-double force_beyond_friction(const MeshedState& at, int joint, double force, Descent& body) {
-  if (!at.system->model().joints[joint].friction) return force;
-  if (body.way == 0) {
-    if (std::abs(force) <= holding_capacity(*at.system, at.state, joint, true)) return 0;
-    body.way = force < 0 ? 1 : -1;
-  }
-  return force + body.way * holding_capacity(*at.system, at.state, joint, false);
-}
-
-// A move that ends at a hard stop where it would go beyond [m].
-double before_stops(const MeshedState& at, int joint, double s, double ds) {
-  for (const Stop& stop : at.system->model().stops) {
-    if (stop.joint != joint || stop.other >= 0 || stop.buffer) continue;
-    ds = stop.from_below ? std::min(ds, std::max(0.0, stop.place - s))
-                         : std::max(ds, std::min(0.0, stop.place - s));
-  }
-  return ds;
-}
-
-// The next move of a body [m].
-double next_move(const MeshedState& at, int joint, Descent& body) {
-  body.arrived = body.most == 0;
-  if (body.arrived) return 0;
-  const double force = force_beyond_friction(at, joint, holding_force(*at.system, at.state, joint), body);
-  const double s = *place(*at.system, at.state, joint);
-  const double spacing = home_spacing(at.system->model(), joint);
-  if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) : 2 * body.most;
-  body.most = std::min(body.most, 4 * spacing);
-  const bool begins = body.moved == 0 || body.balanced > 0;
-  const bool has_friction = at.system->model().joints[joint].friction.has_value();
-  if (has_friction && body.way == 0 && force == 0 &&
-      holding_capacity(*at.system, at.state, joint, true) > 0) {
-    body.arrived = true;
-    return 0;
-  }
-  const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, joint) : 0);
-  double ds = nothing_pulls ? push_off(body) : step_down(body, s, force);
-  if (!nothing_pulls) body.balanced = 0;
-  const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
-  const double room = 0.4 * distance_to_others(at, joint);
-  ds = std::clamp(ds, -room, room);
-  if (!curve.closed()) ds = std::clamp(ds, -s, curve.length() - s);
-  ds = before_stops(at, joint, s, ds);
-  body.at_end = ds == 0 && !nothing_pulls;
-  body.arrived = std::abs(ds) < 1e-6 * spacing;
-  if (body.arrived) return 0;
-  body.s = s;
-  body.force = force;
-  body.moved = ds;
-  return ds;
 }
 
 // A share of a model's loads at a time.
@@ -223,6 +136,8 @@ class RestSearch {
     if (!move_driven_bodies()) return;
     std::vector<Descent> bodies;
     for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? spacing(j) / 4 : 0});
+    for (std::vector<int>& group : coupled_joints(model(), slides))
+      coupled_.emplace_back(model(), std::move(group));
     constexpr int most_moves = 2000;
     for (int moves = 0; !report_.failure && let_down(bodies); ++moves)
       if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
@@ -250,8 +165,10 @@ class RestSearch {
 
   // One move of every body and the equilibrium after it; false where all have arrived, or there is none.
   bool let_down(std::vector<Descent>& bodies) {
-    std::vector<double> ds;
-    for (int j = 0; j < joints(); ++j) ds.push_back(next_move(at_, j, bodies[j]));
+    std::vector<double> ds(bodies.size(), 0);
+    for (int j = 0; j < joints(); ++j)
+      if (!is_coupled(j)) ds[j] = next_move(at_, j, bodies[j]);
+    for (CoupledDescent& group : coupled_) group.next_moves(at_, bodies, ds);
     const bool arrived =
         std::all_of(bodies.begin(), bodies.end(), [](const Descent& body) { return body.arrived; });
     return !arrived && move_places(std::move(ds));
@@ -311,13 +228,37 @@ class RestSearch {
     }
   }
 
+  bool is_coupled(int joint) const {
+    return std::any_of(
+        coupled_.begin(), coupled_.end(),
+        [&](const CoupledDescent& group) {
+          return std::count(group.joints().begin(), group.joints().end(), joint) > 0;
+        });
+  }
+
+  // How much of each move is made at once, with which no joint passes a node: those that are coupled go the
+  // same part of their ways.
+  std::vector<double> parts_at_once(const std::vector<double>& ds) const {
+    std::vector<double> parts;
+    for (int j = 0; j < joints(); ++j)
+      parts.push_back(std::clamp(ds[j], -room_to_move(at_, j, -1), room_to_move(at_, j, 1)));
+    for (const CoupledDescent& group : coupled_) {
+      double least = 1;
+      for (const int j : group.joints())
+        if (ds[j] != 0) least = std::min(least, parts[j] / ds[j]);
+      for (const int j : group.joints()) parts[j] = least * ds[j];
+    }
+    return parts;
+  }
+
   // Moves held joints by ds from equilibrium to equilibrium, never past a node at once, and carries length
   // control along. Newton's first step takes everything along to first order.
   bool move_places(std::vector<double> ds) {
     while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
       std::vector<double> places = present_places(at_);
+      const std::vector<double> parts = parts_at_once(ds);
       for (int j = 0; j < joints(); ++j) {
-        const double part = std::clamp(ds[j], -room_to_move(at_, j, -1), room_to_move(at_, j, 1));
+        const double part = parts[j];
         places[j] += part;
         ds[j] -= part;
         const int dof = at_.system->mesh().joints[j].place;
@@ -349,6 +290,7 @@ class RestSearch {
   const LengthControl& control_;
   const std::function<bool()>& interrupted_;
   std::optional<double> equilibrium_;  // the time of the last one found
+  std::vector<CoupledDescent> coupled_;
   RestReport report_;
 };
 

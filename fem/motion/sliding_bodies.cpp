@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fem/system/observables.h"
 
@@ -29,11 +30,18 @@ double distance_to_others(const MeshedState& at, int joint) {
 }
 
 bool kept_apart(const BeamModel& model, int joint, int other) {
-  return std::any_of(
-      model.stops.begin(), model.stops.end(),
-      [&](const Stop& stop) {
-        return stop.other >= 0 && std::minmax(stop.joint, stop.other) == std::minmax(joint, other);
-      });
+  const auto place = [&](int j) { return model.joints[j].s; };
+  if (place(joint) > place(other)) std::swap(joint, other);
+  const bool closed = model.beam_of(model.joints[joint]).curve.closed();
+  return std::any_of(model.stops.begin(), model.stops.end(), [&](const Stop& stop) {
+    if (stop.other < 0) return false;
+    if (std::minmax(stop.joint, stop.other) == std::minmax(joint, other)) return true;
+    if (closed || model.joints[stop.joint].beam != model.joints[joint].beam) return false;
+    // By one that stands between them, as no body passes another.
+    const auto [near, far] = place(stop.joint) < place(stop.other) ? std::pair(stop.joint, stop.other)
+                                                                   : std::pair(stop.other, stop.joint);
+    return near == joint && place(far) < place(other) && kept_apart(model, far, other);
+  });
 }
 
 std::vector<BodyPlace> places_of(const MeshedState& at) {

@@ -12,7 +12,8 @@ double home_spacing(const BeamModel& model, int joint);
 
 /// From one body to another on the same beam [m], on a ring the short way; else infinity.
 double distance_between(const MeshedState& at, int joint, int other);
-/// Whether a stop keeps two bodies apart.
+/// Whether a stop keeps two bodies on one beam apart; on an open one also stops between those that stand
+/// between them.
 bool kept_apart(const BeamModel& model, int joint, int other);
 
 /// From one body to the nearest other one on its beam [m]; infinity where it is alone.

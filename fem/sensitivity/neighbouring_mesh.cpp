@@ -115,7 +115,7 @@ std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
         "an equilibrium has no derivative here where bodies slide to it on beams with torsion or constant "
         "weights, or sections turn far");
   for (int j = 0; j < static_cast<int>(plan.places.size()); ++j) plan.places[j] = held_place(at, j, *model);
-  return std::make_unique<BeamSystem>(model, std::move(plan), held_joints(*at.system));
+  return std::make_unique<BeamSystem>(model, std::move(plan), held_joints(*at.system), *at.system);
 }
 
 }  // namespace nurbeam

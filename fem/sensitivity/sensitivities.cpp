@@ -10,7 +10,6 @@
 #include "fem/motion/free_lengths.h"
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
-#include "fem/sensitivity/residual_difference.h"
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
@@ -65,7 +64,6 @@ void check_tangents(const BeamModel& model) {
 struct Sensitivities::Parameter {
   NeighbourPair pair;
   std::unique_ptr<BeamSystem> more = nullptr, less = nullptr;
-  std::optional<ResidualDifference> difference = {};  // of these
 
   // The tangent after what `change` makes of the neighbours of a state.
   State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change) {
@@ -132,29 +130,29 @@ void Sensitivities::go_on_from(const MeshedState& at) {
   state_ = at.state;
   meshes_ = nullptr;
   step_.reset();
-  for (Parameter& parameter : parameters_)
-    parameter.difference.emplace(*parameter.more, *parameter.less, at.state);
+  std::vector<ResidualDifferences::Pair> pairs;
+  for (const Parameter& parameter : parameters_)
+    pairs.push_back({parameter.more.get(), parameter.less.get(), parameter.pair.step});
+  differences_.emplace(pairs, at.state);
 }
 
 // Into the columns of dynamics_ and constraints_, at a state whose time changes too.
 void Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time,
                                           const Eigen::SparseMatrix<double>& stiffness) {
   const Eigen::Index n = at.q.size(), m = at.lambda.size();
-  Vector dynamics(n), constraints(m);
-  for (Eigen::Index k = 0; k < time.size(); ++k) {
-    Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+  std::vector<std::vector<ResidualDifferences::Shift>> shifts;
+  for (const Parameter& parameter : parameters_) {
     const auto& [more, less, step] = parameter.pair;
-    const auto shifts = shifts_of_places(*system_, at, *more.model, *less.model, step);
-    parameter.difference->find(at, step, time[k], shifts, dynamics, constraints);
-    for (const auto& [place, by] : shifts) {
-      const Vector with_place = by * stiffness.col(place);
-      dynamics -= with_place.head(n);
-      constraints -= with_place.tail(m);
-    }
-    dynamics_.col(k) = dynamics;
-    constraints_.col(k) = constraints;
-    work_.residuals += 2 * parameter.difference->share();
+    shifts.push_back(shifts_of_places(*system_, at, *more.model, *less.model, step));
   }
+  differences_->find(at, time, shifts, dynamics_, constraints_);
+  work_.residuals += differences_->work();
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    for (const auto& [place, by] : shifts[k]) {
+      const Vector with_place = by * stiffness.col(place);
+      dynamics_.col(static_cast<Eigen::Index>(k)) -= with_place.head(n);
+      constraints_.col(static_cast<Eigen::Index>(k)) -= with_place.tail(m);
+    }
 }
 
 void Sensitivities::begins(const MeshedState& drawn) {
@@ -166,8 +164,9 @@ void Sensitivities::begins(const MeshedState& drawn) {
       each->model = divided_like(each->model, drawn.system->model());
     }
     if (begins_at_rest_) continue;
-    MeshedState more = MeshedState::drawn(parameter.pair.more.model),
-                less = MeshedState::drawn(parameter.pair.less.model);
+    const BeamSystem* like = drawn.system.get();
+    MeshedState more = MeshedState::drawn(parameter.pair.more.model, like),
+                less = MeshedState::drawn(parameter.pair.less.model, like);
     for (const MeshedState* each : {&more, &less})
       if (!same_mesh(*drawn.system, *each->system)) not_alike("the mesh changes");
     rates.push_back(rate(more.state, less.state, parameter.pair.step));

@@ -7,6 +7,7 @@
 
 #include "fem/motion/run_follower.h"
 #include "fem/motion/simulation.h"
+#include "fem/sensitivity/residual_differences.h"
 #include "solver/step_tangent.h"
 
 /// Derivatives of a run by parameters of its model.
@@ -89,7 +90,8 @@ class Sensitivities final : public RunFollower {
   GeneralizedAlpha settings_;
   bool begins_at_rest_;
   std::vector<Parameter> parameters_;
-  std::optional<StepTangent> step_;  // with the present system
+  std::optional<ResidualDifferences> differences_;  // of their present systems
+  std::optional<StepTangent> step_;                 // with the present system
   MotionTangents tangents_;
   MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
   const BeamSystem* system_ = nullptr;

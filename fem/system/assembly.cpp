@@ -20,9 +20,9 @@ void add_twist_force(const MeshElement<3>& e, const State& state, Eigen::Ref<Eig
 }
 
 template <int D>
-std::optional<MeshedElements<D>> elements_of(const Assembly<D>* assembly) {
+std::optional<MeshedBeams<D>> elements_of(const Assembly<D>* assembly) {
   if (!assembly) return {};
-  return MeshedElements<D>{assembly->mesh(), assembly->elements()};
+  return assembly->beams();
 }
 
 }  // namespace
@@ -38,8 +38,13 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   Binding<D> binding{beams(), drawn, held};
   bind_constraints(binding);
   bind_forces(binding);
-  build_pattern();
-  choose_moving_part();
+  list_blocks();
+  if (like && couples_as(*like)) {
+    take_pattern(*like);
+  } else {
+    build_pattern();
+    choose_moving_part();
+  }
 }
 
 // A batch of another mesh is taken over where it has the same elements with the same coordinates.
@@ -260,7 +265,12 @@ void Assembly<D>::add_part(int beam, int part, const State& state, const Vector&
   const int batch_count = static_cast<int>(batches.size());
   if (part < batch_count)
     return batches[part].add_forces(state, load, free_strain_of(beam, state), dynamics.data());
-  const MeshElement<D>& e = elements_[others[part - batch_count]];
+  add_element(elements_[others[part - batch_count]], state, load, dynamics);
+}
+
+template <int D>
+void Assembly<D>::add_element(const MeshElement<D>& e, const State& state, const Vector& load,
+                              Eigen::Ref<Eigen::VectorXd> dynamics) const {
   const ElementVector<D> f = element_force(e, state, load);
   for (int k = 0; k < element_size<D>; ++k)
     if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
@@ -311,56 +321,40 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
   dynamics.setZero();
   for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
     const Vector load = line_load(b, state);
-    for (int part = 0; part < part_count(b); ++part) add_part(b, part, state, load, dynamics);
+    const int batch_count = static_cast<int>(walks_[b].batches.size());
+    for_each_batch(walks_[b], [&](int part) { add_part(b, part, state, load, dynamics); });
+    for (int part = batch_count; part < part_count(b); ++part) add_part(b, part, state, load, dynamics);
   }
   add_forces_and_constraints(state, dynamics, constraints);
 }
 
 template <int D>
-std::vector<bool> Assembly<D>::parts_unlike(const Assembly& other, const State& state) const {
+std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other,
+                                               const std::vector<State>& states) const {
   constexpr double rounding = 1e-12;
-  for (std::size_t b = 0; b < walks_.size(); ++b)
-    if (walks_[b].others != other.walks_[b].others ||
-        walks_[b].batches.size() != other.walks_[b].batches.size())
-      return {};
   std::vector<bool> unlike;
-  Eigen::VectorXd own(mesh_.coordinate_count), others(mesh_.coordinate_count);
-  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b)
-    for (int part = 0; part < part_count(b); ++part) {
-      const int i = part - static_cast<int>(walks_[b].batches.size());
-      unlike.push_back(i >= 0 && !elements_[walks_[b].others[i]].element.fixed());
-      if (unlike.back()) continue;
-      own.setZero();
-      others.setZero();
-      add_part(b, part, state, Vector::Ones(), own);
-      other.add_part(b, part, state, Vector::Ones(), others);
-      unlike.back() = !((own - others).norm() <= rounding * own.norm());
-    }
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const MeshElement<D>&e = elements_[i], &of_other = other.elements_[i];
+    unlike.push_back(!same_axis(e, of_other));
+    if constexpr (D == 3)
+      if (e.twist)
+        unlike.back() =
+            unlike.back() || std::any_of(states.begin(), states.end(), [&](const State& state) {
+              const TwistLayout::Coordinates own = e.twist->element.force(gather_twist(e, state));
+              return !((own - of_other.twist->element.force(gather_twist(of_other, state))).norm() <=
+                       rounding * own.norm());
+            });
+  }
   return unlike;
 }
 
 template <int D>
-void Assembly<D>::residuals(const Assembly& other, const std::vector<bool>& unlike, const State& state,
-                            const State& other_state, Eigen::Ref<Eigen::VectorXd> dynamics,
-                            Eigen::Ref<Eigen::VectorXd> constraints,
-                            Eigen::Ref<Eigen::VectorXd> other_dynamics,
-                            Eigen::Ref<Eigen::VectorXd> other_constraints) const {
-  dynamics.setZero();
-  other_dynamics.setZero();
-  int first = 0;
-  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
-    if (part_count(b) == 0) continue;
-    const Vector load = line_load(b, state), other_load = other.line_load(b, other_state);
-    const bool all = unlike.empty() || load != other_load ||
-                     free_strain_of(b, state) != other.free_strain_of(b, other_state);
-    for (int part = 0; part < part_count(b); ++part)
-      if (all || unlike[first + part]) add_part(b, part, state, load, dynamics);
-    for (int part = 0; part < other.part_count(b); ++part)
-      if (all || unlike[first + part]) other.add_part(b, part, other_state, other_load, other_dynamics);
-    first += part_count(b);
-  }
+void Assembly<D>::add_residual_of(const std::vector<int>& elements, const State& state,
+                                  Eigen::Ref<Eigen::VectorXd> dynamics,
+                                  Eigen::Ref<Eigen::VectorXd> constraints) const {
+  for (const int i : elements)
+    add_element(elements_[i], state, line_load(elements_[i].beam, state), dynamics);
   add_forces_and_constraints(state, dynamics, constraints);
-  other.add_forces_and_constraints(other_state, other_dynamics, other_constraints);
 }
 
 template <int D>

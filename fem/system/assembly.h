@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "fem/forces/force.h"
 #include "fem/model/beam_model.h"
 #include "solver/second_order_system.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -63,16 +65,19 @@ class Assembly final : public SecondOrderSystem {
   ElementEnergy axis_energy(const State& state) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
-  /// Which parts of the walk over elements, in its order, answer otherwise to a state than those of `other`,
-  /// a system of the same mesh, apart from loads and free strains: to round-off; always those whose ends
-  /// move. Empty where the parts of the two do not correspond.
-  std::vector<bool> parts_unlike(const Assembly& other, const State& state) const;
-  /// The residual at `state` and that of `other` at `other_state`, both without what comes from parts that
-  /// are not `unlike`, as parts_unlike has found them, and has the same loads and free strains.
-  void residuals(const Assembly& other, const std::vector<bool>& unlike, const State& state,
-                 const State& other_state, Eigen::Ref<Eigen::VectorXd> dynamics,
-                 Eigen::Ref<Eigen::VectorXd> constraints, Eigen::Ref<Eigen::VectorXd> other_dynamics,
-                 Eigen::Ref<Eigen::VectorXd> other_constraints) const;
+  /// The dead load of a beam per reference length, its weight included [N/m].
+  Vector line_load(int beam, const State& state) const;
+  /// The axial strain without axial force of a beam that has elements, as State::load has it.
+  double free_strain_of(int beam, const State& state) const {
+    return free_strain(elements_[mesh_.first_span[beam]], state);
+  }
+  /// Which elements answer otherwise than those of `other`, a system of one mesh of a neighbouring model,
+  /// apart from loads and free strains: to round-off, sections at these states; always those whose ends move.
+  std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states) const;
+  /// Adds to the dynamics of a residual the forces of these elements and of all that is no element, which is
+  /// all that the constraints need.
+  void add_residual_of(const std::vector<int>& elements, const State& state,
+                       Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
   /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
@@ -142,6 +147,9 @@ class Assembly final : public SecondOrderSystem {
   bool has_batch(int beam, int k, const Assembly& like) const;
   void bind_constraints(Binding<D>& binding);
   void bind_forces(const Binding<D>& binding);
+  void list_blocks();
+  bool couples_as(const Assembly& other) const;
+  void take_pattern(const Assembly& other);
   void build_pattern();
   void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
@@ -151,7 +159,8 @@ class Assembly final : public SecondOrderSystem {
   void locate(Block& block, const IndexOf& index_of) const;
   template <class IndexOf>
   void locate(ConstraintBlock& block, const IndexOf& index_of) const;
-  Vector line_load(int beam, const State& state) const;
+  template <class Work>
+  static void for_each_batch(const Walk& walk, const Work& work);
   void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
                            const Block& block, const Block& twist_block, double* values) const;
   template <class Wanted>
@@ -162,10 +171,9 @@ class Assembly final : public SecondOrderSystem {
   void add_constraint_tangent(int i, const State& state, const TangentWeights& w,
                               const ConstraintBlock& block, double* values) const;
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
-  double free_strain_of(int beam, const State& state) const {
-    return free_strain(elements_[mesh_.first_span[beam]], state);
-  }
   int part_count(int beam) const;
+  void add_element(const MeshElement<D>& e, const State& state, const Vector& load,
+                   Eigen::Ref<Eigen::VectorXd> dynamics) const;
   void add_part(int beam, int part, const State& state, const Vector& load,
                 Eigen::Ref<Eigen::VectorXd> dynamics) const;
   void add_forces_and_constraints(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
@@ -187,6 +195,27 @@ class Assembly final : public SecondOrderSystem {
   MovingPart moving_;
   Eigen::SparseMatrix<double> pattern_;
 };
+
+// Calls work(i) for each batch, in a long beam several at a time: first in every other one of an even number
+// of pieces, then in the others, so that two with a node in common, on a ring the first and the last too, are
+// never worked on at once. No node has more than the two elements beside it: sums do not depend on the order.
+template <int D>
+template <class Work>
+void Assembly<D>::for_each_batch(const Walk& walk, const Work& work) {
+  constexpr int shortest = 32, fewest = 8;
+  const int count = static_cast<int>(walk.batches.size());
+  const int pieces = count / (2 * shortest) * 2;
+  const auto begin = [&](int piece) { return static_cast<int>(static_cast<long>(count) * piece / pieces); };
+  if (pieces < fewest) {
+    for (int i = 0; i < count; ++i) work(i);
+    return;
+  }
+  for (int first : {0, 1})
+    side_by_side(pieces / 2, [&](int k) {
+      const int piece = 2 * k + first;
+      for (int i = begin(piece); i < begin(piece + 1); ++i) work(i);
+    });
+}
 
 extern template class Assembly<2>;
 extern template class Assembly<3>;

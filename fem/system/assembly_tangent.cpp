@@ -104,6 +104,49 @@ struct Assembly<D>::Sink {
 };
 
 template <int D>
+void Assembly<D>::list_blocks() {
+  element_blocks_.reserve(elements_.size());
+  twist_blocks_.reserve(elements_.size());
+  for (const MeshElement<D>& e : elements_) {
+    element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
+    twist_blocks_.emplace_back();
+    if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
+  }
+  for (const BoundForce<D>& force : forces_)
+    force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
+}
+
+// Whether both couple the same coordinates and move the same of them.
+template <int D>
+bool Assembly<D>::couples_as(const Assembly& other) const {
+  const auto same_dofs = [](const std::vector<Block>& blocks, const std::vector<Block>& others) {
+    return std::equal(
+        blocks.begin(), blocks.end(), others.begin(), others.end(),
+        [](const Block& a, const Block& b) { return a.dofs == b.dofs; });
+  };
+  return mesh_.coordinate_count == other.mesh_.coordinate_count &&
+         same_dofs(element_blocks_, other.element_blocks_) && same_dofs(twist_blocks_, other.twist_blocks_) &&
+         same_dofs(force_blocks_, other.force_blocks_) && over_mesh_ == other.over_mesh_ &&
+         std::equal(constraint_blocks_.begin(), constraint_blocks_.end(), other.constraint_blocks_.begin(),
+                    other.constraint_blocks_.end(),
+                    [](const ConstraintBlock& a, const ConstraintBlock& b) {
+                      return a.row == b.row && a.rows == b.rows && a.block.dofs == b.block.dofs;
+                    }) &&
+         std::equal(constraints_.begin(), constraints_.end(), other.constraints_.begin(),
+                    [](const auto& a, const auto& b) { return a.index() == b.index(); });
+}
+
+template <int D>
+void Assembly<D>::take_pattern(const Assembly& other) {
+  element_blocks_ = other.element_blocks_;
+  twist_blocks_ = other.twist_blocks_;
+  force_blocks_ = other.force_blocks_;
+  constraint_blocks_ = other.constraint_blocks_;
+  moving_ = other.moving_;
+  pattern_ = other.pattern_;
+}
+
+template <int D>
 void Assembly<D>::build_pattern() {
   const int n = mesh_.coordinate_count;
   Coupling coupling(n + constraint_count_);
@@ -111,18 +154,9 @@ void Assembly<D>::build_pattern() {
     coupling.add(dofs);
     coupling.close();
   };
-  element_blocks_.reserve(elements_.size());
-  twist_blocks_.reserve(elements_.size());
-  for (const MeshElement<D>& e : elements_) {
-    element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
-    twist_blocks_.emplace_back();
-    if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
-    couple(e.twist ? twist_blocks_.back().dofs : element_blocks_.back().dofs);
-  }
-  for (const BoundForce<D>& force : forces_) {
-    force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
-    couple(force_blocks_.back().dofs);
-  }
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    couple(elements_[i].twist ? twist_blocks_[i].dofs : element_blocks_[i].dofs);
+  for (const Block& force : force_blocks_) couple(force.dofs);
   for (const ConstraintBlock& constraint : constraint_blocks_) {
     coupling.add(constraint.block.dofs);
     coupling.add(n + constraint.row, constraint.rows);
@@ -257,22 +291,23 @@ template <int D>
 template <class Wanted>
 void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
                                      const Wanted& wanted, double* values) const {
-  const auto& [batches, batched, others] = walks_[beam];
-  if (batches.empty()) return;  // a guide has no elements
+  const auto& batches = walks_[beam].batches;
+  const auto& batched = walks_[beam].batched;
+  if (batches.empty()) return;                  // a guide has no elements
+  if (w.mass == 0 && w.stiffness == 0) return;  // they are not damped
   const double strain = free_strain_of(beam, state);
-  auto index = batched.begin();
-  typename ElementBatch<D>::Tangents K;
-  for (const ElementBatch<D>& batch : batches) {
-    const auto begin = index;
-    index += batch.count();
-    if (std::none_of(begin, index, wanted)) continue;
-    batch.tangents(state, strain, w, K);
-    for (int lane = 0; lane < batch.count(); ++lane) {
+  for_each_batch(walks_[beam], [&](int i) {
+    const int* begin = batched.data() + i * ElementBatch<D>::lanes;
+    const int count = batches[i].count();
+    if (std::none_of(begin, begin + count, wanted)) return;
+    typename ElementBatch<D>::Tangents K;
+    batches[i].tangents(state, strain, w, K);
+    for (int lane = 0; lane < count; ++lane) {
       if (!wanted(begin[lane])) continue;
       for (const Run& run : element_blocks_[begin[lane]].runs)
-        for (int i = 0; i < run.count; ++i) values[run.value + i] += K[run.column][run.row + i].of[lane];
+        for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of[lane];
     }
-  }
+  });
 }
 
 template <int D>
@@ -355,6 +390,12 @@ void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Ei
     add_constraint_tangent(moving_.constraints[k], state, w, moving_.constraint_blocks[k], part.data());
 }
 
+template void Assembly<2>::list_blocks();
+template void Assembly<3>::list_blocks();
+template bool Assembly<2>::couples_as(const Assembly&) const;
+template bool Assembly<3>::couples_as(const Assembly&) const;
+template void Assembly<2>::take_pattern(const Assembly&);
+template void Assembly<3>::take_pattern(const Assembly&);
 template void Assembly<2>::build_pattern();
 template void Assembly<3>::build_pattern();
 template void Assembly<2>::choose_moving_part();

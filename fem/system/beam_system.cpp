@@ -27,6 +27,11 @@ BeamSystem::BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, co
     : BeamSystem(make_assembly<2>(model, plan, held, nullptr), make_assembly<3>(model, plan, held, nullptr)) {
 }
 
+BeamSystem::BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
+                       const BeamSystem& like)
+    : BeamSystem(make_assembly<2>(model, plan, held, like.planar_.get()),
+                 make_assembly<3>(model, plan, held, like.spatial_.get())) {}
+
 std::unique_ptr<BeamSystem> BeamSystem::replanned(MeshPlan plan, const std::vector<bool>& held) const {
   return std::unique_ptr<BeamSystem>(
       new BeamSystem(make_assembly<2>(shared_model(), plan, held, planar_.get()),

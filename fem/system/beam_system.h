@@ -22,6 +22,9 @@ class BeamSystem final : public SecondOrderSystem {
  public:
   /// `held`: joints whose s is held at its value in the plan (for statics).
   BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held = {});
+  /// On the same mesh as `like`, a system of a neighbouring model: what both have in common is taken from it.
+  BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
+             const BeamSystem& like);
   /// With a copy of the model.
   BeamSystem(const BeamModel& model, MeshPlan plan, const std::vector<bool>& held = {});
   /// In its initial plan.

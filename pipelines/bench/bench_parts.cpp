@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <limits>
+#include <optional>
 
 #include "fem/motion/simulation.h"
 #include "fem/system/beam_system.h"
@@ -13,6 +14,7 @@
 #include "pipelines/verification/verify_examples.h"
 #include "solver/generalized_alpha.h"
 #include "solver/kkt_solver.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -76,6 +78,7 @@ SystemCost cost_of_system(int elements) {
   const double step = step_for(elements);
   SystemCost cost{};
   cost.elements = elements;
+  std::optional<ThreadLimit> alone(1);
   const double before = allocated();
   const BeamSystem system(model);
   State state = drawn_state(system);
@@ -99,11 +102,15 @@ SystemCost cost_of_system(int elements) {
   const State start = integrator.state();
   const IntegratorHistory history = integrator.history();
   int taken = 0;
-  cost.step = seconds_of([&] {
+  const auto advance = [&] {
     if (++taken % 5 == 0) integrator.restore(start, history);
     [[maybe_unused]] const StepReport report = integrator.advance(step);
-  });
+  };
+  cost.step = seconds_of(advance);
   cost.event = cost_of_event(model, step);
+  const double by_one = seconds_of<clock_seconds>(advance);
+  alone.reset();
+  cost.speed_up = by_one / seconds_of<clock_seconds>(advance);
   return cost;
 }
 
@@ -125,7 +132,8 @@ void bench_elements(std::ostream& out) {
 std::vector<SystemCost> bench_systems(int largest, std::ostream& out) {
   std::vector<SystemCost> costs;
   std::vector<std::vector<std::string>> rows{{"elements", "residual", "tangent", "factorisation", "solution",
-                                              "step", "change of the mesh [us]", "memory [kB]"}};
+                                              "step", "change of the mesh [us]", "memory [kB]",
+                                              "quicker on all cores"}};
   for (int elements = 10; elements <= largest; elements *= 10) {
     const SystemCost& cost = costs.emplace_back(cost_of_system(elements));
     std::vector<std::string> row{std::to_string(elements)};
@@ -133,6 +141,7 @@ std::vector<SystemCost> bench_systems(int largest, std::ostream& out) {
       row.push_back(few_digits(1e6 * seconds / elements));
     row.push_back(few_digits(1e6 * cost.event));
     row.push_back(few_digits(cost.memory / elements / 1000));
+    row.push_back(few_digits(cost.speed_up));
     rows.push_back(row);
   }
   print_table(out, "A beam in the plane with a sliding body, per element [us]", rows);

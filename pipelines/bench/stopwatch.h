@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <ctime>
 
 namespace nurbeam {
@@ -10,20 +11,25 @@ inline double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Processor time of one call [s]: the least of three series that last 20 ms each, or of one call where that
-/// takes longer than ten of them.
-template <class Call>
+/// Time by the clock, from when does not matter [s].
+inline double clock_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// What one call takes by such a time [s]: the least of three series that last 20 ms each, or of one call
+/// where that takes longer than ten of them.
+template <double time() = processor_seconds, class Call>
 double seconds_of(const Call& call) {
   constexpr double series = 0.02;
   double least = 0;
   for (int i = 0; i < 3; ++i) {
-    const double start = processor_seconds();
+    const double start = time();
     double taken = 0;
     long calls = 0;
     while (taken < series) {
       call();
       ++calls;
-      taken = processor_seconds() - start;
+      taken = time() - start;
     }
     const double each = taken / static_cast<double>(calls);
     least = i == 0 || each < least ? each : least;

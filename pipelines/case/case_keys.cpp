@@ -165,12 +165,13 @@ Shape elements() {
 Range temperature_range() { return {.lower = -1e4, .upper = 1e4, .reason = "a difference in kelvin"}; }
 
 Shape initial() {
-  const Shape velocity = object(
-      {{"translation", vector(Dimension::speed), "of the whole beam"},
-       {"rotation", vector(Dimension::angular_speed), "angular velocity of the whole beam"},
-       {"about", vector(Dimension::length), "a point of the axis of the rotation; the origin when omitted",
-        false, "rotation"},
-       {"along", quantity(Dimension::speed), "of the material along the drawn axis, towards its end"}});
+  const Shape velocity =
+      object({{"translation", vector(Dimension::speed), "of the whole beam"},
+              {"rotation", vector(Dimension::angular_speed), "angular velocity of the whole beam"},
+              {"about", vector(Dimension::length),
+               "a point of the axis of the rotation; the origin when omitted", false, "rotation"},
+              {"along", quantity(Dimension::speed, plausible(-1e9, 1e9)),
+               "of the material along the drawn axis, towards its end"}});
   return object(
       {{"velocity", velocity, "the sum of its parts, as far as supports and joints let it", required}});
 }
@@ -261,7 +262,8 @@ Shape beam() {
 }
 
 Shape load() {
-  const Shape moves = object({{"speed", quantity(Dimension::speed), "speed along the beam", required}});
+  const Shape moves =
+      object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "speed along the beam", required}});
   return object(
       {{"beam", name(), "the loaded beam", required},
        {"at", place(), "where the force or moment acts"},
@@ -325,14 +327,16 @@ Shape friction() {
 }
 
 Shape sliding_joint() {
-  const Shape motion = object({{"speed", quantity(Dimension::speed), "constant speed along the beam"},
-                               {"table", table(Dimension::length), "reference arc length over time"}},
-                              {{{"speed", "table"}, required}});
+  const Shape motion =
+      object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
+              {"table", table(Dimension::length), "reference arc length over time"}},
+             {{{"speed", "table"}, required}});
   return object(
       {{"body", name(), "the sliding body", required},
        {"beam", name(), "the beam it slides on", required},
        {"at", place(), "where it starts", required},
-       {"speed", quantity(Dimension::speed), "initial speed in reference arc length; 0 when omitted"},
+       {"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)),
+        "initial speed in reference arc length; 0 when omitted"},
        {"motion", motion, "prescribes the body's place, from `at` on"},
        {"equilibrium", choice({"held", "free"}),
         "where statics find the body: held at its `at`, or free, where it rests; when omitted free in a static "

@@ -61,13 +61,15 @@ int check_command(const Arguments& arguments, Streams streams) {
 int run_command(const Arguments& arguments, Streams streams) {
   if (arguments.value("--out", "results").empty())
     throw UsageError("--out: is empty; give the directory for the results");
+  const int threads = whole_number(arguments, "--threads", 0, 1, 1024);
   const BrokenPipeGuard guard;  // a run outlives the reader of its messages
   const auto case_file = read_case(arguments, streams);
   if (!case_file) return exit_bad_input;
   const std::string default_out = case_file->path.stem().string() + "_results";
   return run_case(*case_file, {.out = arguments.value("--out", default_out),
                                .quiet = arguments.has("--quiet"),
-                               .resume = arguments.has("--resume")});
+                               .resume = arguments.has("--resume"),
+                               .threads = threads});
 }
 
 std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time,
@@ -152,10 +154,7 @@ int verify_command(const Arguments& arguments, Streams streams) {
 
 int bench_command(const Arguments& arguments, Streams streams) {
   BenchOptions options;
-  const std::string largest = arguments.value("--largest", std::to_string(options.largest));
-  const auto [end, error] = std::from_chars(largest.data(), largest.data() + largest.size(), options.largest);
-  if (error != std::errc{} || end != largest.data() + largest.size() || options.largest < 10)
-    throw UsageError("--largest: " + in_quotes(largest) + " is no number of elements; expected 10 or more");
+  options.largest = whole_number(arguments, "--largest", options.largest, 10, 10'000'000);
   if (arguments.has("--cad")) options.cad = arguments.value("--cad", "");
   if (arguments.has("--plot")) options.plot = arguments.value("--plot", "");
   bench(options, streams.out);
@@ -207,6 +206,7 @@ const Command run_entry{"run",
                         {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
                          {"--resume", "", "goes on from the restart point in that directory"},
                          {"--quiet", "", "no progress"},
+                         {"--threads", "N", "the most threads that share a long beam; otherwise one a core"},
                          set_option},
                         run_command,
                         exit_not_written};
@@ -294,6 +294,17 @@ const Command completion_entry{
 const Command manual_entry{"manual", "", "prints the manual page (roff)", 0, 0, {}, manual_command};
 
 }  // namespace
+
+int whole_number(const Arguments& arguments, const std::string& option, int otherwise, int least, int most) {
+  if (!arguments.has(option)) return otherwise;
+  const std::string text = arguments.value(option, "");
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || number < least || number > most)
+    throw UsageError(option + ": " + in_quotes(text) + " is not a number from " + std::to_string(least) +
+                     " to " + std::to_string(most));
+  return number;
+}
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {inspect_entry, check_entry,  run_entry,        export_entry,

@@ -27,6 +27,10 @@ struct Arguments {
   }
 };
 
+/// The whole number that stands as the value of an option; throws UsageError for what is none from `least` to
+/// `most`.
+int whole_number(const Arguments& arguments, const std::string& option, int otherwise, int least, int most);
+
 struct Streams {
   std::ostream &out, &err;
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <ostream>
 #include <thread>
@@ -17,15 +16,8 @@ namespace nurbeam {
 namespace {
 
 std::string jobs_of(const Arguments& arguments) {
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  const std::string text = arguments.value("--jobs", std::to_string(cores));
-  int jobs = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), jobs);
-  constexpr int most_jobs = 1024;
-  if (error != std::errc{} || end != text.data() + text.size() || jobs < 1 || jobs > most_jobs)
-    throw UsageError("--jobs: " + in_quotes(text) + " is not a number from 1 to " +
-                     std::to_string(most_jobs));
-  return text;
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return std::to_string(whole_number(arguments, "--jobs", cores, 1, 1024));
 }
 
 [[noreturn]] void become_study_program(std::vector<std::string> words) {

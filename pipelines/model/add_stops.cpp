@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -110,6 +111,24 @@ class Stops {
   Findings& findings_;
 };
 
+// Between hard stops on both sides a body has some room.
+void check_room(const BeamModel& model, Findings& findings) {
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
+    double least = -std::numeric_limits<double>::infinity(), most = -least;
+    for (const Stop& stop : model.stops) {
+      if (stop.joint != j || stop.other >= 0 || stop.buffer) continue;
+      (stop.from_below ? most : least) =
+          stop.from_below ? std::min(most, stop.place) : std::max(least, stop.place);
+    }
+    const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
+    if (most - least <= same_place * curve.length())
+      findings.error("stops", "hard stops at s = " + text_of(least) + " m and " + text_of(most) +
+                                  " m leave body " + in_quotes(model.body_of(model.joints[j]).name) +
+                                  " no room; move one of them, leave it out, or give the body's joint a "
+                                  "\"motion\" of speed 0");
+  }
+}
+
 // The joints on the beam of the bodies that the stop names, or of all.
 std::vector<int> stopped_joints(const CaseStop& stop, int beam, const BeamModel& model, Findings& findings) {
   std::vector<int> joints;
@@ -158,6 +177,7 @@ void add_stops(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
                          "\"generalized-alpha\"");
     if (analysis.has_modes()) findings.warn(stop.path, "has no effect on modes and buckling");
   }
+  check_room(model, findings);
 }
 
 }  // namespace nurbeam

@@ -16,6 +16,7 @@
 #include "pipelines/model/beam_section.h"
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/check_drawing.h"
+#include "pipelines/model/check_freedom.h"
 #include "pipelines/model/check_guides.h"
 #include "pipelines/model/connectors.h"
 #include "pipelines/model/divide_beam.h"
@@ -390,11 +391,13 @@ bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve) {
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
 std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamAxis>& axes, CadFiles& files,
-                                 BuiltModel& built, Findings& findings) {
+                                 const BuiltModel* like, BuiltModel& built, Findings& findings) {
   std::vector<DrawnBeam> beams;
   for (std::size_t b = 0; b < axes.size() && !findings.has_errors(); ++b) {
     CaseBeam& from = resolved.beams[b];
-    const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, findings);
+    const ReferenceCurve* curve =
+        like && b < like->model.beams.size() ? &like->model.beams[b].curve : nullptr;
+    const std::optional<DrawnBeam> drawn = drawn_beam(from, axes[b], built.frame, curve, findings);
     if (!drawn) break;
     if (from.rigid) {
       built.model.beams.push_back({.name = from.name,
@@ -470,7 +473,7 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
 
 // Nothing, with errors among the findings, where the case cannot be a model.
 std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::function<bool()>& interrupted,
-                                      Findings& findings) {
+                                      const BuiltModel* like, Findings& findings) {
   CadFiles files(interrupted);
   ResolvedCase resolved = resolve_case(case_file, files, findings);
   const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
@@ -483,7 +486,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.model.dimension = built.frame.dimension;
   built.model.gravity = built.frame.direction_to_local(resolved.gravity);
   built.model.air = {resolved.air.density, built.frame.direction_to_local(resolved.air.wind)};
-  const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, built, findings);
+  const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, like, built, findings);
   if (findings.has_errors()) return {};
 
   const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
@@ -499,6 +502,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
   built.adapted = adapt_elements(resolved, built.model, interrupted, findings);
+  if (findings.has_errors()) return {};
+  check_freedom(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
@@ -517,10 +522,11 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
 
 }  // namespace
 
-BuildReport build_model(const CaseFile& case_file, const std::function<bool()>& interrupted) {
+BuildReport build_model(const CaseFile& case_file, const std::function<bool()>& interrupted,
+                        const BuiltModel* like) {
   Findings findings(case_file.path.string());
   BuildReport report;
-  report.value = built_model(case_file, interrupted, findings);
+  report.value = built_model(case_file, interrupted, like, findings);
   report.diagnostics = findings.take();
   return report;
 }

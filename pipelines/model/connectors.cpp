@@ -57,6 +57,9 @@ void check_drawing(const CaseConnector& from, const Connector& connector, double
         from.path,
         "has both ends in one place as drawn, which gives it no direction; give a \"direction\", or "
         "move an end");
+  if (connector.type == ConnectorType::rod && connector.length == 0 && drawn > 0 && !connector.direction)
+    findings.error(from.path + ".length",
+                   "is 0 m, with which a rod has no direction; must be above 0 m, or give a \"direction\"");
   const auto& [a, b] = connector.ends;
   if (a.is_point() && b.is_point())
     findings.error(from.path,

@@ -35,15 +35,15 @@ double DrawnBeam::material_coordinate(double s) const {
 }
 
 std::optional<DrawnBeam> drawn_beam(const CaseBeam& beam, const BeamAxis& axis, const ModelFrame& frame,
-                                    Findings& findings) {
+                                    const ReferenceCurve* like, Findings& findings) {
   try {
     std::vector<RationalCubic> local;
     for (const RationalCubic& cubic : axis.segments) local.push_back(frame.to_local(cubic));
-    const ReferenceCurve measured(local, frame.dimension, Metric::arc_length, beam.ring);
+    const ReferenceCurve measured(local, frame.dimension, Metric::arc_length, beam.ring, like);
     check_lengths(beam, measured, findings);
     if (findings.has_errors()) return {};
     return DrawnBeam{beam.name, axis.segments, axis.corners, measured,
-                     ReferenceCurve(local, frame.dimension, beam.metric, beam.ring)};
+                     ReferenceCurve(local, frame.dimension, beam.metric, beam.ring, &measured)};
   } catch (const std::invalid_argument& problem) {
     findings.error(beam.path + ".axis", problem.what());
     return {};

@@ -30,9 +30,10 @@ struct DrawnBeam {
   double material_coordinate(double s) const;
 };
 
-/// The beam along an axis; nothing, with an error among the findings, where no beam can follow it.
+/// The beam along an axis; nothing, with an error among the findings, where no beam can follow it. `like`:
+/// that of a neighbouring case, which may be null.
 std::optional<DrawnBeam> drawn_beam(const CaseBeam& beam, const BeamAxis& axis, const ModelFrame& frame,
-                                    Findings& findings);
+                                    const ReferenceCurve* like, Findings& findings);
 
 /// The reference arc length at a place of the case [m]: exactly 0 or the length at the ends, 0 at the seam of
 /// a ring. `where` is the JSON path of what is there, for the error when it is not on the beam.

@@ -11,7 +11,9 @@ namespace nurbeam {
 
 namespace {
 
-// A prescribed motion begins where the body is and stays on the beam.
+constexpr double fastest_motion = 1e9;  // [m/s]
+
+// A prescribed motion begins where the body is, stays on the beam and goes from row to row in some time.
 void check_motion(const CaseSlidingJoint& joint, double s, const ReferenceCurve& curve, Findings& findings) {
   const double L = curve.length(), start = value_and_slope(joint.motion_table, 0).first;
   if (std::abs(start - s) > same_place * L)
@@ -20,6 +22,14 @@ void check_motion(const CaseSlidingJoint& joint, double s, const ReferenceCurve&
                                                      " m; it must start where \"at\" is");
   for (std::size_t i = 0; i < joint.motion_table.size(); ++i) {
     const double row = joint.motion_table[i].second;
+    if (i > 0) {
+      const auto& [time, from] = joint.motion_table[i - 1];
+      const double speed = (row - from) / (joint.motion_table[i].first - time);
+      if (!(std::abs(speed) <= fastest_motion))
+        findings.error(joint.path + ".motion.table[" + std::to_string(i) + "]",
+                       "is reached at " + text_of(speed, 3) + " m/s from the row before; must be at most " +
+                           text_of(fastest_motion) + " m/s: give it more time");
+    }
     if (curve.closed()) continue;  // as often around as it says
     if (!(row >= -same_place * L && row <= L * (1 + same_place)))
       findings.error(joint.path + ".motion.table[" + std::to_string(i) + "]",

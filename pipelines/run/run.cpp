@@ -25,6 +25,7 @@
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/run/simulation_plan.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -252,6 +253,8 @@ int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& op
   summary.wall_times.import = report.value->import_seconds;
   summary.wall_times.model = build_seconds;
   std::ostream& messages = options.messages ? *options.messages : std::cerr;
+  std::optional<ThreadLimit> limit;
+  if (options.threads > 0) limit.emplace(options.threads);
   try {
     const bool in_file = std::filesystem::is_regular_file(c.path);
     summary.inputs.push_back({c.path, in_file ? sha256_of_file(c.path) : sha256_of_text(c.json)});

@@ -12,6 +12,7 @@ struct RunOptions {
   std::filesystem::path out;  ///< results directory, made if it does not exist
   bool quiet = false;         ///< no progress; errors and warnings are still printed
   bool resume = false;        ///< goes on from the restart point in `out`
+  int threads = 0;            ///< the most that share the work of a long beam; 0: one a core
   /// Asked after every step: true ends the run. Where empty, Ctrl-C and the like are taken for it.
   std::function<bool()> interrupted = nullptr;
   std::function<void(const StepRecord&)> progress = nullptr;  ///< told every step, instead of the lines

@@ -82,24 +82,11 @@ struct VariantGradient::NeighbouringRun {
   std::unique_ptr<const BuiltModel> built;
   Histories histories;
 
-  NeighbouringRun(const StudyFile& study, const StudyCase& study_case, std::vector<double> of,
-                  const SimulationOptions& options)
-      : values(std::move(of)), built(build(study, study_case, values, options)), histories(study, *built) {}
+  NeighbouringRun(const StudyFile& study, std::vector<double> of, std::unique_ptr<const BuiltModel> model)
+      : values(std::move(of)), built(std::move(model)), histories(study, *built) {}
 
   Neighbour neighbour() const {
     return {std::make_shared<const BeamModel>(built->model), probe_places(*built)};
-  }
-
-  static std::unique_ptr<const BuiltModel> build(const StudyFile& study, const StudyCase& study_case,
-                                                 const std::vector<double>& values,
-                                                 const SimulationOptions& options) {
-    const CaseFileReport read = study_case.read(study.variables, values);
-    if (!read.value) throw std::invalid_argument("a neighbouring variant is no case");
-    if (!same_times(options, simulation_options(*read.value)))
-      throw std::invalid_argument("variables that change the times of a run have no derivative");
-    BuildReport report = build_model(*read.value);
-    if (!report.value) throw std::invalid_argument("a neighbouring variant has no model");
-    return std::make_unique<const BuiltModel>(std::move(*report.value));
   }
 };
 
@@ -109,17 +96,33 @@ struct VariantGradient::Pair {
 };
 
 VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_case,
-                                 const std::vector<double>& values, const SimulationOptions& options)
+                                 const std::vector<double>& values, const CaseFile& case_file,
+                                 const BuiltModel& model)
     : study_(study), values_(values) {
+  const SimulationOptions options = simulation_options(case_file);
+  const auto case_of = [&](const std::vector<double>& of) {
+    if (auto reshaped = study_case.reshaped(case_file, values, study.variables, of))
+      return std::move(*reshaped);
+    CaseFileReport read = study_case.read(study.variables, of);
+    if (!read.value) throw std::invalid_argument("a neighbouring variant is no case");
+    if (!same_times(options, simulation_options(*read.value)))
+      throw std::invalid_argument("variables that change the times of a run have no derivative");
+    return std::move(*read.value);
+  };
+  const auto run_of = [&](std::vector<double> of) {
+    BuildReport report = build_model(case_of(of), {}, &model);
+    if (!report.value) throw std::invalid_argument("a neighbouring variant has no model");
+    return NeighbouringRun(study, std::move(of),
+                           std::make_unique<const BuiltModel>(std::move(*report.value)));
+  };
   const std::vector<std::size_t> free = study.free_variables();
   std::vector<NeighbourPair> neighbours;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const StudyVariable& variable = study.variables[free[k]];
     const double step = derivative_step(variable, values[free[k]]);
     try {
-      pairs_.push_back({{study, study_case, changed(study, values, k, step), options},
-                        {study, study_case, changed(study, values, k, -step), options},
-                        step});
+      pairs_.push_back(
+          {run_of(changed(study, values, k, step)), run_of(changed(study, values, k, -step)), step});
     } catch (const std::invalid_argument& problem) {
       throw std::invalid_argument("no derivative by " + in_quotes(variable.name) + ": " + problem.what());
     }

@@ -19,9 +19,10 @@ std::vector<double> differences(const StudyFile& study, const std::vector<double
 /// The neighbours of a variant, a pair for each free variable, that go along with its run.
 class VariantGradient {
  public:
-  /// `options`: of the run. Throws std::invalid_argument where there are no such neighbours.
+  /// `case_file`, `model`: those of the variant. Throws std::invalid_argument where there are no such
+  /// neighbours.
   VariantGradient(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
-                  const SimulationOptions& options);
+                  const CaseFile& case_file, const BuiltModel& model);
   ~VariantGradient();
 
   RunFollower& follower() { return *sensitivities_; }

@@ -215,11 +215,10 @@ NurbsCurve curve_of(const NurbsCurve& drawn, const MovedCurve& moved) {
 
 Json inline_axis(const NurbsCurve& curve) {
   Json nurbs = {{"degree", curve.degree()}, {"knots", curve.knots().knots()}};
-  const Eigen::Matrix4Xd& points = curve.control_points();
+  const auto& [points, weights] = MovedCurve(curve);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3d p = points.col(i).head<3>() / points(3, i);
-    nurbs["control_points"].push_back({p.x(), p.y(), p.z()});
-    nurbs["weights"].push_back(points(3, i));
+    nurbs["control_points"].push_back({points(0, i), points(1, i), points(2, i)});
+    nurbs["weights"].push_back(weights[i]);
   }
   return {{"nurbs", nurbs}};
 }
@@ -265,6 +264,17 @@ std::string StudyCase::variant(const std::vector<StudyVariable>& variables,
 CaseFileReport StudyCase::read(const std::vector<StudyVariable>& variables,
                                const std::vector<double>& values) const {
   return read_case_json(json_of(variables, values), file_);
+}
+
+std::optional<CaseFile> StudyCase::reshaped(const CaseFile& read, const std::vector<double>& read_values,
+                                            const std::vector<StudyVariable>& variables,
+                                            const std::vector<double>& values) const {
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    if (values[i] != read_values[i] && variables[i].target && !beam_of(*variables[i].target)) return {};
+  CaseFile reshaped = read;
+  for (const auto& [name, curve] : moved(variables, values))
+    reshaped.beams[curves_.at(name).beam].axis.source = curve_of(curve, MovedCurve(curve));  // as it is read
+  return reshaped;
 }
 
 Json StudyCase::json_of(const std::vector<StudyVariable>& variables,

@@ -33,6 +33,11 @@ class StudyCase {
   std::string variant(const std::vector<StudyVariable>& variables, const std::vector<double>& values) const;
   /// That case, read. Throws likewise.
   CaseFileReport read(const std::vector<StudyVariable>& variables, const std::vector<double>& values) const;
+  /// That case, of a variant that differs from one that has been read, of `read_values`, by no more than the
+  /// shape of curves; else nothing. Throws likewise.
+  std::optional<CaseFile> reshaped(const CaseFile& read, const std::vector<double>& read_values,
+                                   const std::vector<StudyVariable>& variables,
+                                   const std::vector<double>& values) const;
 
   /// The curves that variables move as they are in that variant, by the name of their beam. Throws likewise.
   std::map<std::string, NurbsCurve> moved(const std::vector<StudyVariable>& variables,

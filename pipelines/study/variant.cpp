@@ -15,6 +15,7 @@
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/gradient.h"
 #include "pipelines/study/histories.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -118,7 +119,7 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
   const SimulationOptions options = simulation_options(*read.value);
   std::optional<VariantGradient> gradient;
   if (study.derivatives) {
-    gradient.emplace(study, study_case, variant.values, options);
+    gradient.emplace(study, study_case, variant.values, *read.value, *built.value);
     observer.follower = &gradient->follower();
   }
   const SimulationReport run = simulate(built.value->model, probe_places(*built.value), options, observer);
@@ -177,7 +178,7 @@ void check_kind(const StudyFile& study, const StudyQuantity& quantity, const Bea
 
 // What takes sums over the run has none: its tangent does not go along.
 void check_derivatives(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
-                       const SimulationOptions& options, Findings& findings) {
+                       const CaseFile& case_file, const BuiltModel& model, Findings& findings) {
   for (const StudyQuantity& quantity : study.quantities)
     for (const std::string& name : quantity.value.names())
       if (name == "energy.total" || name == "energy.dissipated" || name == "energy.input")
@@ -186,7 +187,7 @@ void check_derivatives(const StudyFile& study, const StudyCase& study_case, cons
                            " has no derivative here; take \"derivatives\": \"differences\", or a "
                            "method without derivatives");
   try {
-    const VariantGradient gradient(study, study_case, values, options);
+    const VariantGradient gradient(study, study_case, values, case_file, model);
   } catch (const std::invalid_argument& problem) {
     findings.error("variables", problem.what());
   }
@@ -219,6 +220,7 @@ std::vector<double> all_values(const StudyFile& study, const std::vector<double>
 Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
                     std::vector<double> values) {
   const auto start = std::chrono::steady_clock::now();
+  const ThreadLimit alone(1);  // variants themselves run side by side
   Variant variant{.number = number, .values = std::move(values)};
   try {
     const ExpressionScope scope = scope_of_variables(study, variant.values);
@@ -254,7 +256,7 @@ bool has_derivatives(const StudyFile& study, const StudyCase* study_case) {
   try {
     const VariantModel model = model_of(study, *study_case, nominal);
     if (!model.problem.empty()) return false;
-    check_derivatives(study, *study_case, nominal, simulation_options(*model.read.value), findings);
+    check_derivatives(study, *study_case, nominal, *model.read.value, *model.built.value, findings);
   } catch (const std::invalid_argument&) {
     return false;
   }
@@ -288,7 +290,7 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
       if (complete) check_kind(study, quantity, built.value->model, findings);
     }
     if (!findings.has_errors() && study.derivatives && !study.derivatives_where_known)
-      check_derivatives(study, *study_case, nominal, simulation_options(*read.value), findings);
+      check_derivatives(study, *study_case, nominal, *read.value, *built.value, findings);
   } catch (const std::invalid_argument& problem) {
     return {unchecked(study, problem.what())};
   }

@@ -329,5 +329,66 @@ TEST(Connectors, ThatCannotBeAreRefused) {
   refused({"supports[0].type=guided"}, "\"guided\" needs the \"direction\"");
 }
 
+const char* const trolleys = R"({
+  "nurbeam": 1,
+  "beams": [{ "name": "rail", "rigid": true, "axis": { "polyline": [[0, 0, 0], [20, 0, -2]] } },
+            { "name": "cross", "rigid": true, "axis": { "polyline": [[10, -5, -1], [10, 5, -1]] } }],
+  "bodies": [{ "name": "a", "mass": 3 }, { "name": "b", "mass": 3 }, { "name": "load", "mass": 2, "position": [3, 0, -3] }],
+  "sliding_joints": [{ "body": "a", "beam": "rail", "at": { "length": 2 } },
+                     { "body": "b", "beam": "rail", "at": { "length": 4 } }],
+  "connectors": [{ "name": "link", "type": "rod", "from": { "body": "a" }, "to": { "body": "b" } },
+                 { "name": "one", "type": "rod", "from": { "body": "a" }, "to": { "body": "load" } }],
+  "analysis": { "end_time": 0.1, "step": 0.002 },
+  "output": { "report": false }
+})";
+
+// A rod that keeps what is kept has no force that could be found: the run is refused, whatever else keeps it.
+TEST(Rods, ThatKeepWhatIsKeptAreRefused) {
+  EXPECT_EQ(run_mechanics(trolleys).code, 0);
+  const auto refused = [](const std::vector<std::string>& overrides, const std::vector<std::string>& parts) {
+    const CaseRun run = run_mechanics(trolleys, overrides);
+    EXPECT_EQ(run.code, 2) << overrides[0];
+    for (const std::string& part : parts) EXPECT_TRUE(run.says(part)) << part << run.messages;
+  };
+  const std::string rod = R"({"name": "x", "type": "rod", )";
+  // What stays free is not refused: a driven one of two, three rods of a triangle, a load on two rods.
+  for (const std::string& fine :
+       {std::string(R"(sliding_joints[0].motion={"speed": 1})"),
+        "connectors[1]=" + rod + R"("from": {"body": "b"}, "to": {"body": "load"}})",
+        std::string("sliding_joints[0].release=0.05")})
+    EXPECT_EQ(run_mechanics(trolleys, {fine}).code, 0) << fine;
+  refused({R"(sliding_joints[0].motion={"speed": 1})", R"(sliding_joints[1].motion={"speed": 1})"},
+          {"connectors[0]: is a rod, but what else holds its ends",
+           "the place at which body \"a\" is driven, the place at which body \"b\" is driven"});
+  refused({"sliding_joints[0].release=1", "sliding_joints[1].release=2"},
+          {"the place at which body \"a\" is held, the place at which body \"b\" is held"});
+  refused({"connectors[1]=" + rod + R"("from": {"body": "b"}, "to": {"body": "a"}})",
+           R"(bodies=[{"name": "a", "mass": 3}, {"name": "b", "mass": 3}])"},
+          {"connectors[1]: is a rod", "the rod \"link\""});
+  refused({"analysis.initial=equilibrium"}, {"where an equilibrium is sought", "or start as drawn"});
+  refused({"analysis={\"type\": \"static\"}"}, {"where an equilibrium is sought"});
+  refused(
+      {R"(sliding_joints[1]={"body": "a", "beam": "cross", "at": {"length": 5}})",
+       R"(sliding_joints[0].at={"fraction": 0.5})",
+       "connectors[0]={\"name\": \"s\", \"stiffness\": 1, \"from\": {\"body\": \"b\"}, \"to\": {\"body\": \"a\"}}",
+       "bodies[1].position=[0, 0, 1]", "connectors[1].type=spring", "connectors[1].stiffness=5"},
+      {"sliding_joints[1]: body \"a\" slides on several beams, but these hold it in more ways"});
+  refused({R"(connectors[0].to={"point": [4, 0, 3]})",
+           R"(stops=[{"beam": "rail", "at": {"length": 2}, "bodies": ["a"]}])"},
+          {"stops: body \"a\" starts at a hard stop, at s = 2 m, where a rod keeps it anyway"});
+  refused({R"(connectors[0].length=0)", "analysis.initial=equilibrium"},
+          {"connectors[0].length: is 0 m, with which a rod has no direction"});
+}
+
+// Speeds that a rod does not let are told.
+TEST(Rods, SayWhatSpeedsTheyDoNotLet) {
+  const CaseRun run = run_mechanics(trolleys, {"sliding_joints[0].speed=2"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_TRUE(run.says("connectors[0]: is a rod whose ends start at -2 m/s from each other")) << run.messages;
+  EXPECT_FALSE(run_mechanics(trolleys, {"sliding_joints[0].speed=2", "sliding_joints[1].speed=2",
+                                        "bodies[2].velocity=[1.990074, 0, -0.1990074]"})
+                   .says("connectors[0]: is a rod whose"));
+}
+
 }  // namespace
 }  // namespace nurbeam::test

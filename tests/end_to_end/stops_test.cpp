@@ -274,6 +274,35 @@ TEST(StopsRun, ATrainComesToRestAgainstAStopAndAChainOfImpactsEnds) {
   EXPECT_LT(total_drift(stops.run), 1e-4);
 }
 
+// A row that comes down onto a stop with friction: ever more impacts among ever more of them, which all end.
+TEST(StopsRun, ARowOfBodiesWithFrictionComesToRestOnAStop) {
+  const StopRun run = run_stops(R"({"nurbeam": 1,
+    "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], [20, 0, -2]]}}],
+    "bodies": [{"name": "a", "mass": 3}, {"name": "b", "mass": 4}, {"name": "c", "mass": 5}, {"name": "d", "mass": 6},
+               {"name": "e", "mass": 7}],
+    "sliding_joints": [
+      {"body": "a", "beam": "rail", "at": {"length": 2}, "friction": {"coefficient": 0.05}},
+      {"body": "b", "beam": "rail", "at": {"length": 2.5}, "friction": {"coefficient": 0.05}},
+      {"body": "c", "beam": "rail", "at": {"length": 3}, "friction": {"coefficient": 0.05}},
+      {"body": "d", "beam": "rail", "at": {"length": 3.5}, "friction": {"coefficient": 0.05}},
+      {"body": "e", "beam": "rail", "at": {"length": 4}, "friction": {"coefficient": 0.05}}],
+    "stops": [{"beam": "rail", "bodies": ["a", "b"], "gap": 0.3, "restitution": 0.5},
+              {"beam": "rail", "bodies": ["b", "c"], "gap": 0.3, "restitution": 0.5},
+              {"beam": "rail", "bodies": ["c", "d"], "gap": 0.3, "restitution": 0.5},
+              {"beam": "rail", "bodies": ["d", "e"], "gap": 0.3, "restitution": 0.5},
+              {"beam": "rail", "at": {"length": 8}, "restitution": 0.5}],
+    "analysis": {"end_time": 6, "step": "2 ms"}})");
+  ASSERT_EQ(run.run.code, 0) << run.run.messages;
+  double place = 8;
+  for (const char* body : {"e", "d", "c", "b", "a"}) {
+    EXPECT_NEAR(run.run.last(std::string(body) + ".s [m]"), place, 1e-8) << body;
+    place -= 0.3;
+  }
+  EXPECT_LT(run.run.last("energy.kinetic [J]"), 1e-12);
+  EXPECT_LT(run.events.size(), 400u);
+  EXPECT_LT(total_drift(run.run), 1e-8);
+}
+
 TEST(StopsRun, OnARingAStopIsMetFromBothSides) {
   const std::string ring =
       R"({"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4],
@@ -346,6 +375,12 @@ TEST(StopsRun, WhatCannotStopIsRefused) {
   says({"stops[0].at=end", "sliding_joints[0].at_beam_end=stop"}, "keep one of them");
   says({R"(sliding_joints[0].motion={"speed": 1})"}, "is prescribed by its \"motion\"");
   says({"analysis.integrator.type=ida"}, "is a stop");
+  says(
+      {R"(stops=[{"beam": "rail", "at": {"length": 3}}, {"beam": "rail", "at": {"length": 3}, "side": "after"}])"},
+      "stops: hard stops at s = 3 m and 3 m leave body \"bead\" no room");
+  says({"sliding_joints[0].speed=1e20"}, "sliding_joints[0].speed: is 1e+20 m/s; must be between");
+  says({"stops=[]", R"(sliding_joints[0].motion={"table": [[0, 3], [1e-12, 4]]})"},
+       "sliding_joints[0].motion.table[1]: is reached at 1e+12 m/s");
 }
 
 }  // namespace

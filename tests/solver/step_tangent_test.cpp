@@ -52,11 +52,16 @@ double error_of(const State& x, const State& y) {
 TEST(StepTangent, IsWhatDifferencesTendToWithTheSquareOfTheirStep) {
   const CartesianPendulum pendulum = pendulum_of(0), more = pendulum_of(1e-6), less = pendulum_of(-1e-6);
   GeneralizedAlphaIntegrator integrator(exact_steps, pendulum, pendulum_start(0));
-  MotionTangents tangents = MotionTangents::zero(2, 1, 2);  // by p and by 4 p
+  // By p, 2 p, 4 p ...: as many as are taken side by side, and others beside them.
+  constexpr int count = 13;
+  const Eigen::RowVectorXd parts = Eigen::RowVectorXd::NullaryExpr(
+      count, [](Eigen::Index k) { return std::ldexp(1, -static_cast<int>(k)); });
+  MotionTangents tangents = MotionTangents::zero(2, 1, count);
   const State at_start = rate_between(pendulum_start(1e-5), pendulum_start(-1e-5), 1e-5);
-  tangents.start_afresh(0, at_start);
-  tangents.move(1, at_start, 0.25);
-  tangents.start_afresh(1, tangents.of(1));
+  for (int k = 0; k < count; ++k) {
+    tangents.move(k, at_start, parts[k]);
+    tangents.start_afresh(k, tangents.of(k));
+  }
   StepTangent step(exact_steps, pendulum);
   for (std::size_t i = 0; i < pendulum_steps; ++i) {
     const State before = integrator.state();
@@ -67,20 +72,22 @@ TEST(StepTangent, IsWhatDifferencesTendToWithTheSquareOfTheirStep) {
     more.residual(integrator.state(), above, constraint_above);
     less.residual(integrator.state(), below, constraint_below);
     const double longer = (length_of_step(i, 1e-3) - length_of_step(i, -1e-3)) / 2e-3;
-    const Eigen::RowVector2d parts(1, 0.25);
     tangents = step.end(tangents, longer * parts, (above - below) / 2e-6 * parts,
                         (constraint_above - constraint_below) / 2e-6 * parts);
   }
-  const State tangent = tangents.of(0), quarter = tangents.of(1);
+  const State tangent = tangents.of(0);
   const State zero = MotionTangents::zero(2, 1, 1).of(0);
   const double size = error_of(tangent, zero);
-  EXPECT_LT(error_of({.t = 4 * quarter.t,
-                      .q = 4 * quarter.q,
-                      .v = 4 * quarter.v,
-                      .a = 4 * quarter.a,
-                      .lambda = 4 * quarter.lambda},
-                     tangent),
-            1e-12 * size);
+  for (int k = 1; k < count; ++k) {
+    State whole = zero;
+    const State part = tangents.of(k);
+    whole.t = part.t / parts[k];
+    whole.q = part.q / parts[k];
+    whole.v = part.v / parts[k];
+    whole.a = part.a / parts[k];
+    whole.lambda = part.lambda / parts[k];
+    EXPECT_LT(error_of(whole, tangent), 1e-12 * size) << k;
+  }
   const auto error = [&](double p) {
     return error_of(tangent, rate_between(pendulum_end(p), pendulum_end(-p), p));
   };

@@ -182,7 +182,7 @@ TEST(Gradient, ByTwentyControlPointsTakesFewEvaluations) {
       read_case_text(of.study_case.variant(of.study.variables, values), of.study_case.file());
   const BuildReport built = build_model(*read.value);
   const SimulationOptions options = simulation_options(*read.value);
-  VariantGradient gradient(of.study, of.study_case, values, options);
+  VariantGradient gradient(of.study, of.study_case, values, *read.value, *built.value);
   SimulationObserver observer;
   observer.follower = &gradient.follower();
   const SimulationReport run = simulate(built.value->model, probe_places(*built.value), options, observer);

@@ -102,11 +102,22 @@ TEST(MovingBasis, IsTheSeriesOnAStraightLineAtConstantSpeed) {
   }
 }
 
-TEST(MovingBasis, LeavesConstantWeightsToTheSeries) {
+TEST(MovingBasis, IsTheSeriesOfConstantWeights) {
   std::mt19937 random(6);
-  const ReferenceCurve curve(testing::uneven_axis(random, 2), 2);
-  compare(curve, {.segment = 0, .constant_weights = std::array{1.0, 0.8, 0.9, 1.0}}, 0.1 * curve.breaks()[1],
-          0.8 * curve.breaks()[1]);
+  for (int sample = 0; sample < 10; ++sample)
+    for (const int dimension : {2, 3}) {
+      const ReferenceCurve curve(testing::uneven_axis(random, dimension), dimension);
+      const auto& breaks = curve.breaks();
+      for (int j = 0; j < curve.segment_count(); ++j) {
+        const double h = breaks[j + 1] - breaks[j];
+        for (const int segment : {j, -1})
+          compare(curve, {.segment = segment, .constant_weights = std::array{1.0, 0.8, 0.9, 1.1}},
+                  breaks[j] + 0.1 * h, breaks[j] + 0.45 * h);
+      }
+      // over a break of the drawing
+      compare(curve, {.segment = -1, .constant_weights = std::array{1.0, 1.3, 0.7, 1.0}}, 0.7 * breaks[1],
+              breaks[1] + 0.4 * (breaks[2] - breaks[1]));
+    }
 }
 
 }  // namespace

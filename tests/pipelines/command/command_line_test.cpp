@@ -86,6 +86,7 @@ TEST(CommandLine, ArgumentsThatDoNotFitShowTheUsage) {
                                                 {"run", "a", "--out"},
                                                 {"run", "a", "--out", ""},
                                                 {"run", "a", "--quiet=1"},
+                                                {"run", "a", "--threads", "0"},
                                                 {"export", "d", "--to", "f.step"},
                                                 {"export", "d", "--time", "x", "--to", "f.step"},
                                                 {"compare", "a", "b", "--tolerance", "-1"},

@@ -1,0 +1,128 @@
+#include "fem/motion/coupled_descent.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fem/system/observables.h"
+#include "solver/kkt_solver.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The first member of everybody's group.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0); }
+  int of(int i) const { return first_[i] == i ? i : of(first_[i]); }
+  void join(int i, int k) { first_[std::max(of(i), of(k))] = std::min(of(i), of(k)); }
+
+ private:
+  std::vector<int> first_;
+};
+
+// Of which limits the move is held to equality, and with what multipliers.
+struct HeldLimits {
+  std::vector<int> which;
+  Eigen::VectorXd pressure;
+};
+
+Eigen::VectorXd least_on(const Eigen::VectorXd& f, const Eigen::MatrixXd& H,
+                         const std::vector<MoveLimit>& limits, HeldLimits& held) {
+  const auto n = f.size(), m = static_cast<Eigen::Index>(held.which.size());
+  Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(n + m, n + m);
+  Eigen::VectorXd rhs(n + m);
+  const double scale = H.diagonal().maxCoeff();
+  kkt.topLeftCorner(n, n) = H / scale;
+  rhs.head(n) = -f / scale;
+  for (Eigen::Index k = 0; k < m; ++k) {
+    const MoveLimit& limit = limits[held.which[k]];
+    kkt.block(0, n + k, n, 1) = -limit.row;
+    kkt.block(n + k, 0, 1, n) = limit.row.transpose();
+    rhs[n + k] = limit.least;
+  }
+  const Eigen::VectorXd solution = kkt.completeOrthogonalDecomposition().solve(rhs);
+  held.pressure = solution.tail(m);
+  return solution.head(n);
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::vector<bool>& slides) {
+  Groups groups(model.bodies.size());
+  for (const Connector& connector : model.connectors)
+    if (connector.ends[0].body >= 0 && connector.ends[1].body >= 0)
+      groups.join(connector.ends[0].body, connector.ends[1].body);
+  for (const Stop& stop : model.stops)
+    if (stop.other >= 0) groups.join(model.joints[stop.joint].body, model.joints[stop.other].body);
+  std::vector<std::vector<int>> members(model.bodies.size());
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
+    members[groups.of(model.joints[j].body)].push_back(j);
+  std::vector<std::vector<int>> coupled;
+  for (const std::vector<int>& group : members)
+    if (group.size() > 1 && std::any_of(group.begin(), group.end(), [&](int j) { return slides[j]; }))
+      coupled.push_back(group);
+  return coupled;
+}
+
+std::optional<Eigen::MatrixXd> holding_stiffness(const BeamSystem& system, const State& state,
+                                                 const std::vector<int>& joints) {
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  system.tangent(state, {.stiffness = 1}, kkt);
+  KktSolver solver;
+  if (!solver.factorise(kkt)) return {};
+  const int n = system.coordinate_count();
+  const auto count = static_cast<Eigen::Index>(joints.size());
+  Eigen::MatrixXd H(count, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(kkt.rows());
+    moved[n + row_of_place(system, joints[j]).value()] = 1;
+    const Eigen::VectorXd rate = solver.solve(moved);
+    for (Eigen::Index i = 0; i < count; ++i) H(i, j) = -rate[n + row_of_place(system, joints[i]).value()];
+  }
+  return Eigen::MatrixXd((H + H.transpose()) / 2);
+}
+
+LimitedMove least_within(const Eigen::VectorXd& f, const Eigen::MatrixXd& H, double round_off, double push,
+                         const std::vector<MoveLimit>& limits) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H);
+  const Eigen::MatrixXd& V = eigen.eigenvectors();
+  Eigen::VectorXd values = eigen.eigenvalues(), along = V.transpose() * f;
+  const double flat = std::max(1e-12 * values.cwiseAbs().maxCoeff(), round_off / push);
+  for (Eigen::Index k = 0; k < f.size(); ++k) {
+    const bool ridge = values[k] < -flat;
+    values[k] = std::max(std::abs(values[k]), flat);
+    if (ridge && std::abs(along[k]) <= round_off) along[k] = -push * values[k];
+  }
+  const Eigen::MatrixXd upward = V * values.asDiagonal() * V.transpose();
+  const Eigen::VectorXd pull = V * along;
+
+  LimitedMove move{{}, std::vector<bool>(limits.size(), false)};
+  HeldLimits held;
+  const std::size_t most = 8 * limits.size() + 8;
+  for (std::size_t round = 0; round < most; ++round) {
+    move.x = least_on(pull, upward, limits, held);
+    Eigen::Index least = 0;
+    if (held.pressure.size() > 0 && held.pressure.minCoeff(&least) < 0) {
+      held.which.erase(held.which.begin() + least);
+      continue;
+    }
+    int worst = -1;
+    double most_beyond = 1e-12 * push;
+    for (int k = 0; k < static_cast<int>(limits.size()); ++k)
+      if (const double beyond = limits[k].least - limits[k].row.dot(move.x); beyond > most_beyond) {
+        worst = k;
+        most_beyond = beyond;
+      }
+    if (worst < 0) break;
+    held.which.push_back(worst);
+  }
+  for (std::size_t k = 0; k < held.which.size(); ++k)
+    if (held.pressure[static_cast<Eigen::Index>(k)] > 0) move.pushed[held.which[k]] = true;
+  return move;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// By what the residuals of pairs of neighbouring systems of one mesh differ at the same state. Elements that
+/// are the same in both, as those out of reach of a control point that moves, are left out; those of all
+/// pairs that are left are evaluated side by side.
+class ResidualDifferences {
+ public:
+  /// Two systems, of a parameter that is `step` greater and less.
+  struct Pair {
+    const BeamSystem *more, *less;
+    double step;
+  };
+  /// `near`: any state that all can have. The systems must outlive it.
+  ResidualDifferences(const std::vector<Pair>& pairs, const State& near);
+  ~ResidualDifferences();
+  ResidualDifferences(ResidualDifferences&&) noexcept;
+  ResidualDifferences& operator=(ResidualDifferences&&) noexcept;
+
+  /// A coordinate, and by how much it changes with the parameter.
+  using Shift = std::pair<int, double>;
+  /// Of vectors, a column for each pair.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// Half the difference over `step` for each pair: more at a time step x `later` after that of `at`, and
+  /// with coordinates that are shifted so far; less as much before it, and as far the other way. Into
+  /// `dynamics` (n rows) and `constraints` (m rows).
+  void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
+            Columns& dynamics, Columns& constraints);
+
+  /// The residuals of whole systems whose elements find evaluates, where the same loads act in both of a
+  /// pair.
+  double work() const;
+
+ private:
+  struct Implementation;
+  template <int D>
+  struct In;
+
+  std::unique_ptr<Implementation> in_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,43 @@
+#pragma once
+#include <algorithm>
+#include <memory>
+
+namespace nurbeam {
+
+/// While it lives, work is done by no more than so many threads; without one by as many as the process may
+/// run at once. What comes out never depends on it.
+class ThreadLimit {
+ public:
+  /// `most`: at least 1.
+  explicit ThreadLimit(int most);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Calls work(context, i) for i = 0 .. count - 1, several at a time and in no order.
+void side_by_side(int count, void (*work)(const void* context, int i), const void* context);
+
+/// Calls work(i) for i = 0 .. count - 1, several at a time and in no order: the calls write to different
+/// places, and none throws.
+template <class Work>
+void side_by_side(int count, const Work& work) {
+  side_by_side(
+      count, [](const void* of, int i) { (*static_cast<const Work*>(of))(i); }, &work);
+}
+
+/// Calls work(first, end) for the pieces of 0 .. size - 1: for all of it at once where it is shorter than two
+/// pieces, else for several pieces at a time, as side_by_side does.
+template <class Work>
+void by_pieces(long size, long piece, const Work& work) {
+  if (size < 2 * piece) return work(0L, size);
+  const long count = size / piece;
+  side_by_side(static_cast<int>(count),
+               [&](int i) { work(i * piece, i + 1 < count ? (i + 1) * piece : size); });
+}
+
+}  // namespace nurbeam

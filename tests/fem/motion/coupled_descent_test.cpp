@@ -1,0 +1,150 @@
+#include "fem/motion/coupled_descent.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "fem/motion/simulation.h"
+#include "tests/support/models.h"
+
+namespace nurbeam {
+namespace {
+
+using std::numbers::pi;
+constexpr double gravity_of_bowl = 9.81, radius_of_bowl = 5, first_mass = 30, second_mass = 20;
+
+// ---- A move within limits ----
+
+const Eigen::MatrixXd stiff_pair = (Eigen::Matrix2d() << 1e8 + 3, -1e8, -1e8, 1e8 + 3).finished();
+
+TEST(LeastWithin, IsNewtonsStepHoweverStiffBodiesAreCoupled) {
+  const Eigen::Vector2d f(4, 2);
+  const LimitedMove move = least_within(f, stiff_pair, 1e-9, 0.1, {});
+  EXPECT_NEAR(move.x.sum(), -2, 1e-7);  // -(f1 + f2)/3
+  EXPECT_NEAR(move.x[1] - move.x[0], 1e-8, 1e-13);
+}
+
+TEST(LeastWithin, StopsWhereALimitIsAndSaysWhatPushes) {
+  const std::vector<MoveLimit> limits{{Eigen::Vector2d(1, 0), -0.25, true},
+                                      {Eigen::Vector2d(0, 1), -9, true}};
+  const LimitedMove move = least_within(Eigen::Vector2d(4, 2), stiff_pair, 1e-9, 0.1, limits);
+  EXPECT_NEAR(move.x[0], -0.25, 1e-9);
+  EXPECT_NEAR(move.x[1], -0.25, 1e-7);
+  EXPECT_TRUE(move.pushed[0]);
+  EXPECT_FALSE(move.pushed[1]);
+}
+
+TEST(LeastWithin, GoesDownFromARidge) {
+  const Eigen::MatrixXd ridge = Eigen::Vector2d(-2, 5).asDiagonal();
+  EXPECT_NEAR(least_within(Eigen::Vector2d(1, 1), ridge, 1e-9, 0.1, {}).x[0], -0.5, 1e-12);
+  EXPECT_NEAR(std::abs(least_within(Eigen::Vector2d(0, 0), ridge, 1e-9, 0.1, {}).x[0]), 0.1, 1e-12);
+}
+
+// ---- Where coupled bodies rest ----
+
+/// A half circle with its lowest place at s = pi R/2, with two bodies on it.
+ModelBuilder bowl(double first_at, double second_at, const std::optional<Friction>& friction = {}) {
+  ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+  builder.add_guide(ReferenceCurve(testing::arc_cubics({0, 0, 0}, radius_of_bowl, pi, 2 * pi, 4), 2));
+  for (const auto& [mass, s] : {std::pair{first_mass, first_at}, std::pair{second_mass, second_at}})
+    builder.slide(builder.add_body("", mass), 0, s).friction = friction;
+  return builder;
+}
+
+Snapshot rest_of(const BeamModel& model) {
+  std::optional<Snapshot> found;
+  const SimulationReport report = simulate(model, {}, {.statics = true, .output_times = {0}},
+                                           {.snapshot = [&](const Snapshot& frame) { found = frame; }});
+  EXPECT_EQ(report.status, SimulationStatus::done);
+  return found.value();
+}
+
+/// From the lowest place [rad].
+double angle_of(const Snapshot& rest, int body) { return *rest.bodies[body].s / radius_of_bowl - pi / 2; }
+
+// A strut keeps them apart: m1 sin(phi - beta) + m2 sin(phi + beta) = 0, and its push k (l - 2 R sin beta)
+// holds each on its slope.
+TEST(CoupledRest, OfTwoBodiesOnAStrutIsThatOfBothTogether) {
+  for (const double stiffness : {2e2, 2e4, 2e6, 2e8}) {
+    ModelBuilder builder = bowl(0.5, 2);
+    builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::spring, stiffness);
+    BeamModel model = builder.build();
+    const double length = 2 * radius_of_bowl * std::sin(0.75 / radius_of_bowl);
+    model.connectors[0].length = length;
+    double beta = 0.75 / radius_of_bowl, phi = 0;
+    for (int i = 0; i < 200; ++i) {
+      phi = std::atan((first_mass - second_mass) / (first_mass + second_mass) * std::tan(beta));
+      const double push = second_mass * gravity_of_bowl * std::sin(phi + beta) / std::cos(beta);
+      beta = (beta + std::asin((length - push / stiffness) / (2 * radius_of_bowl))) / 2;
+    }
+    const Snapshot rest = rest_of(model);
+    EXPECT_NEAR(angle_of(rest, 0), phi - beta, 1e-8) << stiffness;
+    EXPECT_NEAR(angle_of(rest, 1), phi + beta, 1e-8) << stiffness;
+    EXPECT_NEAR(rest.bodies[0].holding_force, 0, 1e-6) << stiffness;
+  }
+}
+
+// A stop between them, hard or a buffer: m1 sin phi1 + m2 sin phi2 = 0, R (phi2 - phi1) its gap less what it
+// gives.
+TEST(CoupledRest, OfTwoBodiesAgainstEachOtherIsThatOfBothTogether) {
+  const double gap = 1;
+  for (const std::optional<Buffer>& buffer : {std::optional<Buffer>{}, std::optional<Buffer>{Buffer{3e4}}})
+    for (const double start : {0.5, 12.0}) {
+      BeamModel model = bowl(start, start + 1.5).build();
+      model.stops = {{.joint = 0, .other = 1, .place = gap, .buffer = buffer}};
+      const Snapshot rest = rest_of(model);
+      const double first = angle_of(rest, 0), second = angle_of(rest, 1);
+      EXPECT_NEAR(first_mass * std::sin(first) + second_mass * std::sin(second), 0, 1e-6);
+      const double push = second_mass * gravity_of_bowl * std::sin(second);
+      EXPECT_NEAR(radius_of_bowl * (second - first), gap - (buffer ? push / buffer->stiffness : 0), 1e-8);
+      EXPECT_GT(push, 10);
+    }
+}
+
+// On a rope that sags the middle of the two is its middle, whatever joins them.
+TEST(CoupledRest, OfATrainOnARopeIsAboutItsMiddle) {
+  for (const ConnectorType type : {ConnectorType::rod, ConnectorType::spring}) {
+    ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+    BeamProperties rope(2e7, 20, 0.9);
+    rope.free_strain.of_tension = -6000 / rope.axial_stiffness;
+    builder.add_beam(ReferenceCurve({testing::line_cubic({0, 0, 0}, {20, 0, 0})}, 2), rope, {20});
+    builder.pin(0, 0).pin(0, 20);
+    for (const double s : {4.0, 6.0})
+      builder.slide(builder.add_body("", first_mass), 0, s).continuous_slope = false;
+    builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), type,
+                    type == ConnectorType::rod ? 0 : 1e7);
+    const Snapshot rest = rest_of(builder.build());
+    EXPECT_NEAR(*rest.bodies[0].s + *rest.bodies[1].s, 20, 1e-5);
+    EXPECT_NEAR(*rest.bodies[1].s - *rest.bodies[0].s, 2, 1e-2);
+  }
+}
+
+// With friction they stay, or slide on until what pulls each is no more than it holds.
+TEST(CoupledRest, IsWhereFrictionHoldsEach) {
+  const Friction friction{.coefficient = 0.2};
+  const auto with_strut = [&](double first, double second) {
+    ModelBuilder builder = bowl(first, second, friction);
+    builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::spring, 1e7);
+    BeamModel model = builder.build();
+    model.connectors[0].length = 2 * radius_of_bowl * std::sin((second - first) / (2 * radius_of_bowl));
+    return rest_of(model);
+  };
+  const double bottom = radius_of_bowl * pi / 2;
+  EXPECT_NEAR(*with_strut(bottom - 0.9, bottom + 0.6).bodies[0].s, bottom - 0.9, 1e-6);
+  const Snapshot rest = with_strut(0.5, 2);
+  const double N = rest.connectors[0].force;
+  for (const int i : {0, 1}) {
+    const double m = i == 0 ? first_mass : second_mass, phi = angle_of(rest, i);
+    const double beta = (angle_of(rest, 1) - angle_of(rest, 0)) / 2;
+    const double along = -m * gravity_of_bowl * std::sin(phi) + (i == 0 ? N : -N) * std::cos(beta);
+    const double across = m * gravity_of_bowl * std::cos(phi) - N * std::sin(beta);
+    EXPECT_LE(std::abs(along), friction.coefficient * across * (1 + 1e-6)) << i;
+  }
+  EXPECT_LT(angle_of(rest, 0) + angle_of(rest, 1), 0);  // they came from there
+  EXPECT_GT(angle_of(rest, 0), -0.5);
+}
+
+}  // namespace
+}  // namespace nurbeam
