@@ -47,7 +47,8 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   }
 }
 
-// A batch of another mesh is taken over where it has the same elements with the same coordinates.
+// A batch of another mesh of the same model is taken over where it has the same elements with the same
+// coordinates.
 template <int D>
 void Assembly<D>::batch_elements(const Assembly* like) {
   walks_.resize(model_->beams.size());
@@ -63,7 +64,7 @@ void Assembly<D>::batch_elements(const Assembly* like) {
     batches.reserve(static_cast<std::size_t>((count + lanes - 1) / lanes));
     for (int first = 0; first < count; first += lanes) {
       const int k = first / lanes;
-      if (like && has_batch(b, k, *like)) {
+      if (like && like->model_ == model_ && has_batch(b, k, *like)) {
         batches.push_back(like->walks_[b].batches[k]);
         continue;
       }

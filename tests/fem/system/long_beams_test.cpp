@@ -13,20 +13,20 @@ namespace {
 
 using testing::disturbed_state;
 
-constexpr int elements = 3000;
+constexpr int element_count = 3000;
 
 BeamModel long_ring(int dimension) {
   ModelBuilder builder(dimension);
   builder.add_beam(
       ReferenceCurve(testing::arc_cubics({0, 0, 0}, 5, 0, 2 * M_PI, 4), dimension, Metric::arc_length, true),
-      BeamProperties{300, 2, 0.7}, {elements});
+      BeamProperties{300, 2, 0.7}, {element_count});
   return builder.build();
 }
 
 BeamModel long_beam_with_body(int dimension) {
   std::mt19937 random(2);
   BeamModel model = testing::one_beam(testing::uneven_axis(random, dimension), dimension, {300, 2, 0.7},
-                                      elements, {{0, true}});
+                                      element_count, {{0, true}});
   testing::add_slider(model, 0.8, 0.33 * model.beams[0].curve.length());
   return model;
 }
