@@ -62,6 +62,17 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& file, bool packed) {
   return created;
 }
 
+NetcdfFile NetcdfFile::create_classic(const std::filesystem::path& file) {
+  const auto lock = one_at_a_time();
+  int id = -1;
+  errno = 0;
+  const int status = nc_create(file.c_str(), NC_64BIT_DATA | NC_CLOBBER, &id);
+  NetcdfFile created(file, id, status);
+  created.is_defined_ = false;
+  created.check(nc_set_fill(id, NC_NOFILL, nullptr), "fill");
+  return created;
+}
+
 NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
   const auto lock = one_at_a_time();
   int id = -1;
@@ -75,6 +86,7 @@ NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
     : file_(std::move(other.file_)),
       id_(std::exchange(other.id_, -1)),
       packed_(other.packed_),
+      is_defined_(other.is_defined_),
       texts_(std::move(other.texts_)) {}
 
 NetcdfFile::~NetcdfFile() {
@@ -122,7 +134,8 @@ void NetcdfFile::define_texts(const std::string& name, const std::string& dimens
   texts_.emplace_back(name, texts);
 }
 
-void NetcdfFile::put_texts() {
+void NetcdfFile::begin_values() {
+  if (!std::exchange(is_defined_, true)) check(nc_enddef(id_), "definitions");
   for (const auto& [name, texts] : std::exchange(texts_, {})) {
     std::vector<const char*> pointers;
     for (const std::string& text : texts) pointers.push_back(text.c_str());
@@ -149,13 +162,13 @@ std::string NetcdfFile::attribute(const std::string& variable, const std::string
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const double* values) {
   const auto lock = one_at_a_time();
-  put_texts();
+  begin_values();
   check(nc_put_vara_double(id_, variable(name), start.data(), count.data(), values), name);
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const int* values) {
   const auto lock = one_at_a_time();
-  put_texts();
+  begin_values();
   check(nc_put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
 }
 
@@ -169,7 +182,7 @@ std::vector<int> NetcdfFile::unlimited_dimensions() const {
 
 void NetcdfFile::append(const NetcdfFile& from) {
   const auto lock = one_at_a_time();
-  put_texts();
+  begin_values();
   for (const int along : from.unlimited_dimensions()) {
     char name[NC_MAX_NAME + 1];
     from.check(nc_inq_dimname(from.id_, along, name), "dimension");
@@ -260,7 +273,7 @@ std::size_t NetcdfFile::size(const std::string& dimension) const {
 
 void NetcdfFile::close() {
   const auto lock = one_at_a_time();
-  put_texts();
+  begin_values();
   check(nc_close(std::exchange(id_, -1)), "close");
 }
 

@@ -7,7 +7,7 @@
 
 namespace nurbeam {
 
-/// An open netCDF-4 file; everything that fails throws std::runtime_error with the file and the reason. Files
+/// An open netCDF file; everything that fails throws std::runtime_error with the file and the reason. Files
 /// may be used in several threads, each file in one at a time: calls of netCDF wait for each other.
 /// Arrays are row-major; `start` and `count` have one entry per dimension of the variable.
 class NetcdfFile {
@@ -18,15 +18,18 @@ class NetcdfFile {
   /// What netCDF holds where nothing was written.
   static const double fill;
 
-  /// `packed`: with compression.
+  /// A netCDF-4 file. `packed`: with compression.
   static NetcdfFile create(const std::filesystem::path& file, bool packed = true);
+  /// A file in the classic format (CDF-5), which is quicker to write: numbers alone, in variables of fixed
+  /// size, all of them defined before the first is put.
+  static NetcdfFile create_classic(const std::filesystem::path& file);
   static NetcdfFile open(const std::filesystem::path& file);
   NetcdfFile(NetcdfFile&& other) noexcept;
   NetcdfFile& operator=(NetcdfFile&&) = delete;
   ~NetcdfFile();
 
   void define_dimension(const std::string& name, std::size_t size);
-  /// A variable without compression, of fixed size: what is read again soon.
+  /// A variable of fixed size, without compression.
   void define_plain(const std::string& name, Type type, const std::vector<std::string>& dimensions,
                     const std::string& unit, const std::string& long_name);
   /// A variable of which about `rows` of its first dimension are to come: what lies together in the file, and
@@ -61,13 +64,13 @@ class NetcdfFile {
   int define_variable(const std::string& name, int type, const std::vector<std::string>& dimensions);
   void put_meaning(const std::string& name, const std::string& unit, const std::string& long_name);
 
-  void put_texts();
+  void begin_values();
   std::vector<int> unlimited_dimensions() const;
   void append_rows(const NetcdfFile& from, int variable, std::size_t rows, std::size_t first);
 
   std::filesystem::path file_;
   int id_;
-  bool packed_ = true;
+  bool packed_ = true, is_defined_ = true;
   /// Defined and not yet put: netCDF writes all it knows of a file where values follow definitions.
   std::vector<std::pair<std::string, std::vector<std::string>>> texts_;
 };

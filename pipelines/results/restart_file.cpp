@@ -16,10 +16,15 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// The name of the attribute that holds a text of a list.
+std::string numbered(const std::string& name, std::size_t index) {
+  return name + "_" + std::to_string(index);
+}
+
 /// Writes named lists of numbers and of texts; an empty list is left out.
 class Writer {
  public:
-  explicit Writer(const std::filesystem::path& file) : file_(NetcdfFile::create(file)) {
+  explicit Writer(const std::filesystem::path& file) : file_(NetcdfFile::create_classic(file)) {
     file_.put_attribute("", "title", "restart point");
     file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
   }
@@ -35,7 +40,7 @@ class Writer {
   void texts(const std::string& name, std::vector<std::string>& values) {
     if (values.empty()) return;
     file_.define_dimension(name + "_count", values.size());
-    file_.define_texts(name, name + "_count", values);
+    for (std::size_t i = 0; i < values.size(); ++i) file_.put_attribute("", numbered(name, i), values[i]);
   }
   void close() {
     for (const auto& [name, values] : numbers_) file_.put(name, {0}, {values.size()}, values.data());
@@ -58,7 +63,9 @@ class Reader {
   }
   void texts(const std::string& name, std::vector<std::string>& values) {
     values.clear();
-    if (file_.has_dimension(name + "_count")) values = file_.texts(name);
+    if (!file_.has_dimension(name + "_count")) return;
+    values.resize(file_.size(name + "_count"));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = file_.attribute("", numbered(name, i));
   }
 
  private:
