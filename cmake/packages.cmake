@@ -11,13 +11,14 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME nurbeam)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libnetcdf19, libssl3")  # loaded late, which is not seen
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "CAD curves to flexible beams with sliding joints, and back
  nurbeam reads a curve from a STEP or IGES file, turns it without loss into flexible beam elements, simulates its motion
  with bodies that slide along it, and writes the deformed curve back to CAD.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libnurbeam-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "nurbeam (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4), libsundials-dev (>= 6.4), \
-libsuitesparse-dev, nlohmann-json3-dev (>= 3.11), libnetcdf-dev, libssl-dev (>= 3.0)")
+libsuitesparse-dev, nlohmann-json3-dev (>= 3.11)")
 if(NURBEAM_WITH_CGAL)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libcgal-dev (>= 5.5)")
 endif()

@@ -137,6 +137,13 @@ std::function<double(const BeamSystem&, const State&)> distance_to(const BeamMod
   return {};
 }
 
+// Whether a step was shortened without having failed: by the places of nodes that move (step_limit).
+void note_cut(Run& run, double asked, const StepReport& taken) {
+  if (!run.options.step || taken.rejected > 0 || taken.step > asked * (1 - 1e-9)) return;
+  ++run.report.cut_steps;
+  run.report.shortest_cut = std::min(run.report.shortest_cut, taken.step);
+}
+
 // What follows from what a step has been landed at.
 bool pass(Run& run, const Landing& landing, const State& before) {
   if (landing.ending && !end_sliding(run, *landing.ending)) return false;
@@ -165,6 +172,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   grow_transient(run);
   ++run.report.steps;
   run.last_step = taken.step;
+  note_cut(run, asked, taken);
   at.state = run.integrator->state();
   const bool first = std::exchange(run.restarted, false);
   const double end = at.state.t;

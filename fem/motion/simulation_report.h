@@ -70,6 +70,10 @@ struct SimulationReport {
   std::optional<Failure> failure;  ///< where status is not_converged
   double time = 0;                 ///< reached [s]
   long steps = 0, rejected_steps = 0, newton_iterations = 0;
+  /// Steps of a fixed length that were shortened, or a body would have slid too far over an element beside
+  /// it; and the shortest of them [s].
+  long cut_steps = 0;
+  double shortest_cut = std::numeric_limits<double>::infinity();
   double motion_seconds = 0, length_control_seconds = 0;
   double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
   double integration_error = 0;    ///< the same without what events changed [J]

@@ -11,10 +11,30 @@
 #include <stdexcept>
 
 #include "pipelines/results/file_error.h"
+#include "pipelines/results/late_library.h"
 
 namespace nurbeam {
 
 namespace {
+
+// OpenSSL, loaded when something is first hashed: most commands hash nothing, and it takes long to load.
+struct Crypto : LateLibrary {
+  Crypto() : LateLibrary(NURBEAM_CRYPTO_LIBRARY) {}
+
+#define NURBEAM_LATE(name) decltype(&::EVP_##name) name = function<decltype(&::EVP_##name)>("EVP_" #name)
+  NURBEAM_LATE(MD_CTX_new);
+  NURBEAM_LATE(MD_CTX_free);
+  NURBEAM_LATE(sha256);
+  NURBEAM_LATE(DigestInit_ex);
+  NURBEAM_LATE(DigestUpdate);
+  NURBEAM_LATE(DigestFinal_ex);
+#undef NURBEAM_LATE
+};
+
+const Crypto& crypto() {
+  static const Crypto library;
+  return library;
+}
 
 std::string hexadecimal(const unsigned char* bytes, unsigned count) {
   constexpr char digits[] = "0123456789abcdef";
@@ -25,16 +45,17 @@ std::string hexadecimal(const unsigned char* bytes, unsigned count) {
 
 /// SHA-256 of all that a stream holds; an empty text when it or OpenSSL fails.
 std::string sha256(std::istream& stream) {
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-  bool good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(crypto().MD_CTX_new(),
+                                                                        crypto().MD_CTX_free);
+  bool good = context && crypto().DigestInit_ex(context.get(), crypto().sha256(), nullptr) == 1;
   std::array<char, 1 << 16> buffer;
   while (good && stream) {
     stream.read(buffer.data(), buffer.size());
-    good = EVP_DigestUpdate(context.get(), buffer.data(), stream.gcount()) == 1;
+    good = crypto().DigestUpdate(context.get(), buffer.data(), stream.gcount()) == 1;
   }
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
   unsigned size = 0;
-  if (!good || stream.bad() || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1) return {};
+  if (!good || stream.bad() || crypto().DigestFinal_ex(context.get(), digest.data(), &size) != 1) return {};
   return hexadecimal(digest.data(), size);
 }
 

@@ -11,14 +11,63 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipelines/results/late_library.h"
+
 namespace nurbeam {
 
 namespace {
 
+// netCDF, loaded when a file is first made or opened: it brings forty other libraries along, which take
+// longer to load than a small case takes to check.
+struct Netcdf : LateLibrary {
+  Netcdf() : LateLibrary(NURBEAM_NETCDF_LIBRARY) {}
+
+#define NURBEAM_LATE(name) decltype(&::nc_##name) name = function<decltype(&::nc_##name)>("nc_" #name)
+  NURBEAM_LATE(close);
+  NURBEAM_LATE(create);
+  NURBEAM_LATE(def_dim);
+  NURBEAM_LATE(def_var);
+  NURBEAM_LATE(def_var_chunking);
+  NURBEAM_LATE(def_var_deflate);
+  NURBEAM_LATE(enddef);
+  NURBEAM_LATE(free_string);
+  NURBEAM_LATE(get_att_text);
+  NURBEAM_LATE(get_var_string);
+  NURBEAM_LATE(get_vara);
+  NURBEAM_LATE(get_vara_double);
+  NURBEAM_LATE(get_vara_int);
+  NURBEAM_LATE(inq_attlen);
+  NURBEAM_LATE(inq_dimid);
+  NURBEAM_LATE(inq_dimlen);
+  NURBEAM_LATE(inq_dimname);
+  NURBEAM_LATE(inq_nvars);
+  NURBEAM_LATE(inq_unlimdims);
+  NURBEAM_LATE(inq_var);
+  NURBEAM_LATE(inq_vardimid);
+  NURBEAM_LATE(inq_varid);
+  NURBEAM_LATE(inq_varname);
+  NURBEAM_LATE(inq_varndims);
+  NURBEAM_LATE(open);
+  NURBEAM_LATE(put_att_text);
+  NURBEAM_LATE(put_var_string);
+  NURBEAM_LATE(put_vara);
+  NURBEAM_LATE(put_vara_double);
+  NURBEAM_LATE(put_vara_int);
+  NURBEAM_LATE(set_chunk_cache);
+  NURBEAM_LATE(set_fill);
+  NURBEAM_LATE(strerror);
+#undef NURBEAM_LATE
+};
+
+const Netcdf& netcdf() {
+  static const Netcdf library;
+  return library;
+}
+
 // netCDF hides a full disk behind codes of its own.
 std::string reason_of(int status) {
   const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
-  return is_full ? std::strerror(errno) : nc_strerror(status);
+  return is_full ? std::strerror(errno) : netcdf().strerror(status);
 }
 
 // netCDF and HDF5 are not made for threads: one call at a time in the whole process.
@@ -34,7 +83,7 @@ constexpr float cache_preemption = 0.75F;
 // Less is not worth compressing [B].
 constexpr std::size_t least_packed = 16 * 1024;
 
-void use_small_caches() { nc_set_chunk_cache(cache_bytes, cache_slots, cache_preemption); }
+void use_small_caches() { netcdf().set_chunk_cache(cache_bytes, cache_slots, cache_preemption); }
 
 std::size_t product(const NetcdfFile::Sizes& count) {
   return std::accumulate(count.begin(), count.end(), std::size_t{1}, std::multiplies<>());
@@ -56,7 +105,7 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& file, bool packed) {
   int id = -1;
   errno = 0;
   use_small_caches();
-  const int status = nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
+  const int status = netcdf().create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
   NetcdfFile created(file, id, status);
   created.packed_ = packed;
   return created;
@@ -66,10 +115,10 @@ NetcdfFile NetcdfFile::create_classic(const std::filesystem::path& file) {
   const auto lock = one_at_a_time();
   int id = -1;
   errno = 0;
-  const int status = nc_create(file.c_str(), NC_64BIT_DATA | NC_CLOBBER, &id);
+  const int status = netcdf().create(file.c_str(), NC_64BIT_DATA | NC_CLOBBER, &id);
   NetcdfFile created(file, id, status);
   created.is_defined_ = false;
-  created.check(nc_set_fill(id, NC_NOFILL, nullptr), "fill");
+  created.check(netcdf().set_fill(id, NC_NOFILL, nullptr), "fill");
   return created;
 }
 
@@ -78,7 +127,7 @@ NetcdfFile NetcdfFile::open(const std::filesystem::path& file) {
   int id = -1;
   errno = 0;
   use_small_caches();
-  const int status = nc_open(file.c_str(), NC_NOWRITE, &id);
+  const int status = netcdf().open(file.c_str(), NC_NOWRITE, &id);
   return {file, id, status};
 }
 
@@ -92,13 +141,13 @@ NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
 NetcdfFile::~NetcdfFile() {
   if (id_ < 0) return;
   const auto lock = one_at_a_time();
-  nc_close(id_);
+  netcdf().close(id_);
 }
 
 void NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
   const auto lock = one_at_a_time();
   int dimension;
-  check(nc_def_dim(id_, name.c_str(), size, &dimension), name);
+  check(netcdf().def_dim(id_, name.c_str(), size, &dimension), name);
 }
 
 void NetcdfFile::define_plain(const std::string& name, Type type, const std::vector<std::string>& dimensions,
@@ -115,10 +164,10 @@ void NetcdfFile::define(const std::string& name, Type type, const std::vector<st
   for (std::size_t i = 1; i < dimensions.size(); ++i) chunks.push_back(size(dimensions[i]));
   const std::size_t row_bytes = product(chunks) * (type == Type::real ? sizeof(double) : sizeof(int));
   chunks[0] = std::clamp<std::size_t>(rows, 1, std::max<std::size_t>(1, chunk_bytes / row_bytes));
-  check(nc_def_var_chunking(id_, variable, NC_CHUNKED, chunks.data()), name);
+  check(netcdf().def_var_chunking(id_, variable, NC_CHUNKED, chunks.data()), name);
   constexpr int shuffle = 1, deflate = 1, level = 1;
   if (packed_ && rows * row_bytes >= least_packed)
-    check(nc_def_var_deflate(id_, variable, shuffle, deflate, level), name);
+    check(netcdf().def_var_deflate(id_, variable, shuffle, deflate, level), name);
   put_meaning(name, unit, long_name);
 }
 
@@ -135,11 +184,11 @@ void NetcdfFile::define_texts(const std::string& name, const std::string& dimens
 }
 
 void NetcdfFile::begin_values() {
-  if (!std::exchange(is_defined_, true)) check(nc_enddef(id_), "definitions");
+  if (!std::exchange(is_defined_, true)) check(netcdf().enddef(id_), "definitions");
   for (const auto& [name, texts] : std::exchange(texts_, {})) {
     std::vector<const char*> pointers;
     for (const std::string& text : texts) pointers.push_back(text.c_str());
-    check(nc_put_var_string(id_, variable(name), pointers.data()), name);
+    check(netcdf().put_var_string(id_, variable(name), pointers.data()), name);
   }
 }
 
@@ -147,36 +196,36 @@ void NetcdfFile::put_attribute(const std::string& variable, const std::string& n
                                const std::string& text) {
   const auto lock = one_at_a_time();
   const int owner = variable.empty() ? NC_GLOBAL : this->variable(variable);
-  check(nc_put_att_text(id_, owner, name.c_str(), text.size(), text.c_str()), name);
+  check(netcdf().put_att_text(id_, owner, name.c_str(), text.size(), text.c_str()), name);
 }
 
 std::string NetcdfFile::attribute(const std::string& variable, const std::string& name) const {
   const auto lock = one_at_a_time();
   const int owner = variable.empty() ? NC_GLOBAL : this->variable(variable);
   std::size_t length = 0;
-  check(nc_inq_attlen(id_, owner, name.c_str(), &length), name);
+  check(netcdf().inq_attlen(id_, owner, name.c_str(), &length), name);
   std::string text(length, '\0');
-  check(nc_get_att_text(id_, owner, name.c_str(), text.data()), name);
+  check(netcdf().get_att_text(id_, owner, name.c_str(), text.data()), name);
   return text;
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const double* values) {
   const auto lock = one_at_a_time();
   begin_values();
-  check(nc_put_vara_double(id_, variable(name), start.data(), count.data(), values), name);
+  check(netcdf().put_vara_double(id_, variable(name), start.data(), count.data(), values), name);
 }
 
 void NetcdfFile::put(const std::string& name, const Sizes& start, const Sizes& count, const int* values) {
   const auto lock = one_at_a_time();
   begin_values();
-  check(nc_put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
+  check(netcdf().put_vara_int(id_, variable(name), start.data(), count.data(), values), name);
 }
 
 std::vector<int> NetcdfFile::unlimited_dimensions() const {
   int count = 0;
-  check(nc_inq_unlimdims(id_, &count, nullptr), "dimensions");
+  check(netcdf().inq_unlimdims(id_, &count, nullptr), "dimensions");
   std::vector<int> dimensions(count);
-  check(nc_inq_unlimdims(id_, &count, dimensions.data()), "dimensions");
+  check(netcdf().inq_unlimdims(id_, &count, dimensions.data()), "dimensions");
   return dimensions;
 }
 
@@ -185,16 +234,16 @@ void NetcdfFile::append(const NetcdfFile& from) {
   begin_values();
   for (const int along : from.unlimited_dimensions()) {
     char name[NC_MAX_NAME + 1];
-    from.check(nc_inq_dimname(from.id_, along, name), "dimension");
+    from.check(netcdf().inq_dimname(from.id_, along, name), "dimension");
     if (!has_dimension(name)) continue;
     const std::size_t rows = from.size(name), first = size(name);
     int variables = 0;
-    from.check(nc_inq_nvars(from.id_, &variables), "variables");
+    from.check(netcdf().inq_nvars(from.id_, &variables), "variables");
     for (int variable = 0; variable < variables && rows > 0; ++variable) {
       int dimensions = 0;
-      from.check(nc_inq_varndims(from.id_, variable, &dimensions), "variable");
+      from.check(netcdf().inq_varndims(from.id_, variable, &dimensions), "variable");
       std::vector<int> over(dimensions);
-      from.check(nc_inq_vardimid(from.id_, variable, over.data()), "variable");
+      from.check(netcdf().inq_vardimid(from.id_, variable, over.data()), "variable");
       if (!over.empty() && over[0] == along) append_rows(from, variable, rows, first);
     }
   }
@@ -203,24 +252,24 @@ void NetcdfFile::append(const NetcdfFile& from) {
 // Of a variable of another file, behind the first rows.
 void NetcdfFile::append_rows(const NetcdfFile& from, int variable, std::size_t rows, std::size_t first) {
   char name[NC_MAX_NAME + 1];
-  from.check(nc_inq_varname(from.id_, variable, name), "variable");
+  from.check(netcdf().inq_varname(from.id_, variable, name), "variable");
   if (!has_variable(name)) return;
   int dimensions = 0;
   nc_type type = NC_DOUBLE;
-  check(nc_inq_var(id_, this->variable(name), nullptr, &type, &dimensions, nullptr, nullptr), name);
+  check(netcdf().inq_var(id_, this->variable(name), nullptr, &type, &dimensions, nullptr, nullptr), name);
   std::vector<int> over(dimensions);
-  check(nc_inq_vardimid(id_, this->variable(name), over.data()), name);
+  check(netcdf().inq_vardimid(id_, this->variable(name), over.data()), name);
   Sizes start(dimensions, 0), count(dimensions, 1);
-  for (int d = 1; d < dimensions; ++d) check(nc_inq_dimlen(id_, over[d], &count[d]), name);
+  for (int d = 1; d < dimensions; ++d) check(netcdf().inq_dimlen(id_, over[d], &count[d]), name);
   const std::size_t row_bytes = product(count) * (type == NC_INT ? sizeof(int) : sizeof(double));
   const std::size_t at_once = std::max<std::size_t>(1, chunk_bytes / row_bytes);
   std::vector<std::byte> values(std::min(at_once, rows) * row_bytes);
   for (std::size_t done = 0; done < rows; done += count[0]) {
     count[0] = std::min(at_once, rows - done);
     start[0] = done;
-    from.check(nc_get_vara(from.id_, variable, start.data(), count.data(), values.data()), name);
+    from.check(netcdf().get_vara(from.id_, variable, start.data(), count.data(), values.data()), name);
     start[0] = first + done;
-    check(nc_put_vara(id_, this->variable(name), start.data(), count.data(), values.data()), name);
+    check(netcdf().put_vara(id_, this->variable(name), start.data(), count.data(), values.data()), name);
   }
 }
 
@@ -228,53 +277,53 @@ std::vector<double> NetcdfFile::doubles(const std::string& name, const Sizes& st
                                         const Sizes& count) const {
   const auto lock = one_at_a_time();
   std::vector<double> values(product(count));
-  check(nc_get_vara_double(id_, variable(name), start.data(), count.data(), values.data()), name);
+  check(netcdf().get_vara_double(id_, variable(name), start.data(), count.data(), values.data()), name);
   return values;
 }
 
 std::vector<int> NetcdfFile::integers(const std::string& name, const Sizes& start, const Sizes& count) const {
   const auto lock = one_at_a_time();
   std::vector<int> values(product(count));
-  check(nc_get_vara_int(id_, variable(name), start.data(), count.data(), values.data()), name);
+  check(netcdf().get_vara_int(id_, variable(name), start.data(), count.data(), values.data()), name);
   return values;
 }
 
 std::vector<std::string> NetcdfFile::texts(const std::string& name) const {
   const auto lock = one_at_a_time();
   int dimension;
-  check(nc_inq_vardimid(id_, variable(name), &dimension), name);
+  check(netcdf().inq_vardimid(id_, variable(name), &dimension), name);
   std::size_t size = 0;
-  check(nc_inq_dimlen(id_, dimension, &size), name);
+  check(netcdf().inq_dimlen(id_, dimension, &size), name);
   std::vector<char*> pointers(size, nullptr);
-  check(nc_get_var_string(id_, variable(name), pointers.data()), name);
+  check(netcdf().get_var_string(id_, variable(name), pointers.data()), name);
   std::vector<std::string> texts(pointers.begin(), pointers.end());
-  nc_free_string(size, pointers.data());
+  netcdf().free_string(size, pointers.data());
   return texts;
 }
 
 bool NetcdfFile::has_dimension(const std::string& name) const {
   const auto lock = one_at_a_time();
   int dimension;
-  return nc_inq_dimid(id_, name.c_str(), &dimension) == NC_NOERR;
+  return netcdf().inq_dimid(id_, name.c_str(), &dimension) == NC_NOERR;
 }
 
 bool NetcdfFile::has_variable(const std::string& name) const {
   const auto lock = one_at_a_time();
   int variable;
-  return nc_inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
+  return netcdf().inq_varid(id_, name.c_str(), &variable) == NC_NOERR;
 }
 
 std::size_t NetcdfFile::size(const std::string& dimension) const {
   const auto lock = one_at_a_time();
   std::size_t size = 0;
-  check(nc_inq_dimlen(id_, this->dimension(dimension), &size), dimension);
+  check(netcdf().inq_dimlen(id_, this->dimension(dimension), &size), dimension);
   return size;
 }
 
 void NetcdfFile::close() {
   const auto lock = one_at_a_time();
   begin_values();
-  check(nc_close(std::exchange(id_, -1)), "close");
+  check(netcdf().close(std::exchange(id_, -1)), "close");
 }
 
 void NetcdfFile::check(int status, const std::string& what) const {
@@ -283,13 +332,13 @@ void NetcdfFile::check(int status, const std::string& what) const {
 
 int NetcdfFile::dimension(const std::string& name) const {
   int dimension = -1;
-  check(nc_inq_dimid(id_, name.c_str(), &dimension), name);
+  check(netcdf().inq_dimid(id_, name.c_str(), &dimension), name);
   return dimension;
 }
 
 int NetcdfFile::variable(const std::string& name) const {
   int variable = -1;
-  check(nc_inq_varid(id_, name.c_str(), &variable), name);
+  check(netcdf().inq_varid(id_, name.c_str(), &variable), name);
   return variable;
 }
 
@@ -298,7 +347,7 @@ int NetcdfFile::define_variable(const std::string& name, int type,
   std::vector<int> ids;
   for (const std::string& each : dimensions) ids.push_back(dimension(each));
   int variable = -1;
-  check(nc_def_var(id_, name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &variable), name);
+  check(netcdf().def_var(id_, name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &variable), name);
   return variable;
 }
 

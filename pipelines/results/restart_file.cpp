@@ -240,6 +240,8 @@ void exchange_numbers(Archive& archive, Checkpoint& p) {
                   slot(r.steps);
                   slot(r.rejected_steps);
                   slot(r.newton_iterations);
+                  slot(r.cut_steps);
+                  slot(r.shortest_cut);
                   slot(r.motion_seconds);
                   slot(r.length_control_seconds);
                   slot(r.energy_drift);

@@ -29,7 +29,7 @@ class RunOutputs {
   /// Writes frames as a ParaView series NAME.pvd.
   void write_series(const std::string& name, const std::vector<Snapshot>& local);
   /// Whether the last restart point is old enough for another.
-  bool checkpoint_due() const;
+  bool checkpoint_due();
   /// Puts all frames so far, and the point, on the disk: at once where it is due, else, at the end of a run,
   /// with finish().
   void write(Checkpoint point);
@@ -59,8 +59,9 @@ class RunOutputs {
   ResultsWriter results_;
   CadOutput cad_;
   std::optional<ParaviewSeries> paraview_;
-  Clock::time_point last_restart_ = Clock::now();
-  std::optional<Checkpoint> last_point_;  // for finish()
+  std::chrono::duration<double> last_restart_;  // in processor time
+  Clock::time_point next_look_;                 // before which no restart point is due
+  std::optional<Checkpoint> last_point_;        // for finish()
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;

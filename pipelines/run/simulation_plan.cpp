@@ -55,6 +55,18 @@ std::optional<Diagnostic> compression_warning(const std::filesystem::path& file,
           " s: do not trust the result; take more elements there, and see whether the material is that soft"};
 }
 
+std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run) {
+  constexpr double noticed = 0.1;  // of the steps
+  if (static_cast<double>(run.cut_steps) < noticed * static_cast<double>(run.steps) || run.cut_steps == 0)
+    return {};
+  return Diagnostic{
+      Severity::note, file.string() + ": analysis.step",
+      std::to_string(run.cut_steps) + " of " + std::to_string(run.steps) + " steps were shorter, down to " +
+          text_of(run.shortest_cut, 3) +
+          " s: a body that is carried as a node slides over a fifth of the element beside it in a step, at "
+          "most; longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
+}
+
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run) {
   const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
   const bool between_events = run.integration_error > noticed;

@@ -19,6 +19,9 @@ std::vector<ProbePlace> probe_places(const BuiltModel& built);
 /// A warning where an element is compressed to nothing; `file` heads it.
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain);
 
+/// A note where every tenth step of a fixed length or more had to be shorter; `file` heads it.
+std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run);
+
 /// A warning where energy comes from nowhere or is lost; `file` heads it.
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
 

@@ -1,0 +1,42 @@
+// Steps of a fixed length that are shortened beside a body that is carried as a node.
+
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+std::size_t count_of(const std::string& words, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+// A bead that runs round a ring at 12 m/s: its 64 elements of 0.9 m get as short as a tenth of that beside
+// it.
+CaseRun run_ring(const std::vector<std::string>& more) {
+  std::vector<std::string> overrides{"analysis.end_time=0.5", "output.report=false", "output.every=0.1"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return run_file(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases/u2_ring.json", overrides);
+}
+
+TEST(ShortSteps, AreSaidOnceWithTheirCure) {
+  const CaseRun run = run_ring({"analysis.step=\"5 ms\""});
+  EXPECT_EQ(run.code, 0) << run.messages;
+  EXPECT_EQ(count_of("steps were shorter", run.messages), 1) << run.messages;
+  EXPECT_TRUE(run.says("\"carried_as\": \"point\"")) << run.messages;
+}
+
+TEST(ShortSteps, AreNoneOfAPointOrWhereStepsAreShortAnyway) {
+  for (const std::vector<std::string>& overrides :
+       {std::vector<std::string>{"analysis.step=\"5 ms\"", "sliding_joints[0].carried_as=\"point\""},
+        std::vector<std::string>{"analysis.step=\"1 ms\""}}) {
+    const CaseRun run = run_ring(overrides);
+    EXPECT_EQ(run.code, 0) << run.messages;
+    EXPECT_FALSE(run.says("steps were shorter")) << run.messages;
+  }
+}
+
+}  // namespace
+}  // namespace nurbeam::test
