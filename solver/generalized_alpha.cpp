@@ -7,6 +7,7 @@
 #include "solver/arguments.h"
 #include "solver/finite.h"
 #include "solver/mass_scale.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -40,8 +41,21 @@ void check(const GeneralizedAlpha& settings) {
           " is negative");
 }
 
-bool is_finite(const State& state) {
-  return all_finite(state.q) && all_finite(state.v) && all_finite(state.a) && all_finite(state.lambda);
+/// Unknowns that are worked on at once: what an iteration reads and writes of them stays at hand, and long
+/// vectors are shared between threads.
+constexpr long piece = 4096;
+
+/// The part of a vector from one entry to before another.
+template <class Vector>
+auto part(Vector& vector, long first, long end) {
+  return vector.segment(first, end - first);
+}
+
+/// The largest of some numbers, 0 of none; not a number where one of them is not finite.
+template <class Numbers>
+double largest(const Numbers& numbers) {
+  if (!all_finite(numbers)) return std::numeric_limits<double>::quiet_NaN();
+  return numbers.size() > 0 ? numbers.template lpNorm<Eigen::Infinity>() : 0;
 }
 
 /// The residuals and corrections of one step, each with what the last correction left of the one before.
@@ -110,6 +124,7 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   scale_ = system.coordinate_scale();
   inverse_scale_ = scale_.cwiseInverse();
   trial_ = state_;
+  start_algorithmic_ = trial_algorithmic_ = state_.a;
   residual_.resize(n + m);
   reference_.resize(n + m);
 }
@@ -179,24 +194,22 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
 }
 
 StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) {
-  predict(step);
-  if (!is_finite(trial_)) return StepStatus::not_converged;
+  if (!predict(step)) return StepStatus::not_converged;
   if (!system_->admissible(trial_)) return StepStatus::inadmissible;
   if (!has_matrix_for(step)) linearisation_ = nullptr;
   const bool has_served = linearisation_ != nullptr;
   Convergence convergence;
   for (int i = 0; i < settings_.max_iterations; ++i) {
-    evaluate_residual(step);
-    if (!all_finite(residual_)) return StepStatus::not_converged;
+    evaluate_residual();
     ++report.newton_iterations;
     const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
-    if (!is_kept && !linearise(trial_point(step))) return StepStatus::singular_matrix;
-    report.residual_norm = residual_.cwiseProduct(reference_).lpNorm<Eigen::Infinity>();
-    correct(step);
-    if (!all_finite(correction_)) return StepStatus::not_converged;
+    if (!is_kept && !linearise(trial_point(step)))
+      return all_finite(residual_) ? StepStatus::singular_matrix : StepStatus::not_converged;
+    report.residual_norm = scale_residual(step);
+    if (!std::isfinite(report.residual_norm)) return StepStatus::not_converged;
+    const double correction = correct(step);
+    if (!std::isfinite(correction)) return StepStatus::not_converged;
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
-    const double correction =
-        correction_.head(scale_.size()).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
     const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
@@ -257,30 +270,51 @@ TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
           .stiffness = beta * step * step / mass_scale_};
 }
 
-/// The trial state whose true acceleration and multipliers are those of the last state.
-void GeneralizedAlphaIntegrator::predict(double step) {
+/// The trial state whose true acceleration and multipliers are those of the last state; whether it is finite.
+bool GeneralizedAlphaIntegrator::predict(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
   const double h = step;
-  start_algorithmic_ = algorithmic_acceleration_;
-  if (last_step_ > 0 && step <= largest_rescaling * last_step_)
-    start_algorithmic_ += (alpha_m - alpha_f) * (h - last_step_) * jerk_;
-  else if (last_step_ > 0)
-    start_algorithmic_ = state_.a;
-  const Eigen::VectorXd& alg = start_algorithmic_;
-  trial_algorithmic_ = (state_.a - alpha_m * alg) / (1 - alpha_m);
+  const bool starts_anew = last_step_ > 0 && step > largest_rescaling * last_step_;
+  const double of_jerk = last_step_ > 0 ? (alpha_m - alpha_f) * (h - last_step_) : 0;
+  const double not_finite = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
+    const auto of = [&](auto& vector) { return part(vector, first, end); };
+    auto alg = of(start_algorithmic_), after = of(trial_algorithmic_);
+    if (starts_anew)
+      alg = of(state_.a);
+    else
+      alg = of(algorithmic_acceleration_) + of_jerk * of(jerk_);
+    after = (of(state_.a) - alpha_m * alg) / (1 - alpha_m);
+    of(trial_.q) = of(state_.q) + h * of(state_.v) + h * h * ((0.5 - beta) * alg + beta * after);
+    of(trial_.v) = of(state_.v) + h * ((1 - gamma) * alg + gamma * after);
+    of(trial_.a) = of(state_.a);
+    const bool is_finite = all_finite(of(trial_.q)) && all_finite(of(trial_.v)) && all_finite(of(trial_.a));
+    return is_finite ? 0.0 : 1.0;
+  });
   trial_.t = state_.t + h;
-  trial_.q = state_.q + h * state_.v + h * h * ((0.5 - beta) * alg + beta * trial_algorithmic_);
-  trial_.v = state_.v + h * ((1 - gamma) * alg + gamma * trial_algorithmic_);
-  trial_.a = state_.a;
   trial_.lambda = state_.lambda;
   trial_.memory = state_.memory;
+  return not_finite == 0 && all_finite(trial_.lambda);
 }
 
-void GeneralizedAlphaIntegrator::evaluate_residual(double step) {
+/// Of the trial state, as the system gives it.
+void GeneralizedAlphaIntegrator::evaluate_residual() {
   const Eigen::Index n = trial_.q.size();
+  system_->residual(trial_, residual_.head(n), residual_.tail(trial_.lambda.size()));
+}
+
+/// Scales the residual as the matrix is scaled; returns the largest of it over reference, not a number where
+/// it is not finite.
+double GeneralizedAlphaIntegrator::scale_residual(double step) {
+  const double factor = parameters_.beta * step * step / mass_scale_;
+  const Eigen::Index n = trial_.q.size();
+  const double of_forces = largest_of_pieces(n, piece, [&](long first, long end) {
+    auto rows = part(residual_, first, end);
+    rows *= factor;
+    return largest(rows.cwiseProduct(part(reference_, first, end)));
+  });
   const Eigen::Index m = trial_.lambda.size();
-  system_->residual(trial_, residual_.head(n), residual_.tail(m));
-  residual_.head(n) *= parameters_.beta * step * step / mass_scale_;
+  const double of_constraints = largest(residual_.tail(m).cwiseProduct(reference_.tail(m)));
+  return of_constraints > of_forces || std::isnan(of_constraints) ? of_constraints : of_forces;
 }
 
 /// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
@@ -323,25 +357,34 @@ void GeneralizedAlphaIntegrator::measure_reference() {
 }
 
 /// One Newton correction of the trial state: of q directly, of v, a and alg as the method's formulas follow
-/// it.
-void GeneralizedAlphaIntegrator::correct(double step) {
+/// it. Returns the largest correction of q over the coordinate scale, not a number where one is not finite.
+double GeneralizedAlphaIntegrator::correct(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
   solver_.solve(residual_, correction_);
-  correction_ = -correction_;
-  const auto dq = correction_.head(trial_.q.size());
-  const double acceleration = 1 / (beta * step * step);
-  trial_.q += dq;
-  trial_.v += gamma / (beta * step) * dq;
-  trial_.a += (1 - alpha_m) / (1 - alpha_f) * acceleration * dq;
-  trial_algorithmic_ += acceleration * dq;
-  trial_.lambda += mass_scale_ * acceleration * correction_.tail(trial_.lambda.size());
+  const double of_velocity = gamma / (beta * step), of_algorithmic = 1 / (beta * step * step);
+  const double of_acceleration = (1 - alpha_m) / (1 - alpha_f) * of_algorithmic;
+  const auto of_multipliers = correction_.tail(trial_.lambda.size());
+  trial_.lambda -= mass_scale_ * of_algorithmic * of_multipliers;
+  if (!all_finite(of_multipliers)) return std::numeric_limits<double>::quiet_NaN();
+  return largest_of_pieces(trial_.q.size(), piece, [&](long first, long end) {
+    const auto of = [&](auto& vector) { return part(vector, first, end); };
+    const auto less = of(correction_);
+    of(trial_.q) -= less;
+    of(trial_.v) -= of_velocity * less;
+    of(trial_.a) -= of_acceleration * less;
+    of(trial_algorithmic_) -= of_algorithmic * less;
+    return largest(less.cwiseProduct(of(inverse_scale_)));
+  });
 }
 
 /// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate
 /// scale.
 double GeneralizedAlphaIntegrator::local_error(double step) const {
-  return std::abs(parameters_.position_error) * step * step *
-         (trial_algorithmic_ - start_algorithmic_).cwiseProduct(inverse_scale_).lpNorm<Eigen::Infinity>();
+  const double greatest = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
+    const auto moved = part(trial_algorithmic_, first, end) - part(start_algorithmic_, first, end);
+    return largest(moved.cwiseProduct(part(inverse_scale_, first, end)));
+  });
+  return std::abs(parameters_.position_error) * step * step * greatest;
 }
 
 /// A proportional-integral controller for a local error of third degree; no growth right after a rejection.
@@ -355,7 +398,10 @@ double GeneralizedAlphaIntegrator::next_step(double step, double tolerance, cons
 }
 
 void GeneralizedAlphaIntegrator::accept(double step) {
-  jerk_ = (trial_algorithmic_ - start_algorithmic_) / step;
+  by_pieces(state_.q.size(), piece, [&](long first, long end) {
+    part(jerk_, first, end) =
+        (part(trial_algorithmic_, first, end) - part(start_algorithmic_, first, end)) / step;
+  });
   std::swap(state_, trial_);
   std::swap(algorithmic_acceleration_, trial_algorithmic_);
   last_step_ = step;

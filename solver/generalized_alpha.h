@@ -74,15 +74,16 @@ class GeneralizedAlphaIntegrator final : public Integrator {
  private:
   StepReport advance_within(double step, int max_halvings, double tolerance);
   StepStatus attempt(double step, StepReport& report);
-  void predict(double step);
+  bool predict(double step);
   bool has_matrix_for(double step) const;
   TangentWeights weights_of(double step) const;
   bool linearise(std::shared_ptr<const Linearisation> at);
   std::shared_ptr<const Linearisation> trial_point(double step);
   bool renew_moving_part();
-  void evaluate_residual(double step);
+  void evaluate_residual();
+  double scale_residual(double step);
   void measure_reference();
-  void correct(double step);
+  double correct(double step);
   double local_error(double step) const;
   double next_step(double step, double tolerance, const StepReport& report) const;
   void accept(double step);

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace nurbeam {
 
@@ -38,6 +39,19 @@ void by_pieces(long size, long piece, const Work& work) {
   const long count = size / piece;
   side_by_side(static_cast<int>(count),
                [&](int i) { work(i * piece, i + 1 < count ? (i + 1) * piece : size); });
+}
+
+/// The largest of what work(first, end) returns for such pieces, which is not below 0; not a number where one
+/// of them is not.
+template <class Work>
+double largest_of_pieces(long size, long piece, const Work& work) {
+  if (size < 2 * piece) return work(0L, size);
+  std::vector<double> of(static_cast<std::size_t>(size / piece));
+  by_pieces(size, piece,
+            [&](long first, long end) { of[static_cast<std::size_t>(first / piece)] = work(first, end); });
+  double largest = 0;
+  for (const double each : of) largest = each >= largest || each != each ? each : largest;
+  return largest;
 }
 
 }  // namespace nurbeam

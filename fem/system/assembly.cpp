@@ -33,6 +33,8 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
+  for (int i = 0; i < static_cast<int>(mesh_.spans.size()); ++i)
+    if (mesh_.spans[i].place_a >= 0 || mesh_.spans[i].place_b >= 0) moving_spans_.push_back(i);
   const Eigen::VectorXd drawn = planned_places(mesh_);
   batch_elements(like);
   Binding<D> binding{beams(), drawn, held};
@@ -399,7 +401,8 @@ double Assembly<D>::step_limit(const State& state) const {
   constexpr double largest_slide = 0.2;  // of the shorter neighbour
   double limit = std::numeric_limits<double>::infinity();
   const auto speed = [&](int place) { return place >= 0 ? std::abs(state.v[place]) : 0; };
-  for (const MeshSpan& span : mesh_.spans) {
+  for (const int moving : moving_spans_) {
+    const MeshSpan& span = mesh_.spans[moving];
     const double closing = std::max(speed(span.place_a), speed(span.place_b));
     if (closing > 0)
       limit = std::min(limit, largest_slide * (span.end(state.q) - span.start(state.q)) / closing);
@@ -413,7 +416,8 @@ bool Assembly<D>::admissible(const State& state) const {
   if constexpr (D == 3)
     for (const MeshElement<D>& e : elements_)
       if (e.twist && !e.twist->element.admissible(gather_twist(e, state.q))) return false;
-  return std::all_of(mesh_.spans.begin(), mesh_.spans.end(), [&](const MeshSpan& span) {
+  return std::all_of(moving_spans_.begin(), moving_spans_.end(), [&](int moving) {
+    const MeshSpan& span = mesh_.spans[moving];
     return span.end(state.q) - span.start(state.q) > shortest * (span.s_b - span.s_a);
   });
 }

@@ -181,6 +181,7 @@ class Assembly final : public SecondOrderSystem {
 
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;
+  std::vector<int> moving_spans_;  // those with an end that moves
   std::vector<MeshElement<D>> elements_;
   std::vector<Walk> walks_;  // of each beam
   std::vector<BoundConstraint<D>> constraints_;
