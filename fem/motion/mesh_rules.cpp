@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/motion/carried_sections.h"
 #include "fem/motion/carried_weights.h"
@@ -11,13 +12,23 @@ namespace nurbeam {
 
 namespace {
 
+// The present plan but for constant weights and charts, which still belong to the places of the old one.
+MeshPlan plan_at(const BeamSystem& system, const State& state) {
+  MeshPlan plan = system.mesh().plan;
+  for (int j = 0; j < static_cast<int>(plan.places.size()); ++j)
+    if (const auto s = place(system, state, j)) plan.places[j] = *s;
+  return plan;
+}
+
 // The rules of length control for one joint, seen from its two neighbours. Home nodes and places of a ring go
 // on over the seam (Beam::home_place), as seen from the joint.
 class JointRules {
  public:
   JointRules(const BeamSystem& system, const State& state, const LengthControl& control, int joint,
              NextPlan& next)
-      : model_(system.model()),
+      : system_(system),
+        state_(state),
+        model_(system.model()),
         mesh_(system.mesh()),
         control_(control),
         joint_(joint),
@@ -46,6 +57,7 @@ class JointRules {
     const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
     const int first = mesh_.first_span[index_];
     const double L = beam_.curve.length();
+    nodes_.reserve(2 * reach + 1);
     const auto now = [&](int i) {
       return i + 1 < count || beam_.is_ring() ? mesh_.spans[first + i].start(q)
                                               : mesh_.spans[first + i - 1].end(q);
@@ -72,7 +84,9 @@ class JointRules {
   // The home nodes that can come and go: all but the ends, or those of one turn around the joint.
   int lowest() const { return beam_.is_ring() ? beam_.home_interval(s_) - last() / 2 + 1 : 1; }
   int highest() const { return beam_.is_ring() ? lowest() + last() - 1 : last() - 1; }
-  bool present(int h) const { return next_.plan.beams[index_].present[beam_.home_index(h)]; }
+  bool present(int h) const {
+    return (is_planned_ ? next_.plan : mesh_.plan).beams[index_].present[beam_.home_index(h)];
+  }
   // Length of the home interval that holds s.
   double spacing(double s) const { return beam_.home_spacing(s); }
   bool change(MeshChange kind) {
@@ -80,14 +94,19 @@ class JointRules {
     next_.joint = joint_;
     return true;
   }
-  void insert(int h) { next_.plan.beams[index_].present[beam_.home_index(h)] = true; }
-  void remove(int h) { next_.plan.beams[index_].present[beam_.home_index(h)] = false; }
+  // The next plan, which is made when something is first changed.
+  MeshPlan& plan() {
+    if (!std::exchange(is_planned_, true)) next_.plan = plan_at(system_, state_);
+    return next_.plan;
+  }
+  void insert(int h) { plan().beams[index_].present[beam_.home_index(h)] = true; }
+  void remove(int h) { plan().beams[index_].present[beam_.home_index(h)] = false; }
 
   bool leave_point() {
     const double from_end = std::min(s_, at(last()) - s_);
     if (!beam_.is_ring() && from_end < 2 * end_zone * spacing(s_)) return false;
     if (near_as_point(model_, model_.joints[joint_], s_, passing_zone_left)) return false;
-    next_.plan.modes[joint_] = JointMode::node;
+    plan().modes[joint_] = JointMode::node;
     return change(MeshChange::becomes_node);
   }
 
@@ -103,7 +122,7 @@ class JointRules {
 
   // All hidden nodes around it return, but for those that another joint hides.
   bool become_point() {
-    next_.plan.modes[joint_] = JointMode::point;
+    plan().modes[joint_] = JointMode::point;
     for (int h = lowest_; h <= highest_; ++h)
       if (hidden(h) && !another_joint_near(h, passing_zone_left)) insert(h);
     return change(MeshChange::becomes_point);
@@ -200,25 +219,20 @@ class JointRules {
     return inserted && change(MeshChange::split);
   }
 
+  const BeamSystem& system_;
+  const State& state_;
   const BeamModel& model_;
   const Mesh& mesh_;
   const LengthControl& control_;
   int joint_, index_;
   const Beam& beam_;
   NextPlan& next_;
+  bool is_planned_ = false;
   double s_ = 0, rate_;
   std::vector<MeshNode> nodes_;
   int left_ = -1, right_ = -1;     // of nodes_
   int lowest_ = 0, highest_ = -1;  // of home nodes
 };
-
-// The present plan but for constant weights and charts, which still belong to the places of the old one.
-MeshPlan plan_at(const BeamSystem& system, const State& state) {
-  MeshPlan plan = system.mesh().plan;
-  for (int j = 0; j < static_cast<int>(plan.places.size()); ++j)
-    if (const auto s = place(system, state, j)) plan.places[j] = *s;
-  return plan;
-}
 
 }  // namespace
 
@@ -243,8 +257,7 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
 NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control,
                    int first_joint) {
   NextPlan next;
-  next.plan = plan_at(system, state);
-  for (int j = first_joint; j < static_cast<int>(next.plan.places.size()); ++j)
+  for (int j = first_joint; j < static_cast<int>(system.mesh().plan.places.size()); ++j)
     if (JointRules(system, state, control, j, next).apply()) {
       carry_weights(system, state, next.plan);
       carry_sections(system, state, next.plan);

@@ -18,7 +18,7 @@ enum class MeshChange {
   becomes_node    ///< a joint has come away from there
 };
 
-/// What the mesh should be now; `change` is none when it may stay.
+/// What the mesh should be now; `change` is none when it may stay, and there is no plan then.
 struct NextPlan {
   MeshChange change = MeshChange::none;
   int joint = -1;
