@@ -81,6 +81,8 @@ class Convergence {
     // its own round-off.
     return small && last <= tolerance && !contracts();
   }
+  /// The norm of the last one, without bound before the first.
+  double last_correction() const { return correction_; }
   /// Whether the last correction was much smaller than the one before.
   bool contracts() const { return contraction_ <= good_contraction; }
 
@@ -207,8 +209,14 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
       return all_finite(residual_) ? StepStatus::singular_matrix : StepStatus::not_converged;
     report.residual_norm = scale_residual(step);
     if (!std::isfinite(report.residual_norm)) return StepStatus::not_converged;
-    const double correction = correct(step);
+    const double correction = find_correction();
     if (!std::isfinite(correction)) return StepStatus::not_converged;
+    // A matrix from elsewhere that leads away is taken anew, not followed.
+    if (is_kept && correction > std::max(convergence.last_correction(), settings_.newton_tolerance)) {
+      linearisation_ = nullptr;
+      continue;
+    }
+    correct(step);
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
@@ -356,25 +364,30 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   reference_ = reference_.cwiseInverse();
 }
 
-/// One Newton correction of the trial state: of q directly, of v, a and alg as the method's formulas follow
-/// it. Returns the largest correction of q over the coordinate scale, not a number where one is not finite.
-double GeneralizedAlphaIntegrator::correct(double step) {
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+/// Solves for the correction that answers the residual. Returns the largest correction of q over the coordinate
+/// scale, not a number where one is not finite.
+double GeneralizedAlphaIntegrator::find_correction() {
   solver_.solve(residual_, correction_);
+  if (!all_finite(correction_.tail(trial_.lambda.size()))) return std::numeric_limits<double>::quiet_NaN();
+  return largest_of_pieces(trial_.q.size(), piece, [&](long first, long end) {
+    return largest(part(correction_, first, end).cwiseProduct(part(inverse_scale_, first, end)));
+  });
+}
+
+/// Corrects the trial state: q directly, v, a and alg as the method's formulas follow it.
+void GeneralizedAlphaIntegrator::correct(double step) {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
   const double of_velocity = gamma / (beta * step), of_algorithmic = 1 / (beta * step * step);
   const double of_acceleration = (1 - alpha_m) / (1 - alpha_f) * of_algorithmic;
-  const auto of_multipliers = correction_.tail(trial_.lambda.size());
-  trial_.lambda -= mass_scale_ * of_algorithmic * of_multipliers;
-  if (!all_finite(of_multipliers)) return std::numeric_limits<double>::quiet_NaN();
-  return largest_of_pieces(trial_.q.size(), piece, [&](long first, long end) {
+  by_pieces(trial_.q.size(), piece, [&](long first, long end) {
     const auto of = [&](auto& vector) { return part(vector, first, end); };
     const auto less = of(correction_);
     of(trial_.q) -= less;
     of(trial_.v) -= of_velocity * less;
     of(trial_.a) -= of_acceleration * less;
     of(trial_algorithmic_) -= of_algorithmic * less;
-    return largest(less.cwiseProduct(of(inverse_scale_)));
   });
+  trial_.lambda -= mass_scale_ * of_algorithmic * correction_.tail(trial_.lambda.size());
 }
 
 /// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate

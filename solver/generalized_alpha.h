@@ -83,7 +83,8 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   void evaluate_residual();
   double scale_residual(double step);
   void measure_reference();
-  double correct(double step);
+  double find_correction();
+  void correct(double step);
   double local_error(double step) const;
   double next_step(double step, double tolerance, const StepReport& report) const;
   void accept(double step);
