@@ -203,6 +203,16 @@ bool correct_accelerations(const SecondOrderSystem& system, double h, State& sta
   return true;  // round-off is above the tolerance
 }
 
+/// One move of Newton's method to where the constraints are closed, the least in the mass norm; whether there
+/// is one, and the place is admissible.
+bool move_to_constraints(const SecondOrderSystem& system, State& state) {
+  const FactorisedKkt kkt(system, unloaded(system, state));
+  if (!kkt.regular()) return false;
+  state.q += kkt.solve(Eigen::VectorXd::Zero(state.q.size()), -constraint_values(system, state))
+                 .head(state.q.size());
+  return system.admissible(state);
+}
+
 }  // namespace
 
 ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
@@ -241,17 +251,24 @@ double open_constraints(const SecondOrderSystem& system, const State& state) {
 bool close_constraints(const SecondOrderSystem& system, double enough, State& state) {
   constexpr int most_moves = 10;
   State closed = state;
-  Eigen::VectorXd open = constraint_values(system, closed);
-  for (int i = 0; i < most_moves && open.lpNorm<Eigen::Infinity>() > enough; ++i) {
-    const FactorisedKkt kkt(system, unloaded(system, closed));
-    if (!kkt.regular()) return false;
-    closed.q += kkt.solve(Eigen::VectorXd::Zero(closed.q.size()), -open).head(closed.q.size());
-    if (!system.admissible(closed)) return false;
-    open = constraint_values(system, closed);
-  }
-  if (!(open.lpNorm<Eigen::Infinity>() <= enough)) return false;
+  for (int i = 0; i < most_moves && open_constraints(system, closed) > enough; ++i)
+    if (!move_to_constraints(system, closed)) return false;
+  if (!(open_constraints(system, closed) <= enough)) return false;
   state = std::move(closed);
   return true;
+}
+
+void close_constraints_to_round_off(const SecondOrderSystem& system, State& state) {
+  constexpr int most_moves = 10;
+  double open = open_constraints(system, state);
+  for (int i = 0; i < most_moves && open > 0; ++i) {
+    State closed = state;
+    if (!move_to_constraints(system, closed)) return;
+    const double left = open_constraints(system, closed);
+    if (!(left < open / 2)) return;
+    state = std::move(closed);
+    open = left;
+  }
 }
 
 Projection project_velocities(const SecondOrderSystem& system, State& state, double h) {

@@ -32,6 +32,9 @@ double open_constraints(const SecondOrderSystem& system, const State& state);
 /// method); nothing moves where they are closed. Returns whether they are in the end.
 [[nodiscard]] bool close_constraints(const SecondOrderSystem& system, double enough, State& state);
 
+/// The same as far as round-off lets.
+void close_constraints_to_round_off(const SecondOrderSystem& system, State& state);
+
 struct Projection {
   ConsistencyStatus status;
   Eigen::VectorXd impulse;  ///< (m) of the constraints [N s]

@@ -7,6 +7,7 @@
 #include "fem/forces/memory.h"
 #include "fem/mesh/stop_distance.h"
 #include "fem/motion/friction_modes.h"
+#include "fem/motion/impacts.h"
 #include "fem/motion/sliding_bodies.h"
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
@@ -14,20 +15,6 @@
 namespace nurbeam {
 
 namespace {
-
-const Stop& stop_of(const BeamSystem& system, int stop) { return system.model().stops[stop]; }
-
-double distance(const BeamSystem& system, const State& state, int stop) {
-  return stop_distance(system.mesh(), stop_of(system, stop), state.q);
-}
-double opening_rate(const BeamSystem& system, const State& state, int stop) {
-  return stop_rate(system.mesh(), stop_of(system, stop), state.v);
-}
-
-// A body is at its stop when it is nearer than this [m].
-double touching(const BeamModel& model, int joint) {
-  return 1e-13 * model.beam_of(model.joints[joint]).curve.length();
-}
 
 double lead(const BeamSystem& system, const State& state, std::pair<int, int> joints) {
   return *place(system, state, joints.second) - *place(system, state, joints.first);
@@ -75,62 +62,16 @@ std::vector<ContactEvent> possible_events(const BeamSystem& system, const State&
   return events;
 }
 
-// The same model with other stops closed; coordinates are the same.
-MeshedState with_contacts(const MeshedState& at, std::vector<bool> closed) {
-  MeshPlan plan = present_plan(*at.system, at.state);
-  plan.closed = std::move(closed);
-  MeshedState next{at.system->replanned(std::move(plan)), at.state};
-  next.state.lambda = Eigen::VectorXd::Zero(next.system->constraint_count());
-  return next;
-}
-
-std::vector<bool> closed_contacts(const MeshedState& at) {
-  std::vector<bool> closed = at.system->mesh().plan.closed;
-  closed.resize(at.system->model().stops.size(), false);
-  return closed;
-}
-
-constexpr double shortest_rebound = 0.01;  // of a step, that is followed
-
-// The velocities without those across a stop that is to be kept; what else was kept and would be pulled is
-// let go, unless the force that presses it would bring it back at once.
-std::optional<MeshedState> stopped(const MeshedState& at, int stop, double step) {
-  std::vector<bool> closed = closed_contacts(at);
-  closed[stop] = true;
-  for (;;) {
-    MeshedState kept = with_contacts(at, closed);
-    const Projection projection = project_velocities(*kept.system, kept.state, step);
-    if (projection.status != ConsistencyStatus::done) return {};
-    State impulse = kept.state;
-    impulse.lambda = projection.impulse;
-    bool pulled = false;
-    for (int i = 0; i < static_cast<int>(closed.size()); ++i) {
-      if (!closed[i] || i == stop) continue;
-      const double pressed = std::max(0.0, contact_force(*at.system, at.state, i));
-      if (contact_force(*kept.system, impulse, i) >= -pressed * shortest_rebound / 2 * step) continue;
-      closed[i] = false;
-      pulled = true;
-    }
-    if (!pulled) return kept;
-  }
-}
-
-bool hit_stop(MeshedState& at, int stop, double step, bool presses) {
-  const Stop& of = stop_of(*at.system, stop);
-  std::optional<MeshedState> kept = stopped(at, stop, step);
-  if (!kept) return false;
-  std::vector<bool> closed = closed_contacts(*kept);
-  closed[stop] = false;
-  MeshedState open = with_contacts(*kept, closed);
-  const double closing = -opening_rate(*at.system, at.state, stop);
-  if (closing > 0) open.state.v = at.state.v + (1 + of.restitution) * (kept->state.v - at.state.v);
-  State moving = open.state;
-  if (make_accelerations_smooth(*open.system, step, moving) != ConsistencyStatus::done) return false;
-  const double away = opening_rate(*open.system, open.state, stop),
-               pushed = -stop_rate(open.system->mesh(), of, moving.a);
-  const bool rests = (presses && closing <= 0) || (pushed > 0 && away < 2 * pushed * shortest_rebound * step);
-  at = rests ? std::move(*kept) : std::move(open);
-  return true;
+// Whether the forces at a moment pull a body off its stop, as the multiplier of a step says. That of a short
+// step tells little of a hard one: there the round-off of places is a force.
+bool is_pulled(const BeamSystem& system, const State& state, int stop) {
+  if (stop_of(system, stop).buffer) return true;
+  State balanced = state;
+  if (make_accelerations_consistent(system, balanced) != ConsistencyStatus::done) return true;
+  const BeamModel& model = system.model();
+  const double mass = model.body_of(model.joints[stop_of(system, stop).joint]).mass,
+               acceleration = model.gravity.norm() + balanced.a.lpNorm<Eigen::Infinity>();
+  return contact_force(system, balanced, stop) < -contact_noise * mass * acceleration;
 }
 
 // Whether a step that begins there comes to the event: from where the state is clear of it, or after it has
@@ -172,6 +113,7 @@ std::optional<ContactEvent> first_contact(const BeamSystem& system, const State&
     const bool stays =
         nothing_leaves && event.kind == ContactEvent::Kind::leaves && !stop_of(system, event.stop).buffer;
     if (stays || !comes_to(system, before, after, event)) continue;
+    if (event.kind == ContactEvent::Kind::leaves && !is_pulled(system, after, event.stop)) continue;
     const double from = std::min(0.0, beyond(system, before, before, event)),
                  to = beyond(system, before, after, event);
     event.part = from < 0 ? from / (from - to) : 0;
@@ -187,28 +129,26 @@ bool start_contacts(MeshedState& at, double step) {
     if (distance(*at.system, at.state, i) > touching(model, model.stops[i].joint)) continue;
     if (model.stops[i].buffer)
       set_buffer_contact(model, at.state.memory, i, BufferContact::pressing);
-    else if (!hit_stop(at, i, step, false))
+    else if (std::optional<MeshedState> next = hit_stop(at, i, step, Arrival::in_step))
+      at = std::move(*next);
+    else
       return false;
   }
   return true;
 }
 
-std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, bool presses) {
-  const bool hard = !stop_of(*at.system, event.stop).buffer;
+std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, Arrival arrival) {
   const bool hits = event.kind == ContactEvent::Kind::hits;
-  if (!hard)
+  if (stop_of(*at.system, event.stop).buffer) {
     set_buffer_contact(at.system->model(), at.state.memory, event.stop,
                        hits ? BufferContact::pressing : BufferContact::let_go);
-  else if (hits && !hit_stop(at, event.stop, step, presses))
-    return {};
-  if (event.kind == ContactEvent::Kind::leaves && hard) {
-    std::vector<bool> closed = closed_contacts(at);
-    closed[event.stop] = false;
-    at = with_contacts(at, std::move(closed));
+    return hits ? EventKind::hits_stop : EventKind::leaves_stop;
   }
-  // Forces across the beam and velocities along it have jumped.
-  if (hard && !settle_friction(at, joints_with_friction(*at.system), step, false)) return {};
-  if (event.kind == ContactEvent::Kind::leaves) return EventKind::leaves_stop;
+  std::optional<MeshedState> next =
+      hits ? hit_stop(at, event.stop, step, arrival) : with_contact(at, event.stop, false);
+  if (!next || !settle_friction_after_contact(at, *next, step)) return {};
+  at = std::move(*next);
+  if (!hits) return EventKind::leaves_stop;
   return at.system->mesh().plan.is_closed(event.stop) ? EventKind::rests_at_stop : EventKind::hits_stop;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/motion/impacts.h"
 #include "fem/motion/meshed_state.h"
 #include "fem/motion/run_event.h"
 
@@ -39,8 +40,8 @@ double tolerance(const BeamSystem& system, const State& before, const ContactEve
 [[nodiscard]] bool start_contacts(MeshedState& at, double step);
 /// What happens to bodies at a stop; not of bodies that meet. At a hard one velocities across it turn round
 /// times its restitution, by one impulse on all that is connected. A rebound that would end within a
-/// hundredth of `step` is none: the body rests there, as it does where it `presses` already. What it is
-/// called, nothing where the mass matrix is singular.
-std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, bool presses);
+/// hundredth of `step` is none: the body rests there, as it does where it is pressed already as a step
+/// begins. What it is called, nothing where the mass matrix is singular.
+std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, Arrival arrival);
 
 }  // namespace nurbeam

@@ -66,6 +66,25 @@ std::vector<int> independent(const MeshedState& at, const std::vector<int>& join
   return chosen;
 }
 
+// Those with friction that touch a joint's body, by others too: when it comes to rest, so do they.
+std::vector<int> come_to_rest_with(const BeamSystem& system, int joint) {
+  const BeamModel& model = system.model();
+  std::vector<bool> together(model.joints.size(), false);
+  together[joint] = true;
+  for (bool more = true; more;) {
+    more = false;
+    for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
+      const Stop& stop = model.stops[i];
+      if (!system.mesh().plan.is_closed(i) || stop.other < 0) continue;
+      if (together[stop.joint] == together[stop.other]) continue;
+      together[stop.joint] = together[stop.other] = more = true;
+    }
+  }
+  std::vector<int> joints = joints_with_friction(system);
+  std::erase_if(joints, [&](int j) { return !together[j]; });
+  return joints;
+}
+
 // One that has been held by its friction slides, the way that it is pulled.
 void break_loose(MeshedState& at, int joint) {
   const FrictionForce friction = *sliding_friction(*at.system, at.state, joint);
@@ -159,6 +178,16 @@ bool settle_friction(MeshedState& at, const std::vector<int>& joints, double ste
   return true;
 }
 
+bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, double step) {
+  const std::vector<bool> was = blocked_joints(*before.system), is = blocked_joints(*at.system);
+  std::vector<int> changed = joints_with_friction(*at.system);
+  std::erase_if(changed, [&](int j) {
+    const double jump = place_rate(*at.system, at.state, j) - place_rate(*before.system, before.state, j);
+    return was[j] == is[j] && std::abs(jump) < rest_speed;
+  });
+  return settle_friction(at, changed, step, false);
+}
+
 double holding_capacity(const BeamSystem& system, const State& state, int joint, bool sticking) {
   State asked = state;
   asked.memory = no_memory(system.model());
@@ -216,10 +245,10 @@ std::optional<FrictionChange> first_friction_change(const BeamSystem& system, co
   return first;
 }
 
-std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step, bool) {
+std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step) {
   if (!change.turns)
     break_loose(at, change.joint);
-  else if (!settle_friction(at, {change.joint}, step, true))
+  else if (!settle_friction(at, come_to_rest_with(*at.system, change.joint), step, true))
     return {};
   return sliding_way(*at.system, at.state, change.joint) == 0 ? EventKind::sticks : EventKind::slides;
 }

@@ -24,6 +24,10 @@ std::vector<bool> blocked_joints(const BeamSystem& system);
 [[nodiscard]] bool settle_friction(MeshedState& at, const std::vector<int>& joints, double step,
                                    bool at_rest);
 
+/// The same after stops have been met or left, for the bodies whose velocities that has changed, or that rest
+/// against stops now or did before.
+[[nodiscard]] bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, double step);
+
 /// What the friction of a body at rest holds along its beam at most, as it sticks or slides, under the
 /// multipliers of the state [N].
 double holding_capacity(const BeamSystem& system, const State& state, int joint, bool sticking);
@@ -44,9 +48,8 @@ double beyond(const BeamSystem& system, const State& before, const State& state,
               const FrictionChange& change);
 double tolerance(const BeamSystem& system, const State& before, const FrictionChange& change);
 /// One that has turned round sticks or slides back; one that has broken loose slides. What it is called,
-/// nothing where the mass matrix is singular. `step` as for start_memory; `at_once`: the step begins there,
-/// as never here.
-std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step, bool at_once);
+/// nothing where the mass matrix is singular. `step` as for start_memory.
+std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step);
 /// Those that stick or slide after a step as they did not before, though it did not end there.
 std::vector<int> changed_ways(const BeamSystem& system, const State& before, const State& after);
 /// Which way a body slides: 0 where it sticks.

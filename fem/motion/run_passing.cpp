@@ -78,7 +78,7 @@ bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double
 
 }  // namespace
 
-bool pass_event(Run& run, const StepEvent& event, bool at_once) {
+bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
   const auto* contact = std::get_if<ContactEvent>(&event);
   if (contact && contact->kind == ContactEvent::Kind::bodies_meet)
     return run.goes_on(
@@ -92,8 +92,8 @@ bool pass_event(Run& run, const StepEvent& event, bool at_once) {
   }
   RunEvent happened = event_before(run.at, EventKind::slides, joint_of(*run.model, event));
   const auto pass = [&](MeshedState& at) {
-    return contact ? apply(at, *contact, run.shortest_time(), at_once)
-                   : apply(at, std::get<FrictionChange>(event), run.shortest_time(), at_once);
+    return contact ? apply(at, *contact, run.shortest_time(), arrival)
+                   : apply(at, std::get<FrictionChange>(event), run.shortest_time());
   };
   const std::optional<EventKind> kind = pass(run.at);
   if (!kind) return run.fail(Failure::Kind::mass_matrix);
@@ -104,8 +104,8 @@ bool pass_event(Run& run, const StepEvent& event, bool at_once) {
   finish_event(run.at, happened);
   std::vector<RunEvent>& events = run.report.events;
   // A follower has been told that it left.
-  if (at_once && happened.kind == EventKind::rests_at_stop && has_just_left(events, happened) &&
-      !run.observer.follower)
+  if (arrival != Arrival::in_step && happened.kind == EventKind::rests_at_stop &&
+      has_just_left(events, happened) && !run.observer.follower)
     events.pop_back();
   else
     run.note(std::move(happened));

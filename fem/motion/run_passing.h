@@ -9,8 +9,8 @@
 /// or is the work of drives.
 namespace nurbeam {
 
-/// What the event that a step has ended at does; `at_once`: that the step would begin with.
-[[nodiscard]] bool pass_event(Run& run, const StepEvent& event, bool at_once);
+/// What the event that a step has ended at, or would begin with, does.
+[[nodiscard]] bool pass_event(Run& run, const StepEvent& event, Arrival arrival);
 /// Whether the event has closed a hard stop.
 bool rests_by(const Run& run, const StepEvent& event);
 /// Goes on beyond a place that a joint has landed at: a point in the next element.

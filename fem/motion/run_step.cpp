@@ -54,7 +54,13 @@ std::size_t kinds_of_event(const BeamModel& model) {
 // That follow each other at one moment before they are taken for one that will never pass.
 std::size_t most_at_once(const BeamModel& model) { return 100 * (1 + kinds_of_event(model)); }
 
-// Repeats a step in which an event happens so that it ends there.
+// Bodies of different masses may hit each other and a stop endlessly often in no time.
+Arrival arrival_at_once(const Run& run) {
+  return run.events_at_once > most_at_once(*run.model) / 10 ? Arrival::in_chain : Arrival::at_once;
+}
+
+// Repeats a step in which an event happens so that it ends there, or that it does not begin where that is
+// sooner than steps resolve.
 std::optional<StepEvent> land_on_event(Run& run, const State& before, const IntegratorHistory& history,
                                        bool nothing_leaves) {
   std::optional<StepEvent> found;
@@ -67,6 +73,7 @@ std::optional<StepEvent> land_on_event(Run& run, const State& before, const Inte
     if (!event) break;
     const State after = state;
     state = landed(*run.at.system, *run.integrator, {before, history, after, after.t - before.t}, *event);
+    if (state.t - before.t < run.resolution()) state = before;
     found = event;
   }
   return found;
@@ -149,7 +156,7 @@ bool pass(Run& run, const Landing& landing, const State& before) {
   if (landing.ending && !end_sliding(run, *landing.ending)) return false;
   note_friction(run, before, landing.event);
   if (landing.crossing && !landing.ending && !step_over(run, *landing.crossing)) return false;
-  if (landing.event && !landing.ending && !pass_event(run, *landing.event, false)) return false;
+  if (landing.event && !landing.ending && !pass_event(run, *landing.event, Arrival::in_step)) return false;
   if (!run.goes_on(meeting_bodies(run.at))) return false;
   settle_mesh(run);
   return run.report.status == SimulationStatus::done && recentre_sections(run);
@@ -178,7 +185,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   const double end = at.state.t;
   const Landing landing = land(run, before, history, taken.step, nothing_leaves);
   if (landing.event && at.state.t == before.t) {
-    if (!pass_event(run, *landing.event, true)) return false;
+    if (!pass_event(run, *landing.event, arrival_at_once(run))) return false;
     if (++run.events_at_once > most_at_once(*run.model))
       return run.goes_on(Failure{.kind = Failure::Kind::step,
                                  .time = at.state.t,

@@ -303,6 +303,96 @@ TEST(StopsRun, ARowOfBodiesWithFrictionComesToRestOnAStop) {
   EXPECT_LT(total_drift(run.run), 1e-8);
 }
 
+/// Bodies in a row on a straight rail or rope that goes down by `slope`, the first of which moves.
+std::string row(const std::vector<double>& masses, double restitution, double friction, double slope,
+                const std::string& beam = R"("rigid": true)") {
+  std::ostringstream bodies, joints, stops;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const std::string name(1, static_cast<char>('a' + i)), next(1, static_cast<char>('b' + i)),
+        comma = i == 0 ? "" : ", ";
+    bodies << comma << R"({"name": ")" << name << R"(", "mass": )" << masses[i] << "}";
+    joints << comma << R"({"body": ")" << name << R"(", "beam": "rail", "at": {"length": )"
+           << 2 + 0.4 * static_cast<double>(i) << R"(}, "speed": )" << (i == 0 ? 3 : 0);
+    if (friction > 0) joints << R"(, "friction": {"coefficient": )" << friction << "}";
+    joints << "}";
+    if (i + 1 < masses.size())
+      stops << comma << R"({"beam": "rail", "bodies": [")" << name << R"(", ")" << next
+            << R"("], "gap": 0.3, "restitution": )" << restitution << "}";
+  }
+  std::ostringstream text;
+  text << R"({"nurbeam": 1, "beams": [{"name": "rail", "axis": {"polyline": [[0, 0, 0], [20, 0, )"
+       << -20 * slope << "]]}, " << beam << R"(}], "bodies": [)" << bodies.str()
+       << R"(], "sliding_joints": [)" << joints.str() << R"(], "stops": [)" << stops.str()
+       << R"(], "analysis": {"end_time": 3, "step": "2 ms"}})";
+  return text.str();
+}
+
+const std::vector<double> unequal = {3, 1, 4, 1.5, 5, 9};
+
+TEST(RowsOfBodies, GoOnTogetherWhereNoneRebounds) {
+  for (std::size_t n = 2; n <= unequal.size(); ++n) {
+    const std::vector<double> masses(unequal.begin(), unequal.begin() + static_cast<std::ptrdiff_t>(n));
+    const StopRun stops = run_stops(row(masses, 0, 0, 0));
+    ASSERT_EQ(stops.run.code, 0) << n << stops.run.messages;
+    double mass = 0;
+    for (const double m : masses) mass += m;
+    // All have the momentum of the first.
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(stops.run.last(std::string(1, static_cast<char>('a' + i)) + ".vx [m/s]"), 9 / mass, 1e-9)
+          << n << i;
+    EXPECT_NEAR(stops.run.last("energy.dissipated [J]"), 13.5 - 40.5 / mass, 1e-9) << n;
+    EXPECT_LT(total_drift(stops.run), 1e-9) << n;
+    EXPECT_LT(stops.events.size(), 10 * n) << n;
+  }
+}
+
+TEST(RowsOfBodies, OfOneMassHandTheSpeedOnWhereNoneIsLost) {
+  for (std::size_t n = 2; n <= 6; ++n) {
+    const StopRun stops = run_stops(row(std::vector<double>(n, 2.0), 1, 0, 0));
+    ASSERT_EQ(stops.run.code, 0) << n << stops.run.messages;
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(stops.run.last(std::string(1, static_cast<char>('a' + i)) + ".vx [m/s]"),
+                  i + 1 == n ? 3 : 0, 1e-9)
+          << n << i;
+    EXPECT_EQ(stops.times("hits a stop").size(), n - 1);
+  }
+}
+
+TEST(RowsOfBodies, KeepTheirEnergyAndEndWithFrictionAndOnSlopes) {
+  for (const double restitution : {0.0, 0.5, 1.0})
+    for (const double friction : {0.0, 0.05, 0.12})
+      for (const double slope : {0.0, 0.1})
+        for (const std::size_t n : {3, 6}) {
+          const std::vector<double> masses(unequal.begin(), unequal.begin() + static_cast<std::ptrdiff_t>(n));
+          const StopRun stops = run_stops(row(masses, restitution, friction, slope));
+          std::ostringstream which;
+          which << n << " bodies, e = " << restitution << ", mu = " << friction << ", slope " << slope
+                << "\n";
+          ASSERT_EQ(stops.run.code, 0) << which.str() << stops.run.messages;
+          EXPECT_LT(total_drift(stops.run), 1e-6) << which.str();
+          EXPECT_LT(stops.events.size(), 100u) << which.str();
+        }
+}
+
+/// A body that moves off the stop at which it starts, and one that starts at another one's side.
+TEST(StopsRun, WhatStartsAtAStopMayMoveAway) {
+  const StopRun stops =
+      run_stops(one_body(level, 5, R"("at": {"length": 2}, "speed": 3)",
+                         R"([{"beam": "rail", "at": {"length": 2}, "restitution": 0.5, "side": "after"}])",
+                         R"({"end_time": 1, "step": "1 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_NEAR(stops.run.last("bead.s [m]"), 5, 1e-9);
+  EXPECT_EQ(stops.events.size(), 0u);
+}
+
+/// Two heavy bodies catch three light ones at a stop: infinitely many impacts in no time.
+TEST(RowsOfBodies, EndEndlesslyManyImpactsOfOneMoment) {
+  const std::vector<double> masses = {30, 2, 1, 1, 1};
+  const StopRun stops = run_stops(row(masses, 0.2, 0, 0.2), {"analysis.end_time=9"});
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_LT(total_drift(stops.run), 1e-6);
+}
+
 TEST(StopsRun, OnARingAStopIsMetFromBothSides) {
   const std::string ring =
       R"({"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4],

@@ -92,6 +92,16 @@ TEST(Consistent, ConstraintsAreClosedByTheNearestPlaces) {
   EXPECT_EQ(state.q, closed.q);
 }
 
+TEST(Consistent, ConstraintsAreClosedToRoundOffWhereverThatIs) {
+  const CartesianPendulum pendulum;
+  const State swinging = pendulum.at_angle(0, 0.7, 1.3);
+  State state = swinging;
+  state.q *= 1 + 1e-9;
+  close_constraints_to_round_off(pendulum, state);
+  EXPECT_LE(open_constraints(pendulum, state), 1e-15);
+  EXPECT_LT((state.q - swinging.q).norm(), 1e-14);
+}
+
 TEST(Consistent, RedundantConstraintsAreReportedAndLeaveTheStateAlone) {
   const DoublyHeldMass system;
   State state{.t = 0,
