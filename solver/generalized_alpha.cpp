@@ -364,8 +364,8 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   reference_ = reference_.cwiseInverse();
 }
 
-/// Solves for the correction that answers the residual. Returns the largest correction of q over the coordinate
-/// scale, not a number where one is not finite.
+/// Solves for the correction that answers the residual. Returns the largest correction of q over the
+/// coordinate scale, not a number where one is not finite.
 double GeneralizedAlphaIntegrator::find_correction() {
   solver_.solve(residual_, correction_);
   if (!all_finite(correction_.tail(trial_.lambda.size()))) return std::numeric_limits<double>::quiet_NaN();

@@ -93,6 +93,15 @@ void break_loose(MeshedState& at, int joint) {
                               friction.trial > 0 ? 1 : -1, friction.bound));
 }
 
+// One that has come to rest and would slide on the same way, which only round-off does where friction is just
+// what it takes to hold it: it would come to rest for ever.
+void stick_at_bound(MeshedState& at, int joint, int way) {
+  const BeamModel& model = at.system->model();
+  const double bound = sliding_friction(*at.system, at.state, joint)->bound;
+  set_friction_memory(model, at.state.memory, joint,
+                      {way * bound / stick_stiffness(model, joint), *place(*at.system, at.state, joint), 0});
+}
+
 }  // namespace
 
 std::vector<bool> blocked_joints(const BeamSystem& system) {
@@ -246,10 +255,13 @@ std::optional<FrictionChange> first_friction_change(const BeamSystem& system, co
 }
 
 std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step) {
+  const int way = sliding_way(*at.system, at.state, change.joint);
   if (!change.turns)
     break_loose(at, change.joint);
   else if (!settle_friction(at, come_to_rest_with(*at.system, change.joint), step, true))
     return {};
+  if (change.turns && sliding_way(*at.system, at.state, change.joint) == way)
+    stick_at_bound(at, change.joint, way);
   return sliding_way(*at.system, at.state, change.joint) == 0 ? EventKind::sticks : EventKind::slides;
 }
 

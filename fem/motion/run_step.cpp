@@ -187,10 +187,10 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   if (landing.event && at.state.t == before.t) {
     if (!pass_event(run, *landing.event, arrival_at_once(run))) return false;
     if (++run.events_at_once > most_at_once(*run.model))
-      return run.goes_on(Failure{.kind = Failure::Kind::step,
+      return run.goes_on(Failure{.kind = Failure::Kind::endless_events,
                                  .time = at.state.t,
                                  .places = places_of(at),
-                                 .step = StepStatus::not_converged});
+                                 .joint = joint_of(*run.model, *landing.event)});
     // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
     return !rests_by(run, *landing.event) || take_step(run, step, rest, true);
   }

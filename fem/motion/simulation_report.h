@@ -31,6 +31,7 @@ struct Failure {
     mesh,                ///< length control finds none
     mesh_energy,         ///< a change of the mesh for the joint's body would change the energy by `energy`
     energy,              ///< has come from nowhere, `energy`, more than all that moves
+    endless_events,      ///< of the joint's body at one moment
     bodies_meet,         ///< sliding bodies on one beam
     equilibrium,         ///< is not found: `equilibrium`
     resting_place,       ///< of a sliding body is not found

@@ -65,6 +65,10 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::step:
       return "the step from t = " + time + " failed, and shorter ones too: " + reason_of(failure.step) +
              places + "; a shorter \"step\" from the start, or a \"tolerance\", may help";
+    case Failure::Kind::endless_events:
+      return "at t = " + time + " \"" + model.body_of(model.joints[failure.joint]).name +
+             "\" hits stops, or sticks and slides, again and again at one moment" + places +
+             "; another \"restitution\" or friction \"coefficient\", or a shorter \"step\", may help";
     case Failure::Kind::impact:
       return "the impact of \"" + model.body_of(model.joints[failure.joint]).name +
              "\" at the end is singular";
