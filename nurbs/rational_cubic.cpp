@@ -28,14 +28,14 @@ Points cubic_derivatives(const Points& points, double u) {
 }  // namespace
 
 RationalCubic::RationalCubic(const Eigen::Matrix4d& points) : points_(points) {
+  const bool finite = points.allFinite();
+  if (finite && points.row(3).minCoeff() > 0) return;
   std::ostringstream message;
   message.precision(17);
-  if (!points.allFinite())
+  if (!finite)
     message << "the control points of a rational cubic must be finite:\n" << points;
-  else if (points.row(3).minCoeff() <= 0)
-    message << "the weights of a rational cubic must be positive: " << points.row(3);
   else
-    return;
+    message << "the weights of a rational cubic must be positive: " << points.row(3);
   throw std::invalid_argument(message.str());
 }
 

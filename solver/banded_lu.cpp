@@ -27,8 +27,6 @@ NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
          (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
 }
 // A number of each of eight right-hand sides.
-constexpr int lanes = 8;
-using Eight = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
@@ -427,37 +425,56 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first
   }
 }
 
-// Of as many right-hand sides as there are lanes, side by side at each place.
-NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_beside(double* y) const {
-  Eight* at = reinterpret_cast<Eight*>(y);
+// Of so many times four right-hand sides, side by side at each place.
+template <int times>
+NURBEAM_WITHIN void BandedLu::solve_beside(double* y) const {
+  const auto at = [&](int place) { return reinterpret_cast<Four*>(y) + place * times; };
   const int n = static_cast<int>(order_->unknown.size());
+  Four x[times];
   for (int k = 0; k < n; ++k) {
-    const Eight x = at[pivots_[k]];
-    at[pivots_[k]] = at[k];
-    at[k] = x;
-    const double* multipliers = lower_.data() + lower_begin_[k];
-    for (int i = k + 1; i <= order_->below[k]; ++i) at[i] -= multipliers[i - k - 1] * x;
+    Four *own = at(k), *pivot = at(pivots_[k]);
+    for (int c = 0; c < times; ++c) x[c] = pivot[c];
+    if (own != pivot)
+      for (int c = 0; c < times; ++c) std::swap(own[c], pivot[c]);
+    const double* multipliers = lower_.data() + lower_begin_[k] - k - 1;
+    const int last = order_->below[k];
+    for (int i = k + 1; i <= last; ++i)
+      for (int c = 0; c < times; ++c) at(i)[c] -= multipliers[i] * x[c];
   }
   for (int k = n - 1; k >= 0; --k) {
     const double* upper = diagonal(k) - k;
-    Eight rest = at[k];
-    for (int j = k + 1; j < ends_[k]; ++j) rest -= upper[j] * at[j];
-    at[k] = inverse_[k] * rest;
+    Four* own = at(k);
+    for (int c = 0; c < times; ++c) x[c] = own[c];
+    const int end = ends_[k];
+    for (int j = k + 1; j < end; ++j)
+      for (int c = 0; c < times; ++c) x[c] -= upper[j] * at(j)[c];
+    for (int c = 0; c < times; ++c) own[c] = inverse_[k] * x[c];
   }
 }
 
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_sixteen(double* y) const { solve_beside<4>(y); }
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_four(double* y) const { solve_beside<1>(y); }
+
 void BandedLu::solve(const Columns& rhs, Columns& x) const {
   const auto n = static_cast<Eigen::Index>(order_->unknown.size());
-  x.resize(rhs.rows(), rhs.cols());
-  Eigen::Matrix<double, Eigen::Dynamic, lanes, Eigen::RowMajor> y(n, lanes);
-  for (Eigen::Index first = 0; first < rhs.cols(); first += lanes) {
-    const Eigen::Index count = std::min<Eigen::Index>(lanes, rhs.cols() - first);
-    if (count < lanes) y.setZero();
-    for (Eigen::Index k = 0; k < n; ++k)
-      y.row(k).head(count) = scale_[k] * rhs.row(order_->unknown[k]).segment(first, count);
-    solve_beside(y.data());
-    for (Eigen::Index k = 0; k < n; ++k)
-      x.row(order_->unknown[k]).segment(first, count) = y.row(k).head(count);
+  const Eigen::Index columns = rhs.cols();
+  x.resize(rhs.rows(), columns);
+  Eigen::VectorXd y(n * 16);
+  for (Eigen::Index first = 0; first < columns;) {
+    const Eigen::Index width = columns - first >= 16 ? 16 : 4, count = std::min(width, columns - first);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double* from = rhs.data() + order_->unknown[k] * columns + first;
+      double* to = y.data() + k * width;
+      for (Eigen::Index c = 0; c < count; ++c) to[c] = scale_[k] * from[c];
+      for (Eigen::Index c = count; c < width; ++c) to[c] = 0;
+    }
+    width == 16 ? solve_sixteen(y.data()) : solve_four(y.data());
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double* from = y.data() + k * width;
+      double* to = x.data() + order_->unknown[k] * columns + first;
+      for (Eigen::Index c = 0; c < count; ++c) to[c] = from[c];
+    }
+    first += count;
   }
 }
 

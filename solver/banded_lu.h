@@ -64,7 +64,8 @@ class BandedLu {
 
   /// Right-hand sides or solutions, a column each.
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// A^-1 of many right-hand sides, by unknowns; eight at a time. Precondition: the order leaves none out.
+  /// A^-1 of many right-hand sides, by unknowns; sixteen or four at a time. Precondition: the order leaves
+  /// none out.
   void solve(const Columns& rhs, Columns& x) const;
 
  private:
@@ -80,7 +81,10 @@ class BandedLu {
   void eliminate(int k, double* all) const;
   void invert_upper(int k);
   void invert_lower(int k);
+  template <int times>
   void solve_beside(double* y) const;
+  void solve_sixteen(double* y) const;
+  void solve_four(double* y) const;
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;

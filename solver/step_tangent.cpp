@@ -9,14 +9,65 @@ namespace nurbeam {
 namespace {
 
 // Numbers of as many parameters, side by side.
-struct Eight {
-  using Side = double __attribute__((vector_size(8 * sizeof(double)), aligned(sizeof(double)), may_alias));
-};
 struct Four {
   using Side = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 };
 struct One {
   using Side = double;
+};
+using Matrix = MotionTangents::Matrix;
+
+template <class Lanes>
+NURBEAM_WITHIN typename Lanes::Side& side(double* at) {
+  return *reinterpret_cast<typename Lanes::Side*>(at);
+}
+template <class Lanes>
+NURBEAM_WITHIN const typename Lanes::Side& side(const double* at) {
+  return *reinterpret_cast<const typename Lanes::Side*>(at);
+}
+template <class Lanes>
+constexpr Eigen::Index width = sizeof(typename Lanes::Side) / sizeof(double);
+
+// Factors of what a step begins with in what it ends with.
+struct Prediction {
+  double h, a_of_start, a_of_before, q_of_start, q_of_end, v_of_start, v_of_end;
+
+  template <class Lanes>
+  NURBEAM_WITHIN void find(const MotionTangents& start, const Matrix& algorithmic, MotionTangents& end,
+                           Eigen::Index first, Eigen::Index last) const {
+    using Side = typename Lanes::Side;
+    const double *q = start.q.data(), *v = start.v.data(), *a = start.a.data(), *alg = algorithmic.data();
+    double *end_q = end.q.data(), *end_v = end.v.data(), *end_alg = end.algorithmic_acceleration.data();
+    for (Eigen::Index i = first; i < last; i += width<Lanes>) {
+      const Side speed = side<Lanes>(v + i), of_start = side<Lanes>(alg + i);
+      const Side still = a_of_start * of_start + a_of_before * side<Lanes>(a + i);
+      side<Lanes>(end_alg + i) = still;
+      side<Lanes>(end_q + i) = side<Lanes>(q + i) + h * speed + q_of_start * of_start + q_of_end * still;
+      side<Lanes>(end_v + i) = speed + v_of_start * of_start + v_of_end * still;
+    }
+  }
+};
+
+// Factors of a correction of q in what follows it.
+struct Correction {
+  double acceleration, v, a, per_step;
+
+  template <class Lanes>
+  NURBEAM_WITHIN void make(const Matrix& x, const Matrix& algorithmic, MotionTangents& end,
+                           Eigen::Index first, Eigen::Index last) const {
+    using Side = typename Lanes::Side;
+    const double *all = x.data(), *alg = algorithmic.data();
+    double *end_q = end.q.data(), *end_v = end.v.data(), *end_a = end.a.data(),
+           *end_alg = end.algorithmic_acceleration.data(), *jerk = end.jerk.data();
+    for (Eigen::Index i = first; i < last; i += width<Lanes>) {
+      const Side dq = side<Lanes>(all + i), corrected = side<Lanes>(end_alg + i) + acceleration * dq;
+      side<Lanes>(end_q + i) += dq;
+      side<Lanes>(end_v + i) += v * dq;
+      side<Lanes>(end_a + i) = a * dq;
+      side<Lanes>(end_alg + i) = corrected;
+      side<Lanes>(jerk + i) = per_step * (corrected - side<Lanes>(alg + i));
+    }
+  }
 };
 
 }  // namespace
@@ -61,7 +112,7 @@ StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSyst
       damping_(mass_),
       stiffness_(mass_),
       kkt_(mass_),
-      row_starts_(static_cast<std::size_t>(mass_.rows()) + 1, 0) {
+      row_starts_(static_cast<std::size_t>(kkt_.rows()) + 1, 0) {
   const int n = system.coordinate_count();
   const int *starts = kkt_.outerIndexPtr(), *rows = kkt_.innerIndexPtr();
   for (int k = 0; k < starts[n]; ++k) ++row_starts_[rows[k] + 1];
@@ -93,12 +144,13 @@ bool StepTangent::take(const State& before, const IntegratorHistory& history, co
   system_->tangent(after, {.mass = 1}, mass_);
   system_->tangent(after, {.damping = 1}, damping_);
   system_->tangent(after, {.stiffness = 1}, stiffness_);
-  for (const int k : of_constraints_) mass_.valuePtr()[k] = damping_.valuePtr()[k] = 0;
+  for (const int k : of_constraints_) damping_.valuePtr()[k] = 0;
   const auto values = [](auto& matrix) { return matrix.coeffs(); };
   damped_ = !values(damping_).isZero(0);
+  // That of mass takes less than one of all three, and so do sums.
   values(kkt_) = ((1 - alpha_m) / (1 - alpha_f) / mass_scale_) * values(mass_) +
-                 (gamma * h_ / mass_scale_) * values(damping_) +
                  (beta * h_ * h_ / mass_scale_) * values(stiffness_);
+  if (damped_) values(kkt_) += (gamma * h_ / mass_scale_) * values(damping_);
   for (const int k : of_constraints_) kkt_.valuePtr()[k] = stiffness_.valuePtr()[k];
   return solver_.factorise(kkt_);
 }
@@ -117,12 +169,12 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
                       : start_ == Start::afresh ? start.a
                                                 : start.algorithmic_acceleration;
 
-  // With the algorithmic acceleration at the end as it is.
   MotionTangents end;
   end.t = start.t + step;
-  end.q = start.q + h_ * start.v + h_ * h_ * (0.5 - beta) * alg;
-  end.v = start.v + h_ * (1 - gamma) * alg;
-  end.a = alpha_m / (1 - alpha_f) * alg - alpha_f / (1 - alpha_f) * start.a;
+  end.last_step = step;
+  for (Matrix* each : {&end.q, &end.v, &end.a, &end.algorithmic_acceleration, &end.jerk})
+    each->resize(n, start.parameters());
+  predict(start, alg, end);
   if (other_length) {
     end.q.noalias() +=
         (before_.v + 2 * h_ * ((0.5 - beta) * start_algorithmic_ + beta * end_algorithmic_)) * step;
@@ -133,40 +185,74 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
   Matrix rhs(n + m, start.parameters()), x;
   rhs << -dynamics, -constraints;
   subtract_residual(end, rhs);
-  rhs.topRows(n) *= beta * h_ * h_ / mass_scale_;
   solver_.solve(rhs, x);
-  const auto dq = x.topRows(n);
-  const double acceleration = 1 / (beta * h_ * h_);
-  end.algorithmic_acceleration = acceleration * dq;
-  end.q += dq;
-  end.v += gamma * h_ * acceleration * dq;
-  end.a += (1 - alpha_m) / (1 - alpha_f) * acceleration * dq;
-  end.lambda = mass_scale_ * acceleration * x.bottomRows(m);
-  end.jerk = acceleration / h_ * dq - 1 / h_ * alg;
+  correct(x, alg, end);
+  end.lambda = mass_scale_ / (beta * h_ * h_) * x.bottomRows(m);
   if (other_length) end.jerk.noalias() -= (end_algorithmic_ - start_algorithmic_) / (h_ * h_) * step;
-  end.last_step = step;
   return end;
 }
 
-// M a + D v + K q with the rows of constraints, G q, of as many parameters as there are lanes.
-template <class Lanes>
+// The end with that algorithmic acceleration there for which a is zero: M has no part in the residual.
+NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::predict(const MotionTangents& start, const Matrix& algorithmic,
+                                                      MotionTangents& end) const {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const Prediction of{.h = h_,
+                      .a_of_start = -alpha_m / (1 - alpha_m),
+                      .a_of_before = alpha_f / (1 - alpha_m),
+                      .q_of_start = h_ * h_ * (0.5 - beta),
+                      .q_of_end = h_ * h_ * beta,
+                      .v_of_start = h_ * (1 - gamma),
+                      .v_of_end = h_ * gamma};
+  const Eigen::Index size = start.q.size(), even = size / 4 * 4;
+  of.find<Four>(start, algorithmic, end, 0, even);
+  of.find<One>(start, algorithmic, end, even, size);
+}
+
+// What follows the correction of q, the first rows of x.
+NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::correct(const Matrix& x, const Matrix& algorithmic,
+                                                      MotionTangents& end) const {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double acceleration = 1 / (beta * h_ * h_);
+  const Correction of{.acceleration = acceleration,
+                      .v = gamma * h_ * acceleration,
+                      .a = (1 - alpha_m) / (1 - alpha_f) * acceleration,
+                      .per_step = 1 / h_};
+  const Eigen::Index size = end.q.size(), even = size / 4 * 4;
+  of.make<Four>(x, algorithmic, end, 0, even);
+  of.make<One>(x, algorithmic, end, even, size);
+}
+
+// D v + K q with the rows of constraints, G q, of so many times as many parameters as there are lanes; those
+// of the dynamics are scaled as the matrix is.
+template <class Lanes, int times>
 NURBEAM_WITHIN void StepTangent::subtract_products(const MotionTangents& end, Eigen::Index first,
                                                    Matrix& rhs) const {
-  using Side = typename Lanes::Side;
   const Eigen::Index stride = rhs.cols();
-  const auto rows = [&](const double* columns) { return columns + first; };
-  const double *q = rows(end.q.data()), *v = rows(end.v.data()), *a = rows(end.a.data());
-  const double *K = stiffness_.valuePtr(), *D = damping_.valuePtr(), *M = mass_.valuePtr();
+  const double *q = end.q.data() + first, *v = end.v.data() + first;
+  const double *K = stiffness_.valuePtr(), *D = damping_.valuePtr();
+  const Entry* entries = entries_.data();
+  const int* starts = row_starts_.data();
+  const auto rows = static_cast<Eigen::Index>(row_starts_.size()) - 1;
+  const double of_dynamics = parameters_.beta * h_ * h_ / mass_scale_;
   double* result = rhs.data() + first;
-  for (std::size_t row = 0; row + 1 < row_starts_.size(); ++row) {
-    Side sum = {};
-    for (int k = row_starts_[row]; k < row_starts_[row + 1]; ++k) {
-      const auto [column, value] = entries_[k];
-      sum += K[value] * *reinterpret_cast<const Side*>(q + column * stride) +
-             M[value] * *reinterpret_cast<const Side*>(a + column * stride);
-      if (damped_) sum += D[value] * *reinterpret_cast<const Side*>(v + column * stride);
+  const bool damped = damped_;
+  for (Eigen::Index row = 0; row < rows; ++row, result += stride) {
+    typename Lanes::Side sum[times] = {};
+    for (int k = starts[row]; k < starts[row + 1]; ++k) {
+      const auto [column, value] = entries[k];
+      for (int c = 0; c < times; ++c)
+        sum[c] += K[value] * side<Lanes>(q + column * stride + c * width<Lanes>);
     }
-    *reinterpret_cast<Side*>(result + static_cast<Eigen::Index>(row) * stride) -= sum;
+    for (int k = starts[row]; damped && k < starts[row + 1]; ++k) {
+      const auto [column, value] = entries[k];
+      for (int c = 0; c < times; ++c)
+        sum[c] += D[value] * side<Lanes>(v + column * stride + c * width<Lanes>);
+    }
+    const double factor = row < end.q.rows() ? of_dynamics : 1;
+    for (int c = 0; c < times; ++c) {
+      auto& of_row = side<Lanes>(result + c * width<Lanes>);
+      of_row = factor * (of_row - sum[c]);
+    }
   }
 }
 
@@ -174,9 +260,9 @@ NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::subtract_residual(const MotionTang
                                                                 Matrix& rhs) const {
   const Eigen::Index parameters = rhs.cols();
   Eigen::Index first = 0;
-  for (; first + 8 <= parameters; first += 8) subtract_products<Eight>(end, first, rhs);
-  for (; first + 4 <= parameters; first += 4) subtract_products<Four>(end, first, rhs);
-  for (; first < parameters; ++first) subtract_products<One>(end, first, rhs);
+  for (; first + 16 <= parameters; first += 16) subtract_products<Four, 4>(end, first, rhs);
+  for (; first + 4 <= parameters; first += 4) subtract_products<Four, 1>(end, first, rhs);
+  for (; first < parameters; ++first) subtract_products<One, 1>(end, first, rhs);
 }
 
 }  // namespace nurbeam

@@ -52,7 +52,9 @@ class StepTangent {
     int column, value;
   };
 
-  template <class Lanes>
+  void predict(const MotionTangents& start, const Matrix& algorithmic, MotionTangents& end) const;
+  void correct(const Matrix& x, const Matrix& algorithmic, MotionTangents& end) const;
+  template <class Lanes, int times>
   void subtract_products(const MotionTangents& end, Eigen::Index first, Matrix& rhs) const;
   void subtract_residual(const MotionTangents& end, Matrix& rhs) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "fem/element/element_batch.h"
 #include "fem/system/with_assembly.h"
@@ -19,6 +20,8 @@ std::vector<State> uneven_states(const BeamSystem& system, const State& near) {
   still.a.setZero();
   State bent = still, moving = still, driven = still;
   const Eigen::VectorXd scale = system.coordinate_scale();
+  for (Eigen::Index i = 0; i < near.lambda.size(); ++i)
+    bent.lambda[i] = std::cos(1.9 * static_cast<double>(i) + 0.2);
   for (Eigen::Index i = 0; i < near.q.size(); ++i) {
     const auto k = static_cast<double>(i);
     bent.q[i] += strain * scale[i] * std::sin(1.7 * k + 0.3);
@@ -60,6 +63,9 @@ struct ResidualDifferences::In final : Implementation {
     Side more, less;
     double step = 0;
     std::vector<int> groups = {};
+    bool is_local = false;              // no more differs than elements in batches
+    std::vector<int> coordinates = {};  // of these
+    bool was_whole = true;              // the last columns that were found may not be zero elsewhere
   };
   // Elements of all pairs that are made of the same, under one load: that of the beam in one of the systems.
   struct Group {
@@ -80,6 +86,7 @@ struct ResidualDifferences::In final : Implementation {
         more_constraints(near.lambda.size()),
         less_constraints(near.lambda.size()) {
     if (of.empty()) return;
+    forces.setZero();
     const std::vector<State> states = uneven_states(*of.front().more, near);
     for (const auto& [more, less, step] : of) {
       Sides& pair = pairs.emplace_back();
@@ -92,12 +99,19 @@ struct ResidualDifferences::In final : Implementation {
       for (std::size_t i = 0; i < unlike.size(); ++i)
         if (unlike[i])
           for (Side* side : {&pair.more, &pair.less}) add(pair, *side, static_cast<int>(i));
+      pair.is_local = pair.more.apart.empty() &&
+                      pair.more.assembly->differs_in_elements(*pair.less.assembly, {states.front()});
+      std::sort(pair.coordinates.begin(), pair.coordinates.end());
+      pair.coordinates.erase(std::unique(pair.coordinates.begin(), pair.coordinates.end()),
+                             pair.coordinates.end());
     }
   }
 
   void add(Sides& pair, Side& side, int i) {
     const MeshElement<D>& e = side.assembly->elements()[i];
     if (e.twist || !ElementBatch<D>::takes(e.element)) return side.apart.push_back(i);
+    std::copy_if(e.dofs.begin(), e.dofs.end(), std::back_inserter(pair.coordinates),
+                 [](int dof) { return dof >= 0; });
     const int g = group_of(*side.assembly, e);
     if (pair.groups.empty() || pair.groups.back() != g) pair.groups.push_back(g);
     std::vector<ElementBatch<D>>& batches = groups[g].batches;
@@ -146,13 +160,27 @@ struct ResidualDifferences::In final : Implementation {
     }
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
-      const Sides& pair = pairs[k];
+      Sides& pair = pairs[k];
       const bool moves = later[column] != 0 || !shifts[k].empty();
+      if (!moves && pair.is_local && same_loads(pair, at, at)) {
+        if (pair.was_whole) {
+          dynamics.col(column).setZero();
+          constraints.col(column).setZero();
+          pair.was_whole = false;
+        }
+        for (const int i : pair.coordinates) {
+          dynamics(i, column) = (forces(i, 2 * column) - forces(i, 2 * column + 1)) / (2 * pair.step);
+          forces(i, 2 * column) = forces(i, 2 * column + 1) = 0;
+        }
+        continue;
+      }
       const State above = moves ? shifted(at, pair.step, later[column], shifts[k]) : State{},
                   below = moves ? shifted(at, -pair.step, later[column], shifts[k]) : State{};
       evaluate(pair, moves ? above : at, moves ? below : at, column);
       constraints.col(column) = (more_constraints - less_constraints) / (2 * pair.step);
       dynamics.col(column) = (forces.col(2 * column) - forces.col(2 * column + 1)) / (2 * pair.step);
+      forces.middleCols(2 * column, 2).setZero();
+      pair.was_whole = true;
     }
   }
 

@@ -30,7 +30,8 @@ class ResidualDifferences {
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   /// Half the difference over `step` for each pair: more at a time step x `later` after that of `at`, and
   /// with coordinates that are shifted so far; less as much before it, and as far the other way. Into
-  /// `dynamics` (n rows) and `constraints` (m rows).
+  /// `dynamics` (n rows) and `constraints` (m rows), always the same two: of those without shifts as the call
+  /// before has left them.
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints);
 

@@ -13,6 +13,7 @@
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
+#include "solver/rest_adjoint.h"
 
 namespace nurbeam {
 
@@ -54,6 +55,10 @@ void check_tangents(const BeamModel& model) {
         "connectors whose length is to be found have no derivative here: give their lengths");
 }
 
+[[noreturn]] void singular_rest() {
+  throw std::runtime_error("an equilibrium has no derivative where its tangent is singular");
+}
+
 [[noreturn]] void not_alike(const char* what) {
   throw std::runtime_error(std::string("a derivative needs neighbouring models of one mesh, and ") + what +
                            " with the parameter");
@@ -92,6 +97,14 @@ struct Sensitivities::Record {
   bool of_the_moment;
   MotionTangents tangents;
   std::shared_ptr<const Meshes> meshes;
+  std::shared_ptr<const Rest> rest;
+};
+
+// A rest of the run, and how its residual changes by each parameter where places of joints correspond.
+struct Sensitivities::Rest {
+  std::unique_ptr<const BeamSystem> system;
+  RestAdjoint adjoint;
+  MotionTangents::Matrix dynamics, constraints;
 };
 
 // By the length of a step that lands on an event: the tangent, and of the distance to it.
@@ -100,8 +113,10 @@ struct Sensitivities::Longer {
   double approach;
 };
 
-Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters)
-    : begins_at_rest_(options.statics || options.start_from_equilibrium) {
+Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
+                             bool by_adjoint)
+    : begins_at_rest_(options.statics || options.start_from_equilibrium),
+      by_adjoint_(by_adjoint && options.statics) {
   const auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
   if (!options.statics && !settings)
     throw std::invalid_argument("derivatives of a motion need the integrator generalized-alpha");
@@ -136,22 +151,26 @@ void Sensitivities::go_on_from(const MeshedState& at) {
   differences_.emplace(pairs, at.state);
 }
 
-// Into the columns of dynamics_ and constraints_, at a state whose time changes too.
-void Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time,
-                                          const Eigen::SparseMatrix<double>& stiffness) {
-  const Eigen::Index n = at.q.size(), m = at.lambda.size();
-  std::vector<std::vector<ResidualDifferences::Shift>> shifts;
+// Into the columns of dynamics_ and constraints_, at a state whose time changes too, and whose places of
+// joints are those that correspond, by the shifts that it returns.
+Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
+  Shifts shifts;
   for (const Parameter& parameter : parameters_) {
     const auto& [more, less, step] = parameter.pair;
     shifts.push_back(shifts_of_places(*system_, at, *more.model, *less.model, step));
   }
   differences_->find(at, time, shifts, dynamics_, constraints_);
   work_.residuals += differences_->work();
+  return shifts;
+}
+
+// What is due to the shifts alone.
+void Sensitivities::take_off(const Shifts& shifts, const Eigen::SparseMatrix<double>& stiffness) {
   for (std::size_t k = 0; k < shifts.size(); ++k)
     for (const auto& [place, by] : shifts[k]) {
       const Vector with_place = by * stiffness.col(place);
-      dynamics_.col(static_cast<Eigen::Index>(k)) -= with_place.head(n);
-      constraints_.col(static_cast<Eigen::Index>(k)) -= with_place.tail(m);
+      dynamics_.col(static_cast<Eigen::Index>(k)) -= with_place.head(dynamics_.rows());
+      constraints_.col(static_cast<Eigen::Index>(k)) -= with_place.tail(constraints_.rows());
     }
 }
 
@@ -180,10 +199,7 @@ void Sensitivities::rests(const MeshedState& at) {
   const int n = at.system->coordinate_count(), m = at.system->constraint_count();
   Eigen::SparseMatrix<double> stiffness = at.system->tangent_pattern();
   at.system->tangent(at.state, {.stiffness = 1}, stiffness);
-  const EquilibratedKkt kkt(stiffness, n);
   ++work_.tangents;
-  if (!kkt.regular())
-    throw std::runtime_error("an equilibrium has no derivative where its tangent is singular");
   for (Parameter& parameter : parameters_) {
     parameter.more = at_rest_like(at, parameter.pair.more.model);
     parameter.less = at_rest_like(at, parameter.pair.less.model);
@@ -191,7 +207,17 @@ void Sensitivities::rests(const MeshedState& at) {
       if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
   }
   start_afresh(at, std::vector<State>(parameters_.size(), still(n, m)));
-  find_residual_changes(at.state, tangents_.t, stiffness);
+  if (by_adjoint_)
+    keep_for_adjoint(at, stiffness);
+  else
+    solve_at_rest(at, stiffness);
+}
+
+void Sensitivities::solve_at_rest(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness) {
+  const Eigen::Index n = at.state.q.size(), m = at.state.lambda.size();
+  const EquilibratedKkt kkt(stiffness, static_cast<int>(n));
+  if (!kkt.regular()) singular_rest();
+  take_off(find_residual_changes(at.state, tangents_.t), stiffness);
   Vector rhs(n + m);
   for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
     rhs << -dynamics_.col(k), -constraints_.col(k);
@@ -202,6 +228,26 @@ void Sensitivities::rests(const MeshedState& at) {
     tangents_.start_afresh(k, tangent);
     ++work_.solves;
   }
+}
+
+// Tangents are the shifts alone, with which the neighbours of the rest are at corresponding places.
+void Sensitivities::keep_for_adjoint(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness) {
+  RestAdjoint adjoint(at.state, at.system->coordinate_scale(), stiffness);
+  if (!adjoint.regular()) singular_rest();
+  const Shifts shifts = find_residual_changes(at.state, tangents_.t);
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    for (const auto& [place, by] : shifts[k]) tangents_.q(place, static_cast<Eigen::Index>(k)) = by;
+  rest_ = std::make_shared<const Rest>(
+      Rest{at_rest_like(at, at.system->shared_model()), std::move(adjoint), dynamics_, constraints_});
+}
+
+Eigen::MatrixXd Sensitivities::through_rest(
+    std::size_t record, const std::vector<ProbePlace>& probes, const SnapshotContents& contents,
+    const std::function<Eigen::VectorXd(const Snapshot&)>& quantities) const {
+  const Rest& rest = *records_[record].rest;
+  return rest.adjoint.through_rest(
+      [&](const State& state) { return quantities(record_snapshot(*rest.system, state, probes, contents)); },
+      rest.dynamics, rest.constraints);
 }
 
 // Of a step, by each parameter, from the tangents at its start: that of the system's step limit where this
@@ -250,7 +296,7 @@ void Sensitivities::steps(const FollowedStep& step) {
   if (!step_->take(step.before, step.history, step.after, step.repeated))
     throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
   const Eigen::RowVectorXd change = changes_of_length(step);
-  find_residual_changes(step.after, tangents_.t + change, step_->stiffness());
+  take_off(find_residual_changes(step.after, tangents_.t + change), step_->stiffness());
   tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
   work_.solves += tangents_.parameters();
   if (step.beyond) {
@@ -294,7 +340,7 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
   MotionTangents tangents = tangents_;
   for (MotionTangents::Matrix* of_steps : {&tangents.algorithmic_acceleration, &tangents.jerk})
     of_steps->resize(0, 0);
-  records_.push_back({at.state, of_the_moment, std::move(tangents), meshes_});
+  records_.push_back({at.state, of_the_moment, std::move(tangents), meshes_, rest_});
 }
 
 std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter,

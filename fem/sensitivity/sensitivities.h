@@ -28,7 +28,8 @@ struct NeighbourPair {
 /// Carries the derivatives of a motion, or of a rest, by parameters of its model along with the run: a
 /// tangent for each, of all at once.
 ///
-///   - At rest: K dq + G'dlambda = -dR, G dq = -dg.
+///   - At rest: K dq + G'dlambda = -dR, G dq = -dg; or RestAdjoint, where nothing but quantities of rests is
+///     asked for.
 ///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end.
 ///   - Over all else, as a change of the mesh or an impact: half the difference of what the same does to the
 ///     states q +- step dq/dp of the neighbours.
@@ -46,7 +47,10 @@ class Sensitivities final : public RunFollower {
  public:
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
   /// what has no tangent: friction, buffers, connectors whose length is found.
-  Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters);
+  /// `by_adjoint`, of statics alone: the tangents of the rests are left out, and through_rest has what they
+  /// would do.
+  Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
+                bool by_adjoint = false);
   ~Sensitivities() override;
 
   /// Derivatives of the time of each event of the run, in order, by each parameter [s]; NaN where steps
@@ -66,6 +70,11 @@ class Sensitivities final : public RunFollower {
   /// have no accelerations.
   std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter,
                                            const SnapshotContents& contents) const;
+  /// Of quantities of snapshot `record` (quantities x parameters), by the adjoint of that rest: how they
+  /// change with it. What is left is how they differ between its neighbours. `probes`: of the run itself.
+  Eigen::MatrixXd through_rest(std::size_t record, const std::vector<ProbePlace>& probes,
+                               const SnapshotContents& contents,
+                               const std::function<Eigen::VectorXd(const Snapshot&)>& quantities) const;
 
   void begins(const MeshedState& drawn) override;
   void rests(const MeshedState& at) override;
@@ -79,16 +88,20 @@ class Sensitivities final : public RunFollower {
   struct Meshes;
   struct Record;
   struct Longer;
+  struct Rest;
+  using Shifts = std::vector<std::vector<ResidualDifferences::Shift>>;
 
   void start_afresh(const MeshedState& at, const std::vector<State>& tangents);
   void go_on_from(const MeshedState& at);
-  void find_residual_changes(const State& at, const Eigen::RowVectorXd& time,
-                             const Eigen::SparseMatrix<double>& stiffness);
+  void solve_at_rest(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
+  void keep_for_adjoint(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
+  Shifts find_residual_changes(const State& at, const Eigen::RowVectorXd& time);
+  void take_off(const Shifts& shifts, const Eigen::SparseMatrix<double>& stiffness);
   Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
   Longer by_length(const FollowedStep& step, const StepTangent& tangent) const;
 
   GeneralizedAlpha settings_;
-  bool begins_at_rest_;
+  bool begins_at_rest_, by_adjoint_;
   std::vector<Parameter> parameters_;
   std::optional<ResidualDifferences> differences_;  // of their present systems
   std::optional<StepTangent> step_;                 // with the present system
@@ -100,6 +113,7 @@ class Sensitivities final : public RunFollower {
   std::vector<std::vector<double>> event_times_;
   std::vector<Record> records_;
   std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
+  std::shared_ptr<const Rest> rest_;      // the last one, for its adjoint
 };
 
 }  // namespace nurbeam

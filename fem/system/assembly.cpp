@@ -352,6 +352,28 @@ std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other,
 }
 
 template <int D>
+bool Assembly<D>::differs_in_elements(const Assembly& other, const std::vector<State>& states) const {
+  const auto is_still = [](const BeamModel& model) {
+    const auto moves = [](const auto& each) {
+      if constexpr (requires { each.motion.has_value(); }) return each.motion.has_value();
+      return false;
+    };
+    return std::none_of(model.constraints.begin(), model.constraints.end(),
+                        [&](const auto& each) { return std::visit(moves, each); }) &&
+           std::none_of(model.joints.begin(), model.joints.end(), moves);
+  };
+  if (!forces_.empty() || !other.forces_.empty() || !is_still(*model_) || !is_still(*other.model_))
+    return false;
+  const auto of = [&](const Assembly& assembly, const State& state) {
+    Eigen::VectorXd both = Eigen::VectorXd::Zero(state.q.size() + state.lambda.size());
+    assembly.add_forces_and_constraints(state, both.head(state.q.size()), both.tail(state.lambda.size()));
+    return both;
+  };
+  return std::all_of(states.begin(), states.end(),
+                     [&](const State& state) { return of(*this, state) == of(other, state); });
+}
+
+template <int D>
 void Assembly<D>::add_residual_of(const std::vector<int>& elements, const State& state,
                                   Eigen::Ref<Eigen::VectorXd> dynamics,
                                   Eigen::Ref<Eigen::VectorXd> constraints) const {

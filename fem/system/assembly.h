@@ -74,6 +74,9 @@ class Assembly final : public SecondOrderSystem {
   /// Which elements answer otherwise than those of `other`, a system of one mesh of a neighbouring model,
   /// apart from loads and free strains: to round-off, sections at these states; always those whose ends move.
   std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states) const;
+  /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces, no motions,
+  /// and constraints that are the same at these states, which must be general ones.
+  bool differs_in_elements(const Assembly& other, const std::vector<State>& states) const;
   /// Adds to the dynamics of a residual the forces of these elements and of all that is no element, which is
   /// all that the constraints need.
   void add_residual_of(const std::vector<int>& elements, const State& state,

@@ -98,7 +98,7 @@ struct VariantGradient::Pair {
 VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_case,
                                  const std::vector<double>& values, const CaseFile& case_file,
                                  const BuiltModel& model)
-    : study_(study), values_(values) {
+    : study_(study), model_(model), values_(values) {
   const SimulationOptions options = simulation_options(case_file);
   const auto case_of = [&](const std::vector<double>& of) {
     if (auto reshaped = study_case.reshaped(case_file, values, study.variables, of))
@@ -128,14 +128,43 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     }
     neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
   }
-  sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours));
+  is_by_adjoint_ = options.statics && pays_by_adjoint();
+  sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours), is_by_adjoint_);
 }
 
 VariantGradient::~VariantGradient() = default;
 
-StudyGradient VariantGradient::of_quantities(const BeamModel& model, const Histories& histories,
+bool VariantGradient::pays_by_adjoint() const {
+  const SnapshotContents contents = Histories(study_, model_).contents();
+  return pairs_.size() > study_.quantities.size() && !contents.beams && !contents.sections &&
+         !contents.energy;
+}
+
+// (quantities x parameters) What rests at these times, which change with the parameters, do to the
+// quantities.
+Eigen::MatrixXd VariantGradient::through_rests(const Histories& histories,
+                                               const std::vector<std::size_t>& times,
+                                               const std::vector<RunEvent>& events) const {
+  const auto count = static_cast<Eigen::Index>(study_.quantities.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(pairs_.size()));
+  Histories changed = histories;
+  for (const std::size_t time : times) {
+    const auto quantities = [&](const Snapshot& snapshot) {
+      changed.replace(time, snapshot);
+      const ExpressionScope scope = scope_of_run(study_, values_, changed, model_.model, events);
+      return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index i) {
+        return study_.quantities[static_cast<std::size_t>(i)].value.number(scope);
+      }));
+    };
+    sum += sensitivities_->through_rest(time, probe_places(model_), histories.contents(), quantities);
+    changed.replace(time, histories);
+  }
+  return sum;
+}
+
+StudyGradient VariantGradient::of_quantities(const Histories& histories,
                                              const std::vector<RunEvent>& events) {
-  const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model, events);
+  const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model_.model, events);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     pairs_[k].more.histories.begin_as(histories);
     pairs_[k].less.histories.begin_as(histories);
@@ -153,15 +182,24 @@ StudyGradient VariantGradient::of_quantities(const BeamModel& model, const Histo
         std::vector<RunEvent> moved = events;
         for (std::size_t i = 0; i < events.size(); ++i)
           moved[i].time += change * sensitivities_->event_times()[i][k];
-        return quantity.value.number(scope_of_run(study_, run.values, run.histories, model, moved));
+        return quantity.value.number(scope_of_run(study_, run.values, run.histories, model_.model, moved));
       };
       const Pair& pair = pairs_[k];
       row.push_back((value(pair.more, pair.step) - value(pair.less, -pair.step)) / (2 * pair.step));
-      if (!std::isfinite(row.back()))
-        throw std::invalid_argument("the quantity " + in_quotes(quantity.name) + " has no derivative");
     }
     gradient.push_back(std::move(row));
   }
+  if (is_by_adjoint_) {
+    const Eigen::MatrixXd through = through_rests(histories, times, events);
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+      for (std::size_t k = 0; k < pairs_.size(); ++k)
+        gradient[i][k] += through(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+  }
+  for (std::size_t i = 0; i < gradient.size(); ++i)
+    for (const double derivative : gradient[i])
+      if (!std::isfinite(derivative))
+        throw std::invalid_argument("the quantity " + in_quotes(study_.quantities[i].name) +
+                                    " has no derivative");
   return gradient;
 }
 

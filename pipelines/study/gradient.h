@@ -19,8 +19,8 @@ std::vector<double> differences(const StudyFile& study, const std::vector<double
 /// The neighbours of a variant, a pair for each free variable, that go along with its run.
 class VariantGradient {
  public:
-  /// `case_file`, `model`: those of the variant. Throws std::invalid_argument where there are no such
-  /// neighbours.
+  /// `case_file`, `model`: those of the variant; the model must outlive it. Throws std::invalid_argument
+  /// where there are no such neighbours.
   VariantGradient(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
                   const CaseFile& case_file, const BuiltModel& model);
   ~VariantGradient();
@@ -28,16 +28,25 @@ class VariantGradient {
   RunFollower& follower() { return *sensitivities_; }
   /// After the run, which had these histories and events. Throws std::invalid_argument for a quantity without
   /// a derivative.
-  StudyGradient of_quantities(const BeamModel& model, const Histories& histories,
-                              const std::vector<RunEvent>& events);
+  StudyGradient of_quantities(const Histories& histories, const std::vector<RunEvent>& events);
+  /// Whether that comes by the adjoints of rests: statics with more parameters than quantities, which are all
+  /// of single places. (One of whole beams changes with every coordinate: its derivatives by these take more
+  /// than all solutions.)
+  bool is_by_adjoint() const { return is_by_adjoint_; }
 
  private:
   struct NeighbouringRun;
   struct Pair;
 
+  bool pays_by_adjoint() const;
+  Eigen::MatrixXd through_rests(const Histories& histories, const std::vector<std::size_t>& times,
+                                const std::vector<RunEvent>& events) const;
+
   const StudyFile& study_;
+  const BuiltModel& model_;
   const std::vector<double> values_;
   std::vector<Pair> pairs_;
+  bool is_by_adjoint_ = false;
   std::unique_ptr<Sensitivities> sensitivities_;
 };
 

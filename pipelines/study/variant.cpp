@@ -131,7 +131,7 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
       scope_of_run(study, variant.values, histories, built.value->model, run.events);
   fill_quantities(study, scope, variant);
   if (gradient && variant.status == VariantStatus::done)
-    variant.gradient = gradient->of_quantities(built.value->model, histories, run.events);
+    variant.gradient = gradient->of_quantities(histories, run.events);
 }
 
 // Of a study of formulas.

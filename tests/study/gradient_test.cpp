@@ -348,6 +348,56 @@ TEST(Gradient, OfABeamInSpaceWithTorsionAtRest) {
   expect_gradient(of, 0.01, 1e-6);
 }
 
+/// Whether one variant's derivatives come by adjoints of its rests.
+bool is_by_adjoint(const StudyOfCase& of) {
+  const std::vector<double> values = all_values(of.study, of.nominal());
+  const CaseFileReport read =
+      read_case_text(of.study_case.variant(of.study.variables, values), of.study_case.file());
+  const BuildReport built = build_model(*read.value);
+  return VariantGradient(of.study, of.study_case, values, *read.value, *built.value).is_by_adjoint();
+}
+
+// The direct solutions of as many parameters are the witness: taken where there are as many quantities.
+TEST(Gradient, IsTheSameByTheAdjointOfARestAsBySolutionsForEachParameter) {
+  const std::string hanging = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1], "weights": [1, 0.9, 1.1, 1],
+                         "control_points": [[0, 0, 0], [1, 0, -0.4], [2, 0, -0.7], [3, 0, -0.2]]}},
+      "section": {"radius": "20 mm"}, "material": {"density": 2700, "youngs_modulus": "2 GPa"},
+      "elements": {"count": 8}}],
+    "bodies": [{"name": "slider", "mass": 1.2}],
+    "sliding_joints": [{"body": "slider", "beam": "beam", "at": {"length": 0.9}, "equilibrium": )json";
+  const std::string rest = R"json(}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "root"},
+                 {"beam": "beam", "at": "end", "type": "pinned", "name": "far"}],
+    "analysis": {"type": "static"}})json";
+  const std::string by = R"json("variables": [
+      {"name": "z2", "control_point": {"beam": "beam", "index": 2, "axis": "z"}, "range": [-0.9, -0.5]},
+      {"name": "w1", "weight": {"beam": "beam", "index": 1}, "range": [0.6, 1.2]},
+      {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1e9, 3e9]},
+      {"name": "radius", "path": "beams[0].section.radius", "range": [0.015, 0.025]},
+      {"name": "mass", "path": "bodies[0].mass", "range": [1, 2]}], "plan": {"grid": 2}, "quantities": [)json";
+  const std::string some = R"json({"name": "z", "value": "at(end, slider.z) * mass"},
+      {"name": "s", "value": "at(end, slider.s)"}, {"name": "m", "value": "at(end, root.my)"},
+      {"name": "f", "value": "at(end, far.fx) + sqrt(E)"})json";
+  const std::string more = R"json(, {"name": "again", "value": "at(end, slider.z)"}])json";
+  for (const std::string where : {"\"held\"", "\"free\""}) {
+    StudyOfCase one(hanging + where + rest, by + some + "]"), other(hanging + where + rest, by + some + more);
+    EXPECT_TRUE(is_by_adjoint(one));
+    EXPECT_FALSE(is_by_adjoint(other));
+    const Variant by_adjoint = one.run(one.nominal(), true);
+    const StudyGradient direct = other.run(other.nominal(), true).gradient;
+    for (std::size_t i = 0; i < by_adjoint.gradient.size(); ++i)
+      for (std::size_t k = 0; k < by_adjoint.gradient[i].size(); ++k) {
+        const std::vector<double>& range = one.study.variables[k].distribution.parameters;
+        // Of the derivative, or of a hundredth of the quantity over the range where it is zero.
+        const double size = std::max(std::abs(direct[i][k]), 0.01 * std::abs(by_adjoint.quantities[i]) /
+                                                                 (range.back() - range.front()));
+        EXPECT_NEAR(by_adjoint.gradient[i][k], direct[i][k], 1e-7 * size) << i << " by " << k;
+      }
+  }
+}
+
 TEST(Gradient, OfAMotionInSpaceWithTorsion) {
   StudyOfCase of(R"json({"nurbeam": 1, )json" + space_beam + R"json(
     "analysis": {"type": "dynamic", "end_time": 0.06, "step": "2 ms"},
