@@ -181,7 +181,7 @@ std::optional<MeshedState> hit_stop(const MeshedState& at, int stop, double step
   std::vector<bool> among = passing_contacts(*after);
   const bool is_still = std::abs(away) <= least.speed[stop],
              rests = is_there || (among[stop] && is_still && pushed >= -unfelt) ||
-                     (pushed > 0 && away < 2 * pushed * shortest_rebound * step);
+                     (pushed > 0 && away < pushed / 2 * shortest_rebound * step);
   if (!rests || others_keep(at.system->model(), closed_contacts(*open.system), stop)) return open;
   among[stop] = false;
   std::optional<MeshedState> kept = stopped(with_contact(*after, stop, true), std::move(among), least, step);

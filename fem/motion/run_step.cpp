@@ -59,6 +59,12 @@ Arrival arrival_at_once(const Run& run) {
   return run.events_at_once > most_at_once(*run.model) / 10 ? Arrival::in_chain : Arrival::at_once;
 }
 
+// Whether an event gives a velocity at once, which a step too short to resolve it would take from round-off.
+bool is_sudden(const BeamModel& model, const StepEvent& event) {
+  const auto* contact = std::get_if<ContactEvent>(&event);
+  return !contact || !model.stops[contact->stop].buffer;
+}
+
 // Repeats a step in which an event happens so that it ends there, or that it does not begin where that is
 // sooner than steps resolve.
 std::optional<StepEvent> land_on_event(Run& run, const State& before, const IntegratorHistory& history,
@@ -73,7 +79,7 @@ std::optional<StepEvent> land_on_event(Run& run, const State& before, const Inte
     if (!event) break;
     const State after = state;
     state = landed(*run.at.system, *run.integrator, {before, history, after, after.t - before.t}, *event);
-    if (state.t - before.t < run.resolution()) state = before;
+    if (state.t - before.t < run.resolution() && is_sudden(model, *event)) state = before;
     found = event;
   }
   return found;

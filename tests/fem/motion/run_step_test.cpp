@@ -59,7 +59,8 @@ TEST(TakeStep, EventsThatFollowEachOtherAtOneMomentEndTheRunWhenTheyAreTooMany) 
   EXPECT_EQ(late.run().at.state.t, 0);
   EXPECT_EQ(late.run().report.status, SimulationStatus::not_converged);
   ASSERT_TRUE(late.run().report.failure);
-  EXPECT_EQ(late.run().report.failure->kind, Failure::Kind::step);
+  EXPECT_EQ(late.run().report.failure->kind, Failure::Kind::endless_events);
+  EXPECT_EQ(late.run().report.failure->joint, 0);
   EXPECT_EQ(late.run().report.failure->time, 0);
 }
 
