@@ -280,10 +280,10 @@ TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
 
 /// The trial state whose true acceleration and multipliers are those of the last state; whether it is finite.
 bool GeneralizedAlphaIntegrator::predict(double step) {
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double alpha_m = parameters_.alpha_m, beta = parameters_.beta, gamma = parameters_.gamma;
   const double h = step;
   const bool starts_anew = last_step_ > 0 && step > largest_rescaling * last_step_;
-  const double of_jerk = last_step_ > 0 ? (alpha_m - alpha_f) * (h - last_step_) : 0;
+  const double of_jerk = last_step_ > 0 ? (alpha_m - parameters_.alpha_f) * (h - last_step_) : 0;
   const double not_finite = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
     const auto of = [&](auto& vector) { return part(vector, first, end); };
     auto alg = of(start_algorithmic_), after = of(trial_algorithmic_);

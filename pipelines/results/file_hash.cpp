@@ -21,6 +21,7 @@ namespace {
 struct Crypto : LateLibrary {
   Crypto() : LateLibrary(NURBEAM_CRYPTO_LIBRARY) {}
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): it is the name of a member
 #define NURBEAM_LATE(name) decltype(&::EVP_##name) name = function<decltype(&::EVP_##name)>("EVP_" #name)
   NURBEAM_LATE(MD_CTX_new);
   NURBEAM_LATE(MD_CTX_free);

@@ -22,6 +22,7 @@ namespace {
 struct Netcdf : LateLibrary {
   Netcdf() : LateLibrary(NURBEAM_NETCDF_LIBRARY) {}
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): it is the name of a member
 #define NURBEAM_LATE(name) decltype(&::nc_##name) name = function<decltype(&::nc_##name)>("nc_" #name)
   NURBEAM_LATE(close);
   NURBEAM_LATE(create);
