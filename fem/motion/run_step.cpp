@@ -54,6 +54,18 @@ std::size_t kinds_of_event(const BeamModel& model) {
 // That follow each other at one moment before they are taken for one that will never pass.
 std::size_t most_at_once(const BeamModel& model) { return 100 * (1 + kinds_of_event(model)); }
 
+// Events of connectors are of no one body.
+Failure endless(const Run& run, const StepEvent& event) {
+  Failure failure{.kind = Failure::Kind::step,
+                  .time = run.at.state.t,
+                  .places = places_of(run.at),
+                  .step = StepStatus::not_converged};
+  if (std::holds_alternative<TautEvent>(event)) return failure;
+  failure.kind = Failure::Kind::endless_events;
+  failure.joint = joint_of(*run.model, event);
+  return failure;
+}
+
 // Bodies of different masses may hit each other and a stop endlessly often in no time.
 Arrival arrival_at_once(const Run& run) {
   return run.events_at_once > most_at_once(*run.model) / 10 ? Arrival::in_chain : Arrival::at_once;
@@ -62,7 +74,7 @@ Arrival arrival_at_once(const Run& run) {
 // Whether an event gives a velocity at once, which a step too short to resolve it would take from round-off.
 bool is_sudden(const BeamModel& model, const StepEvent& event) {
   const auto* contact = std::get_if<ContactEvent>(&event);
-  return !contact || !model.stops[contact->stop].buffer;
+  return !contact || contact->stop < 0 || !model.stops[contact->stop].buffer;
 }
 
 // Repeats a step in which an event happens so that it ends there, or that it does not begin where that is
@@ -192,11 +204,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   const Landing landing = land(run, before, history, taken.step, nothing_leaves);
   if (landing.event && at.state.t == before.t) {
     if (!pass_event(run, *landing.event, arrival_at_once(run))) return false;
-    if (++run.events_at_once > most_at_once(*run.model))
-      return run.goes_on(Failure{.kind = Failure::Kind::endless_events,
-                                 .time = at.state.t,
-                                 .places = places_of(at),
-                                 .joint = joint_of(*run.model, *landing.event)});
+    if (++run.events_at_once > most_at_once(*run.model)) return run.goes_on(endless(run, *landing.event));
     // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
     return !rests_by(run, *landing.event) || take_step(run, step, rest, true);
   }
