@@ -256,6 +256,14 @@ TEST(StopsRun, WithoutAStopBodiesOnAGuideNeverPassEachOther) {
   EXPECT_TRUE(stops.run.says("\"a\"") && stops.run.says("\"b\"")) << stops.run.messages;
 }
 
+TEST(StopsRun, BodiesMeetToTheMomentEvenWhereAStepBeginsThere) {
+  // 5 ns into a step of 2 ms, which is less than steps resolve.
+  const StopRun stops = run_stops(
+      two_bodies, {"stops=[]", "analysis.step=0.002", "sliding_joints[1].at={\"length\": 6.00000002}"});
+  EXPECT_EQ(stops.run.code, 3);
+  EXPECT_TRUE(stops.run.says("sliding bodies meet at t = 1 s")) << stops.run.messages;
+}
+
 TEST(StopsRun, ATrainComesToRestAgainstAStopAndAChainOfImpactsEnds) {
   const StopRun stops = run_stops(R"({"nurbeam": 1,
     "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], [17.320508075688775, 0, -10]]}}],
