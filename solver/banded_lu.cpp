@@ -1,13 +1,11 @@
 #include "solver/banded_lu.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <utility>
 
-#include "solver/close_order.h"
 #include "solver/every_processor.h"
 
 namespace nurbeam {
@@ -26,211 +24,151 @@ NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
   return (four(columns[0].data()) * x[0] + four(columns[1].data()) * x[1]) +
          (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
 }
-// A number of each of eight right-hand sides.
+// The sum of the four.
 NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
-
-// The unknowns that each is coupled with: itself too, and the rows of its column alone.
-class Neighbours {
- public:
-  Neighbours(const Matrix& pattern, const std::vector<int>& left_out)
-      : pattern_(pattern), coupled_(static_cast<std::size_t>(pattern.cols()), false) {
-    for (const int i : left_out)
-      for (const int* other = begin(i); other != end(i); ++other) coupled_[*other] = true;
-  }
-
-  int size() const { return static_cast<int>(pattern_.cols()); }
-  int count(int i) const { return pattern_.outerIndexPtr()[i + 1] - pattern_.outerIndexPtr()[i]; }
-  const int* begin(int i) const { return pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[i]; }
-  const int* end(int i) const { return begin(i) + count(i); }
-  /// Whether it is coupled with what is left out.
-  bool is_coupled(int i) const { return coupled_[i]; }
-
- private:
-  const Matrix& pattern_;
-  std::vector<bool> coupled_;
-};
-
-// Which unknowns have been seen, and in which walk last; those that are left out are in none.
-struct Walks {
-  static constexpr int never = std::numeric_limits<int>::max();
-  std::vector<int> last;
-  int number = 0;
-};
-
-// Appends the component of `start`, by levels, in each those first that are coupled with what is left out,
-// then those with the fewest neighbours. Returns the number of levels.
-int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std::vector<int>& order) {
-  const auto rank = [&](int i) { return neighbours.is_coupled(i) ? 0 : neighbours.count(i); };
-  const auto fewer = [&](int a, int b) { return rank(a) < rank(b); };
-  const auto append = [&](int unknown) {
-    walks.last[unknown] = walks.number;
-    order.push_back(unknown);
-  };
-  ++walks.number;
-  std::size_t next = order.size(), level_end = next + 1;
-  int levels = 1;
-  append(start);
-  for (; next < order.size(); ++next) {
-    if (next == level_end) {
-      ++levels;
-      level_end = order.size();
-    }
-    const std::size_t first_new = order.size();
-    for (const int* other = neighbours.begin(order[next]); other != neighbours.end(order[next]); ++other)
-      if (walks.last[*other] < walks.number) append(*other);
-    // They are few.
-    for (std::size_t i = first_new; i < order.size(); ++i)
-      std::rotate(std::upper_bound(order.begin() + static_cast<std::ptrdiff_t>(first_new),
-                                   order.begin() + static_cast<std::ptrdiff_t>(i), order[i], fewer),
-                  order.begin() + static_cast<std::ptrdiff_t>(i),
-                  order.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-  }
-  return levels;
-}
-
-// The component of `start`, by levels from an unknown at one of its ends: from there they are the most that
-// are easily found. From one that is coupled with what is left out, where from it they are nearly as many.
-std::vector<int> by_levels_from_end(const Neighbours& neighbours, int start, Walks& walks) {
-  constexpr double nearly = 0.75;
-  std::vector<int> order;
-  for (int levels = 0;;) {
-    order.clear();
-    const int found = append_by_levels(neighbours, start, walks, order);
-    if (found <= levels) {
-      const auto coupled =
-          std::find_if(order.begin(), order.end(), [&](int i) { return neighbours.is_coupled(i); });
-      if (coupled == order.end()) return order;
-      std::vector<int> other;
-      const int others = append_by_levels(neighbours, *coupled, walks, other);
-      return others >= nearly * levels ? other : order;
-    }
-    levels = found;
-    start = order.back();
-  }
-}
-
-// The reverse order of Cuthill and McKee.
-std::vector<int> by_levels(const Neighbours& neighbours, const std::vector<int>& left_out) {
-  const int n = neighbours.size();
-  Walks walks{std::vector<int>(static_cast<std::size_t>(n), 0)};
-  for (const int i : left_out) walks.last[i] = Walks::never;
-  std::vector<int> order;
-  for (int i = 0; i < n; ++i)
-    if (walks.last[i] == 0) {
-      const std::vector<int> component = by_levels_from_end(neighbours, i, walks);
-      order.insert(order.end(), component.begin(), component.end());
-    }
-  std::reverse(order.begin(), order.end());
-  return order;
-}
 
 }  // namespace
 
-BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
-  std::optional<std::vector<int>> close = close_order(pattern, left_out);
-  unknown = close ? std::move(*close) : by_levels(Neighbours(pattern, left_out), left_out);
-  place_unknowns(pattern);
-}
-
-BandOrder BandOrder::of(const Matrix& pattern, std::vector<int> unknowns) {
-  BandOrder order;
-  order.unknown = std::move(unknowns);
-  order.place_unknowns(pattern);
-  return order;
-}
-
-// All that follows from `unknown`.
-void BandOrder::place_unknowns(const Matrix& pattern) {
-  place.assign(static_cast<std::size_t>(pattern.cols()), -1);
-  const int held = static_cast<int>(unknown.size());
-  ends.resize(unknown.size());
-  for (int k = 0; k < held; ++k) place[unknown[k]] = k;
-  // Calls visit(row, column, index of the value) for each entry, column by column.
-  const auto for_each_entry = [&](const auto& visit) {
-    for (int column = 0; column < held; ++column)
-      for (int k = pattern.outerIndexPtr()[unknown[column]]; k < pattern.outerIndexPtr()[unknown[column] + 1];
-           ++k)
-        if (const int row = place[pattern.innerIndexPtr()[k]]; row >= 0) visit(row, column, k);
-  };
-  row_starts.assign(unknown.size() + 1, 0);
-  for_each_entry([&](int row, int, int) { ++row_starts[row + 1]; });
-  std::partial_sum(row_starts.begin(), row_starts.end(), row_starts.begin());
-  entries.resize(static_cast<std::size_t>(row_starts.back()));
-  std::vector<int> next = row_starts;
-  for_each_entry([&](int row, int column, int value) { entries[next[row]++] = {column, value}; });
-  // The entries of a row are in order.
-  below.assign(unknown.size(), 0);
-  for (int row = 0; row < held; ++row) {
-    ends[row] = row + 1;
-    if (row_starts[row] == row_starts[row + 1]) continue;
-    const int first = entries[row_starts[row]].column, last = entries[row_starts[row + 1] - 1].column;
-    ends[row] = std::max(ends[row], last + 1);
-    half_bandwidth = std::max({half_bandwidth, row - first, last - row});
-    below[first] = row;
+// The rows that are being eliminated, each with what its columns take, and the multipliers of a block. They
+// are filled column by column, as far as the next elimination needs; where there is no room for more, those
+// that are left move to its beginning.
+class BandedLu::Window {
+ public:
+  Window(BandedLu& of, const Matrix& matrix)
+      : order_(*of.order_),
+        matrix_(matrix),
+        scale_(of.scale_),
+        size_(static_cast<int>(order_.unknown.size())) {
+    const int band = order_.half_bandwidth;
+    before_ = std::max(band, block);
+    width_ = before_ + 2 * band + 4 * block;
+    height_ = (band + 3 * block - 1) / block * block;
+    const int open_at_once = 3 * band + 2 * block;
+    capacity_ = std::min(3 * open_at_once, of.padded_ + band);
+    of.window_.resize(static_cast<std::size_t>(capacity_ * width_ + block * height_));
+    of.window_ends_.resize(static_cast<std::size_t>(capacity_));
+    rows_ = of.window_.data();
+    ends_ = of.window_ends_.data();
+    std::fill(scale_.begin(), scale_.end(), 0);
+    multipliers_ = rows_ + capacity_ * width_;
   }
-  for (int column = 1; column < held; ++column) below[column] = std::max(below[column], below[column - 1]);
+
+  NURBEAM_WITHIN int width() const { return width_; }
+  NURBEAM_WITHIN double* diagonal(int row) { return rows_ + (row - begin_) * width_ + before_; }
+  /// One past the last column of a row.
+  NURBEAM_WITHIN int& end(int row) { return ends_[row - begin_]; }
+  /// Of column c of the present block, from the block's first row on.
+  NURBEAM_WITHIN double* multipliers(int c) { return multipliers_ + c * height_; }
+
+  /// Makes room for a block: nothing before its first row is asked for any more.
+  NURBEAM_WITHIN void begin_block(int k) {
+    std::fill_n(multipliers_, block * height_, 0.0);
+    first_ = k;
+  }
+  /// Makes the rows up to that one complete.
+  NURBEAM_WITHIN void reach(int row) {
+    for (; complete_ <= row && complete_ < size_; ++complete_) {
+      while (filled_ < order_.ends[complete_]) fill_column(filled_++);
+      scale(complete_);
+    }
+    open(row);
+  }
+
+ private:
+  NURBEAM_WITHIN void open(int row) {
+    for (; opened_ <= row; ++opened_) {
+      if (opened_ - begin_ == capacity_) move_to_beginning();
+      std::fill_n(diagonal(opened_) - before_, width_, 0.0);
+      end(opened_) = opened_ < size_ ? order_.ends[opened_] : opened_ + 1;
+      if (opened_ >= size_) *diagonal(opened_) = 1;
+    }
+  }
+
+  void move_to_beginning() {
+    std::copy(diagonal(first_) - before_, diagonal(opened_) - before_, rows_);
+    std::copy(&end(first_), &end(opened_), ends_);
+    begin_ = first_;
+  }
+
+  NURBEAM_WITHIN void fill_column(int column) {
+    const int first = matrix_.outerIndexPtr()[order_.unknown[column]],
+              end = matrix_.outerIndexPtr()[order_.unknown[column] + 1];
+    open(order_.below[column]);
+    double* entries = diagonal(0) + column;  // of that column, by the rows' distances
+    for (int k = first; k < end; ++k)
+      if (const int row = order_.place[matrix_.innerIndexPtr()[k]]; row >= 0) {
+        const double value = matrix_.valuePtr()[k];
+        entries[row * (width_ - 1)] = value;
+        scale_[row] = std::max(scale_[row], std::abs(value));
+      }
+  }
+
+  // So that its largest number becomes one.
+  NURBEAM_WITHIN void scale(int row) {
+    double* entries = diagonal(row) - before_;
+    const int count = before_ + order_.ends[row] - row;
+    const double scale = scale_[row] = scale_[row] > 0 ? 1 / scale_[row] : 1;
+    for (int i = 0; i < count; ++i) entries[i] *= scale;
+  }
+
+  const BandOrder& order_;
+  const Matrix& matrix_;
+  std::vector<double>& scale_;
+  int size_, before_, width_, height_, capacity_;
+  int begin_ = 0, first_ = 0;                   // row at the beginning, and first one that is needed
+  int opened_ = 0, filled_ = 0, complete_ = 0;  // rows, columns, rows
+  double *rows_, *multipliers_;
+  int* ends_;
+};
+
+namespace {
+
+// Room for so many more numbers.
+std::ptrdiff_t append(std::vector<double>& numbers, int count) {
+  const std::size_t begin = numbers.size(), end = begin + static_cast<std::size_t>(count);
+  if (end > numbers.capacity()) numbers.reserve(end + end / 8);
+  numbers.resize(end);
+  return static_cast<std::ptrdiff_t>(begin);
 }
 
-// Rows and columns of multipliers are as long as what is eliminated can make them. All is done by blocks of
-// four; what they reach beyond that is zero.
+// Numbers of four rows of U, or columns of L, from place k on: with what is taken out of the next block.
+int rounded_length(int k, int end) { return std::max(2 * block, (end - k + block - 1) / block * block); }
+
+}  // namespace
+
+// All is done by blocks of four; what they reach beyond that is zero.
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   order_ = std::move(order);
   half_bandwidth_ = order_->half_bandwidth;
   const int n = static_cast<int>(order_->unknown.size());
   padded_ = (n + block - 1) / block * block;
   const auto padded = static_cast<std::size_t>(padded_);
-  // The last row that the elimination of a column reaches; the end of the longest of the rows up to one.
-  const auto below = [&](int k) { return k < n ? order_->below[k] : k; };
-  std::vector<int> longest = order_->ends;
-  for (int i = 1; i < n; ++i) longest[i] = std::max(longest[i], longest[i - 1]);
-  row_begin_.resize(padded + 1);
-  diagonal_.resize(padded);
-  lower_begin_.resize(padded + 1);
-  row_begin_[0] = lower_begin_[0] = 0;
-  for (int i = 0, first = 0; i < padded_; ++i) {
-    while (first < i && below(first) < i) ++first;
-    const int last = std::min(i / block * block + block, n) - 1, reach = below(last);
-    const int end = std::max(i + 1, longest[reach]);
-    diagonal_[i] = row_begin_[i] + i - first;
-    row_begin_[i + 1] = row_begin_[i] + (end - first) + 2 * block;
-    lower_begin_[i + 1] = lower_begin_[i] + std::max(reach, i) - i + 2 * block;
-  }
-  band_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(row_begin_.back()));
-  lower_.assign(static_cast<std::size_t>(lower_begin_.back()), 0);
   scale_.resize(order_->unknown.size());
   pivots_.resize(padded);
-  reach_.resize(padded / block);
   inverse_.resize(padded);
   blocks_.resize(padded / block);
   room_ = padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block);
+  // As long as they are without exchanges, and an eighth for these.
+  std::size_t upper = 0, lower = 0;
+  for (int k = 0, row = 0, longest = 0; k < padded_; k += block) {
+    for (; row < std::min(k + block, n); ++row) longest = std::max(longest, order_->ends[row]);
+    upper += static_cast<std::size_t>(block * rounded_length(k, longest));
+    lower += static_cast<std::size_t>(block * rounded_length(k, order_->below[row - 1] + 1));
+  }
+  upper_.clear();
+  lower_.clear();
+  upper_.reserve(upper + upper / 8);
+  lower_.reserve(lower + lower / 8);
 }
 
-void BandedLu::fill_band(const Matrix& matrix) {
-  const int n = static_cast<int>(order_->unknown.size());
-  const double* values = matrix.valuePtr();
-  std::fill_n(band_.get(), row_begin_.back(), 0.0);
-  for (int i = 0; i < n; ++i) {
-    double* entries = diagonal(i) - i;
-    const auto first = order_->entries.begin() + order_->row_starts[i],
-               last = order_->entries.begin() + order_->row_starts[i + 1];
-    double largest = 0;
-    for (auto entry = first; entry != last; ++entry)
-      largest = std::max(largest, std::abs(values[entry->value]));
-    const double scale = scale_[i] = largest > 0 ? 1 / largest : 1;
-    for (auto entry = first; entry != last; ++entry) entries[entry->column] = scale * values[entry->value];
-  }
-  ends_ = order_->ends;
-  for (int i = n; i < padded_; ++i) {
-    *diagonal(i) = 1;
-    ends_.push_back(i + 1);
-  }
-}
+namespace {
 
 // The row, down to `last`, that takes the place: the one that is there if it is not much less than the
 // largest, since every exchange widens the band.
-NURBEAM_WITHIN int BandedLu::pivot_of(int column, int last) const {
+template <class Window>
+NURBEAM_WITHIN int pivot_of(Window& window, int column, int last) {
   constexpr double enough = 0.1;
-  const auto size = [&](int i) { return std::abs(diagonal(i)[column - i]); };
+  const auto size = [&](int i) { return std::abs(window.diagonal(i)[column - i]); };
   int pivot = column;
   double largest = size(column) / enough;
   for (int i = column + 1; i <= last; ++i)
@@ -242,31 +180,51 @@ NURBEAM_WITHIN int BandedLu::pivot_of(int column, int last) const {
 }
 
 // Exchanges two rows from the first one's diagonal on.
-NURBEAM_WITHIN void BandedLu::exchange(int k, int p) {
-  const int end = std::max(ends_[k], ends_[p]);
-  std::swap_ranges(diagonal(k), diagonal(k) + end - k, diagonal(p) + k - p);
-  std::swap(ends_[k], ends_[p]);
+template <class Window>
+NURBEAM_WITHIN void exchange(Window& window, int k, int p) {
+  const int end = std::max(window.end(k), window.end(p));
+  std::swap_ranges(window.diagonal(k), window.diagonal(k) + end - k, window.diagonal(p) + k - p);
+  std::swap(window.end(k), window.end(p));
 }
 
-// Takes the unknown of a column out of the rows below, down to `last`.
-NURBEAM_WITHIN void BandedLu::take_out(int k, int last) {
-  const int length = ends_[k] - k;
-  const double* upper = diagonal(k);
-  double* multipliers = lower_.data() + lower_begin_[k];
-  int& reach = reach_[k / block];
+// Takes the unknown of a column out of the rows below, down to `last`; returns the last one that changes.
+template <class Window>
+NURBEAM_WITHIN int take_out_of_rows(Window& window, int k, int last, double inverse) {
+  const int length = window.end(k) - k, begin = k - k % block;
+  const double* upper = window.diagonal(k);
+  double* multipliers = window.multipliers(k % block) - begin;
+  int reach = 0;
   for (int i = k + 1; i <= last; ++i) {
-    double* below = diagonal(i) + k - i;
-    const double factor = multipliers[i - k - 1] = below[0] * inverse_[k];
+    double* below = window.diagonal(i) + k - i;
+    const double factor = multipliers[i] = below[0] * inverse;
     if (factor == 0) continue;
-    reach = std::max(reach, i);
-    ends_[i] = std::max(ends_[i], ends_[k]);
+    reach = i;
+    window.end(i) = std::max(window.end(i), window.end(k));
     for (int j = 1; j < length; j += block) four(below + j) -= factor * four(upper + j);
+  }
+  return reach;
+}
+
+}  // namespace
+
+// Puts the block's rows of U and columns of L away.
+NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
+  Block& own = blocks_[k / block];
+  int end = 0;
+  for (int r = 0; r < block; ++r) end = std::max(end, window.end(k + r));
+  const int upper = own.upper_length = rounded_length(k, end),
+            lower = own.lower_length = rounded_length(k, own.reach + 1);
+  own.upper_begin = append(upper_, block * upper);
+  own.lower_begin = append(lower_, block * lower);
+  for (int r = 0; r < block; ++r) {
+    std::copy_n(window.diagonal(k + r) - r, upper, upper_.data() + own.upper_begin + r * upper);
+    std::copy_n(window.multipliers(r), lower, lower_.data() + own.lower_begin + r * lower);
   }
 }
 
 NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
   std::array<const double*, block> u;  // from column k on
-  for (int r = 0; r < block; ++r) u[r] = diagonal(k + r) - r;
+  for (int r = 0; r < block; ++r) u[r] = upper_row(k + r) + k;
   Square &inverse = blocks_[k / block].upper, &next = blocks_[k / block].from_next;
   for (int j = 0; j < block; ++j) {
     inverse[j] = {};
@@ -302,44 +260,62 @@ NURBEAM_WITHIN void BandedLu::invert_lower(int k) {
     four(own.from_previous[j].data()) = product(own.lower, four(before[j] + block - 1 - j));
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows() {
+NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix) {
   const int n = static_cast<int>(order_->unknown.size());
+  Window window(*this, matrix);
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (int k = 0; k < padded_; ++k) {
-    const int last = k < n ? order_->below[k] : k, p = pivots_[k] = pivot_of(k, last);
-    if (p != k) exchange(k, p);
-    const double pivot = *diagonal(k);
+    const int last = k < n ? order_->below[k] : k;
+    if (k % block == 0) {
+      window.begin_block(k);
+      blocks_[k / block].reach = 0;
+    }
+    window.reach(last);
+    const int p = pivots_[k] = pivot_of(window, k, last);
+    if (p != k) exchange(window, k, p);
+    const double pivot = *window.diagonal(k);
     if (pivot == 0) return 0;
     inverse_[k] = 1 / pivot;
     if (k < n) {
       smallest = std::min(smallest, std::abs(pivot));
       largest = std::max(largest, std::abs(pivot));
     }
-    if (k % block == 0) reach_[k / block] = 0;
-    take_out(k, last);
-    if (k % block == block - 1) {
-      invert_upper(k - k % block);
-      invert_lower(k - k % block);
-    }
+    int& reach = blocks_[k / block].reach;
+    reach = std::max(reach, take_out_of_rows(window, k, last, inverse_[k]));
+    if (k % block != block - 1) continue;
+    const int begin = k - k % block;
+    keep_block(begin, window);
+    invert_upper(begin);
+    invert_lower(begin);
   }
   return largest > 0 ? smallest / largest : 0;
 }
 
 double BandedLu::factorise(const Matrix& matrix) {
-  fill_band(matrix);
-  return order_->unknown.empty() ? 1 : eliminate_rows();
+  upper_.clear();
+  lower_.clear();
+  return order_->unknown.empty() ? 1 : eliminate_rows(matrix);
 }
 
+// From column 0 on, if it were so long.
+NURBEAM_WITHIN const double* BandedLu::upper_row(int k) const {
+  const Block& own = blocks_[k / block];
+  const int row = k % block;
+  return upper_.data() + own.upper_begin + row * own.upper_length - (k - row);
+}
+
+// Of the rows below the diagonal of each column.
 NURBEAM_WITHIN std::array<const double*, block> BandedLu::multipliers(int k) const {
+  const Block& own = blocks_[k / block];
   std::array<const double*, block> m;
-  for (int c = 0; c < block; ++c) m[c] = lower_.data() + lower_begin_[k + c];
+  for (int c = 0; c < block; ++c) m[c] = lower_.data() + own.lower_begin + c * own.lower_length + c + 1;
   return m;
 }
 
 // Takes a block of unknowns whose rows stay out of the right-hand sides below it, from the `first` one on.
 NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, int first, double* y) const {
   const std::array<const double*, block> m = multipliers(k);
-  for (int i = first; k + block + i <= reach_[k / block]; i += block)
+  for (int i = first; k + block + i <= blocks_[k / block].reach; i += block)
     four(y + block + i) -= four(m[0] + i + 3) * x[0] + four(m[1] + i + 2) * x[1] + four(m[2] + i + 1) * x[2] +
                            four(m[3] + i) * x[3];
 }
@@ -355,7 +331,7 @@ NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
   const std::array<const double*, block> m = multipliers(k);
   for (int c = 0; c < block; ++c) {
     std::swap(y[c], all[pivots_[k + c]]);
-    for (int i = 0; k + c + 1 + i <= reach_[k / block]; ++i) y[c + 1 + i] -= m[c][i] * y[c];
+    for (int i = 0; k + c + 1 + i <= blocks_[k / block].reach; ++i) y[c + 1 + i] -= m[c][i] * y[c];
   }
 }
 
@@ -394,7 +370,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last
     const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
     if (is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3)) continue;
     eliminate(k, y.data());
-    last = std::max({last, reach_[k / block], *std::max_element(&pivots_[k], &pivots_[k] + block)});
+    last = std::max({last, blocks_[k / block].reach, *std::max_element(&pivots_[k], &pivots_[k] + block)});
   }
 }
 
@@ -402,15 +378,15 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
   Four after = {};
   for (int k = padded_ - block; k >= 0; k -= block) {
-    std::array<const double*, block> u;  // from column k on
-    for (int r = 0; r < block; ++r) u[r] = diagonal(k + r) - r;
+    const Block& own = blocks_[k / block];
+    const double* u = upper_.data() + own.upper_begin;
     double* y = all.data() + k;
-    const int length = *std::max_element(&ends_[k], &ends_[k] + block) - k;
+    const int length = own.upper_length;
     Four sums[block] = {};
     for (int j = 2 * block; j < length; j += block)
-      for (int r = 0; r < block; ++r) sums[r] += four(u[r] + j) * four(y + j);
+      for (int r = 0; r < block; ++r) sums[r] += four(u + r * length + j) * four(y + j);
     const Four rest = four(y) - Four{sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]), sum_of(sums[3])};
-    after = product(blocks_[k / block].upper, rest) - product(blocks_[k / block].from_next, after);
+    after = product(own.upper, rest) - product(own.from_next, after);
     four(y) = after;
   }
 }
@@ -419,9 +395,10 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first
   for (int k = first; k <= last; ++k) {
     if (y[k] == 0) continue;
     y[k] *= inverse_[k];
-    const double* u = diagonal(k);
-    for (int i = 1; i < ends_[k] - k; ++i) y[k + i] -= u[i] * y[k];
-    last = std::max(last, ends_[k] - 1);
+    const double* u = upper_row(k);
+    const int end = std::min(k - k % block + blocks_[k / block].upper_length, padded_);
+    for (int i = k + 1; i < end; ++i) y[i] -= u[i] * y[k];
+    last = std::max(last, end - 1);
   }
 }
 
@@ -436,16 +413,16 @@ NURBEAM_WITHIN void BandedLu::solve_beside(double* y) const {
     for (int c = 0; c < times; ++c) x[c] = pivot[c];
     if (own != pivot)
       for (int c = 0; c < times; ++c) std::swap(own[c], pivot[c]);
-    const double* multipliers = lower_.data() + lower_begin_[k] - k - 1;
-    const int last = order_->below[k];
+    const double* m = multipliers(k - k % block)[k % block] - k - 1;
+    const int last = std::min(order_->below[k], blocks_[k / block].reach);
     for (int i = k + 1; i <= last; ++i)
-      for (int c = 0; c < times; ++c) at(i)[c] -= multipliers[i] * x[c];
+      for (int c = 0; c < times; ++c) at(i)[c] -= m[i] * x[c];
   }
   for (int k = n - 1; k >= 0; --k) {
-    const double* upper = diagonal(k) - k;
+    const double* upper = upper_row(k);
     Four* own = at(k);
     for (int c = 0; c < times; ++c) x[c] = own[c];
-    const int end = ends_[k];
+    const int end = std::min(k - k % block + blocks_[k / block].upper_length, n);
     for (int j = k + 1; j < end; ++j)
       for (int c = 0; c < times; ++c) x[c] -= upper[j] * at(j)[c];
     for (int c = 0; c < times; ++c) own[c] = inverse_[k] * x[c];
