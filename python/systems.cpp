@@ -113,7 +113,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> residual(const Equations& e, const s
 
 Eigen::SparseMatrix<double> tangent(const Equations& e, double mass, double damping, double stiffness,
                                     const std::optional<double>& t, Given q, Given v, Given a, Given lambda) {
-  Eigen::SparseMatrix<double> kkt = e.system().tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = e.system().tangent_pattern().matrix();
   e.system().tangent(e.at(t, q, v, a, lambda), {mass, damping, stiffness}, kkt);
   return kkt;
 }

@@ -19,7 +19,7 @@ struct ScaledKkt {
   double scale = 1;
 
   ScaledKkt(const SecondOrderSystem& system, const State& state, double h = 0)
-      : matrix(system.tangent_pattern()) {
+      : matrix(system.tangent_pattern().matrix()) {
     system.tangent(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, matrix);
     scale_coordinates(system.coordinate_count());
   }
@@ -50,11 +50,11 @@ class LocalKkt {
       : n_(system.coordinate_count()), pattern_(system.tangent_pattern()), near_(pattern_, around, reach) {
     if (!is_worth_it()) return;
     // Nobody looks at the other columns.
-    values_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(pattern_.nonZeros()));
-    const int* starts = pattern_.outerIndexPtr();
+    values_ = std::make_unique_for_overwrite<double[]>(pattern_.rows().size());
+    const int* starts = pattern_.column_starts().data();
     for (const int i : near_.unknowns)
       std::fill(values_.get() + starts[i], values_.get() + starts[i + 1], 0.0);
-    std::vector<bool> is_near(static_cast<std::size_t>(pattern_.cols()), false);
+    std::vector<bool> is_near(static_cast<std::size_t>(pattern_.size()), false);
     for (std::size_t k = 0; k < near_.rows; ++k) is_near[near_.unknowns[k]] = true;
     system.tangent_near(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, is_near, values_.get());
     scale_coordinates();
@@ -62,7 +62,7 @@ class LocalKkt {
 
   /// Whether much of the system lies beyond.
   bool is_worth_it() const {
-    return 4 * near_.unknowns.size() < 3 * static_cast<std::size_t>(pattern_.cols());
+    return 4 * near_.unknowns.size() < 3 * static_cast<std::size_t>(pattern_.size());
   }
 
   /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m). Precondition: is_worth_it().
@@ -71,9 +71,9 @@ class LocalKkt {
     Eigen::VectorXd right(top.size() + bottom.size()), left(right.size());
     right << top / scale_, bottom;
     left << x, y / scale_;
-    const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(pattern_.rows(), pattern_.cols(),
-                                                               pattern_.nonZeros(), pattern_.outerIndexPtr(),
-                                                               pattern_.innerIndexPtr(), values_.get());
+    const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(
+        pattern_.size(), pattern_.size(), static_cast<Eigen::Index>(pattern_.rows().size()),
+        pattern_.column_starts().data(), pattern_.rows().data(), values_.get());
     if (!right.allFinite() || !left.allFinite() || !correct_around(matrix, right, near_, beyond, left))
       return false;
     x = left.head(x.size());
@@ -83,7 +83,7 @@ class LocalKkt {
 
  private:
   void scale_coordinates() {
-    const int *starts = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();
+    const int *starts = pattern_.column_starts().data(), *rows = pattern_.rows().data();
     double largest = 0;
     for (std::size_t k = 0; k < near_.rows; ++k)
       if (const int i = near_.unknowns[k]; i < n_)
@@ -96,7 +96,7 @@ class LocalKkt {
   }
 
   int n_;
-  const Eigen::SparseMatrix<double>& pattern_;
+  const SparsePattern& pattern_;
   Surroundings near_;
   std::unique_ptr<double[]> values_;
   double scale_ = 1;
@@ -168,7 +168,7 @@ Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
 
 /// (m) G v + dg/dt.
 Eigen::VectorXd constraint_speeds(const SecondOrderSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> gradient = system.tangent_pattern();
+  Eigen::SparseMatrix<double> gradient = system.tangent_pattern().matrix();
   system.tangent(state, {}, gradient);
   Eigen::VectorXd padded = Eigen::VectorXd::Zero(gradient.cols());
   padded.head(state.v.size()) = state.v;

@@ -17,7 +17,7 @@ struct Entry {
 
 // The rows of G, each of unit length.
 std::vector<std::vector<Entry>> unit_rows(const SecondOrderSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, {}, kkt);
   const int n = system.coordinate_count();
   std::vector<std::vector<Entry>> rows(system.constraint_count());

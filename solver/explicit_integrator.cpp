@@ -31,7 +31,7 @@ class FirstOrderEquations {
         T_(time_scale),
         s_(system.coordinate_scale()),
         state_(start),
-        mass_(system.tangent_pattern()),
+        mass_(system.tangent_pattern().matrix()),
         force_(n_),
         constraints_(system.constraint_count()),
         right_side_(n_ + system.constraint_count()) {}

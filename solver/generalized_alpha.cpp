@@ -122,7 +122,7 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   parameters_ = parameters(settings_.rho_infinity);
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
-  kkt_ = system.tangent_pattern();
+  kkt_ = system.tangent_pattern().matrix();
   scale_ = system.coordinate_scale();
   inverse_scale_ = scale_.cwiseInverse();
   trial_ = state_;

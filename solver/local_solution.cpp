@@ -148,13 +148,13 @@ bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::
   return true;
 }
 
-Surroundings::Surroundings(const Matrix& pattern, const std::vector<int>& around, int reach)
+Surroundings::Surroundings(const SparsePattern& pattern, const std::vector<int>& around, int reach)
     : unknowns(around) {
-  std::vector<int> place(static_cast<std::size_t>(pattern.cols()), -1);
+  std::vector<int> place(static_cast<std::size_t>(pattern.size()), -1);
   for (const int unknown : around) place[unknown] = 0;
   std::size_t begin = 0;
   const auto go_on = [&] {
-    begin = append_coupled(pattern.outerIndexPtr(), pattern.innerIndexPtr(), begin, unknowns, place);
+    begin = append_coupled(pattern.column_starts().data(), pattern.rows().data(), begin, unknowns, place);
   };
   for (; reach > 0 && begin < unknowns.size(); --reach) go_on();
   inner = unknowns.size();

@@ -2,6 +2,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "solver/sparse_pattern.h"
+
 namespace nurbeam {
 
 /// Corrects x until A x = b to round-off. Where only few rows are open, and what closes them fades away from
@@ -16,7 +18,7 @@ struct Surroundings {
   std::vector<int> unknowns;  ///< two levels beyond the reach
   std::size_t inner, rows;    ///< how many of these are within it, and one level beyond
 
-  Surroundings(const Eigen::SparseMatrix<double>& pattern, const std::vector<int>& around, int reach);
+  Surroundings(const SparsePattern& pattern, const std::vector<int>& around, int reach);
 };
 
 enum class Beyond {

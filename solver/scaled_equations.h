@@ -20,7 +20,7 @@ class ScaledEquations {
         n_(system.coordinate_count()),
         m_(system.constraint_count()),
         state_(start),
-        tangent_(system.tangent_pattern()),
+        tangent_(system.tangent_pattern().matrix()),
         unknown_scale_(Vector::Ones(n_ + m_)),
         row_factor_(Vector::Ones(n_ + m_)) {
     state_.v.setZero(n_);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "solver/sparse_pattern.h"
 #include "solver/state.h"
 
 namespace nurbeam {
@@ -35,12 +36,11 @@ class SecondOrderSystem {
     residual(state, dynamics, constraints);
   }
 
-  /// An (n+m) x (n+m) compressed matrix with the fixed pattern of `tangent` (diagonal of the (2,2) block
-  /// included as explicit zeros), values zero.
-  virtual const Eigen::SparseMatrix<double>& tangent_pattern() const = 0;
+  /// The fixed pattern of `tangent`, (n+m) x (n+m), the diagonal of the (2,2) block included.
+  virtual const SparsePattern& tangent_pattern() const = 0;
 
   /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, dF/dlambda], [G, 0]], F = dynamics at
-  /// `state` (lambda included), into a matrix made by tangent_pattern(). dF/dlambda is G' where all weights
+  /// `state` (lambda included), into a matrix of tangent_pattern(). dF/dlambda is G' where all weights
   /// are 0.
   virtual void tangent(const State& state, const TangentWeights& w,
                        Eigen::SparseMatrix<double>& kkt) const = 0;
@@ -50,7 +50,7 @@ class SecondOrderSystem {
   /// alone.
   virtual void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                             double* values) const {
-    Eigen::SparseMatrix<double> whole = tangent_pattern();
+    Eigen::SparseMatrix<double> whole = tangent_pattern().matrix();
     tangent(state, w, whole);
     for (Eigen::Index column = 0; column < whole.cols(); ++column)
       for (int k = whole.outerIndexPtr()[column]; k < whole.outerIndexPtr()[column + 1]; ++k)

@@ -32,7 +32,7 @@ class StabilisedEquations {
         T_(time_scale),
         s_(system.coordinate_scale()),
         state_(start),
-        tangent_(system.tangent_pattern()),
+        tangent_(system.tangent_pattern().matrix()),
         inertia_(tangent_),
         dynamics_(n_),
         constraints_(m_),

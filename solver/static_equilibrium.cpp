@@ -218,7 +218,7 @@ class EquilibriumSearch {
     const int n = system_.coordinate_count(), m = system_.constraint_count();
     Vector rows(n), constraints(m);
     system_.residual(state, rows, constraints);
-    Eigen::SparseMatrix<double> kkt = system_.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = system_.tangent_pattern().matrix();
     system_.tangent(state, {}, kkt);
     for (int row = 0; row < m; ++row)
       for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt, n + row); entry; ++entry)

@@ -108,7 +108,7 @@ void MotionTangents::start_afresh(Eigen::Index parameter, const State& tangent) 
 StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system)
     : parameters_(GeneralizedAlphaIntegrator::parameters(settings.rho_infinity)),
       system_(&system),
-      mass_(system.tangent_pattern()),
+      mass_(system.tangent_pattern().matrix()),
       damping_(mass_),
       stiffness_(mass_),
       kkt_(mass_),

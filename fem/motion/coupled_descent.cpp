@@ -70,7 +70,7 @@ std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::
 
 std::optional<Eigen::MatrixXd> holding_stiffness(const BeamSystem& system, const State& state,
                                                  const std::vector<int>& joints) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, {.stiffness = 1}, kkt);
   KktSolver solver;
   if (!solver.factorise(kkt)) return {};

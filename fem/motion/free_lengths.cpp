@@ -75,7 +75,7 @@ class LengthEquations {
 
   // dq/dl_0 of the equilibrium, a column per connector.
   Eigen::MatrixXd by_lengths(const std::vector<int>& connectors) const {
-    Eigen::SparseMatrix<double> kkt = a_.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = a_.tangent_pattern().matrix();
     a_.tangent(state_, {.stiffness = 1}, kkt);
     const int n = a_.coordinate_count();
     const EquilibratedKkt solver(kkt, n);

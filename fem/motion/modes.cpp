@@ -21,7 +21,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
 Matrix tangent(const BeamSystem& system, const State& state, const TangentWeights& w) {
-  Matrix kkt = system.tangent_pattern();
+  Matrix kkt = system.tangent_pattern().matrix();
   system.tangent(state, w, kkt);
   return kkt;
 }

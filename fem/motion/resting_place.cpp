@@ -70,7 +70,7 @@ class LoadedBetween final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override {
     system_.residual(loaded(state), dynamics, constraints);
   }
-  const Eigen::SparseMatrix<double>& tangent_pattern() const override { return system_.tangent_pattern(); }
+  const SparsePattern& tangent_pattern() const override { return system_.tangent_pattern(); }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
     if (interrupted_ && interrupted_()) throw Interruption{};
     system_.tangent(loaded(state), w, kkt);

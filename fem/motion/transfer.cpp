@@ -174,7 +174,7 @@ class Remap {
 
   Eigen::MatrixXd tangent_block(const State& still, const TangentWeights& weights,
                                 const std::vector<int>& rows, const std::vector<int>& columns) const {
-    Eigen::SparseMatrix<double> kkt = to_.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = to_.tangent_pattern().matrix();
     to_.tangent(still, weights, kkt);
     Eigen::MatrixXd block(rows.size(), columns.size());
     for (long i = 0; i < block.rows(); ++i)

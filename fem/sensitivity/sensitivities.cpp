@@ -197,7 +197,7 @@ void Sensitivities::begins(const MeshedState& drawn) {
 
 void Sensitivities::rests(const MeshedState& at) {
   const int n = at.system->coordinate_count(), m = at.system->constraint_count();
-  Eigen::SparseMatrix<double> stiffness = at.system->tangent_pattern();
+  Eigen::SparseMatrix<double> stiffness = at.system->tangent_pattern().matrix();
   at.system->tangent(at.state, {.stiffness = 1}, stiffness);
   ++work_.tangents;
   for (Parameter& parameter : parameters_) {

@@ -96,7 +96,7 @@ class Assembly final : public SecondOrderSystem {
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
-  const Eigen::SparseMatrix<double>& tangent_pattern() const override { return pattern_; }
+  const SparsePattern& tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;
@@ -197,7 +197,7 @@ class Assembly final : public SecondOrderSystem {
   std::vector<ConstraintBlock> constraint_blocks_;
   std::vector<int> over_mesh_;  // constraints that move over the mesh
   MovingPart moving_;
-  Eigen::SparseMatrix<double> pattern_;
+  SparsePattern pattern_;
 };
 
 // Calls work(i) for each batch, in a long beam several at a time: first in every other one of an even number

@@ -13,12 +13,12 @@ namespace {
 
 // Where the entries of a sparse matrix are among its values.
 struct SparsePlaces {
-  const Eigen::SparseMatrix<double>& of;
+  const SparsePattern& of;
 
-  int start(int column) const { return of.outerIndexPtr()[column]; }
+  int start(int column) const { return of.column_starts()[column]; }
   /// `guess`: how far it may be from the start of its column.
   int operator()(int row, int column, int guess) const {
-    const int* const all = of.innerIndexPtr();
+    const int* const all = of.rows().data();
     const int begin = start(column), end = start(column + 1);
     if (guess < end - begin && all[begin + guess] == row) return begin + guess;
     return static_cast<int>(std::lower_bound(all + begin, all + end, row) - all);
@@ -162,7 +162,7 @@ void Assembly<D>::build_pattern() {
     coupling.add(n + constraint.row, constraint.rows);
     coupling.close();
   }
-  coupling.pattern().swap(pattern_);
+  pattern_ = coupling.pattern();
 
   const SparsePlaces index_of{pattern_};
   for (Block& block : element_blocks_) locate(block, index_of);

@@ -71,7 +71,7 @@ void BeamSystem::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynami
 void BeamSystem::constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const {
   system_->constraints(state, constraints);
 }
-const Eigen::SparseMatrix<double>& BeamSystem::tangent_pattern() const { return system_->tangent_pattern(); }
+const SparsePattern& BeamSystem::tangent_pattern() const { return system_->tangent_pattern(); }
 void BeamSystem::tangent(const State& state, const TangentWeights& w,
                          Eigen::SparseMatrix<double>& kkt) const {
   system_->tangent(state, w, kkt);

@@ -45,7 +45,7 @@ class BeamSystem final : public SecondOrderSystem {
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
-  const Eigen::SparseMatrix<double>& tangent_pattern() const override;
+  const SparsePattern& tangent_pattern() const override;
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;

@@ -1,10 +1,11 @@
 #include "fem/system/coupling.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nurbeam {
 
-Eigen::SparseMatrix<double> Coupling::pattern() const {
+SparsePattern Coupling::pattern() const {
   // The groups of each unknown.
   std::vector<int> first_group(static_cast<std::size_t>(size_) + 1, 0), groups(members_.size());
   for (const int i : members_) ++first_group[i + 1];
@@ -20,16 +21,16 @@ Eigen::SparseMatrix<double> Coupling::pattern() const {
     return begin < end && end - begin == begin - before &&
            std::equal(groups.begin() + begin, groups.begin() + end, groups.begin() + before);
   };
-  std::vector<int> rows, last_column(static_cast<std::size_t>(size_), -1);
+  std::vector<int> rows, starts(static_cast<std::size_t>(size_) + 1, 0),
+      last_column(static_cast<std::size_t>(size_), -1);
   rows.reserve(2 * members_.size());
-  Eigen::SparseMatrix<double> matrix(size_, size_);
   for (int column = 0; column < size_; ++column) {
     const auto begin = static_cast<std::ptrdiff_t>(rows.size());
     if (is_like_previous(column)) {
-      const auto previous = matrix.outerIndexPtr()[column - 1];
+      const auto previous = starts[column - 1];
       rows.resize(rows.size() + static_cast<std::size_t>(begin - previous));
       std::copy_n(rows.begin() + previous, begin - previous, rows.begin() + begin);
-      matrix.outerIndexPtr()[column + 1] = static_cast<int>(rows.size());
+      starts[column + 1] = static_cast<int>(rows.size());
       continue;
     }
     const auto take = [&](int row) {
@@ -42,12 +43,10 @@ Eigen::SparseMatrix<double> Coupling::pattern() const {
       std::for_each(members_.begin() + group_starts_[groups[k]],
                     members_.begin() + group_starts_[groups[k] + 1], take);
     std::sort(rows.begin() + begin, rows.end());
-    matrix.outerIndexPtr()[column + 1] = static_cast<int>(rows.size());
+    starts[column + 1] = static_cast<int>(rows.size());
   }
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
-  std::copy(rows.begin(), rows.end(), matrix.innerIndexPtr());
-  std::fill_n(matrix.valuePtr(), rows.size(), 0.0);
-  return matrix;
+  rows.shrink_to_fit();
+  return {std::move(starts), std::move(rows)};
 }
 
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #pragma once
-#include <Eigen/SparseCore>
 #include <vector>
+
+#include "solver/sparse_pattern.h"
 
 namespace nurbeam {
 
@@ -22,8 +23,8 @@ class Coupling {
   /// Ends the group.
   void close() { group_starts_.push_back(static_cast<int>(members_.size())); }
 
-  /// The matrix with an entry where two are coupled, values zero, compressed.
-  Eigen::SparseMatrix<double> pattern() const;
+  /// With an entry where two are coupled.
+  SparsePattern pattern() const;
 
  private:
   int size_;

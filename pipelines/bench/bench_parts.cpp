@@ -89,7 +89,7 @@ SystemCost cost_of_system(int elements) {
 
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
   cost.residual = seconds_of([&] { system.residual(state, dynamics, constraints); });
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   const TangentWeights weights{.mass = 1, .damping = step / 2, .stiffness = step * step / 4};
   cost.tangent = seconds_of([&] { system.tangent(state, weights, kkt); });
   KktSolver solver;

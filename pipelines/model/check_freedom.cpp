@@ -72,7 +72,7 @@ class FreedomCheck {
     const BeamSystem system(model_);
     State state = drawn_state(system);
     start_moving(system, state);
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
     system.tangent(state, {}, kkt);
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(kkt.rows());
     padded.head(system.coordinate_count()) = state.v;

@@ -32,7 +32,7 @@ using std::numbers::pi;
 Eigen::VectorXd frequencies(const BeamSystem& system, const State& state) {
   const int n = system.coordinate_count();
   const auto tangent = [&](const TangentWeights& w) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
     system.tangent(state, w, kkt);
     return Eigen::MatrixXd(kkt);
   };

@@ -75,7 +75,7 @@ struct Flight {
   /// About the origin [kg m^2/s]: by the rotations of all nodes, which turn the angle by w . (t + m)/(1 + t .
   /// m).
   Vector3d angular_momentum() const {
-    Eigen::SparseMatrix<double> kkt = at.system->tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = at.system->tangent_pattern().matrix();
     at.system->tangent(at.state, {.mass = 1}, kkt);
     const VectorXd p = kkt * at.state.v;
     Vector3d sum = Vector3d::Zero();

@@ -30,7 +30,7 @@ struct AllowedMotions {
   AllowedMotions(const BeamSystem& system, const State& state) {
     const int n = system.coordinate_count(), m = system.constraint_count();
     const auto tangent = [&](const TangentWeights& w) {
-      Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+      Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
       system.tangent(state, w, kkt);
       return MatrixXd(kkt);
     };
@@ -131,7 +131,7 @@ State twisted_state(const BeamSystem& system, double M) {
 
 /// The stiffness at a state with coordinates `held` and others tied to one another.
 MatrixXd stiffness(const BeamSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, {.stiffness = 1}, kkt);
   return MatrixXd(kkt).topLeftCorner(system.coordinate_count(), system.coordinate_count());
 }
@@ -214,7 +214,7 @@ State equilibrium(const BeamSystem& system, State state, double load) {
   for (int i = 0; i < 30; ++i) {
     VectorXd rows(n + m);
     system.residual(state, rows.head(n), rows.tail(m));
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
     system.tangent(state, {.stiffness = 1}, kkt);
     const VectorXd step = MatrixXd(kkt).partialPivLu().solve(rows);
     state.q -= step.head(n);

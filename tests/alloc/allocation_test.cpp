@@ -49,7 +49,7 @@ void check(const auto& make_model) {
   const BeamSystem system(model, initial_plan(model));
   const State state = disturbed_state(system, random);
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   const TangentWeights all{1, 1, 1};
   for (const MeshElement<D>& e : system.assembly<D>()->elements()) {
     const ElementState<D> x = gather<D>(e, state);

@@ -17,7 +17,7 @@ namespace {
 void factorisation(benchmark::State& timing) {
   const BeamSystem system(verification::falling_beam(static_cast<int>(timing.range(0))));
   const State state = drawn_state(system);
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, {.mass = 1, .stiffness = 1e-8}, kkt);
   KktSolver solver;
   for (auto _ : timing) benchmark::DoNotOptimize(solver.factorise(kkt));

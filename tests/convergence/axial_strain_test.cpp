@@ -41,7 +41,7 @@ Eigen::VectorXd squared_frequencies(const BeamModel& model, double stretch) {
   const int n = system.coordinate_count(), D = model.dimension;
   state.lambda = Eigen::VectorXd::Zero(system.constraint_count());
   for (int i = 0; i < n; i += D) state.q[i] *= stretch;
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, {.stiffness = 1}, kkt);
   const Eigen::MatrixXd K = Eigen::MatrixXd(kkt).topLeftCorner(n, n);
   system.tangent(state, {.mass = 1}, kkt);

@@ -18,7 +18,7 @@ struct Momenta {
 
 // p = M v; a rotation turns positions and slopes.
 Momenta momenta_of(const BeamSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, {.mass = 1}, kkt);
   const Eigen::VectorXd p =
       (kkt *

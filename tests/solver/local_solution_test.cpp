@@ -115,7 +115,7 @@ Eigen::Map<const Matrix> view(const Matrix& A) {
 
 TEST(Surroundings, AreTheUnknownsByLevels) {
   const Matrix A = matrix_of(50, chain(50));
-  const Surroundings near(A, {20, 21}, 3);
+  const Surroundings near(SparsePattern(A), {20, 21}, 3);
   EXPECT_EQ(near.unknowns.size(), 12u);
   EXPECT_EQ(near.inner, 8u);
   EXPECT_EQ(near.rows, 10u);
@@ -133,7 +133,7 @@ TEST(LocalSolution, AroundWhatIsOpenIsThatOfAllWhereItSuffices) {
   Eigen::VectorXd b = A * x;
   b[open] += 0.7;
   const Eigen::VectorXd exact = solved(A, b);
-  const Surroundings near(A, {open}, 40), narrow(A, {open}, 5);
+  const Surroundings near(SparsePattern(A), {open}, 40), narrow(SparsePattern(A), {open}, 5);
   // Nobody looks at what the rows beyond have.
   for (int i = 0; i < n; ++i)
     if (std::abs(i - open) > 42) A.coeffRef(i, i) = std::numeric_limits<double>::quiet_NaN();
@@ -148,7 +148,7 @@ TEST(LocalSolution, WithTheOthersGivenClosesTheInnerRows) {
   const Matrix A = matrix_of(n, chain(n));
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1, 3).array().sin();
   const Eigen::VectorXd start = x, b = Eigen::VectorXd::LinSpaced(n, -1, 2);
-  const Surroundings near(A, {open}, 5);
+  const Surroundings near(SparsePattern(A), {open}, 5);
   ASSERT_TRUE(correct_around(view(A), b, near, Beyond::given, x));
   const Eigen::VectorXd left = b - A * x;
   for (int i = 0; i < n; ++i) {

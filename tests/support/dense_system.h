@@ -8,10 +8,9 @@ namespace nurbeam::testing {
 /// A small system given by dense matrices: fills the sparse tangent with a full pattern.
 class DenseSystem : public SecondOrderSystem {
  public:
-  const Eigen::SparseMatrix<double>& tangent_pattern() const override {
+  const SparsePattern& tangent_pattern() const override {
     const int size = coordinate_count() + constraint_count();
-    pattern_ = Eigen::MatrixXd::Ones(size, size).sparseView();
-    pattern_.coeffs().setZero();
+    pattern_ = SparsePattern(Eigen::MatrixXd::Ones(size, size).sparseView());
     return pattern_;
   }
 
@@ -49,7 +48,7 @@ class DenseSystem : public SecondOrderSystem {
   }
 
  private:
-  mutable Eigen::SparseMatrix<double> pattern_;
+  mutable SparsePattern pattern_;
 };
 
 }  // namespace nurbeam::testing

@@ -49,7 +49,7 @@ void check_custom_tangent(int seed) {
     return rows;
   };
   const auto product = [&](const TangentWeights& w, const Eigen::VectorXd& x) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
     system.tangent(state, w, kkt);
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(n + m);
     padded.head(n) = x;

@@ -24,7 +24,7 @@ ModesReport modes_of(const BeamModel& model, const ModesOptions& options = {}) {
 Eigen::VectorXd dense_squares(const BeamSystem& system, const State& state) {
   const int n = system.coordinate_count();
   const auto tangent = [&](const TangentWeights& w) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
     system.tangent(state, w, kkt);
     return Eigen::MatrixXd(kkt);
   };
@@ -66,7 +66,7 @@ TEST(Modes, ShapesHoldTheConstraintsAndHaveUnitMass) {
   ASSERT_FALSE(found.rest.failure);
   const BeamSystem& system = *found.at.system;
   const int n = system.coordinate_count(), m = system.constraint_count();
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(found.at.state, {.mass = 1}, kkt);
   const Eigen::MatrixXd dense(kkt);
   for (const Mode& a : found.modes) {

@@ -37,7 +37,7 @@ Eigen::VectorXd residual(const BeamSystem& system, const State& state) {
 }
 
 Eigen::SparseMatrix<double> tangent(const BeamSystem& system, const State& state, const TangentWeights& w) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, w, kkt);
   return kkt;
 }

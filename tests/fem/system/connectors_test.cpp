@@ -52,7 +52,7 @@ TEST(ConnectedSystem, TangentsAreRatesOfForces) {
     const State state = disturbed_state(system, random, 0.02);
     const int n = system.coordinate_count();
     const auto along = [&](const TangentWeights& w) {
-      Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+      Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
       system.tangent(state, w, kkt);
       return kkt;
     };

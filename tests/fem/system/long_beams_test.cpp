@@ -39,7 +39,7 @@ struct Sums {
 Sums sums(const BeamSystem& system, const State& state, int threads) {
   const ThreadLimit limit(threads);
   Sums sums{Eigen::VectorXd(system.coordinate_count()), Eigen::VectorXd(system.constraint_count()),
-            system.tangent_pattern()};
+            system.tangent_pattern().matrix()};
   system.residual(state, sums.dynamics, sums.constraints);
   system.tangent(state, {1, 0.5, 2}, sums.tangent);
   return sums;

@@ -52,7 +52,7 @@ void for_each_change(int dimension, Check&& check) {
 
 Eigen::SparseMatrix<double> tangent_of(const BeamSystem& system, const State& state,
                                        const TangentWeights& w) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern();
+  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
   system.tangent(state, w, kkt);
   return kkt;
 }

@@ -1,0 +1,42 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace nurbeam {
+
+/// Where a square sparse matrix has entries: column by column, the rows of each in order.
+class SparsePattern {
+ public:
+  SparsePattern() : column_starts_{0} {}
+  /// `column_starts`: index among `rows` of the first entry of each column, and the end.
+  SparsePattern(std::vector<int> column_starts, std::vector<int> rows)
+      : column_starts_(std::move(column_starts)), rows_(std::move(rows)) {}
+  /// That of a compressed matrix.
+  explicit SparsePattern(const Eigen::SparseMatrix<double>& matrix)
+      : column_starts_(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1),
+        rows_(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()) {}
+
+  /// Number of its rows, and of its columns.
+  int size() const { return static_cast<int>(column_starts_.size()) - 1; }
+  const std::vector<int>& column_starts() const { return column_starts_; }
+  const std::vector<int>& rows() const { return rows_; }
+
+  /// The compressed matrix of that pattern, values zero.
+  Eigen::SparseMatrix<double> matrix() const {
+    Eigen::SparseMatrix<double> zero(size(), size());
+    zero.resizeNonZeros(static_cast<Eigen::Index>(rows_.size()));
+    std::copy(column_starts_.begin(), column_starts_.end(), zero.outerIndexPtr());
+    std::copy(rows_.begin(), rows_.end(), zero.innerIndexPtr());
+    zero.coeffs().setZero();
+    return zero;
+  }
+
+  bool operator==(const SparsePattern&) const = default;
+
+ private:
+  std::vector<int> column_starts_, rows_;
+};
+
+}  // namespace nurbeam
