@@ -16,7 +16,7 @@ void KeptSteps::add(const Step& step) {
   if (size() > 0 && step.history.numbers[0] > 0) lengths_.back() = step.history.numbers[0];
   if (size() % spacing_ == 0) {
     if (moments_.size() == most_) {
-      for (std::size_t i = 0; 2 * i < most_; ++i) moments_[i] = std::move(moments_[2 * i]);
+      for (std::size_t i = 1; 2 * i < most_; ++i) moments_[i] = std::move(moments_[2 * i]);
       moments_.resize((most_ + 1) / 2);
       spacing_ *= 2;
     }

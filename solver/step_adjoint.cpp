@@ -8,18 +8,28 @@ namespace {
 
 using Adjoints = MotionTangents::Matrix;
 
-// Adds a part of the transpose of what a matrix does to its first columns, as many as the sum has rows.
-void add_transposed(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, double part,
-                    Adjoints& sum) {
+// Subtracts the transpose of what a matrix does to its first columns, as many as `from` has rows, in `count`
+// columns of both.
+template <int count>
+void subtract_some(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Eigen::Index first,
+                   Adjoints& from) {
   const int *starts = matrix.outerIndexPtr(), *rows = matrix.innerIndexPtr();
   const double* values = matrix.valuePtr();
-  const Eigen::Index quantities = sum.cols();
-  for (Eigen::Index column = 0; column < sum.rows(); ++column)
-    for (Eigen::Index i = 0; i < quantities; ++i) {
-      double product = 0;
-      for (int k = starts[column]; k < starts[column + 1]; ++k) product += values[k] * to(rows[k], i);
-      sum(column, i) += part * product;
-    }
+  const double* factors = to.data() + first;
+  const Eigen::Index quantities = from.cols();
+  double* result = from.data() + first;
+  for (Eigen::Index column = 0; column < from.rows(); ++column, result += quantities) {
+    double sums[count] = {};
+    for (int k = starts[column]; k < starts[column + 1]; ++k)
+      for (int c = 0; c < count; ++c) sums[c] += values[k] * factors[rows[k] * quantities + c];
+    for (int c = 0; c < count; ++c) result[c] -= sums[c];
+  }
+}
+
+void subtract_transposed(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Adjoints& from) {
+  Eigen::Index first = 0;
+  for (; first + 4 <= from.cols(); first += 4) subtract_some<4>(matrix, to, first, from);
+  for (; first < from.cols(); ++first) subtract_some<1>(matrix, to, first, from);
 }
 
 }  // namespace
@@ -62,9 +72,9 @@ MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multi
   MotionTangents start = MotionTangents::zero(end.q.rows(), end.lambda.rows(), end.parameters());
   // By what the step predicts.
   start.q = end.q;
-  add_transposed(step_.stiffness, multipliers, -1, start.q);
+  subtract_transposed(step_.stiffness, multipliers, start.q);
   Matrix v = end.v;
-  if (step_.damped) add_transposed(step_.damping, multipliers, -1, v);
+  if (step_.damped) subtract_transposed(step_.damping, multipliers, v);
   const Matrix still = end.algorithmic_acceleration + end.jerk / h + h * h * beta * start.q + h * gamma * v;
   // By what it begins with.
   const Matrix algorithmic =
