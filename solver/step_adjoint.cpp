@@ -29,7 +29,10 @@ void subtract_some(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to
 void subtract_transposed(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Adjoints& from) {
   Eigen::Index first = 0;
   for (; first + 4 <= from.cols(); first += 4) subtract_some<4>(matrix, to, first, from);
-  for (; first < from.cols(); ++first) subtract_some<1>(matrix, to, first, from);
+  const Eigen::Index left = from.cols() - first;
+  if (left == 3) subtract_some<3>(matrix, to, first, from);
+  if (left == 2) subtract_some<2>(matrix, to, first, from);
+  if (left == 1) subtract_some<1>(matrix, to, first, from);
 }
 
 }  // namespace
@@ -79,18 +82,21 @@ MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multi
   // By what it begins with.
   const Matrix algorithmic =
       -alpha_m / (1 - alpha_m) * still - end.jerk / h + h * h * (0.5 - beta) * start.q + h * (1 - gamma) * v;
-  Eigen::RowVectorXd by_length = end.last_step + end.t - later.transpose() * multipliers;
-  by_length += step_.q_by_length().transpose() * start.q + step_.v_by_length().transpose() * v;
-  by_length -= (step_.end_algorithmic - step_.start_algorithmic).transpose() * end.jerk / (h * h);
   start.v = h * start.q + v;
   start.a = alpha_f / (1 - alpha_m) * still;
   (step_.start == Start::afresh ? start.a : start.algorithmic_acceleration) += algorithmic;
+  if (step_.start == Start::moved) start.jerk = step_.lag() * (h - step_.last_step) * algorithmic;
+  if (later.size() == 0) return start;
+  // By its length.
+  start.t = end.t - later.transpose() * multipliers;
+  Eigen::RowVectorXd by_length = start.t + end.last_step;
+  by_length += step_.q_by_length().transpose() * start.q + step_.v_by_length().transpose() * v;
+  by_length -= (step_.end_algorithmic - step_.start_algorithmic).transpose() * end.jerk / (h * h);
   if (step_.start == Start::moved) {
-    start.jerk = step_.lag() * (h - step_.last_step) * algorithmic;
     start.last_step = -step_.lag() * step_.jerk.transpose() * algorithmic;
     by_length -= start.last_step;
   }
-  start.t = end.t - later.transpose() * multipliers + by_time * by_length;
+  start.t += by_time * by_length;
   return start;
 }
 

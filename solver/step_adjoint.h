@@ -25,7 +25,8 @@ class StepAdjoint {
   /// each.
   Matrix multipliers(const MotionTangents& end) const;
   /// The derivatives by what the step begins with. Its length changes by `by_time` of what t does at its
-  /// start, and the residual at `after` by `later` (n + m) with t.
+  /// start, and the residual at `after` by `later` (n + m) with t; where that is empty
+  /// nothing changes times, and what they would do is left out.
   MotionTangents start(const MotionTangents& end, const Matrix& multipliers, double by_time,
                        const Eigen::VectorXd& later) const;
 

@@ -97,24 +97,27 @@ void Sensitivities::carry() {
 
 void Sensitivities::choose(const std::vector<std::size_t>& records, std::size_t quantities) {
   if (!stretch_) return;
-  // What the derivatives of quantities by one state take, in solutions for a parameter.
-  constexpr double of_a_record = 50;
+  // In what a parameter takes over a step: a quantity back over one, which is the smaller part of as many
+  // that go side by side; the derivatives of quantities by one state.
+  constexpr double of_a_quantity = 5, of_a_record = 50;
   std::size_t last = 0, count = 0;
   for (const std::size_t record : records)
     if (!records_[record].tangents) last = records_[record].position, ++count;
   const double forward = static_cast<double>(parameters_.size() * stretch_->steps.size());
-  const double back = static_cast<double>(quantities * last) + of_a_record * static_cast<double>(count);
+  const double back =
+      of_a_quantity * static_cast<double>(quantities * last) + of_a_record * static_cast<double>(count);
   if (back >= forward) carry();
 }
 
-Eigen::MatrixXd Sensitivities::through_states(const std::vector<std::size_t>& records,
-                                              const std::vector<ProbePlace>& probes,
-                                              const SnapshotContents& contents, std::size_t count,
-                                              const Quantities& quantities) {
+MotionTangents::Matrix Sensitivities::through_states(const std::vector<std::size_t>& records,
+                                                     const std::vector<ProbePlace>& probes,
+                                                     const SnapshotContents& contents, std::size_t count,
+                                                     const Quantities& quantities) {
   const auto at_record = [&](std::size_t record, const BeamSystem& system, const State& state) {
     return quantities(record, record_snapshot(system, state, probes, contents));
   };
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), tangents_.parameters());
+  MotionTangents::Matrix sum =
+      MotionTangents::Matrix::Zero(static_cast<Eigen::Index>(count), tangents_.parameters());
   std::vector<std::size_t> of_steps;
   for (const std::size_t record : records)
     if (const Rest* rest = records_[record].rest.get())
@@ -145,9 +148,9 @@ Eigen::MatrixXd Sensitivities::through_states(const std::vector<std::size_t>& re
 // quantities) derivatives by the state of one.
 void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
                                       const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
-                                      Eigen::MatrixXd& sum) {
+                                      MotionTangents::Matrix& sum) {
   const Eigen::Index n = state_.q.size(), m = state_.lambda.size();
-  const bool times_change = !tangents_.t.isZero(0);
+  const bool times_change = !tangents_.t.isZero(0) || !tangents_.last_step.isZero(0);
   const Eigen::RowVectorXd same_time = Eigen::RowVectorXd::Zero(tangents_.parameters());
   StepAdjoint adjoint(settings_, *system_);
   MotionTangents adjoints = MotionTangents::zero(n, m, sum.rows());
@@ -161,9 +164,10 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
     const MotionTangents::Matrix mu = adjoint.multipliers(adjoints);
     work_.solves += mu.cols();
     take_off(find_residual_changes(step.after, same_time), adjoint.stiffness());
-    sum -= mu.topRows(n).transpose() * dynamics_ + mu.bottomRows(m).transpose() * constraints_;
-    const Vector later = times_change ? rates_with_time(step.after, step.after.t - step.before.t)
-                                      : Vector(Vector::Zero(n + m));
+    sum.noalias() -= mu.topRows(n).transpose() * dynamics_;
+    sum.noalias() -= mu.bottomRows(m).transpose() * constraints_;
+    Vector later;
+    if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);
     adjoints = adjoint.start(adjoints, mu, stretch_->by_time[i], later);
   });
   sum += product(adjoints, tangents_);

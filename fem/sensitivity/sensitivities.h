@@ -83,9 +83,10 @@ class Sensitivities final : public RunFollower {
   using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;
   /// Of quantities of these records (quantities x parameters), by adjoints: what they change by as these do,
   /// but for how their neighbours differ. `probes`: of the run itself.
-  Eigen::MatrixXd through_states(const std::vector<std::size_t>& records,
-                                 const std::vector<ProbePlace>& probes, const SnapshotContents& contents,
-                                 std::size_t count, const Quantities& quantities);
+  MotionTangents::Matrix through_states(const std::vector<std::size_t>& records,
+                                        const std::vector<ProbePlace>& probes,
+                                        const SnapshotContents& contents, std::size_t count,
+                                        const Quantities& quantities);
 
   void begins(const MeshedState& drawn) override;
   void rests(const MeshedState& at) override;
@@ -117,7 +118,8 @@ class Sensitivities final : public RunFollower {
   void carry();
   void carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change);
   void add_through_steps(const std::vector<std::size_t>& records,
-                         const std::function<Eigen::MatrixXd(std::size_t)>& by_state, Eigen::MatrixXd& sum);
+                         const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
+                         MotionTangents::Matrix& sum);
 
   GeneralizedAlpha settings_;
   bool begins_at_rest_, is_static_, by_adjoint_;
