@@ -2,14 +2,16 @@
 
 #include <utility>
 
+#include "solver/rates_by_unknowns.h"
+
 namespace nurbeam {
 
 namespace {
 
 using Vector = Eigen::VectorXd;
 
-// Differences with an error of the fourth order: their steps can be so large that round-off is small beside
-// derivatives by single coordinates, which nearly cancel in those of a shape that hardly strains.
+// So large, as errors are of the fourth order, that round-off is small beside derivatives by single
+// coordinates, which nearly cancel in those of a shape that hardly strains.
 constexpr double part_of_size = 1e-4;
 
 Vector steps_of(const State& rest, const Vector& scale) {
@@ -26,49 +28,23 @@ RestAdjoint::RestAdjoint(State rest, Vector scale, const Eigen::SparseMatrix<dou
       steps_(steps_of(rest_, scale)),
       transposed_(tangent.transpose(), static_cast<int>(scale.size())) {}
 
-// Q_x (unknowns x quantities).
-Eigen::MatrixXd RestAdjoint::by_unknowns(const Quantities& quantities) const {
-  const Eigen::Index n = rest_.q.size();
-  const auto unknown = [&](State& state, Eigen::Index i) -> double& {
-    return i < n ? state.q[i] : state.lambda[i - n];
-  };
-  const Vector present = quantities(rest_);
-  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(steps_.size(), present.size());
-  const auto where_one_changes = [&](Eigen::Index i, double part) {
-    State state = rest_;
-    unknown(state, i) += part * steps_[i];
-    return quantities(state);
-  };
-  // By unevenly many steps each, so that nothing cancels.
-  const auto change_something = [&](Eigen::Index first, Eigen::Index end) {
-    State state = rest_;
-    for (Eigen::Index i = first; i < end; ++i)
-      unknown(state, i) += (1 + static_cast<double>(i % 7) / 8) * steps_[i];
-    return quantities(state) != present;
-  };
-  const std::function<void(Eigen::Index, Eigen::Index)> find = [&](Eigen::Index first, Eigen::Index end) {
-    if (!change_something(first, end)) return;
-    if (end - first > 1) {
-      find(first, (first + end) / 2);
-      find((first + end) / 2, end);
-    } else {
-      by.row(first) = (8 * (where_one_changes(first, 1) - where_one_changes(first, -1)) -
-                       (where_one_changes(first, 2) - where_one_changes(first, -2))) /
-                      (12 * steps_[first]);
-    }
-  };
-  if (steps_.size() > 0) find(0, steps_.size());
-  return by;
-}
-
 Eigen::MatrixXd RestAdjoint::through_rest(const Quantities& quantities, const Matrix& dynamics,
                                           const Matrix& constraints) const {
-  const Eigen::MatrixXd by = by_unknowns(quantities);
+  const Eigen::Index n = rest_.q.size(), m = rest_.lambda.size();
+  Vector x(n + m);
+  x << rest_.q, rest_.lambda;
+  const Eigen::MatrixXd by = rates_by_unknowns(
+      [&](const Vector& unknowns) {
+        State state = rest_;
+        state.q = unknowns.head(n);
+        state.lambda = unknowns.tail(m);
+        return quantities(state);
+      },
+      x, steps_);
   Eigen::MatrixXd result(by.cols(), dynamics.cols());
   for (Eigen::Index i = 0; i < by.cols(); ++i) {
     const Vector mu = transposed_.solve(by.col(i));
-    result.row(i) = -mu.head(dynamics.rows()).transpose() * dynamics -
-                    mu.tail(constraints.rows()).transpose() * constraints;
+    result.row(i) = -mu.head(n).transpose() * dynamics - mu.tail(m).transpose() * constraints;
   }
   return result;
 }

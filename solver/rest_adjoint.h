@@ -8,8 +8,7 @@ namespace nurbeam {
 
 /// Derivatives of quantities of a rest, R(x; p) = 0 with x = (q, lambda), by its adjoint:
 ///   dQ/dp = Q_p - mu . R_p,  R_x' mu = Q_x,
-/// one solution for each quantity, with however many parameters. Q_x is found by differences, and those of
-/// few unknowns are needed where Q depends on few: halves of them that change nothing are left out whole.
+/// one solution for each quantity, with however many parameters; Q_x by rates_by_unknowns.
 class RestAdjoint {
  public:
   using Matrix = MotionTangents::Matrix;
@@ -28,8 +27,6 @@ class RestAdjoint {
                                const Matrix& constraints) const;
 
  private:
-  Eigen::MatrixXd by_unknowns(const Quantities& quantities) const;
-
   State rest_;
   Eigen::VectorXd steps_;  // by which each unknown is changed (n + m)
   EquilibratedKkt transposed_;

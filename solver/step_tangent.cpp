@@ -106,68 +106,37 @@ void MotionTangents::start_afresh(Eigen::Index parameter, const State& tangent) 
 }
 
 StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system)
-    : parameters_(GeneralizedAlphaIntegrator::parameters(settings.rho_infinity)),
-      system_(&system),
-      mass_(system.tangent_pattern().matrix()),
-      damping_(mass_),
-      stiffness_(mass_),
-      kkt_(mass_),
-      row_starts_(static_cast<std::size_t>(kkt_.rows()) + 1, 0) {
+    : step_(settings, system), row_starts_(static_cast<std::size_t>(step_.kkt.rows()) + 1, 0) {
   const int n = system.coordinate_count();
-  const int *starts = kkt_.outerIndexPtr(), *rows = kkt_.innerIndexPtr();
+  const int *starts = step_.kkt.outerIndexPtr(), *rows = step_.kkt.innerIndexPtr();
   for (int k = 0; k < starts[n]; ++k) ++row_starts_[rows[k] + 1];
   std::partial_sum(row_starts_.begin(), row_starts_.end(), row_starts_.begin());
   entries_.resize(static_cast<std::size_t>(starts[n]));
   std::vector<int> next = row_starts_;
-  for (int column = 0; column < kkt_.cols(); ++column)
-    for (int k = starts[column]; k < starts[column + 1]; ++k) {
-      if (column < n) entries_[next[rows[k]]++] = {column, k};
-      if (column >= n || rows[k] >= n) of_constraints_.push_back(k);
-    }
+  for (int column = 0; column < n; ++column)
+    for (int k = starts[column]; k < starts[column + 1]; ++k) entries_[next[rows[k]]++] = {column, k};
 }
 
 bool StepTangent::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
-  before_ = before;
-  h_ = after.t - before.t;
-  last_step_ = repeated ? 0 : history.numbers[0];
-  mass_scale_ = history.numbers[2];
-  jerk_ = history.vectors[1];
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  start_ = last_step_ == 0                                                    ? Start::as_it_is
-           : h_ <= GeneralizedAlphaIntegrator::largest_rescaling * last_step_ ? Start::moved
-                                                                              : Start::afresh;
-  start_algorithmic_ = start_ == Start::afresh ? before.a : history.vectors[0];
-  if (start_ == Start::moved) start_algorithmic_ += (alpha_m - alpha_f) * (h_ - last_step_) * jerk_;
-  end_algorithmic_ =
-      ((1 - alpha_f) * after.a + alpha_f * before.a - alpha_m * start_algorithmic_) / (1 - alpha_m);
-  system_->tangent(after, {.mass = 1}, mass_);
-  system_->tangent(after, {.damping = 1}, damping_);
-  system_->tangent(after, {.stiffness = 1}, stiffness_);
-  for (const int k : of_constraints_) damping_.valuePtr()[k] = 0;
-  const auto values = [](auto& matrix) { return matrix.coeffs(); };
-  damped_ = !values(damping_).isZero(0);
-  // That of mass takes less than one of all three, and so do sums.
-  values(kkt_) = ((1 - alpha_m) / (1 - alpha_f) / mass_scale_) * values(mass_) +
-                 (beta * h_ * h_ / mass_scale_) * values(stiffness_);
-  if (damped_) values(kkt_) += (gamma * h_ / mass_scale_) * values(damping_);
-  for (const int k : of_constraints_) kkt_.valuePtr()[k] = stiffness_.valuePtr()[k];
-  return solver_.factorise(kkt_);
+  step_.take(before, history, after, repeated);
+  return solver_.factorise(step_.kkt);
 }
 
 MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVectorXd& step,
                                 const Matrix& dynamics, const Matrix& constraints) const {
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  using Start = LinearStep::Start;
   const Eigen::Index n = start.q.rows(), m = start.lambda.rows();
   const bool other_length = !step.isZero(0);
+  const double h = step_.h;
   Matrix moved;
-  if (start_ == Start::moved) {
-    moved = start.algorithmic_acceleration + (alpha_m - alpha_f) * (h_ - last_step_) * start.jerk;
-    moved.noalias() += (alpha_m - alpha_f) * jerk_ * (step - start.last_step);
+  if (step_.start == Start::moved) {
+    moved = start.algorithmic_acceleration + step_.lag() * (h - step_.last_step) * start.jerk;
+    moved.noalias() += step_.lag() * step_.jerk * (step - start.last_step);
   }
-  const Matrix& alg = start_ == Start::moved    ? moved
-                      : start_ == Start::afresh ? start.a
-                                                : start.algorithmic_acceleration;
+  const Matrix& alg = step_.start == Start::moved    ? moved
+                      : step_.start == Start::afresh ? start.a
+                                                     : start.algorithmic_acceleration;
 
   MotionTangents end;
   end.t = start.t + step;
@@ -176,9 +145,8 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
     each->resize(n, start.parameters());
   predict(start, alg, end);
   if (other_length) {
-    end.q.noalias() +=
-        (before_.v + 2 * h_ * ((0.5 - beta) * start_algorithmic_ + beta * end_algorithmic_)) * step;
-    end.v.noalias() += ((1 - gamma) * start_algorithmic_ + gamma * end_algorithmic_) * step;
+    end.q.noalias() += step_.q_by_length() * step;
+    end.v.noalias() += step_.v_by_length() * step;
   }
 
   // The correction of q for which the residual stays zero, and what follows it.
@@ -187,22 +155,23 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
   subtract_residual(end, rhs);
   solver_.solve(rhs, x);
   correct(x, alg, end);
-  end.lambda = mass_scale_ / (beta * h_ * h_) * x.bottomRows(m);
-  if (other_length) end.jerk.noalias() -= (end_algorithmic_ - start_algorithmic_) / (h_ * h_) * step;
+  end.lambda = x.bottomRows(m) / step_.scale();
+  if (other_length) end.jerk.noalias() -= (step_.end_algorithmic - step_.start_algorithmic) / (h * h) * step;
   return end;
 }
 
 // The end with that algorithmic acceleration there for which a is zero: M has no part in the residual.
 NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::predict(const MotionTangents& start, const Matrix& algorithmic,
                                                       MotionTangents& end) const {
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const Prediction of{.h = h_,
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
+  const double h = step_.h;
+  const Prediction of{.h = h,
                       .a_of_start = -alpha_m / (1 - alpha_m),
                       .a_of_before = alpha_f / (1 - alpha_m),
-                      .q_of_start = h_ * h_ * (0.5 - beta),
-                      .q_of_end = h_ * h_ * beta,
-                      .v_of_start = h_ * (1 - gamma),
-                      .v_of_end = h_ * gamma};
+                      .q_of_start = h * h * (0.5 - beta),
+                      .q_of_end = h * h * beta,
+                      .v_of_start = h * (1 - gamma),
+                      .v_of_end = h * gamma};
   const Eigen::Index size = start.q.size(), even = size / 4 * 4;
   of.find<Four>(start, algorithmic, end, 0, even);
   of.find<One>(start, algorithmic, end, even, size);
@@ -211,12 +180,12 @@ NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::predict(const MotionTangents& star
 // What follows the correction of q, the first rows of x.
 NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::correct(const Matrix& x, const Matrix& algorithmic,
                                                       MotionTangents& end) const {
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
-  const double acceleration = 1 / (beta * h_ * h_);
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
+  const double h = step_.h, acceleration = 1 / (beta * h * h);
   const Correction of{.acceleration = acceleration,
-                      .v = gamma * h_ * acceleration,
+                      .v = gamma * h * acceleration,
                       .a = (1 - alpha_m) / (1 - alpha_f) * acceleration,
-                      .per_step = 1 / h_};
+                      .per_step = 1 / h};
   const Eigen::Index size = end.q.size(), even = size / 4 * 4;
   of.make<Four>(x, algorithmic, end, 0, even);
   of.make<One>(x, algorithmic, end, even, size);
@@ -229,13 +198,13 @@ NURBEAM_WITHIN void StepTangent::subtract_products(const MotionTangents& end, Ei
                                                    Matrix& rhs) const {
   const Eigen::Index stride = rhs.cols();
   const double *q = end.q.data() + first, *v = end.v.data() + first;
-  const double *K = stiffness_.valuePtr(), *D = damping_.valuePtr();
+  const double *K = step_.stiffness.valuePtr(), *D = step_.damping.valuePtr();
   const Entry* entries = entries_.data();
   const int* starts = row_starts_.data();
   const auto rows = static_cast<Eigen::Index>(row_starts_.size()) - 1;
-  const double of_dynamics = parameters_.beta * h_ * h_ / mass_scale_;
+  const double of_dynamics = step_.scale();
   double* result = rhs.data() + first;
-  const bool damped = damped_;
+  const bool damped = step_.damped;
   for (Eigen::Index row = 0; row < rows; ++row, result += stride) {
     typename Lanes::Side sum[times] = {};
     for (int k = starts[row]; k < starts[row + 1]; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
-#include "solver/generalized_alpha.h"
+#include "solver/kkt_solver.h"
+#include "solver/linear_step.h"
 
 namespace nurbeam {
 
@@ -38,7 +39,7 @@ class StepTangent {
                           bool repeated);
   /// How the residual at `after` changes with q, constraints below (n + m). Precondition here and below: take
   /// returned true.
-  const Eigen::SparseMatrix<double>& stiffness() const { return stiffness_; }
+  const Eigen::SparseMatrix<double>& stiffness() const { return step_.stiffness; }
   /// The tangents at the end of that step, whose length changes by `step`, of each parameter. `dynamics` (n),
   /// `constraints` (m), a column for each: how the residual at `after` changes with the parameter itself, by
   /// the system and by t, while q, v, a and lambda stay.
@@ -46,7 +47,6 @@ class StepTangent {
                      const Matrix& constraints) const;
 
  private:
-  enum class Start { as_it_is, moved, afresh };  // what becomes of the algorithmic acceleration
   // An entry of the matrices: its column, and its index among their values.
   struct Entry {
     int column, value;
@@ -58,18 +58,9 @@ class StepTangent {
   void subtract_products(const MotionTangents& end, Eigen::Index first, Matrix& rhs) const;
   void subtract_residual(const MotionTangents& end, Matrix& rhs) const;
 
-  GeneralizedAlphaIntegrator::Parameters parameters_;
-  const SecondOrderSystem* system_;
-  State before_;
-  double h_ = 0, last_step_ = 0, mass_scale_ = 1;
-  Start start_ = Start::as_it_is;
-  Eigen::VectorXd jerk_, start_algorithmic_, end_algorithmic_;
-  Eigen::SparseMatrix<double> mass_, damping_, stiffness_;  // with G, and dF/dlambda in the last
-  Eigen::SparseMatrix<double> kkt_;
-  std::vector<Entry> entries_;       // of the columns of coordinates, row by row
-  std::vector<int> row_starts_;      // of each row in `entries_`, and the end
-  std::vector<int> of_constraints_;  // values of G and dF/dlambda
-  bool damped_ = false;
+  LinearStep step_;
+  std::vector<Entry> entries_;   // of the columns of coordinates, row by row
+  std::vector<int> row_starts_;  // of each row in `entries_`, and the end
   KktSolver solver_;
 };
 

@@ -8,9 +8,9 @@
 
 namespace nurbeam {
 
-/// A mesh of a model, and the model's state on it.
+/// A mesh of a model, and the model's state on it. A mesh does not change: another takes its place.
 struct MeshedState {
-  std::unique_ptr<BeamSystem> system;
+  std::shared_ptr<const BeamSystem> system;
   State state;
 
   /// The model as it is drawn; `like`, which may be null, is that of a neighbouring model.

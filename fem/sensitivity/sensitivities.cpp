@@ -1,5 +1,3 @@
-#include "fem/sensitivity/sensitivities.h"
-
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,10 +8,10 @@
 #include "fem/motion/free_lengths.h"
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
+#include "fem/sensitivity/sensitivities_parts.h"
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
-#include "solver/rest_adjoint.h"
 
 namespace nurbeam {
 
@@ -21,7 +19,21 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// The state `part` of a tangent away.
+void check_tangents(const BeamModel& model) {
+  if (no_memory(model).size() > 0)
+    throw std::invalid_argument(
+        "friction and stops have no derivative here: leave them out, or take differences of runs");
+  if (asks_for_lengths(model))
+    throw std::invalid_argument(
+        "connectors whose length is to be found have no derivative here: give their lengths");
+}
+
+[[noreturn]] void singular_rest() {
+  throw std::runtime_error("an equilibrium has no derivative where its tangent is singular");
+}
+
+}  // namespace
+
 State moved(const State& from, const State& tangent, double part) {
   State state = from;
   state.t += part * tangent.t;
@@ -46,77 +58,41 @@ State still(Eigen::Index coordinates, Eigen::Index constraints) {
   return {.t = 0, .q = none, .v = none, .a = none, .lambda = Vector::Zero(constraints)};
 }
 
-void check_tangents(const BeamModel& model) {
-  if (no_memory(model).size() > 0)
-    throw std::invalid_argument(
-        "friction and stops have no derivative here: leave them out, or take differences of runs");
-  if (asks_for_lengths(model))
-    throw std::invalid_argument(
-        "connectors whose length is to be found have no derivative here: give their lengths");
+MotionTangents of_states(MotionTangents tangents) {
+  for (MotionTangents::Matrix* of_steps : {&tangents.algorithmic_acceleration, &tangents.jerk})
+    of_steps->resize(0, 0);
+  return tangents;
 }
 
-[[noreturn]] void singular_rest() {
-  throw std::runtime_error("an equilibrium has no derivative where its tangent is singular");
+void singular_step() {
+  throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
 }
 
-[[noreturn]] void not_alike(const char* what) {
+void not_alike(const char* what) {
   throw std::runtime_error(std::string("a derivative needs neighbouring models of one mesh, and ") + what +
                            " with the parameter");
 }
 
-}  // namespace
-
-struct Sensitivities::Parameter {
-  NeighbourPair pair;
-  std::unique_ptr<BeamSystem> more = nullptr, less = nullptr;
-
-  // The tangent after what `change` makes of the neighbours of a state.
-  State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change) {
-    MeshedState above{std::move(more), moved(from, tangent, pair.step)},
-        below{std::move(less), moved(from, tangent, -pair.step)};
-    if (!change(above) || !change(below))
-      throw std::runtime_error(
-          "a derivative cannot follow the run through an event at t = " + text_of(from.t) + " s");
-    more = std::move(above.system);
-    less = std::move(below.system);
-    if (above.state.q.size() != below.state.q.size() ||
-        above.state.lambda.size() != below.state.lambda.size())
-      not_alike("what happens at an event changes");
-    return rate(above.state, below.state, pair.step);
-  }
-};
-
-// Of the neighbours of all parameters; and the joints that they hold.
-struct Sensitivities::Meshes {
-  std::vector<std::pair<MeshPlan, MeshPlan>> plans;  // with more and with less of each parameter
-  std::vector<bool> held;
-};
-
-struct Sensitivities::Record {
-  State state;
-  bool of_the_moment;
-  MotionTangents tangents;
-  std::shared_ptr<const Meshes> meshes;
-  std::shared_ptr<const Rest> rest;
-};
-
-// A rest of the run, and how its residual changes by each parameter where places of joints correspond.
-struct Sensitivities::Rest {
-  std::unique_ptr<const BeamSystem> system;
-  RestAdjoint adjoint;
-  MotionTangents::Matrix dynamics, constraints;
-};
-
-// By the length of a step that lands on an event: the tangent, and of the distance to it.
-struct Sensitivities::Longer {
-  State tangent;
-  double approach;
-};
+// The tangent after what `change` makes of the neighbours of a state.
+State Sensitivities::Parameter::change(const State& from, const State& tangent,
+                                       const std::function<bool(MeshedState&)>& change) {
+  MeshedState above{std::move(more), moved(from, tangent, pair.step)},
+      below{std::move(less), moved(from, tangent, -pair.step)};
+  if (!change(above) || !change(below))
+    throw std::runtime_error("a derivative cannot follow the run through an event at t = " + text_of(from.t) +
+                             " s");
+  more = std::move(above.system);
+  less = std::move(below.system);
+  if (above.state.q.size() != below.state.q.size() || above.state.lambda.size() != below.state.lambda.size())
+    not_alike("what happens at an event changes");
+  return rate(above.state, below.state, pair.step);
+}
 
 Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
                              bool by_adjoint)
     : begins_at_rest_(options.statics || options.start_from_equilibrium),
-      by_adjoint_(by_adjoint && options.statics) {
+      is_static_(options.statics),
+      by_adjoint_(by_adjoint) {
   const auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
   if (!options.statics && !settings)
     throw std::invalid_argument("derivatives of a motion need the integrator generalized-alpha");
@@ -141,7 +117,7 @@ void Sensitivities::start_afresh(const MeshedState& at, const std::vector<State>
 }
 
 void Sensitivities::go_on_from(const MeshedState& at) {
-  system_ = at.system.get();
+  system_ = at.system;
   state_ = at.state;
   meshes_ = nullptr;
   step_.reset();
@@ -207,7 +183,7 @@ void Sensitivities::rests(const MeshedState& at) {
       if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
   }
   start_afresh(at, std::vector<State>(parameters_.size(), still(n, m)));
-  if (by_adjoint_)
+  if (by_adjoint_ && is_static_)
     keep_for_adjoint(at, stiffness);
   else
     solve_at_rest(at, stiffness);
@@ -241,15 +217,6 @@ void Sensitivities::keep_for_adjoint(const MeshedState& at, const Eigen::SparseM
       Rest{at_rest_like(at, at.system->shared_model()), std::move(adjoint), dynamics_, constraints_});
 }
 
-Eigen::MatrixXd Sensitivities::through_rest(
-    std::size_t record, const std::vector<ProbePlace>& probes, const SnapshotContents& contents,
-    const std::function<Eigen::VectorXd(const Snapshot&)>& quantities) const {
-  const Rest& rest = *records_[record].rest;
-  return rest.adjoint.through_rest(
-      [&](const State& state) { return quantities(record_snapshot(*rest.system, state, probes, contents)); },
-      rest.dynamics, rest.constraints);
-}
-
 // Of a step, by each parameter, from the tangents at its start: that of the system's step limit where this
 // has shortened it, or its part of what is left to the next time of the run; none where it lands on an event.
 Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
@@ -268,19 +235,30 @@ Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) co
   return changes;
 }
 
-Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step, const StepTangent& tangent) const {
-  const double h = step.after.t - step.before.t, shift = 1e-4 * h;
-  const Eigen::Index n = step.after.q.size(), m = step.after.lambda.size();
-  State later = step.after, sooner = step.after;
+// Whether the state and the parameters decide how long it is: none that leads to the next time of the run.
+bool Sensitivities::has_own_length(const FollowedStep& step) const {
+  return step.beyond || step.asked > system_->step_limit(step.before);
+}
+
+// How the residual changes with t alone, constraints below (n + m), by differences over a part of h.
+Vector Sensitivities::rates_with_time(const State& at, double h) const {
+  const double shift = 1e-4 * h;
+  const Eigen::Index n = at.q.size(), m = at.lambda.size();
+  State later = at, sooner = at;
   later.t += shift;
   sooner.t -= shift;
-  Vector more(n), less(n), more_constraints(m), less_constraints(m);
-  system_->residual(later, more, more_constraints);
-  system_->residual(sooner, less, less_constraints);
+  Vector more(n + m), less(n + m);
+  system_->residual(later, more.head(n), more.tail(m));
+  system_->residual(sooner, less.head(n), less.tail(m));
+  return (more - less) / (2 * shift);
+}
+
+Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step) const {
+  const double h = step.after.t - step.before.t, shift = 1e-4 * h;
+  const Eigen::Index n = step.after.q.size(), m = step.after.lambda.size();
+  const Vector rates = rates_with_time(step.after, h);
   const State longer =
-      tangent
-          .end(MotionTangents::zero(n, m, 1), Eigen::RowVectorXd::Ones(1), (more - less) / (2 * shift),
-               (more_constraints - less_constraints) / (2 * shift))
+      step_->end(MotionTangents::zero(n, m, 1), Eigen::RowVectorXd::Ones(1), rates.head(n), rates.tail(m))
           .of(0);
   const double beyond = step.beyond(*system_, moved(step.after, longer, shift)) -
                         step.beyond(*system_, moved(step.after, longer, -shift));
@@ -291,16 +269,11 @@ void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
   state_ = step.after;
   if (h == 0) return;  // what a body that starts at the end of its beam does there
-  if (!step_) step_.emplace(settings_, *system_);
-  ++work_.tangents;
-  if (!step_->take(step.before, step.history, step.after, step.repeated))
-    throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
-  const Eigen::RowVectorXd change = changes_of_length(step);
-  take_off(find_residual_changes(step.after, tangents_.t + change), step_->stiffness());
-  tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
-  work_.solves += tangents_.parameters();
+  if (by_adjoint_ && !has_own_length(step)) return keep(step);
+  carry();
+  carry_over({step.before, step.history, step.after, step.repeated}, changes_of_length(step));
   if (step.beyond) {
-    const Longer longer = by_length(step, *step_);
+    const Longer longer = by_length(step);
     for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
       const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
       const double p = parameter.pair.step;
@@ -313,7 +286,18 @@ void Sensitivities::steps(const FollowedStep& step) {
   }
 }
 
+// The tangents from the start of a step to its end.
+void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change) {
+  if (!step_) step_.emplace(settings_, *system_);
+  ++work_.tangents;
+  if (!step_->take(step.before, step.history, step.after, step.repeated)) singular_step();
+  take_off(find_residual_changes(step.after, tangents_.t + change), step_->stiffness());
+  tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
+  work_.solves += tangents_.parameters();
+}
+
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {
+  carry();
   std::vector<State> tangents;
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     tangents.push_back(parameters_[k].change(state_, tangents_.of(static_cast<Eigen::Index>(k)), change));
@@ -323,6 +307,7 @@ void Sensitivities::changes(const MeshedState& at, const std::function<bool(Mesh
 }
 
 void Sensitivities::happens(const RunEvent& event) {
+  carry();
   const bool of_mesh = event.kind <= EventKind::becomes_node;
   std::vector<double> rates(parameters_.size(), std::numeric_limits<double>::quiet_NaN());
   if (!of_mesh) Eigen::RowVectorXd::Map(rates.data(), tangents_.parameters()) = tangents_.t;
@@ -337,17 +322,22 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
     meshes->held = held_joints(*at.system);
     meshes_ = std::move(meshes);
   }
-  MotionTangents tangents = tangents_;
-  for (MotionTangents::Matrix* of_steps : {&tangents.algorithmic_acceleration, &tangents.jerk})
-    of_steps->resize(0, 0);
-  records_.push_back({at.state, of_the_moment, std::move(tangents), meshes_, rest_});
+  Record record{.state = at.state, .of_the_moment = of_the_moment, .meshes = meshes_, .rest = rest_};
+  if (stretch_) {
+    record.position = stretch_->steps.size();
+    stretch_->records.push_back(records_.size());
+  } else {
+    record.tangents = of_states(tangents_);
+  }
+  records_.push_back(std::move(record));
 }
 
 std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter,
                                                         const SnapshotContents& contents) const {
   const Record& of = records_[record];
   const NeighbourPair& pair = parameters_[parameter].pair;
-  const State tangent = of.tangents.of(static_cast<Eigen::Index>(parameter));
+  const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(parameter))
+                                    : still(of.state.q.size(), of.state.lambda.size());
   const bool present = of.meshes == meshes_;
   const auto snapshot = [&](const Neighbour& neighbour, const BeamSystem* now, const MeshPlan& plan,
                             double part) {

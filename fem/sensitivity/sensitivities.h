@@ -8,6 +8,7 @@
 #include "fem/motion/run_follower.h"
 #include "fem/motion/simulation.h"
 #include "fem/sensitivity/residual_differences.h"
+#include "solver/kept_steps.h"
 #include "solver/step_tangent.h"
 
 /// Derivatives of a run by parameters of its model.
@@ -26,11 +27,16 @@ struct NeighbourPair {
 };
 
 /// Carries the derivatives of a motion, or of a rest, by parameters of its model along with the run: a
-/// tangent for each, of all at once.
+/// tangent for each, of all at once. Or, where many parameters are asked what they do to few quantities, back
+/// from these by adjoints.
 ///
 ///   - At rest: K dq + G'dlambda = -dR, G dq = -dg; or RestAdjoint, where nothing but quantities of rests is
 ///     asked for.
-///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end.
+///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end; or StepAdjoint:
+///   steps
+///     whose length does not depend on the state are kept until something else happens, which takes the
+///     tangents over all of them. Back over those that are left at the end of the run go adjoints, to the
+///     tangents where they begin.
 ///   - Over all else, as a change of the mesh or an impact: half the difference of what the same does to the
 ///     states q +- step dq/dp of the neighbours.
 ///   - A step that lands on an event is longer by dh, for which the event stays where it is: beyond(end + dh
@@ -47,8 +53,8 @@ class Sensitivities final : public RunFollower {
  public:
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
   /// what has no tangent: friction, buffers, connectors whose length is found.
-  /// `by_adjoint`, of statics alone: the tangents of the rests are left out, and through_rest has what they
-  /// would do.
+  /// `by_adjoint`: tangents of rests, in statics, and of the last stretch of steps are left out, and
+  /// through_states has what they would do.
   Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
                 bool by_adjoint = false);
   ~Sensitivities() override;
@@ -65,16 +71,22 @@ class Sensitivities final : public RunFollower {
   };
   const Work& work() const { return work_; }
 
+  /// After the run, before what follows, where this many quantities of these records are asked for: takes
+  /// tangents over what steps are left where that is less work than to go back.
+  void choose(const std::vector<std::size_t>& records, std::size_t quantities);
   /// At the time of snapshot `record` of the run, counted from 0, those of the models in which a parameter is
   /// greater and less, of states step dq/dp away, with these contents. Throws std::runtime_error where these
   /// have no accelerations.
   std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter,
                                            const SnapshotContents& contents) const;
-  /// Of quantities of snapshot `record` (quantities x parameters), by the adjoint of that rest: how they
-  /// change with it. What is left is how they differ between its neighbours. `probes`: of the run itself.
-  Eigen::MatrixXd through_rest(std::size_t record, const std::vector<ProbePlace>& probes,
-                               const SnapshotContents& contents,
-                               const std::function<Eigen::VectorXd(const Snapshot&)>& quantities) const;
+  /// What quantities are where one record has another snapshot.
+  using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;
+  /// Of quantities of these records (quantities x parameters), by adjoints: what they change by as these do,
+  /// but for how their neighbours differ. `probes`: of the run itself.
+  MotionTangents::Matrix through_states(const std::vector<std::size_t>& records,
+                                        const std::vector<ProbePlace>& probes,
+                                        const SnapshotContents& contents, std::size_t count,
+                                        const Quantities& quantities);
 
   void begins(const MeshedState& drawn) override;
   void rests(const MeshedState& at) override;
@@ -89,6 +101,7 @@ class Sensitivities final : public RunFollower {
   struct Record;
   struct Longer;
   struct Rest;
+  struct Stretch;
   using Shifts = std::vector<std::vector<ResidualDifferences::Shift>>;
 
   void start_afresh(const MeshedState& at, const std::vector<State>& tangents);
@@ -97,18 +110,27 @@ class Sensitivities final : public RunFollower {
   void keep_for_adjoint(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
   Shifts find_residual_changes(const State& at, const Eigen::RowVectorXd& time);
   void take_off(const Shifts& shifts, const Eigen::SparseMatrix<double>& stiffness);
+  bool has_own_length(const FollowedStep& step) const;
   Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
-  Longer by_length(const FollowedStep& step, const StepTangent& tangent) const;
+  Longer by_length(const FollowedStep& step) const;
+  Eigen::VectorXd rates_with_time(const State& at, double h) const;
+  void keep(const FollowedStep& step);
+  void carry();
+  void carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change);
+  void add_through_steps(const std::vector<std::size_t>& records,
+                         const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
+                         MotionTangents::Matrix& sum);
 
   GeneralizedAlpha settings_;
-  bool begins_at_rest_, by_adjoint_;
+  bool begins_at_rest_, is_static_, by_adjoint_;
   std::vector<Parameter> parameters_;
   std::optional<ResidualDifferences> differences_;  // of their present systems
   std::optional<StepTangent> step_;                 // with the present system
   MotionTangents tangents_;
   MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
-  const BeamSystem* system_ = nullptr;
-  State state_;  // of the run
+  std::shared_ptr<const BeamSystem> system_;
+  State state_;                       // of the run
+  std::unique_ptr<Stretch> stretch_;  // that tangents_ have not been taken over
   Work work_;
   std::vector<std::vector<double>> event_times_;
   std::vector<Record> records_;

@@ -128,7 +128,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     }
     neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
   }
-  is_by_adjoint_ = options.statics && pays_by_adjoint();
+  is_by_adjoint_ = pays_by_adjoint();
   sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours), is_by_adjoint_);
 }
 
@@ -140,31 +140,29 @@ bool VariantGradient::pays_by_adjoint() const {
          !contents.energy;
 }
 
-// (quantities x parameters) What rests at these times, which change with the parameters, do to the
-// quantities.
-Eigen::MatrixXd VariantGradient::through_rests(const Histories& histories,
-                                               const std::vector<std::size_t>& times,
-                                               const std::vector<RunEvent>& events) const {
-  const auto count = static_cast<Eigen::Index>(study_.quantities.size());
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(pairs_.size()));
+// (quantities x parameters) What states at these times, which change with the parameters, do to the
+// quantities, where adjoints say so.
+Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
+                                                const std::vector<std::size_t>& times,
+                                                const std::vector<RunEvent>& events) {
+  const std::size_t count = study_.quantities.size();
   Histories changed = histories;
-  for (const std::size_t time : times) {
-    const auto quantities = [&](const Snapshot& snapshot) {
-      changed.replace(time, snapshot);
-      const ExpressionScope scope = scope_of_run(study_, values_, changed, model_.model, events);
-      return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index i) {
-        return study_.quantities[static_cast<std::size_t>(i)].value.number(scope);
-      }));
-    };
-    sum += sensitivities_->through_rest(time, probe_places(model_), histories.contents(), quantities);
+  const auto quantities = [&](std::size_t time, const Snapshot& snapshot) {
+    changed.replace(time, snapshot);
+    const ExpressionScope scope = scope_of_run(study_, values_, changed, model_.model, events);
+    Eigen::VectorXd all(static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      all[static_cast<Eigen::Index>(i)] = study_.quantities[i].value.number(scope);
     changed.replace(time, histories);
-  }
-  return sum;
+    return all;
+  };
+  return sensitivities_->through_states(times, probe_places(model_), histories.contents(), count, quantities);
 }
 
 StudyGradient VariantGradient::of_quantities(const Histories& histories,
                                              const std::vector<RunEvent>& events) {
   const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model_.model, events);
+  sensitivities_->choose(times, study_.quantities.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     pairs_[k].more.histories.begin_as(histories);
     pairs_[k].less.histories.begin_as(histories);
@@ -190,7 +188,7 @@ StudyGradient VariantGradient::of_quantities(const Histories& histories,
     gradient.push_back(std::move(row));
   }
   if (is_by_adjoint_) {
-    const Eigen::MatrixXd through = through_rests(histories, times, events);
+    const Eigen::MatrixXd through = through_states(histories, times, events);
     for (std::size_t i = 0; i < gradient.size(); ++i)
       for (std::size_t k = 0; k < pairs_.size(); ++k)
         gradient[i][k] += through(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));

@@ -29,9 +29,9 @@ class VariantGradient {
   /// After the run, which had these histories and events. Throws std::invalid_argument for a quantity without
   /// a derivative.
   StudyGradient of_quantities(const Histories& histories, const std::vector<RunEvent>& events);
-  /// Whether that comes by the adjoints of rests: statics with more parameters than quantities, which are all
-  /// of single places. (One of whole beams changes with every coordinate: its derivatives by these take more
-  /// than all solutions.)
+  /// Whether that may come by adjoints: with more parameters than quantities, which are all of single places.
+  /// (One of whole beams changes with every coordinate: its derivatives by these take more than all
+  /// solutions.)
   bool is_by_adjoint() const { return is_by_adjoint_; }
 
  private:
@@ -39,8 +39,8 @@ class VariantGradient {
   struct Pair;
 
   bool pays_by_adjoint() const;
-  Eigen::MatrixXd through_rests(const Histories& histories, const std::vector<std::size_t>& times,
-                                const std::vector<RunEvent>& events) const;
+  Eigen::MatrixXd through_states(const Histories& histories, const std::vector<std::size_t>& times,
+                                 const std::vector<RunEvent>& events);
 
   const StudyFile& study_;
   const BuiltModel& model_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipelines/diagnostics/exit_code.h"
+#include "pipelines/run/kept_memory.h"
 #include "pipelines/study/study_command.h"
 #include "pipelines/study/study_file.h"
 
@@ -13,6 +14,7 @@
 ///   nurbeam-study worker STUDY.json
 ///   nurbeam-study schema
 int main(int count, char** words) {
+  nurbeam::keep_memory();
   const std::vector<std::string> arguments(words + 1, words + count);
   if (arguments.size() == 1 && arguments[0] == "schema") {
     std::cout << nurbeam::study_file_schema();

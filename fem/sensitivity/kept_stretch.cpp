@@ -1,0 +1,176 @@
+#include <stdexcept>
+#include <utility>
+
+#include "fem/sensitivity/sensitivities_parts.h"
+#include "solver/rates_by_unknowns.h"
+#include "solver/step_adjoint.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+// As many whole ones, of six vectors and the four of the place of a matrix.
+std::size_t steps_within_memory(const State& state) {
+  constexpr double bytes = 256e6;
+  return static_cast<std::size_t>(
+      bytes / (10.0 * sizeof(double) * static_cast<double>(1 + state.q.size() + state.lambda.size())));
+}
+
+// t, q, v, a and lambda one below the other.
+Vector unknowns_of(const State& state) {
+  Vector x(1 + 3 * state.q.size() + state.lambda.size());
+  x << state.t, state.q, state.v, state.a, state.lambda;
+  return x;
+}
+
+void set_unknowns(const Vector& x, State& state) {
+  const Eigen::Index n = state.q.size();
+  state.t = x[0];
+  state.q = x.segment(1, n);
+  state.v = x.segment(1 + n, n);
+  state.a = x.segment(1 + 2 * n, n);
+  state.lambda = x.tail(state.lambda.size());
+}
+
+// How far to go for derivatives by each of them, in a motion with steps of length h. Speeds are not linear in
+// velocities, of which some may be much less than others.
+Vector steps_of_unknowns(const State& state, const Vector& scale, double h) {
+  constexpr double part = 1e-4, of_velocities = 1e-6;
+  const auto greatest = [](const auto& values) {
+    const double found = values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0;
+    return found > 0 ? found : 1;
+  };
+  State steps = state;
+  steps.t = part * h;
+  steps.q = part * scale;
+  steps.v = of_velocities * greatest(state.v.cwiseQuotient(scale)) * scale;
+  steps.a = part * greatest(state.a.cwiseQuotient(scale)) * scale;
+  steps.lambda.setConstant(part * greatest(state.lambda));
+  return unknowns_of(steps);
+}
+
+void add_unknowns(const Eigen::MatrixXd& by, MotionTangents& to) {
+  const Eigen::Index n = to.q.rows();
+  to.t += by.row(0);
+  to.q += by.middleRows(1, n);
+  to.v += by.middleRows(1 + n, n);
+  to.a += by.middleRows(1 + 2 * n, n);
+  to.lambda += by.bottomRows(to.lambda.rows());
+}
+
+// (quantities x parameters)
+Eigen::MatrixXd product(const MotionTangents& adjoints, const MotionTangents& tangents) {
+  Eigen::MatrixXd sum = adjoints.t.transpose() * tangents.t;
+  sum += adjoints.last_step.transpose() * tangents.last_step;
+  sum += adjoints.q.transpose() * tangents.q;
+  sum += adjoints.v.transpose() * tangents.v;
+  sum += adjoints.a.transpose() * tangents.a;
+  sum += adjoints.lambda.transpose() * tangents.lambda;
+  sum += adjoints.algorithmic_acceleration.transpose() * tangents.algorithmic_acceleration;
+  sum += adjoints.jerk.transpose() * tangents.jerk;
+  return sum;
+}
+
+}  // namespace
+
+void Sensitivities::keep(const FollowedStep& step) {
+  if (!stretch_)
+    stretch_ = std::make_unique<Stretch>(Stretch{
+        .start = step.before.t, .steps = KeptSteps(settings_, *system_, steps_within_memory(step.after))});
+  stretch_->steps.add({step.before, step.history, step.after, step.repeated});
+  stretch_->by_time.push_back(-(step.after.t - step.before.t) / step.rest);
+}
+
+// The tangents over the steps that have been kept, and to the records on the way.
+void Sensitivities::carry() {
+  if (!stretch_) return;
+  const std::unique_ptr<const Stretch> stretch = std::move(stretch_);
+  auto record = stretch->records.begin();
+  stretch->steps.forward([&](std::size_t i, const KeptSteps::Step& step) {
+    carry_over(step, stretch->by_time[i] * tangents_.t);
+    for (; record != stretch->records.end() && records_[*record].position == i + 1; ++record)
+      records_[*record].tangents = of_states(tangents_);
+  });
+}
+
+void Sensitivities::choose(const std::vector<std::size_t>& records, std::size_t quantities) {
+  if (!stretch_) return;
+  // In what a parameter takes over a step: a quantity back over one, which is the smaller part of as many
+  // that go side by side; the derivatives of quantities by one state.
+  constexpr double of_a_quantity = 5, of_a_record = 50;
+  std::size_t last = 0, count = 0;
+  for (const std::size_t record : records)
+    if (!records_[record].tangents) last = records_[record].position, ++count;
+  const double forward = static_cast<double>(parameters_.size() * stretch_->steps.size());
+  const double back =
+      of_a_quantity * static_cast<double>(quantities * last) + of_a_record * static_cast<double>(count);
+  if (back >= forward) carry();
+}
+
+MotionTangents::Matrix Sensitivities::through_states(const std::vector<std::size_t>& records,
+                                                     const std::vector<ProbePlace>& probes,
+                                                     const SnapshotContents& contents, std::size_t count,
+                                                     const Quantities& quantities) {
+  const auto at_record = [&](std::size_t record, const BeamSystem& system, const State& state) {
+    return quantities(record, record_snapshot(system, state, probes, contents));
+  };
+  MotionTangents::Matrix sum =
+      MotionTangents::Matrix::Zero(static_cast<Eigen::Index>(count), tangents_.parameters());
+  std::vector<std::size_t> of_steps;
+  for (const std::size_t record : records)
+    if (const Rest* rest = records_[record].rest.get())
+      sum += rest->adjoint.through_rest(
+          [&](const State& state) { return at_record(record, *rest->system, state); }, rest->dynamics,
+          rest->constraints);
+    else if (!records_[record].tangents)
+      of_steps.push_back(record);
+  if (of_steps.empty()) return sum;
+  const Vector scale = system_->coordinate_scale();
+  const double h = (state_.t - stretch_->start) / static_cast<double>(stretch_->steps.size());
+  add_through_steps(
+      of_steps,
+      [&](std::size_t record) {
+        const State& recorded = records_[record].state;
+        const auto at = [&](const Vector& x) {
+          State state = recorded;
+          set_unknowns(x, state);
+          return at_record(record, *system_, state);
+        };
+        return rates_by_unknowns(at, unknowns_of(recorded), steps_of_unknowns(recorded, scale, h));
+      },
+      sum);
+  return sum;
+}
+
+// (quantities x parameters) From these records back to where the tangents are; `by_state`: (unknowns x
+// quantities) derivatives by the state of one.
+void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
+                                      const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
+                                      MotionTangents::Matrix& sum) {
+  const Eigen::Index n = state_.q.size(), m = state_.lambda.size();
+  const bool times_change = !tangents_.t.isZero(0) || !tangents_.last_step.isZero(0);
+  const Eigen::RowVectorXd same_time = Eigen::RowVectorXd::Zero(tangents_.parameters());
+  StepAdjoint adjoint(settings_, *system_);
+  MotionTangents adjoints = MotionTangents::zero(n, m, sum.rows());
+  auto record = records.rbegin();
+  stretch_->steps.back([&](std::size_t i, const KeptSteps::Step& step) {
+    for (; record != records.rend() && records_[*record].position == i + 1; ++record)
+      add_unknowns(by_state(*record), adjoints);
+    if (record == records.rbegin()) return;
+    ++work_.tangents;
+    if (!adjoint.take(step.before, step.history, step.after, step.repeated)) singular_step();
+    const MotionTangents::Matrix mu = adjoint.multipliers(adjoints);
+    work_.solves += mu.cols();
+    take_off(find_residual_changes(step.after, same_time), adjoint.stiffness());
+    sum.noalias() -= mu.topRows(n).transpose() * dynamics_;
+    sum.noalias() -= mu.bottomRows(m).transpose() * constraints_;
+    Vector later;
+    if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);
+    adjoints = adjoint.start(adjoints, mu, stretch_->by_time[i], later);
+  });
+  sum += product(adjoints, tangents_);
+}
+
+}  // namespace nurbeam

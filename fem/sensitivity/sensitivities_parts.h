@@ -1,0 +1,68 @@
+#pragma once
+#include <optional>
+
+#include "fem/mesh/mesh_plan.h"
+#include "fem/sensitivity/sensitivities.h"
+#include "solver/rest_adjoint.h"
+
+/// What Sensitivities are made of, for their own source files.
+namespace nurbeam {
+
+struct Sensitivities::Parameter {
+  NeighbourPair pair;
+  std::shared_ptr<const BeamSystem> more = nullptr, less = nullptr;
+
+  /// The tangent after what `change` makes of the neighbours of a state.
+  State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change);
+};
+
+/// Of the neighbours of all parameters; and the joints that they hold.
+struct Sensitivities::Meshes {
+  std::vector<std::pair<MeshPlan, MeshPlan>> plans;  ///< with more and with less of each parameter
+  std::vector<bool> held;
+};
+
+struct Sensitivities::Record {
+  State state;
+  bool of_the_moment;
+  std::optional<MotionTangents> tangents = {};  ///< empty where steps have been kept and not gone over
+  std::size_t position = 0;                     ///< after so many of them
+  std::shared_ptr<const Meshes> meshes;
+  std::shared_ptr<const Rest> rest;
+};
+
+/// A rest of the run, and how its residual changes by each parameter where places of joints correspond.
+struct Sensitivities::Rest {
+  std::unique_ptr<const BeamSystem> system;
+  RestAdjoint adjoint;
+  MotionTangents::Matrix dynamics, constraints;
+};
+
+/// Steps from where the tangents are.
+struct Sensitivities::Stretch {
+  double start;  ///< [s]
+  KeptSteps steps;
+  std::vector<double> by_time = {};       ///< of each, how its length changes with t at its start
+  std::vector<std::size_t> records = {};  ///< behind its steps
+};
+
+/// By the length of a step that lands on an event: the tangent, and of the distance to it.
+struct Sensitivities::Longer {
+  State tangent;
+  double approach;
+};
+
+/// The state `part` of a tangent away.
+State moved(const State& from, const State& tangent, double part);
+/// Half the difference over `step`.
+State rate(const State& more, const State& less, double step);
+/// (n, m) zero.
+State still(Eigen::Index coordinates, Eigen::Index constraints);
+
+/// Without what only steps need.
+MotionTangents of_states(MotionTangents tangents);
+
+[[noreturn]] void singular_step();
+[[noreturn]] void not_alike(const char* what);
+
+}  // namespace nurbeam

@@ -1,0 +1,103 @@
+#include "solver/step_adjoint.h"
+
+#include <numeric>
+
+namespace nurbeam {
+
+namespace {
+
+using Adjoints = MotionTangents::Matrix;
+
+// Subtracts the transpose of what a matrix does to its first columns, as many as `from` has rows, in `count`
+// columns of both.
+template <int count>
+void subtract_some(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Eigen::Index first,
+                   Adjoints& from) {
+  const int *starts = matrix.outerIndexPtr(), *rows = matrix.innerIndexPtr();
+  const double* values = matrix.valuePtr();
+  const double* factors = to.data() + first;
+  const Eigen::Index quantities = from.cols();
+  double* result = from.data() + first;
+  for (Eigen::Index column = 0; column < from.rows(); ++column, result += quantities) {
+    double sums[count] = {};
+    for (int k = starts[column]; k < starts[column + 1]; ++k)
+      for (int c = 0; c < count; ++c) sums[c] += values[k] * factors[rows[k] * quantities + c];
+    for (int c = 0; c < count; ++c) result[c] -= sums[c];
+  }
+}
+
+void subtract_transposed(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Adjoints& from) {
+  Eigen::Index first = 0;
+  for (; first + 4 <= from.cols(); first += 4) subtract_some<4>(matrix, to, first, from);
+  const Eigen::Index left = from.cols() - first;
+  if (left == 3) subtract_some<3>(matrix, to, first, from);
+  if (left == 2) subtract_some<2>(matrix, to, first, from);
+  if (left == 1) subtract_some<1>(matrix, to, first, from);
+}
+
+}  // namespace
+
+StepAdjoint::StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSystem& system)
+    : step_(settings, system) {
+  Eigen::SparseMatrix<double> places = step_.kkt;
+  std::iota(places.valuePtr(), places.valuePtr() + places.nonZeros(), 0.0);
+  transposed_ = places.transpose();
+  values_.assign(transposed_.valuePtr(), transposed_.valuePtr() + transposed_.nonZeros());
+}
+
+bool StepAdjoint::take(const State& before, const IntegratorHistory& history, const State& after,
+                       bool repeated) {
+  step_.take(before, history, after, repeated);
+  for (std::size_t k = 0; k < values_.size(); ++k)
+    transposed_.valuePtr()[k] = step_.kkt.valuePtr()[values_[k]];
+  return solver_.factorise(transposed_);
+}
+
+StepAdjoint::Matrix StepAdjoint::multipliers(const MotionTangents& end) const {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
+  const Eigen::Index n = end.q.rows(), m = end.lambda.rows();
+  const double h = step_.h, acceleration = 1 / (beta * h * h);
+  Matrix by_correction(n + m, end.parameters()), mu;
+  by_correction.topRows(n) = end.q + gamma * h * acceleration * end.v +
+                             (1 - alpha_m) / (1 - alpha_f) * acceleration * end.a +
+                             acceleration * (end.algorithmic_acceleration + end.jerk / h);
+  by_correction.bottomRows(m) = end.lambda / step_.scale();
+  solver_.solve(by_correction, mu);
+  mu.topRows(n) *= step_.scale();
+  return mu;
+}
+
+MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multipliers, double by_time,
+                                  const Eigen::VectorXd& later) const {
+  using Start = LinearStep::Start;
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
+  const double h = step_.h;
+  MotionTangents start = MotionTangents::zero(end.q.rows(), end.lambda.rows(), end.parameters());
+  // By what the step predicts.
+  start.q = end.q;
+  subtract_transposed(step_.stiffness, multipliers, start.q);
+  Matrix v = end.v;
+  if (step_.damped) subtract_transposed(step_.damping, multipliers, v);
+  const Matrix still = end.algorithmic_acceleration + end.jerk / h + h * h * beta * start.q + h * gamma * v;
+  // By what it begins with.
+  const Matrix algorithmic =
+      -alpha_m / (1 - alpha_m) * still - end.jerk / h + h * h * (0.5 - beta) * start.q + h * (1 - gamma) * v;
+  start.v = h * start.q + v;
+  start.a = alpha_f / (1 - alpha_m) * still;
+  (step_.start == Start::afresh ? start.a : start.algorithmic_acceleration) += algorithmic;
+  if (step_.start == Start::moved) start.jerk = step_.lag() * (h - step_.last_step) * algorithmic;
+  if (later.size() == 0) return start;
+  // By its length.
+  start.t = end.t - later.transpose() * multipliers;
+  Eigen::RowVectorXd by_length = start.t + end.last_step;
+  by_length += step_.q_by_length().transpose() * start.q + step_.v_by_length().transpose() * v;
+  by_length -= (step_.end_algorithmic - step_.start_algorithmic).transpose() * end.jerk / (h * h);
+  if (step_.start == Start::moved) {
+    start.last_step = -step_.lag() * step_.jerk.transpose() * algorithmic;
+    by_length -= start.last_step;
+  }
+  start.t += by_time * by_length;
+  return start;
+}
+
+}  // namespace nurbeam

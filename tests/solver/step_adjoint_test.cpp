@@ -1,0 +1,100 @@
+#include "solver/step_adjoint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/small_systems.h"
+
+namespace nurbeam {
+namespace {
+
+/// A pendulum whose damping and stiffness are not symmetric, driven with time.
+class UnevenPendulum : public testing::CartesianPendulum {
+ public:
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const override {
+    CartesianPendulum::residual(state, dynamics, constraints);
+    dynamics += damper() * state.v + spring() * state.q;
+    dynamics[0] -= std::sin(9 * state.t);
+  }
+
+ protected:
+  Eigen::MatrixXd damping(const State&) const override { return damper(); }
+  Eigen::MatrixXd stiffness(const State& state) const override {
+    return CartesianPendulum::stiffness(state) + Eigen::MatrixXd(spring());
+  }
+
+ private:
+  static Eigen::Matrix2d damper() { return (Eigen::Matrix2d() << 0.4, 0.9, -0.3, 0.2).finished(); }
+  static Eigen::Matrix2d spring() { return (Eigen::Matrix2d() << 1.3, -2.1, 0.6, 0.8).finished(); }
+};
+
+using Matrix = MotionTangents::Matrix;
+
+/// Numbers without a pattern.
+Matrix some(Eigen::Index rows, Eigen::Index columns, double seed) {
+  return Matrix::NullaryExpr(
+      rows, columns,
+      [seed](Eigen::Index i, Eigen::Index j) {
+        return std::sin(seed + 1.7 * static_cast<double>(i) + 2.9 * static_cast<double>(j * j));
+      });
+}
+
+MotionTangents some_tangents(Eigen::Index columns, double seed) {
+  return {.t = some(1, columns, seed),
+          .last_step = some(1, columns, seed + 0.1),
+          .q = some(2, columns, seed + 0.2),
+          .v = some(2, columns, seed + 0.3),
+          .a = some(2, columns, seed + 0.4),
+          .lambda = some(1, columns, seed + 0.5),
+          .algorithmic_acceleration = some(2, columns, seed + 0.6),
+          .jerk = some(2, columns, seed + 0.7)};
+}
+
+/// (quantities x parameters)
+Eigen::MatrixXd product(const MotionTangents& adjoints, const MotionTangents& tangents) {
+  return adjoints.t.transpose() * tangents.t + adjoints.last_step.transpose() * tangents.last_step +
+         adjoints.q.transpose() * tangents.q + adjoints.v.transpose() * tangents.v +
+         adjoints.a.transpose() * tangents.a + adjoints.lambda.transpose() * tangents.lambda +
+         adjoints.algorithmic_acceleration.transpose() * tangents.algorithmic_acceleration +
+         adjoints.jerk.transpose() * tangents.jerk;
+}
+
+// What quantities do at the end of a step is the same through tangents to there as through adjoints from
+// there, whatever both are: of steps like the one before, longer, shorter, five times as long, repeated.
+TEST(StepAdjoint, IsTheTransposeOfTheTangent) {
+  const UnevenPendulum pendulum;
+  constexpr GeneralizedAlpha exact{.newton_tolerance = 1e-14};
+  constexpr int quantities = 3, parameters = 5;
+  GeneralizedAlphaIntegrator integrator(exact, pendulum, pendulum.at_angle(0, 0.7, 0.5));
+  StepTangent tangent(exact, pendulum);
+  StepAdjoint adjoint(exact, pendulum);
+  for (const double length : {0.01, 0.01, 0.013, 0.004, 0.02, 0.01, 0.05}) {
+    const State before = integrator.state();
+    const IntegratorHistory history = integrator.history();
+    const bool repeated = length == 0.02;
+    const StepReport taken =
+        repeated ? integrator.repeat(before, history, length) : integrator.advance(length);
+    ASSERT_EQ(taken.status, StepStatus::converged);
+    const State& after = integrator.state();
+    ASSERT_TRUE(tangent.take(before, history, after, repeated));
+    ASSERT_TRUE(adjoint.take(before, history, after, repeated));
+    const MotionTangents start = some_tangents(parameters, length), at_end = some_tangents(quantities, 7);
+    const Matrix residual = some(3, parameters, 5);
+    const Eigen::Vector3d later(0.3, -0.8, 0.1);
+    const double by_time = -0.37;
+    const Eigen::RowVectorXd longer = by_time * start.t;
+    const Matrix whole = residual + later * (start.t + longer);
+    const MotionTangents end = tangent.end(start, longer, whole.topRows(2), whole.bottomRows(1));
+    const Matrix mu = adjoint.multipliers(at_end);
+    const Eigen::MatrixXd forward = product(at_end, end);
+    const Eigen::MatrixXd back =
+        product(adjoint.start(at_end, mu, by_time, later), start) - mu.transpose() * residual;
+    EXPECT_LT((forward - back).norm(), 1e-12 * forward.norm()) << length;
+    EXPECT_GT(forward.norm(), 1);
+  }
+}
+
+}  // namespace
+}  // namespace nurbeam

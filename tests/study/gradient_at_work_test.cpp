@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "pipelines/study/analysis.h"
+#include "tests/study/study_of_case.h"
+
+namespace nurbeam {
+namespace {
+
+using test::plane_slide;
+using test::StudyOfCase;
+
+TEST(Gradient, OfFormulasIsThatOfTheirExpressions) {
+  const StudyFile study = test::study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [1, 3]}, {"name": "y", "range": [0, 1]}, {"name": "z", "value": "x * y"}],
+    "quantities": [{"name": "f", "value": "x^2 * exp(y) + sin(z)"}], "plan": {"gradient": [[2, 0.5], [1.5, 0.1]]}})json");
+  ASSERT_TRUE(study.derivatives);
+  for (const std::vector<double>& point : std::get<StudyPlan>(study.task).rows) {
+    const Variant variant = run_variant(study, nullptr, 0, all_values(study, point));
+    const double x = point[0], y = point[1];
+    EXPECT_NEAR(variant.gradient[0][0], 2 * x * std::exp(y) + y * std::cos(x * y), 1e-7);
+    EXPECT_NEAR(variant.gradient[0][1], x * x * std::exp(y) + x * std::cos(x * y), 1e-7);
+  }
+}
+
+/// A study of formulas that counts its variants, with and without their derivatives.
+struct CountedStudy {
+  StudyFile study;
+  int variants = 0;
+
+  explicit CountedStudy(const std::string& text) : study(test::study_of(text)) {}
+
+  StudyEvaluation evaluation() {
+    return [this](const StudyPoints& points) {
+      StudyPoints quantities;
+      for (const std::vector<double>& point : points)
+        quantities.push_back(run_variant(study, nullptr, 0, all_values(study, point)).quantities);
+      variants += static_cast<int>(points.size());
+      return quantities;
+    };
+  }
+  StudyDerivatives derivatives() const {
+    return [this](const std::vector<double>& point) {
+      return run_variant(study, nullptr, 0, all_values(study, point)).gradient;
+    };
+  }
+};
+
+TEST(Gradient, TakesFormToTheIndexOfALinearLimitInFewVariants) {
+  CountedStudy of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "R", "distribution": {"normal": {"mean": 10, "sd": 1.5}}},
+                  {"name": "S", "distribution": {"normal": {"mean": 5, "sd": 2}}}],
+    "quantities": [{"name": "margin", "value": "R - S"}], "reliability": {"quantity": "margin", "below": 0}})json");
+  ASSERT_TRUE(of.study.derivatives);
+  const auto& task = std::get<StudyReliability>(of.study.task);
+  const ReliabilityResult result = failure_probability(of.study, task, of.evaluation(), of.derivatives());
+  EXPECT_NEAR(*result.reliability_index, 2, 1e-6);
+  const int along = std::exchange(of.variants, 0);
+  failure_probability(of.study, task, of.evaluation());
+  EXPECT_LT(2 * along, of.variants);
+}
+
+// Rosenbrock's valley, cut off by a constraint on the way: x^2 + y^2 <= 1 holds at the best with equality.
+TEST(Gradient, LeadsASearchAlongItsConstraints) {
+  CountedStudy of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [-2, 2], "nominal": -1}, {"name": "y", "range": [-1, 3], "nominal": 0.2}],
+    "quantities": [{"name": "f", "value": "(1 - x)^2 + 100 * (y - x^2)^2"}, {"name": "r", "value": "x^2 + y^2"}],
+    "optimise": {"minimise": "f", "subject_to": ["r <= 1"], "method": "gradient", "evaluations": 200,
+                 "tolerance": 1e-8}})json");
+  const auto& task = std::get<StudyOptimum>(of.study.task);
+  const OptimumResult result = find_optimum(of.study, task, of.evaluation(), of.derivatives());
+  EXPECT_NEAR(result.points[0][0], 0.786415, 1e-4);  // of Lagrange's equations
+  EXPECT_NEAR(result.points[0][1], 0.617698, 1e-4);
+  const int along = std::exchange(of.variants, 0);
+  find_optimum(of.study, task, of.evaluation());
+  EXPECT_LT(2 * along, of.variants);
+}
+
+TEST(Gradient, IsRefusedWhereThereIsNone) {
+  const auto refused = [](const std::string& of_case, const std::string& of_study) {
+    StudyOfCase of(of_case, of_study + R"json(, "quantities": [{"name": "s", "value": "at(end, slider.s)"}],
+      "plan": {"gradient": "nominal"})json");
+    std::string all;
+    for (const Diagnostic& d : check_quantities(of.study, &of.study_case)) all += d.message + "\n";
+    return all;
+  };
+  const std::string mass =
+      R"json("variables": [{"name": "m", "path": "bodies[0].mass", "range": [1, 2]}])json";
+  const auto slide = [](const std::string& analysis) {
+    return plane_slide + "\"analysis\": {" + analysis + "}}";
+  };
+  EXPECT_EQ(refused(slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json"), mass), "");
+  EXPECT_NE(
+      refused(slide(R"json("type": "dynamic", "end_time": 0.1, "integrator": {"type": "ida"})json"), mass)
+          .find("generalized-alpha"),
+      std::string::npos);
+  EXPECT_NE(
+      refused(slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json"),
+              R"json("variables": [{"name": "end", "path": "analysis.end_time", "range": [0.1, 0.2]}])json")
+          .find("no derivative by \"end\": variables that change the times of a run"),
+      std::string::npos);
+  std::string rough = slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json");
+  rough.replace(rough.find("\"speed\": 1"), 10, R"json("friction": {"coefficient": 0.1})json");
+  EXPECT_NE(refused(rough, mass).find("friction"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nurbeam
