@@ -1,3 +1,5 @@
+#include "fem/sensitivity/sensitivities.h"
+
 #include <cmath>
 #include <limits>
 #include <optional>
