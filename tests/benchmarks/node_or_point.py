@@ -21,6 +21,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib import ticker
 
 ROOT = Path(__file__).resolve().parents[2]
 MESHES = (5, 10, 20, 40, 80, 160, 320)  # the finest one is what the others are compared with
@@ -179,6 +180,9 @@ def draw(curves_of, picture):
             plot.loglog(*zip(*points), "o-", color=WAYS[way][0], label=way, markersize=3, linewidth=1)
         plot.set_title(name, fontsize=9)
         plot.grid(linewidth=0.4)
+        plot.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        plot.xaxis.set_major_formatter("{x:g}")
+        plot.xaxis.set_minor_formatter(ticker.NullFormatter())
         plot.tick_params(labelsize=7)
     axes[0, 0].legend(fontsize=7)
     figure.supxlabel("processor time [s]", fontsize=9)
