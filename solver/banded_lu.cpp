@@ -45,15 +45,15 @@ class BandedLu::Window {
     height_ = (band + 3 * block - 1) / block * block;
     const int open_at_once = 3 * band + 2 * block;
     capacity_ = std::min(3 * open_at_once, of.padded_ + band);
-    of.window_.resize(static_cast<std::size_t>(capacity_ * width_ + block * height_));
+    const std::ptrdiff_t rows = std::ptrdiff_t{capacity_} * width_;
+    of.window_.resize(static_cast<std::size_t>(rows + block * height_));
     of.window_ends_.resize(static_cast<std::size_t>(capacity_));
     rows_ = of.window_.data();
     ends_ = of.window_ends_.data();
     std::fill(scale_.begin(), scale_.end(), 0);
-    multipliers_ = rows_ + capacity_ * width_;
+    multipliers_ = rows_ + rows;
   }
 
-  NURBEAM_WITHIN int width() const { return width_; }
   NURBEAM_WITHIN double* diagonal(int row) { return rows_ + (row - begin_) * width_ + before_; }
   /// One past the last column of a row.
   NURBEAM_WITHIN int& end(int row) { return ends_[row - begin_]; }
