@@ -1,7 +1,6 @@
 #include "solver/banded_lu.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
