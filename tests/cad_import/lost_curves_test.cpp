@@ -15,6 +15,7 @@
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 #include "tests/support/curves.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -115,8 +116,7 @@ TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {
 
 TEST(LostCurves, SupplementalGeometryInAnAssemblyLiesInItsPartInItsOwnUnit) {
   // A part that is placed at 100 and 300 mm and turned by 90 degrees, with a line of 2 cm besides.
-  const ImportReport report =
-      import_curves(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/fuzz/seeds/supplemental.step");
+  const ImportReport report = import_curves(test::source_directory() / "tests/fuzz/seeds/supplemental.step");
   std::map<std::string, NurbsCurve> helps;
   for (const ImportedCurve& curve : report.curves)
     if (curve.name == "help") helps.emplace(curve.part, curve.curve);

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/places.h"
+
 namespace nurbeam {
 
 /// A directory of its own for one test, removed with all its files.
@@ -33,7 +35,7 @@ class ScratchDirectory {
 };
 
 inline std::filesystem::path corpus_file(const std::string& name) {
-  return std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests" / "corpus" / name;
+  return test::source_directory() / "tests" / "corpus" / name;
 }
 
 inline std::string content_of(const std::filesystem::path& file) {

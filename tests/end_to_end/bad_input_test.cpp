@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -85,7 +86,7 @@ TEST(BadInput, AnEmptyCadFile) {
 
 TEST(BadInput, ATruncatedCadFile) {
   const TemporaryDirectory directory;
-  const std::filesystem::path corpus = std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/corpus";
+  const std::filesystem::path corpus = test::source_directory() / "tests/corpus";
   const std::string iges = text_of(corpus / "iges-126-bsplines.igs");
   expect_refused(run_beam({axis_file(directory.write("cut.igs", iges.substr(0, iges.size() / 2)))}),
                  {"cut.igs", "truncated"});

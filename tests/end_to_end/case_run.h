@@ -11,6 +11,7 @@
 
 #include "pipelines/command/command_line.h"
 #include "tests/pipelines/case_text.h"
+#include "tests/support/places.h"
 
 namespace nurbeam::test {
 
@@ -84,7 +85,7 @@ inline CaseRun run_file(const std::filesystem::path& file, const std::vector<std
 }
 
 inline std::filesystem::path sample(const std::string& name) {
-  return std::filesystem::path(NURBEAM_SOURCE_DIR) / "samples" / name;
+  return test::source_directory() / "samples" / name;
 }
 
 }  // namespace nurbeam::test

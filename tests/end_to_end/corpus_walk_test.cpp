@@ -16,13 +16,14 @@
 #include "tests/convergence/run_model.h"
 #include "tests/pipelines/case_text.h"
 #include "tests/support/models.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
 
 constexpr double approximation = 1e-6;  // asked for above degree 3 [m]
 
-std::filesystem::path corpus() { return std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/corpus"; }
+std::filesystem::path corpus() { return test::source_directory() / "tests/corpus"; }
 
 std::vector<std::string> corpus_files() {
   std::vector<std::string> names;

@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam::test {
 namespace {
 
 std::filesystem::path case_file(const std::string& name) {
-  return std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name;
+  return test::source_directory() / "tests/cases" / name;
 }
 
 TEST(StiffHinge, IsWarnedOfAndEndsTheRunBeforeItsMeshMakesEnergy) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam::test {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 const char* const warning = "do not trust the result";
 
 CaseRun run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return run_file(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name, overrides);
+  return run_file(test::source_directory() / "tests/cases" / name, overrides);
 }
 
 TEST(EnergyOfTheMesh, IsRefusedWithALoadAsWithoutOne) {

@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam::test {
 namespace {
 
 CaseRun run_misleading_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return run_file(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name, overrides);
+  return run_file(test::source_directory() / "tests/cases" / name, overrides);
 }
 
 // A touch of 1e-6 N out of its plane made the arch a wire that is straight when it is free: 26,394 N m.

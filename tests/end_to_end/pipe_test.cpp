@@ -6,14 +6,13 @@
 
 #include "cad_import/import_curves.h"
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 #include "tests/support/straight_frame.h"
 
 namespace nurbeam::test {
 namespace {
 
-std::filesystem::path pipe_file() {
-  return std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases/pipe_solid.step";
-}
+std::filesystem::path pipe_file() { return test::source_directory() / "tests/cases/pipe_solid.step"; }
 
 // The frame program on the axis of the drawing, nu = 0.3.
 double sag_of_frame(int elements) {

@@ -13,6 +13,7 @@
 #include "pipelines/results/results.h"
 #include "tests/cad_import/step_text_of.h"
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -28,7 +29,7 @@ class Process {
   Process(const TemporaryDirectory& directory, const std::string& arguments, const std::string& before = "")
       : messages_(directory.path() / ("messages" + std::to_string(++count_))) {
     const std::string command =
-        before + " exec " NURBEAM_EXECUTABLE " " + arguments + " 2>" + messages_.string();
+        before + " exec " + test::nurbeam_program().string() + " " + arguments + " 2>" + messages_.string();
     id_ = fork();
     if (id_ == 0) {
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -247,8 +248,8 @@ TEST(Process, ARunOutlivesTheReaderOfItsMessages) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "results";
   // The joint at the held end gives a warning; the pipe's reader has gone by then.
-  const std::string command =
-      "(sleep 0.2; exec " NURBEAM_EXECUTABLE " " + run_of("0.01", out) + "; ) 2>&1 >/dev/null | true; exit 0";
+  const std::string command = "(sleep 0.2; exec " + test::nurbeam_program().string() + " " +
+                              run_of("0.01", out) + "; ) 2>&1 >/dev/null | true; exit 0";
   EXPECT_EQ(std::system(command.c_str()), 0);
   for (int i = 0; i < 3000 && !std::filesystem::exists(out / "run.json"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

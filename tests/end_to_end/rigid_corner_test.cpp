@@ -8,6 +8,7 @@
 
 #include "cad_import/import_curves.h"
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -147,7 +148,7 @@ TEST(RigidCornerRun, TheCornerIsStillInTheCurveThatIsWritten) {
 TEST(RigidCornerRun, ACompositeCurveOfACadFileComesBackWithItsCorners) {
   const TemporaryDirectory directory;
   const auto results = directory.path() / "results";
-  const std::string file = std::string(NURBEAM_SOURCE_DIR) + "/tests/corpus/iges-102-composite.igs";
+  const std::string file = test::source_directory() / "tests/corpus/iges-102-composite.igs";
   const std::vector<std::string> wire = {R"(beams[0].axis={"file": ")" + file + "\"}",
                                          "beams[0].section.radius=3e-4",
                                          "beams[0].material.youngs_modulus=2e9",

@@ -11,6 +11,7 @@
 
 #include "cad_import/import_curves.h"
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 #include "tests/support/straight_frame.h"
 
 namespace nurbeam {
@@ -46,7 +47,7 @@ bool is_study(const std::filesystem::path& file) {
 
 TEST(Samples, EveryCaseRunsAndFillsItsResults) {
   for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::filesystem::path(NURBEAM_SOURCE_DIR) / "samples")) {
+       std::filesystem::recursive_directory_iterator(test::source_directory() / "samples")) {
     if (entry.path().extension() != ".json" || is_study(entry.path())) continue;
     const std::string name = entry.path().lexically_relative(test::sample("")).string();
     SCOPED_TRACE(name);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam::test {
 namespace {
@@ -18,7 +19,7 @@ std::size_t count_of(const std::string& words, const std::string& text) {
 CaseRun run_ring(const std::vector<std::string>& more) {
   std::vector<std::string> overrides{"analysis.end_time=0.5", "output.report=false", "output.every=0.1"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return run_file(std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases/u2_ring.json", overrides);
+  return run_file(test::source_directory() / "tests/cases/u2_ring.json", overrides);
 }
 
 TEST(ShortSteps, AreSaidOnceWithTheirCure) {

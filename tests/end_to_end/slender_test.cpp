@@ -9,6 +9,7 @@
 #include "pipelines/results/frame_reader.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "tests/end_to_end/case_run.h"
+#include "tests/support/places.h"
 
 namespace nurbeam::test {
 namespace {
@@ -19,7 +20,7 @@ using namespace verification;
 Snapshot at_rest(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const TemporaryDirectory directory;
   const std::filesystem::path results = directory.path() / "results";
-  const std::filesystem::path file = std::filesystem::path(NURBEAM_SOURCE_DIR) / "tests/cases" / name;
+  const std::filesystem::path file = test::source_directory() / "tests/cases" / name;
   std::vector<std::string> words = {"run", file.string(), "--quiet", "--out", results.string()};
   for (const std::string& override : overrides) words.insert(words.end(), {"--set", override});
   std::ostringstream out, err;

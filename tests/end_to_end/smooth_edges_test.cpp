@@ -33,6 +33,7 @@
 #include "tests/convergence/run_model.h"
 #include "tests/pipelines/case_text.h"
 #include "tests/support/models.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -257,7 +258,7 @@ Extremes walk(const fs::path& drawing) {
 
 TEST(SmoothEdges, OfTheCorpusComeBackAsSmoothEdges) {
   int curves = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests/corpus"))
+  for (const auto& entry : fs::directory_iterator(test::source_directory() / "tests/corpus"))
     if (entry.path().extension() != ".md" && entry.path().filename() != ".gitattributes")
       curves += walk(entry.path()).curves;
   EXPECT_GT(curves, 200);

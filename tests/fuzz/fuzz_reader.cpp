@@ -35,6 +35,7 @@
 #include "cad_import/program/read_file.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/warm_reader.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -120,7 +121,7 @@ std::string format_name(const std::string& content) {
 
 // The files of the format that can be read, with the curves that each holds, the smallest first.
 std::vector<CorpusText> corpus_of(const Options& options) {
-  const fs::path tests = fs::path(NURBEAM_SOURCE_DIR) / "tests";
+  const fs::path tests = test::source_directory() / "tests";
   std::vector<fs::path> directories{tests / "corpus", tests / "fuzz/seeds"};
   if (!options.from.empty()) directories.emplace_back(options.from);
   std::vector<CorpusText> corpus;
@@ -232,7 +233,7 @@ class Fuzzer {
       : options_(options), random_(options.seed), corpus_(corpus_of(options)) {
     for (const CorpusText& text : corpus_) contents_.push_back(text.content);
     // Assemblies find their parts beside them.
-    for (const auto& seed : fs::directory_iterator(fs::path(NURBEAM_SOURCE_DIR) / "tests/fuzz/seeds"))
+    for (const auto& seed : fs::directory_iterator(test::source_directory() / "tests/fuzz/seeds"))
       fs::copy_file(seed.path(), scratch_.path() / seed.path().filename());
     warm_up(corpus_.front());
   }

@@ -11,13 +11,15 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace nurbeam {
 namespace {
 
 using Status = ChildResult::Status;
 
 ChildResult run(const std::string& request, const ChildLimits& limits = {}) {
-  return run_program(MISBEHAVING_PROGRAM, request, limits);
+  return run_program(test::misbehaving_program(), request, limits);
 }
 
 int own_descriptors() {

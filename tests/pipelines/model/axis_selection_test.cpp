@@ -12,6 +12,7 @@
 #include "pipelines/model/build_model.h"
 #include "tests/pipelines/case_text.h"
 #include "tests/support/curves.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -243,7 +244,7 @@ TEST(AxisSelection, InspectListsChainsAndJunctions) {
 
 TEST(PipeSection, IsThatOfTheDrawnPipe) {
   const test::TemporaryDirectory directory;
-  const std::string file = std::string(NURBEAM_SOURCE_DIR) + "/tests/corpus/pygem-pipe.step";
+  const std::string file = test::source_directory() / "tests/corpus/pygem-pipe.step";
   const auto build_pipe = [&](const std::string& axis) {
     const CaseFileReport report = read_case_file(
         directory.write("case.json", test::smallest_case),

@@ -13,6 +13,7 @@
 #include "pipelines/report/report_template.h"
 #include "pipelines/results/results.h"
 #include "tests/pipelines/case_text.h"
+#include "tests/support/places.h"
 
 namespace nurbeam {
 namespace {
@@ -248,7 +249,7 @@ TEST(Report, RefusesASummaryThatIsNoObjectAndARunWithoutFrames) {
 }
 
 TEST(Report, TheProgramHoldsTheCommittedPage) {
-  const std::string committed = text_of(NURBEAM_SOURCE_DIR "/pipelines/report/dist/report.html");
+  const std::string committed = text_of(test::source_directory() / "pipelines/report/dist/report.html");
   EXPECT_FALSE(committed.empty());
   EXPECT_TRUE(report_template == committed);
   for (const std::string marker : {"{{title}}", "{{data}}"}) {
