@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "solver/kkt_solver.h"
@@ -12,6 +13,8 @@
 namespace nurbeam {
 
 namespace {
+
+using Vector = Eigen::VectorXd;
 
 /// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, the first block divided by its scale.
 struct ScaledKkt {
@@ -66,15 +69,16 @@ class LocalKkt {
   }
 
   /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m). Precondition: is_worth_it().
-  bool correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Beyond beyond, Eigen::VectorXd& x,
-               Eigen::VectorXd& y) const {
+  bool correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Beyond beyond, NearSolver& solver,
+               Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     Eigen::VectorXd right(top.size() + bottom.size()), left(right.size());
     right << top / scale_, bottom;
     left << x, y / scale_;
     const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(
         pattern_.size(), pattern_.size(), static_cast<Eigen::Index>(pattern_.rows().size()),
         pattern_.column_starts().data(), pattern_.rows().data(), values_.get());
-    if (!right.allFinite() || !left.allFinite() || !correct_around(matrix, right, near_, beyond, left))
+    if (!right.allFinite() || !left.allFinite() ||
+        !correct_around(matrix, right, near_, beyond, solver, left))
       return false;
     x = left.head(x.size());
     y = scale_ * left.tail(y.size());
@@ -142,6 +146,33 @@ class FactorisedKkt {
   KktSolver solver_;
   bool regular_ = false;
 };
+
+/// Velocities and impulse by `solve`(kkt, b, x), of which x comes in with those of the state.
+template <class Solve>
+Projection from_momentum(const SecondOrderSystem& system, const Vector& momentum, State& state,
+                         const Solve& solve) {
+  const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
+  const ScaledKkt kkt(system, state);
+  Vector b(n + m), x = Vector::Zero(n + m);
+  b << momentum / kkt.scale, -system.constraint_rate(state);
+  x.head(n) = state.v;
+  if (!b.allFinite() || !x.allFinite() || !solve(kkt, b, x) || !x.allFinite())
+    return {ConsistencyStatus::singular, {}};
+  state.v = x.head(n);
+  return {ConsistencyStatus::done, kkt.scale * x.tail(m)};
+}
+
+/// Those near some unknowns; nothing where there are none or that is not worth it.
+std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
+                                          const std::vector<int>& around, NearSolver& solver, State& state) {
+  if (around.empty()) return std::nullopt;
+  const LocalKkt kkt(system, state, 0, around);
+  Vector impulse = Vector::Zero(system.constraint_count());
+  if (!kkt.is_worth_it() ||
+      !kkt.correct(momentum, -system.constraint_rate(state), Beyond::closed, solver, state.v, impulse))
+    return std::nullopt;
+  return Projection{ConsistencyStatus::done, impulse};
+}
 
 /// The state without accelerations and multipliers.
 State unloaded(const SecondOrderSystem& system, State state) {
@@ -216,27 +247,32 @@ bool move_to_constraints(const SecondOrderSystem& system, State& state) {
 }  // namespace
 
 ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
-  const FactorisedKkt kkt(system, unloaded(system, state), h);
-  if (!kkt.regular()) return ConsistencyStatus::singular;
-  const Eigen::VectorXd solution = kkt.solve(force(system, state), -system.constraint_curvature(state));
-  if (!solution.allFinite()) return ConsistencyStatus::singular;
-  State found = state;
-  found.a = solution.head(system.coordinate_count());
-  found.lambda = solution.tail(system.constraint_count());
-  if (system.forces_depend_on_multipliers() && !correct_accelerations(system, h, found))
-    return ConsistencyStatus::singular;
-  state = std::move(found);
-  return ConsistencyStatus::done;
+  NearSolver own;
+  return make_accelerations_smooth(system, h, {}, own, state);
 }
 
 ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
-                                            const std::vector<int>& around, State& state) {
-  if (around.empty() || system.forces_depend_on_multipliers())
-    return make_accelerations_smooth(system, h, state);
-  const LocalKkt kkt(system, unloaded(system, state), h, around);
-  if (!kkt.is_worth_it() || !kkt.correct(force(system, state), -system.constraint_curvature(state),
-                                         Beyond::given, state.a, state.lambda))
-    return make_accelerations_smooth(system, h, state);
+                                            const std::vector<int>& around, NearSolver& solver,
+                                            State& state) {
+  const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
+  const State still = unloaded(system, state);
+  const Eigen::VectorXd f = force(system, state), curvature = system.constraint_curvature(state);
+  if (!around.empty() && !system.forces_depend_on_multipliers()) {
+    const LocalKkt near(system, still, h, around);
+    if (near.is_worth_it() && near.correct(f, -curvature, Beyond::given, solver, state.a, state.lambda))
+      return ConsistencyStatus::done;
+  }
+  const ScaledKkt kkt(system, still, h);
+  Eigen::VectorXd right(n + m), solution;
+  right << f / kkt.scale, -curvature;
+  if (!solver.solve(kkt.matrix, system.moving_unknowns(), right, solution) || !solution.allFinite())
+    return ConsistencyStatus::singular;
+  State found = state;
+  found.a = solution.head(n);
+  found.lambda = kkt.scale * solution.tail(m);
+  if (system.forces_depend_on_multipliers() && !correct_accelerations(system, h, found))
+    return ConsistencyStatus::singular;
+  state = std::move(found);
   return ConsistencyStatus::done;
 }
 
@@ -284,26 +320,26 @@ Projection project_velocities(const SecondOrderSystem& system, State& state, dou
 
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
                                     State& state) {
-  const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
-  const ScaledKkt kkt(system, state);
-  Eigen::VectorXd b(n + m), x = Eigen::VectorXd::Zero(n + m);
-  b << momentum / kkt.scale, -system.constraint_rate(state);
-  x.head(n) = state.v;
-  if (!b.allFinite() || !x.allFinite() || !correct_locally(kkt.matrix, b, system.moving_unknowns(), x))
-    return {ConsistencyStatus::singular, {}};
-  state.v = x.head(n);
-  return {ConsistencyStatus::done, kkt.scale * x.tail(m)};
+  return from_momentum(
+      system, momentum, state,
+      [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
+        return correct_locally(kkt.matrix, b, system.moving_unknowns(), x);
+      });
 }
 
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
                                     const std::vector<int>& around, State& state) {
-  if (around.empty()) return velocities_from_momentum(system, momentum, state);
-  const LocalKkt kkt(system, state, 0, around);
-  Eigen::VectorXd impulse = Eigen::VectorXd::Zero(system.constraint_count());
-  if (!kkt.is_worth_it() ||
-      !kkt.correct(momentum, -system.constraint_rate(state), Beyond::closed, state.v, impulse))
-    return velocities_from_momentum(system, momentum, state);
-  return {ConsistencyStatus::done, impulse};
+  NearSolver own;
+  if (const auto near = near_velocities(system, momentum, around, own, state)) return *near;
+  return velocities_from_momentum(system, momentum, state);
+}
+
+Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
+                                    const std::vector<int>& around, NearSolver& solver, State& state) {
+  if (const auto near = near_velocities(system, momentum, around, solver, state)) return *near;
+  return from_momentum(system, momentum, state, [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
+    return solver.solve(kkt.matrix, system.moving_unknowns(), b, x);
+  });
 }
 
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "solver/near_solver.h"
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
@@ -21,9 +22,11 @@ enum class ConsistencyStatus {
 [[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
                                                           State& state);
 /// The same for those that belong to a state already, but near these unknowns, of the coordinates and then
-/// the multipliers: solved for there alone, where nothing else asks for more.
+/// the multipliers: solved for there alone, where nothing else asks for more. None: everywhere. `solver`: of
+/// neighbouring states and systems, with the same unknowns.
 [[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
-                                                          const std::vector<int>& around, State& state);
+                                                          const std::vector<int>& around, NearSolver& solver,
+                                                          State& state);
 
 /// The largest of what is left of the constraints g(q, t), in their units.
 double open_constraints(const SecondOrderSystem& system, const State& state);
@@ -55,5 +58,10 @@ struct Projection {
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum,
                                                   const std::vector<int>& around, State& state);
+/// The same with a solver of neighbouring states and systems.
+[[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
+                                                  const Eigen::VectorXd& momentum,
+                                                  const std::vector<int>& around, NearSolver& solver,
+                                                  State& state);
 
 }  // namespace nurbeam

@@ -164,14 +164,13 @@ Surroundings::Surroundings(const SparsePattern& pattern, const std::vector<int>&
 }
 
 bool correct_around(const View& A, const Eigen::VectorXd& b, const Surroundings& around, Beyond beyond,
-                    Eigen::VectorXd& x) {
+                    NearSolver& solver, Eigen::VectorXd& x) {
   const Open open(A, b, x, around.unknowns);
   const auto end_of_inner = around.unknowns.begin() + static_cast<std::ptrdiff_t>(around.inner);
   const Window window(A, std::vector<int>(around.unknowns.begin(), end_of_inner));
-  KktSolver solver;
   if (window.size() == 0) return true;
-  if (!solver.factorise(window.matrix(A))) return false;
-  const Eigen::VectorXd solution = solver.solve(window.part(open.rows));
+  Eigen::VectorXd solution;
+  if (!solver.solve(window.matrix(A), {}, window.part(open.rows), solution)) return false;
   if (!solution.allFinite() || (beyond == Beyond::closed && !window.suffices(A, open, solution)))
     return false;
   window.add(solution, x);

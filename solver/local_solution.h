@@ -2,6 +2,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "solver/near_solver.h"
 #include "solver/sparse_pattern.h"
 
 namespace nurbeam {
@@ -30,6 +31,6 @@ enum class Beyond {
 /// ones, or where they do not suffice.
 [[nodiscard]] bool correct_around(const Eigen::Map<const Eigen::SparseMatrix<double>>& A,
                                   const Eigen::VectorXd& b, const Surroundings& around, Beyond beyond,
-                                  Eigen::VectorXd& x);
+                                  NearSolver& solver, Eigen::VectorXd& x);
 
 }  // namespace nurbeam

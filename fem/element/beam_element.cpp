@@ -197,10 +197,15 @@ ElementBasis<double> BeamElement<D>::basis(const ElementVector<D>& q) const {
 }
 
 template <int D>
+MovingBasis BeamElement<D>::moving_basis(const ElementVector<D>& q, Derivatives wanted) const {
+  using Layout = ElementLayout<D>;
+  return {*curve_, chart_, Jet::variable(q[Layout::place(0)], 0), Jet::variable(q[Layout::place(1)], 1),
+          wanted};
+}
+
+template <int D>
 ShapeFunctions<Jet> BeamElement<D>::shape_series(const ElementVector<D>& q, double s) const {
-  return MovingBasis(*curve_, chart_, Jet::variable(q[ElementLayout<D>::place(0)], 0),
-                     Jet::variable(q[ElementLayout<D>::place(1)], 1))
-      .at(Jet(s));
+  return moving_basis(q).at(Jet(s));
 }
 
 template <int D>

@@ -95,7 +95,9 @@ class BeamElement {
   ElementBasis<double> basis(const ElementVector<D>& q) const;
   /// The same at material point s.
   ShapeFunctions<double> shape(const ElementVector<D>& q, double s) const { return basis(q).at(s); }
-  /// The same as series in the end positions, s fixed.
+  /// The same as functions of the end positions.
+  MovingBasis moving_basis(const ElementVector<D>& q, Derivatives wanted = Derivatives::two) const;
+  /// The shape functions as series in the end positions, s fixed.
   ShapeFunctions<Jet> shape_series(const ElementVector<D>& q, double s) const;
   /// The weights w_0..w_3 of the element's rational cubic (Eq. 9) for the end positions in q.
   Eigen::Vector4d bezier_weights(const ElementVector<D>& q) const;

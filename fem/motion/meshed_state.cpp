@@ -77,11 +77,11 @@ std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool a
 }
 
 std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
-                                        const std::vector<EnergyMove>& moves) {
+                                        const std::vector<EnergyMove>& moves, NearSolver& solver) {
   return go_on_there(
       at, changed(
               at, next, false,
-              [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, moves); }));
+              [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, moves, solver); }));
 }
 
 std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count) {

@@ -36,7 +36,8 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
 [[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
 /// The same as a neighbouring motion, which has been moved so to keep its energy.
 [[nodiscard]] std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
-                                                      const std::vector<EnergyMove>& moves);
+                                                      const std::vector<EnergyMove>& moves,
+                                                      NearSolver& solver);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
 /// than that can be.

@@ -12,8 +12,9 @@ bool Run::restart(const std::vector<int>& changed) {
   // Other methods than this one want accelerations that are consistent everywhere.
   const std::vector<int> around =
       std::holds_alternative<GeneralizedAlpha>(options.integrator) ? changed : std::vector<int>{};
-  const bool consistent = change([&around, time = shortest_time()](MeshedState& of) {
-    return make_accelerations_smooth(*of.system, time, around, of.state) == ConsistencyStatus::done;
+  NearSolver solver;
+  const bool consistent = change([&, time = shortest_time()](MeshedState& of) {
+    return make_accelerations_smooth(*of.system, time, around, solver, of.state) == ConsistencyStatus::done;
   });
   if (!consistent) return fail(Failure::Kind::mass_matrix);
   const Integrator* before = around.empty() ? nullptr : integrator.get();

@@ -12,6 +12,7 @@
 #include "fem/motion/matched_node.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
+#include "fem/system/momentum.h"
 #include "fem/system/observables.h"
 #include "fem/system/same_elements.h"
 #include "solver/consistent.h"
@@ -25,10 +26,13 @@ constexpr int no_beam = -1;
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
  public:
-  Remap(const BeamSystem& from, const State& state, const BeamSystem& to)
+  // `solver`, which may be null: of motions that lie close to this one.
+  Remap(const BeamSystem& from, const State& state, const BeamSystem& to, NearSolver* solver = nullptr)
       : from_(from),
         state_(state),
         to_(to),
+        solver_(solver),
+        momentum_(from, state, to),
         around_(changed_unknowns(from, to)),
         enough_(closed_enough(from, state)) {}
 
@@ -45,7 +49,9 @@ class Remap {
     }
     carry_bodies(to_, next);
     if (!close_constraints(to_, enough_, next)) return std::nullopt;
-    const Projection projection = velocities_from_momentum(to_, momentum_on(next), around_, next);
+    const Eigen::VectorXd momentum = momentum_.on(next);
+    const Projection projection = solver_ ? velocities_from_momentum(to_, momentum, around_, *solver_, next)
+                                          : velocities_from_momentum(to_, momentum, around_, next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
   }
@@ -97,23 +103,6 @@ class Remap {
     for (std::size_t i = 0; i < free.size(); ++i) moved.q[free[i]] += move[static_cast<long>(i)];
     if (!to_.admissible(moved)) return std::nullopt;
     return with_velocities(std::move(moved));
-  }
-
-  // The momentum of the old motion over the new elements, plus the bodies' momenta.
-  Eigen::VectorXd momentum_on(const State& next) const {
-    const Mesh& old = from_.mesh();
-    const auto motion = [&](int beam, double s) {
-      return MaterialMotion{material_point(from_, state_, beam, s).velocity,
-                            material_spin(from_, state_, beam, s)};
-    };
-    const auto breaks = [&](int beam) {
-      std::vector<double> places;
-      for (const MeshNode& node : old.nodes[beam])
-        places.push_back(node.place >= 0 ? state_.q[node.place] : node.s);
-      for (double s : to_.model().beams[beam].curve.breaks()) places.push_back(s);
-      return places;
-    };
-    return generalised_momentum(to_, next, motion, breaks, body_motions(from_, state_), from_, state_);
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
@@ -240,6 +229,8 @@ class Remap {
   const BeamSystem& from_;
   const State& state_;
   const BeamSystem& to_;
+  NearSolver* const solver_;
+  const CarriedMomentum momentum_;
   const std::vector<int> around_;  // where rows of the new mesh may be open
   const double enough_;            // of closed constraints
 };
@@ -361,8 +352,8 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
 }
 
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves) {
-  const Remap remap(from, state, to);
+                                          const std::vector<EnergyMove>& moves, NearSolver& solver) {
+  const Remap remap(from, state, to, &solver);
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
   if (next && !remap.repeat(moves, *next)) return std::nullopt;
   return next;

@@ -4,6 +4,7 @@
 
 #include "fem/forces/energy.h"
 #include "fem/motion/mesh_rules.h"
+#include "solver/near_solver.h"
 
 namespace nurbeam {
 
@@ -45,8 +46,8 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
                                      const BeamSystem& to);
 /// The same with these moves, whatever they bring, so that it is a smooth function of the state and of the
 /// model: where `moves` are those of a neighbouring motion, as far away from the energy's own as that one is.
-/// nullopt also where they cannot be made.
+/// nullopt also where they cannot be made. `solver`: of the same for such motions.
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves);
+                                          const std::vector<EnergyMove>& moves, NearSolver& solver);
 
 }  // namespace nurbeam

@@ -153,63 +153,6 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   return record;
 }
 
-// That of a section's spin, times the length [rad m/s] that has it.
-void add_spin(const MeshElement<3>& e, const State& state, double s, double spin, Eigen::VectorXd& p) {
-  const double inertia = e.element.properties().sections->spin_inertia;
-  const TwistLayout::Coordinates row = e.twist->element.material_spin_row(gather_twist(e, state.q), s);
-  for (int k = 0; k < TwistLayout::size; ++k)
-    if (e.twist->dofs[k] >= 0) p[e.twist->dofs[k]] += inertia * spin * row[k];
-}
-
-// That of one element.
-template <int D>
-void add_momentum(const MeshElement<D>& e, const State& state,
-                  const std::function<MaterialMotion(int beam, double s)>& field,
-                  const std::vector<double>& breaks, Eigen::VectorXd& p) {
-  const ReferenceCurve& curve = e.element.curve();
-  std::vector<double> parts{e.s_a, e.s_b};
-  for (const double place : breaks) {
-    const double s = curve.unrolled(place, (e.s_a + e.s_b) / 2);
-    if (s > e.s_a && s < e.s_b) parts.push_back(s);
-  }
-  std::sort(parts.begin(), parts.end());
-  const ElementVector<D> x = gather<D>(e, state.q);
-  const ElementNodes<D> nodes = ElementLayout<D>::nodes(x);
-  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-    for (int g = 0; g < GaussRule::size; ++g) {
-      const double length = parts[i + 1] - parts[i], s = parts[i] + length * GaussRule::points[g];
-      const MaterialMotion motion = field(e.beam, s);
-      const Eigen::Matrix<double, D, 1> velocity = motion.velocity.template head<D>();
-      const PointField<D> r(e.element.shape_series(x, s).value, nodes);
-      const double mass = e.element.properties().mass_per_length * length * GaussRule::weights[g];
-      for (int k = 0; k < element_size<D>; ++k)
-        if (e.dofs[k] >= 0) p[e.dofs[k]] += mass * r.gradient.col(k).dot(velocity);
-      if constexpr (D == 3)
-        if (e.twist) add_spin(e, state, s, length * GaussRule::weights[g] * motion.spin, p);
-    }
-}
-
-// The momentum of an element that moves as it does in another mesh.
-template <int D>
-void add_momentum(const MeshElement<D>& e, const MeshElement<D>& same, const State& motion,
-                  Eigen::VectorXd& p) {
-  const ElementNodes<D> momentum = e.element.nodal_momentum(gather<D>(same, motion).node_rates());
-  for (int k = 0; k < ElementLayout<D>::nodal; ++k) p[e.dofs[k]] += momentum.reshaped()[k];
-}
-
-// Calls visit(roll, at) for the inertia of each body that rolls with a section.
-template <class Visit>
-void for_each_roll(const BeamSystem& system, Visit&& visit) {
-  const Assembly<3>* assembly = system.assembly<3>();
-  if (!assembly) return;
-  for (const BoundForce<3>& force : assembly->forces())
-    std::visit(
-        [&](const auto& f) {
-          if constexpr (requires { f.joint(); }) visit(f, assembly->beams());
-        },
-        force);
-}
-
 }  // namespace
 
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s) {
@@ -312,58 +255,6 @@ Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, in
         const MeshElement<D>& e = a.elements()[span];
         return e.element.bezier_weights(gather<D>(e, state.q));
       });
-}
-
-BodyMotions body_motions(const BeamSystem& system, const State& state) {
-  BodyMotions motions;
-  for (const int r : system.mesh().bodies) {
-    motions.velocities.emplace_back(Eigen::Vector3d::Zero());
-    motions.velocities.back().head(system.dimension()) = state.v.segment(r, system.dimension());
-  }
-  motions.spins.assign(system.model().joints.size(), 0);
-  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
-    motions.spins[roll.joint()] = roll.spin(at, state);
-  });
-  return motions;
-}
-
-Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
-                                     const std::function<MaterialMotion(int beam, double s)>& field,
-                                     const std::function<std::vector<double>(int beam)>& breaks,
-                                     const BodyMotions& bodies, const BeamSystem& from, const State& motion) {
-  const int D = system.dimension();
-  Eigen::VectorXd p = Eigen::VectorXd::Zero(system.coordinate_count());
-  std::vector<std::vector<double>> places;
-  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b) places.push_back(breaks(b));
-  with_assembly(system, [&]<int N>(const Assembly<N>& assembly) {
-    const auto same = same_elements<N>(assembly, *from.assembly<N>());
-    for (std::size_t i = 0; i < same.size(); ++i) {
-      const MeshElement<N>& e = assembly.elements()[i];
-      if (same[i] && e.element.fixed() && !e.twist)
-        add_momentum<N>(e, *same[i], motion, p);
-      else
-        add_momentum(e, state, field, places[e.beam], p);
-    }
-  });
-  for (std::size_t body = 0; body < bodies.velocities.size(); ++body)
-    p.segment(system.mesh().bodies[body], D) +=
-        system.model().bodies[body].mass * bodies.velocities[body].head(D);
-  with_assembly(
-      system,
-      [&]<int N>(const Assembly<N>& assembly) {
-        for (const BoundForce<N>& force : assembly.forces())
-          std::visit(
-              [&](const auto& f) {
-                if constexpr (
-                    requires { f.beam(); })
-                  f.add_momentum_of(material_point(from, motion, f.beam(), f.s()).velocity, p);
-              },
-              force);
-      });
-  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
-    roll.add_momentum(at, state, bodies.spins[roll.joint()], p);
-  });
-  return p;
 }
 
 }  // namespace nurbeam

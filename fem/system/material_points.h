@@ -89,26 +89,4 @@ StrainIntegral strain_integral(const BeamSystem& system, const State& state, int
 /// The weights w_0..w_3 of the element in a span.
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span);
 
-/// The motion of a material point: its velocity [m/s] and the spin of its section [rad/s].
-struct MaterialMotion {
-  Eigen::Vector3d velocity;
-  double spin = 0;
-};
-/// Velocities of all bodies (3 each) [m/s], and per joint the spin of a body that rolls with a section
-/// [rad/s].
-struct BodyMotions {
-  std::vector<Eigen::Vector3d> velocities;
-  std::vector<double> spins;
-};
-BodyMotions body_motions(const BeamSystem& system, const State& state);
-/// int (rho A N' v + rho I_p W' w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
-/// material, plus the bodies' momenta: what the motion `field`(beam, s), of velocity v and spin w, and that
-/// of the bodies mean for the coordinates of `state`. Elements are integrated in parts
-/// between the places that `breaks`(beam) lists [m]; those that `from` has too, with fixed ends and without
-/// torsion, have the momentum that they have in `motion`, a state of `from`, which moves as `field`.
-Eigen::VectorXd generalised_momentum(const BeamSystem& system, const State& state,
-                                     const std::function<MaterialMotion(int beam, double s)>& field,
-                                     const std::function<std::vector<double>(int beam)>& breaks,
-                                     const BodyMotions& bodies, const BeamSystem& from, const State& motion);
-
 }  // namespace nurbeam

@@ -137,9 +137,10 @@ TEST(LocalSolution, AroundWhatIsOpenIsThatOfAllWhereItSuffices) {
   // Nobody looks at what the rows beyond have.
   for (int i = 0; i < n; ++i)
     if (std::abs(i - open) > 42) A.coeffRef(i, i) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(correct_around(view(A), b, narrow, Beyond::closed, x));
+  NearSolver solver;
+  EXPECT_FALSE(correct_around(view(A), b, narrow, Beyond::closed, solver, x));
   EXPECT_EQ(x, start);
-  ASSERT_TRUE(correct_around(view(A), b, near, Beyond::closed, x));
+  ASSERT_TRUE(correct_around(view(A), b, near, Beyond::closed, solver, x));
   EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-14);
 }
 
@@ -149,7 +150,8 @@ TEST(LocalSolution, WithTheOthersGivenClosesTheInnerRows) {
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1, 3).array().sin();
   const Eigen::VectorXd start = x, b = Eigen::VectorXd::LinSpaced(n, -1, 2);
   const Surroundings near(SparsePattern(A), {open}, 5);
-  ASSERT_TRUE(correct_around(view(A), b, near, Beyond::given, x));
+  NearSolver solver;
+  ASSERT_TRUE(correct_around(view(A), b, near, Beyond::given, solver, x));
   const Eigen::VectorXd left = b - A * x;
   for (int i = 0; i < n; ++i) {
     if (std::abs(i - open) <= 5) EXPECT_NEAR(left[i], 0, 1e-14);

@@ -178,7 +178,8 @@ TEST(LocalAccelerations, AreThoseOfAllUnknownsWhereTheOthersAre) {
       for (const int i : around)
         if (i < local.a.size()) local.a[i] = 0;
       const State start = local;
-      ASSERT_EQ(make_accelerations_smooth(to, h, around, local), ConsistencyStatus::done);
+      NearSolver solver;
+      ASSERT_EQ(make_accelerations_smooth(to, h, around, solver, local), ConsistencyStatus::done);
       EXPECT_LT((local.a - whole.a).lpNorm<Eigen::Infinity>(), 1e-9 * whole.a.lpNorm<Eigen::Infinity>());
       EXPECT_LT((local.lambda - whole.lambda).norm(), 1e-8 * (1 + whole.lambda.norm()));
       EXPECT_LT(changes(local.a, start.a), local.a.size() / 2) << "those far away";

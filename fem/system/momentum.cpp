@@ -1,0 +1,193 @@
+#include "fem/system/momentum.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "fem/mesh/widened.h"
+#include "fem/system/material_points.h"
+#include "fem/system/same_elements.h"
+#include "fem/system/with_assembly.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The positions of one element, as they depend on its coordinates.
+template <int D>
+class ElementPositions {
+ public:
+  ElementPositions(const MeshElement<D>& e, const ElementVector<D>& q)
+      : nodes_(ElementLayout<D>::nodes(q)), basis_(e.element.basis(q)) {
+    if (!e.element.fixed()) moving_ = e.element.moving_basis(q, Derivatives::one);
+  }
+
+  struct At {
+    Eigen::Vector4d by_nodes;                            // of their positions and slopes
+    std::array<Eigen::Matrix<double, D, 1>, 2> by_ends;  // of r at a fixed s, by the places of both
+  };
+  At at(double s) const {
+    if (!moving_) {
+      const std::array<double, 4> values = basis_.at(s).value;
+      const Eigen::Matrix<double, D, 1> none = Eigen::Matrix<double, D, 1>::Zero();
+      return {Eigen::Map<const Eigen::Vector4d>(values.data()), {none, none}};
+    }
+    const MovingRows::Series r = moving_->rows_at(Jet(s)).r;
+    return {r.value, {nodes_ * r.first[0], nodes_ * r.first[1]}};
+  }
+
+ private:
+  ElementNodes<D> nodes_;
+  ElementBasis<double> basis_;
+  std::optional<MovingBasis> moving_;
+};
+
+// Material velocities of a motion, at places of which those in one element follow one another.
+template <int D>
+class VelocityField {
+ public:
+  VelocityField(const Assembly<D>& assembly, const State& state) : assembly_(&assembly), state_(&state) {}
+
+  Eigen::Matrix<double, D, 1> at(int beam, double s) {
+    using Layout = ElementLayout<D>;
+    const int span = find_span(*assembly_->model(), assembly_->mesh(), state_->q, beam, s);
+    const MeshElement<D>& e = assembly_->elements()[span];
+    if (span != span_) {
+      span_ = span;
+      x_ = gather<D>(e, *state_);
+      positions_.emplace(e, x_.q);
+    }
+    const auto at = positions_->at(e.local(x_.q, s));
+    return x_.node_rates() * at.by_nodes + x_.v[Layout::place(0)] * at.by_ends[0] +
+           x_.v[Layout::place(1)] * at.by_ends[1];
+  }
+
+ private:
+  const Assembly<D>* assembly_;
+  const State* state_;
+  int span_ = -1;
+  ElementState<D> x_;
+  std::optional<ElementPositions<D>> positions_;
+};
+
+// The places between which an element is integrated in parts.
+template <int D>
+std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& old, const State& state) {
+  const ReferenceCurve& curve = e.element.curve();
+  std::vector<double> parts{e.s_a, e.s_b};
+  const auto add = [&](double place) {
+    const double s = curve.unrolled(place, (e.s_a + e.s_b) / 2);
+    if (s > e.s_a && s < e.s_b) parts.push_back(s);
+  };
+  for (const MeshNode& node : old.nodes[e.beam]) add(node.place >= 0 ? state.q[node.place] : node.s);
+  for (const double s : curve.breaks()) add(s);
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+// The momentum of a section's spin, times the length [rad m/s] that has it.
+void add_spin(const MeshElement<3>& e, const State& state, double s, double spin, Eigen::VectorXd& p) {
+  const double inertia = e.element.properties().sections->spin_inertia;
+  const TwistLayout::Coordinates row = e.twist->element.material_spin_row(gather_twist(e, state.q), s);
+  for (int k = 0; k < TwistLayout::size; ++k)
+    if (e.twist->dofs[k] >= 0) p[e.twist->dofs[k]] += inertia * spin * row[k];
+}
+
+// Calls visit(roll, at) for the inertia of each body that rolls with a section.
+template <class Visit>
+void for_each_roll(const BeamSystem& system, Visit&& visit) {
+  const Assembly<3>* assembly = system.assembly<3>();
+  if (!assembly) return;
+  for (const BoundForce<3>& force : assembly->forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.joint(); }) visit(f, assembly->beams());
+        },
+        force);
+}
+
+}  // namespace
+
+BodyMotions body_motions(const BeamSystem& system, const State& state) {
+  BodyMotions motions;
+  for (const int r : system.mesh().bodies) {
+    motions.velocities.emplace_back(Eigen::Vector3d::Zero());
+    motions.velocities.back().head(system.dimension()) = state.v.segment(r, system.dimension());
+  }
+  motions.spins.assign(system.model().joints.size(), 0);
+  for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
+    motions.spins[roll.joint()] = roll.spin(at, state);
+  });
+  return motions;
+}
+
+CarriedMomentum::CarriedMomentum(const BeamSystem& from, const State& state, const BeamSystem& to)
+    : to_(&to), bodies_(body_motions(from, state)), kept_(Eigen::VectorXd::Zero(to.coordinate_count())) {
+  if (to.dimension() == 2)
+    carry<2>(from, state);
+  else
+    carry<3>(from, state);
+}
+
+template <int D>
+void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
+  const Assembly<D>&own = *to_->assembly<D>(), &old = *from.assembly<D>();
+  const std::vector<const MeshElement<D>*> same = same_elements<D>(own, old);
+  VelocityField<D> velocities(old, state);
+  for (std::size_t i = 0; i < same.size(); ++i) {
+    const MeshElement<D>& e = own.elements()[i];
+    if (same[i] && e.element.fixed() && !e.twist) {
+      const ElementNodes<D> momentum = e.element.nodal_momentum(gather<D>(*same[i], state).node_rates());
+      for (int k = 0; k < ElementLayout<D>::nodal; ++k) kept_[e.dofs[k]] += momentum.reshaped()[k];
+      continue;
+    }
+    Element& carried = elements_.emplace_back(Element{i, {}});
+    const std::vector<double> parts = parts_of(e, old.mesh(), state);
+    for (std::size_t part = 0; part + 1 < parts.size(); ++part)
+      for (int g = 0; g < GaussRule::size; ++g) {
+        const double length = parts[part + 1] - parts[part];
+        const double s = parts[part] + length * GaussRule::points[g];
+        carried.points.push_back({s, length * GaussRule::weights[g], widened<D>(velocities.at(e.beam, s)),
+                                  material_spin(from, state, e.beam, s)});
+      }
+  }
+  for (std::size_t body = 0; body < bodies_.velocities.size(); ++body)
+    kept_.segment<D>(to_->mesh().bodies[body]) +=
+        to_->model().bodies[body].mass * bodies_.velocities[body].head<D>();
+  for (const BoundForce<D>& force : own.forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.beam(); })
+            f.add_momentum_of(material_point(from, state, f.beam(), f.s()).velocity, kept_);
+        },
+        force);
+}
+
+Eigen::VectorXd CarriedMomentum::on(const State& state) const {
+  Eigen::VectorXd p = kept_;
+  with_assembly(
+      *to_,
+      [&]<int D>(const Assembly<D>& assembly) {
+        using Layout = ElementLayout<D>;
+        for (const auto& [index, points] : elements_) {
+          const MeshElement<D>& e = assembly.elements()[index];
+          const ElementPositions<D> positions(e, gather<D>(e, state.q));
+          for (const auto& [s, length, v, spin] : points) {
+            const auto at = positions.at(s);
+            const Eigen::Matrix<double, D, 1> momentum =
+                e.element.properties().mass_per_length * length * v.template head<D>();
+            for (int k = 0; k < Layout::nodal; ++k) p[e.dofs[k]] += at.by_nodes[k / D] * momentum[k % D];
+            for (const int end : {0, 1})
+              if (const int place = e.dofs[Layout::place(end)]; place >= 0)
+                p[place] += at.by_ends[end].dot(momentum);
+            if constexpr (D == 3)
+              if (e.twist) add_spin(e, state, s, length * spin, p);
+          }
+        }
+      });
+  for_each_roll(*to_, [&](const auto& roll, const MeshedBeams<3>& at) {
+    roll.add_momentum(at, state, bodies_.spins[roll.joint()], p);
+  });
+  return p;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// Velocities of all bodies (3 each) [m/s], and per joint the spin of a body that rolls with a section
+/// [rad/s].
+struct BodyMotions {
+  std::vector<Eigen::Vector3d> velocities;
+  std::vector<double> spins;
+};
+BodyMotions body_motions(const BeamSystem& system, const State& state);
+
+/// What a motion of one mesh means for the coordinates of another one of the same model:
+///   p = int (rho A N'v + rho I_p W'w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
+/// material, plus the bodies' momenta, with the material velocity v and the spin w of sections that the
+/// motion has. Elements are integrated in parts, between all nodes of both meshes and breaks of the drawing;
+/// those that both meshes have, with fixed ends and without torsion, have the momentum that they have.
+class CarriedMomentum {
+ public:
+  /// The motion `state` of `from`; `to` must outlive it.
+  CarriedMomentum(const BeamSystem& from, const State& state, const BeamSystem& to);
+
+  /// (n) Its momentum for the coordinates of a state of the other mesh.
+  Eigen::VectorXd on(const State& state) const;
+
+ private:
+  struct Point {
+    double s, length;  // [m]: its weight in the integral
+    Eigen::Vector3d velocity;
+    double spin;
+  };
+  struct Element {
+    std::size_t index;
+    std::vector<Point> points;
+  };
+  template <int D>
+  void carry(const BeamSystem& from, const State& state);
+
+  const BeamSystem* to_;
+  BodyMotions bodies_;
+  Eigen::VectorXd kept_;           // (n) what does not depend on the state
+  std::vector<Element> elements_;  // those that do
+};
+
+}  // namespace nurbeam

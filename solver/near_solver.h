@@ -1,0 +1,26 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "solver/kkt_solver.h"
+
+namespace nurbeam {
+
+/// Solves with matrices of which one lies close to the next, as those of neighbouring systems: the factors of
+/// one serve the others, by corrections of the solution before to round-off, as long as these converge fast.
+class NearSolver {
+ public:
+  /// x with A x = b, with factors of `A` itself where there are no others of its size that serve. `A`:
+  /// compressed; `last`: as `part` of KktSolver::factorise. Returns false where A is not regular.
+  [[nodiscard]] bool solve(const Eigen::SparseMatrix<double>& A, const std::vector<int>& last,
+                           const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+ private:
+  bool correct(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b);
+
+  KktSolver solver_;
+  Eigen::Index rows_ = 0, entries_ = 0;  // of the matrix that has been factorised, 0: none
+  Eigen::VectorXd x_;                    // the last solution
+};
+
+}  // namespace nurbeam
