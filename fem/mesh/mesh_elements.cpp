@@ -98,6 +98,18 @@ bool axis_is(const MeshElement<D>& e, const MeshSpan& span, const Chart& chart, 
          e.element.properties() == properties;
 }
 
+// Whether a segment is drawn alike, and home nodes from before it to behind it are as far from its start:
+// then so are corresponding places on it.
+bool divided_alike(const Beam& beam, const Beam& other, int segment) {
+  if (segment < 0) return false;
+  const double start = beam.curve.breaks()[segment], end = beam.curve.breaks()[segment + 1],
+               round_off = 1e-9 * beam.curve.length();
+  for (int h = beam.home_interval(start + round_off);; ++h) {
+    if (!beam.curve.draws_alike(other.curve, segment, beam.home_place(h), other.home_place(h))) return false;
+    if (beam.home_place(h) >= end - round_off) return true;
+  }
+}
+
 // Finds elements with fixed ends of one mesh in another one, in the order of both.
 template <int D>
 class SameElements {
@@ -208,10 +220,17 @@ TwistState gather_twist(const MeshElement<3>& e, const State& state) {
 }
 
 template <int D>
-bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other) {
+bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other, const Beam& beam,
+               const Beam& other_beam) {
   constexpr double round_off = 1e-12;
-  return other.element.fixed() && (e.slope_offset - other.slope_offset).norm() <= round_off &&
-         axis_is(e, other, other.element.chart(), other.element.curve(), other.element.properties());
+  if (e.element.fixed() != other.element.fixed() ||
+      !((e.slope_offset - other.slope_offset).norm() <= round_off))
+    return false;
+  if (e.element.fixed())
+    return axis_is(e, other, other.element.chart(), other.element.curve(), other.element.properties());
+  return e.shift_a == 0 && e.shift_b == 0 && other.shift_a == 0 && other.shift_b == 0 &&
+         e.element.chart() == other.element.chart() && e.element.properties() == other.element.properties() &&
+         divided_alike(beam, other_beam, e.element.chart().segment);
 }
 
 template <int D>
@@ -242,8 +261,8 @@ template std::vector<MeshElement<2>> make_elements<2>(const Structure&, const Me
                                                       const std::optional<MeshedBeams<2>>&);
 template std::vector<MeshElement<3>> make_elements<3>(const Structure&, const Mesh&,
                                                       const std::optional<MeshedBeams<3>>&);
-template bool same_axis<2>(const MeshElement<2>&, const MeshElement<2>&);
-template bool same_axis<3>(const MeshElement<3>&, const MeshElement<3>&);
+template bool same_axis<2>(const MeshElement<2>&, const MeshElement<2>&, const Beam&, const Beam&);
+template bool same_axis<3>(const MeshElement<3>&, const MeshElement<3>&, const Beam&, const Beam&);
 template ElementVector<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&);
 template ElementVector<3> gather<3>(const MeshElement<3>&, const Eigen::VectorXd&);
 template ElementState<2> gather<2>(const MeshElement<2>&, const Eigen::VectorXd&, const Eigen::VectorXd&,

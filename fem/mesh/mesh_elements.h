@@ -76,10 +76,12 @@ ElementState<D> gather(const MeshElement<D>& e, const State& state) {
 template <int D>
 ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q);
 
-/// Whether two elements of one mesh of neighbouring models have the same axis, to round-off: fixed, on one
-/// segment that both draw alike, with equal properties.
+/// Whether two elements of one mesh of neighbouring models have the same axis, to round-off: on one segment
+/// that both draw alike, with equal properties; if ends move, wherever on it they are at corresponding
+/// places.
 template <int D>
-bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other);
+bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other, const Beam& beam,
+               const Beam& other_beam);
 
 /// Those of an element of a beam with torsion.
 TwistState gather_twist(const MeshElement<3>& e, const State& state);
