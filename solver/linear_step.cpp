@@ -31,12 +31,15 @@ void LinearStep::take(const State& before, const IntegratorHistory& history, con
   if (start == Start::moved) start_algorithmic += lag() * (h - last_step) * jerk;
   end_algorithmic =
       ((1 - alpha_f) * after.a + alpha_f * before.a - alpha_m * start_algorithmic) / (1 - alpha_m);
-  system->tangent(after, {.mass = 1}, mass);
-  system->tangent(after, {.damping = 1}, damping);
   system->tangent(after, {.stiffness = 1}, stiffness);
-  for (const int k : of_constraints_) damping.valuePtr()[k] = 0;
   const auto values = [](auto& matrix) { return matrix.coeffs(); };
-  damped = !values(damping).isZero(0);
+  if (!has_constant_inertia_) {
+    system->tangent(after, {.mass = 1}, mass);
+    system->tangent(after, {.damping = 1}, damping);
+    for (const int k : of_constraints_) damping.valuePtr()[k] = 0;
+    damped = !values(damping).isZero(0);
+    has_constant_inertia_ = system->has_constant_inertia();
+  }
   // That of mass takes less than one of all three, and so do sums.
   values(kkt) = ((1 - alpha_m) / (1 - alpha_f) / mass_scale) * values(mass) + scale() * values(stiffness);
   if (damped) values(kkt) += (gamma * h / mass_scale) * values(damping);

@@ -37,7 +37,8 @@ struct LinearStep {
   bool damped = false;
 
  private:
-  std::vector<int> of_constraints_;  // values of G and dF/dlambda
+  std::vector<int> of_constraints_;    // values of G and dF/dlambda
+  bool has_constant_inertia_ = false;  // which mass and damping hold
 };
 
 }  // namespace nurbeam

@@ -78,6 +78,8 @@ class SecondOrderSystem {
   virtual Eigen::VectorXd committed(const State& state) const { return state.memory; }
   /// Whether forces depend on the multipliers other than by G'lambda: the tangent has them in its columns.
   virtual bool forces_depend_on_multipliers() const { return false; }
+  /// Whether dF/da is the same in all states, and dF/dv none: nothing moves over material, nothing damps.
+  virtual bool has_constant_inertia() const { return false; }
 
   /// Longest step allowed from this state [s].
   virtual double step_limit(const State&) const { return std::numeric_limits<double>::infinity(); }

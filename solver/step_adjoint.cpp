@@ -62,7 +62,10 @@ StepAdjoint::Matrix StepAdjoint::multipliers(const MotionTangents& end) const {
                              (1 - alpha_m) / (1 - alpha_f) * acceleration * end.a +
                              acceleration * (end.algorithmic_acceleration + end.jerk / h);
   by_correction.bottomRows(m) = end.lambda / step_.scale();
-  solver_.solve(by_correction, mu);
+  if (by_correction.cols() == 1)
+    mu = solver_.solve(Eigen::VectorXd(by_correction));
+  else
+    solver_.solve(by_correction, mu);
   mu.topRows(n) *= step_.scale();
   return mu;
 }

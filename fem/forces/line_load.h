@@ -8,6 +8,8 @@ namespace nurbeam {
 
 /// A dead load along a whole beam.
 struct LineLoad {
+  static constexpr bool has_constant_inertia = true;
+
   int beam = 0;
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N/m] of reference arc length
   TimeTable time = {};                              ///< factor

@@ -9,6 +9,7 @@ TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs);
 
 /// A moment on a section [N m]; on a beam without torsion its part along the beam does nothing.
 struct Moment : LoadAtPlace {
+  static constexpr bool has_constant_inertia = true;
   static constexpr OnSection on_section = OnSection::moment;  ///< of a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;

@@ -53,6 +53,7 @@ struct LoadTangent {
 
 /// A force on a material point [N].
 struct PointLoad : LoadAtPlace {
+  static constexpr bool has_constant_inertia = true;
   static constexpr OnSection on_section = OnSection::force;  ///< of a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;

@@ -10,6 +10,7 @@ namespace nurbeam {
 template <int D>
 class PointMass {
  public:
+  static constexpr bool has_constant_inertia = true;
   using Vector = Eigen::Matrix<double, D, 1>;
 
   PointMass(const MeshedBeams<D>& at, int body) : mass_(at.structure.bodies[body].mass) {

@@ -78,7 +78,7 @@ struct ResidualDifferences::In final : Implementation {
 
   std::vector<Sides> pairs;
   std::vector<Group> groups;
-  Eigen::MatrixXd forces;  // more and less of each pair, a column each
+  Eigen::MatrixXd forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_constraints, less_constraints;
 
   In(const std::vector<Pair>& of, const State& near)
@@ -151,7 +151,6 @@ struct ResidualDifferences::In final : Implementation {
 
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints) override {
-    forces.setZero();
     for (Group& group : groups) {
       group.load = group.of->line_load(group.beam, at);
       group.free_strain = group.of->free_strain_of(group.beam, at);

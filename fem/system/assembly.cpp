@@ -338,11 +338,12 @@ std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other,
   std::vector<bool> unlike;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const MeshElement<D>&e = elements_[i], &of_other = other.elements_[i];
-    unlike.push_back(!same_axis(e, of_other));
+    unlike.push_back(!same_axis(e, of_other, model_->beams[e.beam], other.model_->beams[e.beam]));
     if constexpr (D == 3)
       if (e.twist)
         unlike.back() =
-            unlike.back() || std::any_of(states.begin(), states.end(), [&](const State& state) {
+            unlike.back() || !e.element.fixed() ||
+            std::any_of(states.begin(), states.end(), [&](const State& state) {
               const TwistLayout::Coordinates own = e.twist->element.force(gather_twist(e, state));
               return !((own - of_other.twist->element.force(gather_twist(of_other, state))).norm() <=
                        rounding * own.norm());

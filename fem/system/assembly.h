@@ -72,7 +72,8 @@ class Assembly final : public SecondOrderSystem {
     return free_strain(elements_[mesh_.first_span[beam]], state);
   }
   /// Which elements answer otherwise than those of `other`, a system of one mesh of a neighbouring model,
-  /// apart from loads and free strains: to round-off, sections at these states; always those whose ends move.
+  /// apart from loads and free strains: to round-off, sections at these states; ends that move at
+  /// corresponding places.
   std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states) const;
   /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces, no motions,
   /// and constraints that are the same at these states, which must be general ones.
@@ -110,6 +111,7 @@ class Assembly final : public SecondOrderSystem {
   Eigen::VectorXd coordinate_scale() const override;
   Eigen::VectorXd committed(const State& state) const override;
   bool forces_depend_on_multipliers() const override;
+  bool has_constant_inertia() const override;
 
  private:
   // Entries that follow one another in a column of a contribution, and the first of them in the values of the

@@ -396,6 +396,21 @@ template bool Assembly<2>::couples_as(const Assembly&) const;
 template bool Assembly<3>::couples_as(const Assembly&) const;
 template void Assembly<2>::take_pattern(const Assembly&);
 template void Assembly<3>::take_pattern(const Assembly&);
+template <int D>
+bool Assembly<D>::has_constant_inertia() const {
+  const auto is_constant = [](const auto& force) {
+    return requires { force.has_constant_inertia; };
+  };
+  return std::all_of(elements_.begin(), elements_.end(),
+                     [](const MeshElement<D>& e) {
+                       return e.element.fixed() && !e.twist && !e.element.properties().is_damped();
+                     }) &&
+         std::all_of(forces_.begin(), forces_.end(),
+                     [&](const BoundForce<D>& force) { return std::visit(is_constant, force); });
+}
+
+template bool Assembly<2>::has_constant_inertia() const;
+template bool Assembly<3>::has_constant_inertia() const;
 template void Assembly<2>::build_pattern();
 template void Assembly<3>::build_pattern();
 template void Assembly<2>::choose_moving_part();

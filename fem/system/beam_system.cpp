@@ -95,5 +95,6 @@ bool BeamSystem::admissible(const State& state) const { return system_->admissib
 Eigen::VectorXd BeamSystem::coordinate_scale() const { return system_->coordinate_scale(); }
 Eigen::VectorXd BeamSystem::committed(const State& state) const { return system_->committed(state); }
 bool BeamSystem::forces_depend_on_multipliers() const { return system_->forces_depend_on_multipliers(); }
+bool BeamSystem::has_constant_inertia() const { return system_->has_constant_inertia(); }
 
 }  // namespace nurbeam

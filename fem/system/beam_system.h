@@ -58,6 +58,7 @@ class BeamSystem final : public SecondOrderSystem {
   Eigen::VectorXd coordinate_scale() const override;
   Eigen::VectorXd committed(const State& state) const override;
   bool forces_depend_on_multipliers() const override;
+  bool has_constant_inertia() const override;
 
   /// The system of its dimension; null for the other one.
   template <int D>

@@ -96,6 +96,14 @@ void check_ring(const CaseBeam& from, Findings& findings) {
       findings.error(from.path + ".corners", in_quotes(name) + " is not available on a ring; leave it out");
 }
 
+// Of the control polygons: no less than that of the curve.
+double polygon_length(const std::vector<RationalCubic>& segments) {
+  double sum = 0;
+  for (const RationalCubic& cubic : segments)
+    for (int i = 0; i < 3; ++i) sum += (cubic.control_point(i + 1) - cubic.control_point(i)).norm();
+  return sum;
+}
+
 double gap_of(const std::vector<RationalCubic>& segments) {
   return (segments.front().control_point(0) - segments.back().control_point(3)).norm();
 }
@@ -148,7 +156,8 @@ void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Find
 
 void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                          Findings& findings) {
-  if (gap_of(segments) <= closed_gap * total_length(segments))
+  const double gap = gap_of(segments);
+  if (gap <= closed_gap * polygon_length(segments) && gap <= closed_gap * total_length(segments))
     findings.warn(beam.path + ".axis", "is closed; the beam is open at its seam, " +
                                            text_of(segments.front().control_point(0)) +
                                            ": \"closed\": true makes it a ring");
@@ -160,11 +169,20 @@ std::string origin_of(const BeamAxis& axis) {
                      : "the axis";
 }
 
+// Pieces of an axis that are no longer are left out [m]. Nothing is measured where all clearly are.
+double sliver_length(const std::vector<RationalCubic>& segments) {
+  constexpr double sliver = 1e-7;  // of the length
+  const double at_most = sliver * polygon_length(segments);
+  const bool all_longer = std::all_of(segments.begin(), segments.end(), [&](const RationalCubic& cubic) {
+    return (cubic.control_point(3) - cubic.control_point(0)).norm() > at_most;
+  });
+  return all_longer ? at_most : sliver * total_length(segments);
+}
+
 // The axis without what has no length or no speed.
 std::vector<RationalCubic> regular(const CaseBeam& beam, const BeamAxis& axis, Findings& findings) {
-  constexpr double sliver = 1e-7;  // of the length
   const RegularSegments regular =
-      regular_segments(axis.segments, sliver * total_length(axis.segments), beam.approximation_tolerance);
+      regular_segments(axis.segments, sliver_length(axis.segments), beam.approximation_tolerance);
   if (regular.dropped + regular.replaced > 0)
     findings.warn(beam.path + ".axis",
                   origin_of(axis) + " was made regular: " + std::to_string(regular.dropped) +
