@@ -29,8 +29,17 @@ struct CurvedPointShape : PointShape<D> {
 template <int D>
 CurvedPointShape<D> point_shape(const MeshElement<D>& e, const Eigen::VectorXd& q, double s) {
   const ElementVector<D> x = gather<D>(e, q);
-  const ShapeFunctions<Jet> shape = e.element.shape_series(x, e.local(x, s));
-  return {{ElementLayout<D>::nodes(x), shape.value, shape.d1}, shape.d2};
+  const ElementNodes<D> nodes = ElementLayout<D>::nodes(x);
+  if (!e.element.fixed()) {
+    const ShapeFunctions<Jet> shape = e.element.shape_series(x, e.local(x, s));
+    return {{nodes, shape.value, shape.d1}, shape.d2};
+  }
+  // Nothing asks for derivatives by ends that stay.
+  const ShapeFunctions<double> shape = e.element.shape(x, e.local(x, s));
+  const auto still = [](const std::array<double, 4>& values) {
+    return std::array<Jet, 4>{Jet(values[0]), Jet(values[1]), Jet(values[2]), Jet(values[3])};
+  };
+  return {{nodes, still(shape.value), still(shape.d1)}, still(shape.d2)};
 }
 
 /// A material point that stays in one element as long as the mesh stands.
