@@ -8,13 +8,13 @@
 #include "nurbs/closest_point.h"
 
 namespace nurbeam {
-namespace {
-
 double polygon_length(const RationalCubic& cubic) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) sum += (cubic.control_point(i + 1) - cubic.control_point(i)).norm();
   return sum;
 }
+
+namespace {
 
 /// Whether the speed at the start is zero, but for round-off.
 bool stands_still(const RationalCubic& cubic) {

@@ -14,6 +14,9 @@ struct RegularSegments {
   double deviation = 0;  ///< largest distance from what was given, measured; of a sliver its length [m]
 };
 
+/// Length of the control polygon, which is no less than that of the cubic [m].
+double polygon_length(const RationalCubic& cubic);
+
 /// The cubics without those of at most `sliver` [m], whose neighbours then meet where they ended, and with
 /// others in place of those whose speed is zero at an end, within `tolerance` [m]: airfoils and hulls are
 /// drawn so. The others stay as they are. Nothing is left of cubics that are all slivers.

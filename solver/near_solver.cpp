@@ -28,6 +28,7 @@ bool NearSolver::correct(const Eigen::SparseMatrix<double>& A, const Eigen::Vect
     open = b;
     open.noalias() -= A * x_;
     solver_.solve(open, correction);
+    if (!correction.allFinite()) return false;
     x_ += correction;
     const double now = correction.lpNorm<Eigen::Infinity>();
     if (now == 0) return true;

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "fem/mesh/widened.h"
-#include "fem/system/same_elements.h"
 #include "fem/system/with_assembly.h"
 
 namespace nurbeam {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -96,12 +98,9 @@ void check_ring(const CaseBeam& from, Findings& findings) {
       findings.error(from.path + ".corners", in_quotes(name) + " is not available on a ring; leave it out");
 }
 
-// Of the control polygons: no less than that of the curve.
-double polygon_length(const std::vector<RationalCubic>& segments) {
-  double sum = 0;
-  for (const RationalCubic& cubic : segments)
-    for (int i = 0; i < 3; ++i) sum += (cubic.control_point(i + 1) - cubic.control_point(i)).norm();
-  return sum;
+// No less than the length, and found at once.
+double polygons_length(const std::vector<RationalCubic>& segments) {
+  return std::transform_reduce(segments.begin(), segments.end(), 0.0, std::plus<>(), polygon_length);
 }
 
 double gap_of(const std::vector<RationalCubic>& segments) {
@@ -157,7 +156,7 @@ void close_ring(const CaseBeam& beam, std::vector<RationalCubic>& segments, Find
 void mention_closed_axis(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                          Findings& findings) {
   const double gap = gap_of(segments);
-  if (gap <= closed_gap * polygon_length(segments) && gap <= closed_gap * total_length(segments))
+  if (gap <= closed_gap * polygons_length(segments) && gap <= closed_gap * total_length(segments))
     findings.warn(beam.path + ".axis", "is closed; the beam is open at its seam, " +
                                            text_of(segments.front().control_point(0)) +
                                            ": \"closed\": true makes it a ring");
@@ -172,7 +171,7 @@ std::string origin_of(const BeamAxis& axis) {
 // Pieces of an axis that are no longer are left out [m]. Nothing is measured where all clearly are.
 double sliver_length(const std::vector<RationalCubic>& segments) {
   constexpr double sliver = 1e-7;  // of the length
-  const double at_most = sliver * polygon_length(segments);
+  const double at_most = sliver * polygons_length(segments);
   const bool all_longer = std::all_of(segments.begin(), segments.end(), [&](const RationalCubic& cubic) {
     return (cubic.control_point(3) - cubic.control_point(0)).norm() > at_most;
   });

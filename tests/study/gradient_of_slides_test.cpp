@@ -53,6 +53,29 @@ TEST(Gradient, OfBodiesBehindAKnotThatMoves) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
+// Control points that move spans before the body alone: its own are drawn alike, only further on.
+TEST(Gradient, OfABodyOnSpansThatAreDrawnAlike) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3,
+                         "knots": [0, 0, 0, 0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1, 1, 1, 1],
+                         "control_points": [[0.0, 0, 1.0], [0.36, 0, 0.806], [0.72, 0, 0.625], [1.08, 0, 0.466], [1.44, 0, 0.34],
+                                            [1.8, 0, 0.25], [2.16, 0, 0.2], [2.52, 0, 0.186], [2.88, 0, 0.205], [3.24, 0, 0.246], [3.6, 0, 0.3]]}},
+      "section": {"radius": "14 mm"}, "material": {"density": 1900, "youngs_modulus": "6 GPa"},
+      "elements": {"count": 24}}],
+    "bodies": [{"name": "a", "mass": 0.7}],
+    "sliding_joints": [{"body": "a", "beam": "beam", "at": {"length": 2.3}, "speed": 1.6}],
+    "supports": [{"beam": "beam", "at": "start", "type": "pinned"}, {"beam": "beam", "at": "end", "type": "clamped"}],
+    "analysis": {"type": "dynamic", "end_time": 0.15, "step": "1 ms"}, "output": {"every": 0.15}})json",
+                 R"json("variables": [
+      {"name": "z1", "control_point": {"beam": "beam", "index": 1, "axis": "z"}, "range": [0.7, 0.9]},
+      {"name": "z2", "control_point": {"beam": "beam", "index": 2, "axis": "z"}, "range": [0.5, 0.7]}],
+    "quantities": [{"name": "s", "value": "at(end, a.s)"}, {"name": "v", "value": "at(end, a.speed)"},
+      {"name": "z", "value": "at(end, a.z)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 1e-4, 1e-4);
+}
+
 // A moving node comes to the one that its element ends with: the last step before it is shortened, by a
 // length that is another where the body comes sooner.
 TEST(Gradient, OfAStepThatTheElementLeftShortens) {
