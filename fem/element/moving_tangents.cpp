@@ -1,6 +1,7 @@
 // The tangent of the force of an element whose ends move, by what acts on r, r_s and r_ss. Long because that
 // is one sum over the points.
 #include "fem/element/beam_element.h"
+#include "fem/element/moving_mass.h"
 #include "fem/element/moving_point.h"
 #include "fem/element/moving_sums.h"
 
@@ -416,6 +417,13 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
   if (fixed()) return fixed_tangent(x, t);
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
+  if (t.stiffness == 0 && t.damping == 0) {
+    const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);
+    MassSum<D> sum(t.mass * properties_->mass_per_length, x.q);
+    for_each_place(s_a.value(), s_b.value(),
+                   [&](double s, double weight) { sum.add(basis.rows_at(Jet(s)).r, weight); });
+    return sum.total();
+  }
   const MovingBasis basis(*curve_, chart_, s_a, s_b);
   TangentSum<D> sum(*properties_, x, load, t);
   for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });

@@ -394,6 +394,13 @@ void check_against_witness(const Variant& variant, int seed) {
       variant.virtual_work ? witness.virtual_work(x, direction) : witness.force(x, direction);
   EXPECT_LT((force_here - force).norm(), 1e-11 * force.norm());
   EXPECT_LT((derivative - force_derivative).norm(), 1e-11 * force_derivative.norm());
+  // The mass matrix alone has a path of its own.
+  ElementState<D> driven = direction;
+  driven.q.setZero();
+  driven.v.setZero();
+  const ElementVector<D> by_acceleration =
+      variant.virtual_work ? witness.virtual_work(x, driven).second : witness.force(x, driven).second;
+  EXPECT_LT((tangent({1, 0, 0}) * direction.a - by_acceleration).norm(), 1e-12 * by_acceleration.norm());
 
   // The same element with its ends held: the precomputed path.
   ElementState<D> held = x;
