@@ -48,9 +48,13 @@ class LocalKkt {
  public:
   /// So many levels of unknowns that are coupled: what changes a velocity there changes none beyond.
   static constexpr int reach = 40;
+  /// Of a chain of elements in the plane, with four coordinates at each node, no more is left beyond.
+  static constexpr int fewest = 10 * reach;
 
   LocalKkt(const SecondOrderSystem& system, const State& state, double h, const std::vector<int>& around)
-      : n_(system.coordinate_count()), pattern_(system.tangent_pattern()), near_(pattern_, around, reach) {
+      : n_(system.coordinate_count()),
+        pattern_(system.tangent_pattern()),
+        near_(pattern_, pattern_.size() < fewest ? std::vector<int>{} : around, reach) {
     if (!is_worth_it()) return;
     // Nobody looks at the other columns.
     values_ = std::make_unique_for_overwrite<double[]>(pattern_.rows().size());
@@ -65,7 +69,8 @@ class LocalKkt {
 
   /// Whether much of the system lies beyond.
   bool is_worth_it() const {
-    return 4 * near_.unknowns.size() < 3 * static_cast<std::size_t>(pattern_.size());
+    return !near_.unknowns.empty() &&
+           4 * near_.unknowns.size() < 3 * static_cast<std::size_t>(pattern_.size());
   }
 
   /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m). Precondition: is_worth_it().
@@ -325,13 +330,6 @@ Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen
       [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
         return correct_locally(kkt.matrix, b, system.moving_unknowns(), x);
       });
-}
-
-Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
-                                    const std::vector<int>& around, State& state) {
-  NearSolver own;
-  if (const auto near = near_velocities(system, momentum, around, own, state)) return *near;
-  return velocities_from_momentum(system, momentum, state);
 }
 
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,

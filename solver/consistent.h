@@ -54,11 +54,8 @@ struct Projection {
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum, State& state);
 /// The same where the velocities of the state already have that momentum, but in the rows of these unknowns,
-/// of the coordinates and then the multipliers: solved for near them, as far as it takes.
-[[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
-                                                  const Eigen::VectorXd& momentum,
-                                                  const std::vector<int>& around, State& state);
-/// The same with a solver of neighbouring states and systems.
+/// of the coordinates and then the multipliers: solved for near them, as far as it takes. None: everywhere.
+/// `solver`: of states and systems that lie near.
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum,
                                                   const std::vector<int>& around, NearSolver& solver,

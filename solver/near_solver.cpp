@@ -22,6 +22,7 @@ bool NearSolver::solve(const Eigen::SparseMatrix<double>& A, const std::vector<i
 bool NearSolver::correct(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b) {
   constexpr double fast = 1e-2;  // than which corrections must become smaller, each over the one before
   constexpr int most = 8;
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   Eigen::VectorXd open(b.size()), correction;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
@@ -34,8 +35,7 @@ bool NearSolver::correct(const Eigen::SparseMatrix<double>& A, const Eigen::Vect
     if (now == 0) return true;
     if (!(now <= fast * before)) return false;
     // What is left is smaller than the correction as much as this is than the one before.
-    if (now / before * now <= std::numeric_limits<double>::epsilon() * x_.lpNorm<Eigen::Infinity>() && i > 0)
-      return true;
+    if (i > 0 && now / before * now <= round_off * x_.lpNorm<Eigen::Infinity>()) return true;
     before = now;
   }
   return false;

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <deque>
 #include <vector>
 
 #include "solver/kkt_solver.h"
@@ -22,5 +23,8 @@ class NearSolver {
   Eigen::Index rows_ = 0, entries_ = 0;  // of the matrix that has been factorised, 0: none
   Eigen::VectorXd x_;                    // the last solution
 };
+
+/// Of several systems that are solved one after the other.
+using NearSolvers = std::deque<NearSolver>;
 
 }  // namespace nurbeam

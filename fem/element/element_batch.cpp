@@ -357,7 +357,8 @@ struct ElementBatch<D>::Kernel {
     sum.dissipation += on_I * I_rate + on_a * a_rate + on_b * b_rate;
   }
 
-  NURBEAM_WITHIN ElementEnergy energy(const State& state, const Vector& load, double free_strain) const {
+  NURBEAM_WITHIN std::array<ElementEnergy, lanes> energies(const State& state, const Vector& load,
+                                                           double free_strain) const {
     Nodes e = gathered(state.q.data());
     const Nodes e_rate = gathered(state.v.data());
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
@@ -368,15 +369,15 @@ struct ElementBatch<D>::Kernel {
     sum.dissipation = 2 * beam.mass_damping * sum.kinetic;
     add_point_energies(e, e_rate, sum);
     add_axial_energies(e, e_rate, free_strain, sum);
-    ElementEnergy all;
+    std::array<ElementEnergy, lanes> each;
     for (int i = 0; i < batch.count_; ++i) {
-      all.kinetic += sum.kinetic.of[i];
-      all.axial += sum.axial.of[i];
-      all.bending += sum.bending.of[i];
-      all.external += sum.external.of[i];
-      all.dissipation += sum.dissipation.of[i];
+      each[i].kinetic = sum.kinetic.of[i];
+      each[i].axial = sum.axial.of[i];
+      each[i].bending = sum.bending.of[i];
+      each[i].external = sum.external.of[i];
+      each[i].dissipation = sum.dissipation.of[i];
     }
-    return all;
+    return each;
   }
 
   // The tangent of add_point_forces; the blocks above the diagonal alone.
@@ -468,15 +469,15 @@ NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state,
 }
 
 template <>
-NURBEAM_FOR_EVERY_PROCESSOR ElementEnergy ElementBatch<2>::energy(const State& state, const Vector& load,
-                                                                  double free_strain) const {
-  return Kernel{*this, *properties_}.energy(state, load, free_strain);
+NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<2>::lanes> ElementBatch<2>::energies(
+    const State& state, const Vector& load, double free_strain) const {
+  return Kernel{*this, *properties_}.energies(state, load, free_strain);
 }
 
 template <>
-NURBEAM_FOR_EVERY_PROCESSOR ElementEnergy ElementBatch<3>::energy(const State& state, const Vector& load,
-                                                                  double free_strain) const {
-  return Kernel{*this, *properties_}.energy(state, load, free_strain);
+NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<3>::lanes> ElementBatch<3>::energies(
+    const State& state, const Vector& load, double free_strain) const {
+  return Kernel{*this, *properties_}.energies(state, load, free_strain);
 }
 
 template <>

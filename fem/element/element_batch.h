@@ -39,8 +39,8 @@ class ElementBatch {
   /// `free_strain`: as ElementState has it.
   void add_forces(const State& state, const Vector& load, double free_strain, double* forces) const;
 
-  /// The sum of their energies; `load`: the dead load of which they have the potential [N/m].
-  ElementEnergy energy(const State& state, const Vector& load, double free_strain) const;
+  /// Their energies, of the first count(); `load`: the dead load of which they have the potential [N/m].
+  std::array<ElementEnergy, lanes> energies(const State& state, const Vector& load, double free_strain) const;
 
   /// Tangents in the coordinates of the nodes, by column and row.
   using Tangents = std::array<std::array<ElementLanes, nodal>, nodal>;

@@ -21,13 +21,14 @@ bool keeps_motion(const Beam& beam, MeshChange change) {
   return change == MeshChange::merge && beam.merge != MergeRule::standard;
 }
 
-// `project(to)`: the motion on a mesh that does not keep it.
+// `project(to)`: the motion on a mesh that does not keep it. `neighbour`, which may be null: see
+// BeamSystem::replanned.
 template <class Project>
 std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, bool at_rest,
-                                   const Project& project) {
+                                   const BeamSystem* neighbour, const Project& project) {
   const BeamModel& model = at.system->model();
   const std::vector<bool> held(model.joints.size(), at_rest);
-  auto to = at.system->replanned(next.plan, held);
+  auto to = at.system->replanned(next.plan, held, neighbour);
   if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
     State carried = interpolated(*at.system, at.state, *to);
     if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};
@@ -63,25 +64,27 @@ MeshedState MeshedState::drawn(std::shared_ptr<const BeamModel> model, const Bea
 
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest) {
   return changed(
-      at, next, at_rest, [&](const BeamSystem& to) { return projected(*at.system, at.state, to); });
+      at, next, at_rest, nullptr, [&](const BeamSystem& to) { return projected(*at.system, at.state, to); });
 }
 
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next,
                                         const SystemEnergy& energy) {
   return changed(
-      at, next, false, [&](const BeamSystem& to) { return projected(*at.system, at.state, energy, to); });
+      at, next, false, nullptr,
+      [&](const BeamSystem& to) { return projected(*at.system, at.state, energy, to); });
 }
 
 std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
   return go_on_there(at, changed_mesh(at, next, at_rest));
 }
 
-std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
-                                        const std::vector<EnergyMove>& moves, NearSolver& solver) {
-  return go_on_there(
-      at, changed(
-              at, next, false,
-              [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, moves, solver); }));
+std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next, const BeamSystem& neighbour,
+                                        const std::vector<EnergyMove>& moves, NearSolvers& solvers) {
+  return go_on_there(at, changed(
+                             at, next, false, &neighbour,
+                             [&](const BeamSystem& to) {
+                               return projected_like(*at.system, at.state, to, moves, solvers);
+                             }));
 }
 
 std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count) {

@@ -34,10 +34,12 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
 
 /// Goes on there.
 [[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
-/// The same as a neighbouring motion, which has been moved so to keep its energy.
+/// The same as a neighbouring motion, which has been moved so to keep its energy, and is one of this system
+/// now.
 [[nodiscard]] std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
+                                                      const BeamSystem& neighbour,
                                                       const std::vector<EnergyMove>& moves,
-                                                      NearSolver& solver);
+                                                      NearSolvers& solvers);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
 /// than that can be.

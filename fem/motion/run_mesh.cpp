@@ -51,10 +51,10 @@ bool change_due_mesh(Run& run) {
     const std::vector<BeamRecord> before =
         observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
     run.at = std::move(changed->now);
-    NearSolver solver;
+    NearSolvers solvers;
     run.follow([&](MeshedState& of) {
       const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
-      return !change_mesh_like(of, same, changed->moves, solver);
+      return !change_mesh_like(of, same, *run.at.system, changed->moves, solvers);
     });
     if (!run.restart(changed->around)) return false;
     run.at.state = run.integrator->state();

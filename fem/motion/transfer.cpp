@@ -1,14 +1,15 @@
 #include "fem/motion/transfer.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <set>
 
 #include "fem/mesh/drawn_coordinates.h"
 #include "fem/motion/carried_sections.h"
+#include "fem/motion/least_move.h"
 #include "fem/motion/matched_node.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
@@ -21,17 +22,50 @@ namespace nurbeam {
 
 namespace {
 
-constexpr int no_beam = -1;
+// What a tangent has in the columns of some coordinates: in their rows, and in those of constraints.
+class TangentBlocks {
+ public:
+  TangentBlocks(const BeamSystem& system, const State& state, const TangentWeights& weights,
+                const std::vector<int>& coordinates) {
+    const SparsePattern& pattern = system.tangent_pattern();
+    const int n = system.coordinate_count(), m = system.constraint_count();
+    const int *starts = pattern.column_starts().data(), *rows = pattern.rows().data();
+    std::vector<bool> wanted(static_cast<std::size_t>(n + m), false);
+    std::fill(wanted.begin() + n, wanted.end(), true);
+    std::vector<int> place(static_cast<std::size_t>(n + m), -1);
+    std::iota(place.begin() + n, place.end(), 0);
+    // Nobody looks at the other columns.
+    const auto values = std::make_unique_for_overwrite<double[]>(pattern.rows().size());
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      wanted[coordinates[k]] = true;
+      place[coordinates[k]] = static_cast<int>(k);
+      std::fill(values.get() + starts[coordinates[k]], values.get() + starts[coordinates[k] + 1], 0.0);
+    }
+    system.tangent_near(state, weights, wanted, values.get());
+    const auto size = static_cast<Eigen::Index>(coordinates.size());
+    square_.setZero(size, size);
+    gradient_.setZero(m, size);
+    for (Eigen::Index k = 0; k < size; ++k)
+      for (int i = starts[coordinates[k]]; i < starts[coordinates[k] + 1]; ++i)
+        if (place[rows[i]] >= 0) (rows[i] < n ? square_ : gradient_)(place[rows[i]], k) = values[i];
+  }
+
+  const Eigen::MatrixXd& coordinates() const { return square_; }
+  const Eigen::MatrixXd& gradient() const { return gradient_; }
+
+ private:
+  Eigen::MatrixXd square_, gradient_;
+};
 
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
  public:
-  // `solver`, which may be null: of motions that lie close to this one.
-  Remap(const BeamSystem& from, const State& state, const BeamSystem& to, NearSolver* solver = nullptr)
+  // `solvers`, which may be null: of motions that lie close to this one.
+  Remap(const BeamSystem& from, const State& state, const BeamSystem& to, NearSolvers* solvers = nullptr)
       : from_(from),
         state_(state),
         to_(to),
-        solver_(solver),
+        solvers_(solvers),
         momentum_(from, state, to),
         around_(changed_unknowns(from, to)),
         enough_(closed_enough(from, state)) {}
@@ -49,9 +83,7 @@ class Remap {
     }
     carry_bodies(to_, next);
     if (!close_constraints(to_, enough_, next)) return std::nullopt;
-    const Eigen::VectorXd momentum = momentum_.on(next);
-    const Projection projection = solver_ ? velocities_from_momentum(to_, momentum, around_, *solver_, next)
-                                          : velocities_from_momentum(to_, momentum, around_, next);
+    const Projection projection = velocities(momentum_.on(next), next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
     return Transferred{std::move(next), projection.impulse};
   }
@@ -70,10 +102,7 @@ class Remap {
       constexpr int most_moves = 10;
       for (int i = 0; i < most_moves && std::abs(e) > enough && !free.empty(); ++i) {
         const double before = std::abs(e);
-        const std::optional<int> halvings = move_towards(next, free, e);
-        if (!halvings) break;
-        next.moves.push_back({rings, *halvings});
-        if (std::abs(e) > 0.99 * before) break;
+        if (!move_towards(next, rings, free, e) || std::abs(e) > 0.99 * before) break;
       }
     }
   }
@@ -82,7 +111,7 @@ class Remap {
   bool repeat(const std::vector<EnergyMove>& moves, Transferred& next) const {
     for (const EnergyMove& move : moves) {
       const std::vector<int> free = free_coordinates(move.rings);
-      const Eigen::VectorXd whole = least_move(next.state, free, excess(next.state));
+      const Eigen::VectorXd whole = move_of(next.state, free, excess(next.state), move.mu).d;
       std::optional<Transferred> moved = with_move(next.state, free, std::ldexp(1.0, -move.halvings) * whole);
       if (!moved) return false;
       next = std::move(*moved);
@@ -92,9 +121,18 @@ class Remap {
   }
 
  private:
-  double excess(const State& x) const {
-    return carried_sums({}, from_, state_, to_, x, no_beam).energy.mechanical();
+  // Those with this momentum at the places next.q. What is solved for them lies near what was solved at the
+  // places before, and for neighbouring motions at the same ones.
+  Projection velocities(const Eigen::VectorXd& momentum, State& next) const {
+    constexpr int few = 400;
+    if (!solvers_ && around_.empty() && to_.coordinate_count() > few)
+      return velocities_from_momentum(to_, momentum, next);
+    if (solvers_ && solved_ == solvers_->size()) solvers_->emplace_back();
+    NearSolver& solver = solvers_ ? (*solvers_)[solved_++] : own_;
+    return velocities_from_momentum(to_, momentum, around_, solver, next);
   }
+
+  double excess(const State& x) const { return energy_change(from_, state_, to_, x); }
 
   // The free coordinates moved on; nothing where that cannot be.
   std::optional<Transferred> with_move(const State& from, const std::vector<int>& free,
@@ -105,11 +143,10 @@ class Remap {
     return with_velocities(std::move(moved));
   }
 
-  // One move of the free coordinates, the least in the mass norm that takes the excess e away on the parabola
-  // of the potential energy, or to its lowest. Returns how often it was halved until |e| fell; where it does
-  // not nothing changes.
-  std::optional<int> move_towards(Transferred& next, const std::vector<int>& free, double& e) const {
-    Eigen::VectorXd move = least_move(next.state, free, e);
+  // One move of the free coordinates that takes the excess e away on the parabola of the potential energy, or
+  // to its lowest, halved until |e| falls; whether there is one, else nothing changes.
+  bool move_towards(Transferred& next, int rings, const std::vector<int>& free, double& e) const {
+    auto [move, mu] = move_of(next.state, free, e, std::nullopt);
     for (int halvings = 0; halvings < 4; ++halvings, move /= 2) {
       std::optional<Transferred> trial = with_move(next.state, free, move);
       if (!trial) continue;
@@ -117,70 +154,48 @@ class Remap {
       if (!(std::abs(left) < std::abs(e))) continue;
       next.state = std::move(trial->state);
       next.impulse = std::move(trial->impulse);
+      next.moves.push_back({rings, halvings, mu});
       e = left;
-      return halvings;
+      return true;
     }
-    return std::nullopt;
+    return false;
   }
 
-  // min d'Md/2 with g'd + d'Kd/2 = -e, K and g of the potential energy, and what constraints allow:
-  // d = -(K + mu M)^-1 g in that space.
-  Eigen::VectorXd least_move(const State& next, const std::vector<int>& free, double e) const {
+  // The potential energy where free coordinates move as constraints allow; a column of `allowed` each.
+  EnergyParabola parabola(const State& next, const std::vector<int>& free, Eigen::MatrixXd& allowed) const {
     State still = next;
     still.v.setZero();
     still.a.setZero();
     still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
     Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
     to_.residual(still, force, constraints);
-    const Eigen::MatrixXd allowed = allowed_moves(still, free);
-    if (allowed.cols() == 0) return Eigen::VectorXd::Zero(allowed.rows());
-    const auto part = [&](const TangentWeights& weights) {
-      const Eigen::MatrixXd block = allowed.transpose() * tangent_block(still, weights, free, free) * allowed;
+    const TangentBlocks stiffness(to_, still, {.stiffness = 1}, free), mass(to_, still, {.mass = 1}, free);
+    allowed = allowed_moves(mass.gradient());
+    const auto part = [&](const TangentBlocks& tangent) {
+      const Eigen::MatrixXd block = allowed.transpose() * tangent.coordinates() * allowed;
       return Eigen::MatrixXd((block + block.transpose()) / 2);
     };
-    const Eigen::VectorXd g = allowed.transpose() * force(free);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(part({.stiffness = 1}),
-                                                                          part({.mass = 1}));
-    const Eigen::ArrayXd K = modes.eigenvalues().array();
-    const Eigen::ArrayXd g_modes = (modes.eigenvectors().transpose() * g).array();
-    const double largest = K.abs().maxCoeff();
-    // From mu's ends, where K + mu M loses its sign, outwards the change of the energy falls to zero.
-    const double end = e > 0 ? std::max(0.0, -K.minCoeff()) : -std::max(0.0, K.maxCoeff());
-    const auto mu = [&](double exponent) {
-      return end + (e > 0 ? 1 : -1) * largest * std::pow(10, exponent);
-    };
-    const auto change = [&](double exponent) {
-      const Eigen::ArrayXd stiff = K + mu(exponent);
-      return (g_modes.square() * (0.5 * K / stiff - 1) / stiff).sum();
-    };
-    double low = -12, high = 6;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = (low + high) / 2;
-      (std::abs(change(middle)) > std::abs(e) ? low : high) = middle;
-    }
-    return allowed * (modes.eigenvectors() * (-g_modes / (K + mu(high))).matrix());
+    return {part(stiffness), part(mass), allowed.transpose() * force(free)};
   }
 
-  Eigen::MatrixXd tangent_block(const State& still, const TangentWeights& weights,
-                                const std::vector<int>& rows, const std::vector<int>& columns) const {
-    Eigen::SparseMatrix<double> kkt = to_.tangent_pattern().matrix();
-    to_.tangent(still, weights, kkt);
-    Eigen::MatrixXd block(rows.size(), columns.size());
-    for (long i = 0; i < block.rows(); ++i)
-      for (long k = 0; k < block.cols(); ++k) block(i, k) = kkt.coeff(rows[i], columns[k]);
-    return block;
+  // One move of the free coordinates, the least in the mass norm that takes the excess e of the energy away;
+  // that of a neighbouring motion has this mu.
+  LeastMove move_of(const State& next, const std::vector<int>& free, double e,
+                    std::optional<double> near) const {
+    Eigen::MatrixXd allowed;
+    const EnergyParabola energy = parabola(next, free, allowed);
+    if (allowed.cols() == 0) return {Eigen::VectorXd::Zero(allowed.rows()), 0};
+    LeastMove move = near ? least_move(energy, e, *near) : least_move(energy, e);
+    move.d = allowed * move.d;
+    return move;
   }
 
-  // (free, moves) An orthonormal basis of the moves of free coordinates that open no constraint.
-  Eigen::MatrixXd allowed_moves(const State& still, const std::vector<int>& free) const {
-    const long n = static_cast<long>(free.size());
-    std::vector<int> rows(to_.constraint_count());
-    std::iota(rows.begin(), rows.end(), to_.coordinate_count());
-    const Eigen::MatrixXd G = tangent_block(still, {}, rows, free);
-    if (G.isZero(0)) return Eigen::MatrixXd::Identity(n, n);
+  // (free, moves) An orthonormal basis of the moves that open no constraint of this gradient.
+  static Eigen::MatrixXd allowed_moves(const Eigen::MatrixXd& G) {
+    if (G.isZero(0)) return Eigen::MatrixXd::Identity(G.cols(), G.cols());
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> across(G.transpose());
     const Eigen::MatrixXd Q = across.householderQ();
-    return Q.rightCols(n - across.rank());
+    return Q.rightCols(G.cols() - across.rank());
   }
 
   // Positions, slopes and sections of the nodes of new elements, and of the given rings of neighbours, and
@@ -229,7 +244,9 @@ class Remap {
   const BeamSystem& from_;
   const State& state_;
   const BeamSystem& to_;
-  NearSolver* const solver_;
+  NearSolvers* const solvers_;
+  mutable std::size_t solved_ = 0;  // with them
+  mutable NearSolver own_;          // without such motions
   const CarriedMomentum momentum_;
   const std::vector<int> around_;  // where rows of the new mesh may be open
   const double enough_;            // of closed constraints
@@ -352,8 +369,8 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
 }
 
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves, NearSolver& solver) {
-  const Remap remap(from, state, to, &solver);
+                                          const std::vector<EnergyMove>& moves, NearSolvers& solvers) {
+  const Remap remap(from, state, to, &solvers);
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
   if (next && !remap.repeat(moves, *next)) return std::nullopt;
   return next;

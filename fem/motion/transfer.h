@@ -15,9 +15,10 @@ namespace nurbeam {
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to);
 
 /// A move of nodes towards the energy of before: those of new elements and of rings of neighbours around
-/// them, of 2^-halvings of what a parabola foretells.
+/// them, of 2^-halvings of the least move, with its mu, that a parabola foretells.
 struct EnergyMove {
   int rings, halvings;
+  double mu;
 };
 
 /// A motion on another mesh, and what carrying it over took.
@@ -46,8 +47,8 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
                                      const BeamSystem& to);
 /// The same with these moves, whatever they bring, so that it is a smooth function of the state and of the
 /// model: where `moves` are those of a neighbouring motion, as far away from the energy's own as that one is.
-/// nullopt also where they cannot be made. `solver`: of the same for such motions.
+/// nullopt also where they cannot be made. `solvers`: those of the same for such motions.
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves, NearSolver& solver);
+                                          const std::vector<EnergyMove>& moves, NearSolvers& solvers);
 
 }  // namespace nurbeam

@@ -29,7 +29,7 @@ std::optional<MeshedBeams<D>> elements_of(const Assembly<D>* assembly) {
 
 template <int D>
 Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
-                      const Assembly* like)
+                      const Assembly* like, const Assembly* neighbour)
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
       elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
@@ -41,12 +41,13 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   bind_constraints(binding);
   bind_forces(binding);
   list_blocks();
-  if (like && couples_as(*like)) {
-    take_pattern(*like);
-  } else {
-    build_pattern();
-    choose_moving_part();
-  }
+  for (const Assembly* other : {neighbour, like})
+    if (other && couples_as(*other)) {
+      take_pattern(*other);
+      return;
+    }
+  build_pattern();
+  choose_moving_part();
 }
 
 // A batch of another mesh of the same model is taken over where it has the same elements with the same
@@ -149,13 +150,23 @@ ElementVector<D> Assembly<D>::element_force(const MeshElement<D>& e, const State
 }
 
 template <int D>
-ElementEnergy Assembly<D>::axis_energy(const State& state) const {
+ElementEnergy Assembly<D>::axis_energy(const State& state, const std::vector<bool>* of) const {
   ElementEnergy sum;
+  const auto counts = [&](int i) { return !of || (*of)[static_cast<std::size_t>(i)]; };
   for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
     const auto& [batches, batched, others] = walks_[b];
     const Vector weight = model_->beams[b].properties.mass_per_length * model_->gravity.head<D>();
-    for (const ElementBatch<D>& batch : batches) sum += batch.energy(state, weight, free_strain_of(b, state));
-    for (const int i : others) sum += elements_[i].element.energy(gather<D>(elements_[i], state), weight);
+    for (auto begin = batched.begin(); const ElementBatch<D>& batch : batches) {
+      const auto end = begin + batch.count();
+      if (std::any_of(begin, end, counts)) {
+        const auto energies = batch.energies(state, weight, free_strain_of(b, state));
+        for (auto i = begin; i < end; ++i)
+          if (counts(*i)) sum += energies[static_cast<std::size_t>(i - begin)];
+      }
+      begin = end;
+    }
+    for (const int i : others)
+      if (counts(i)) sum += elements_[i].element.energy(gather<D>(elements_[i], state), weight);
   }
   return sum;
 }

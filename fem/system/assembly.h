@@ -31,9 +31,10 @@ class Assembly final : public SecondOrderSystem {
   using Vector = Eigen::Matrix<double, D, 1>;
 
   /// `held`: joints whose place is held at its value in the plan. `like`: a system of the same model, of
-  /// which elements are taken that it has in common with this one.
+  /// which elements are taken that it has in common with this one. `neighbour`: one in the same plan, of
+  /// which the pattern is taken if it is the same.
   Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
-           const Assembly* like = nullptr);
+           const Assembly* like = nullptr, const Assembly* neighbour = nullptr);
   // Constraints and elements look at this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
@@ -61,8 +62,9 @@ class Assembly final : public SecondOrderSystem {
                                                        const Eigen::VectorXd& multipliers) const;
   /// What all but weight, inertia and joints gives to a body [N].
   Vector force_on_body(int body, const State& state) const;
-  /// The sum of the elements' energies, of the axis alone; with the potential of gravity.
-  ElementEnergy axis_energy(const State& state) const;
+  /// The sum of the elements' energies, of the axis alone; with the potential of gravity. `of`: these
+  /// elements alone; null: all.
+  ElementEnergy axis_energy(const State& state, const std::vector<bool>* of = nullptr) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
   /// The dead load of a beam per reference length, its weight included [N/m].

@@ -8,9 +8,10 @@ namespace {
 
 template <int D>
 std::unique_ptr<const Assembly<D>> make_assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan,
-                                                 const std::vector<bool>& held, const Assembly<D>* like) {
+                                                 const std::vector<bool>& held, const Assembly<D>* like,
+                                                 const Assembly<D>* neighbour = nullptr) {
   if (model->dimension != D) return nullptr;
-  return std::make_unique<const Assembly<D>>(std::move(model), std::move(plan), held, like);
+  return std::make_unique<const Assembly<D>>(std::move(model), std::move(plan), held, like, neighbour);
 }
 
 }  // namespace
@@ -32,12 +33,6 @@ BeamSystem::BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, co
     : BeamSystem(make_assembly<2>(model, plan, held, like.planar_.get()),
                  make_assembly<3>(model, plan, held, like.spatial_.get())) {}
 
-std::unique_ptr<BeamSystem> BeamSystem::replanned(MeshPlan plan, const std::vector<bool>& held) const {
-  return std::unique_ptr<BeamSystem>(
-      new BeamSystem(make_assembly<2>(shared_model(), plan, held, planar_.get()),
-                     make_assembly<3>(shared_model(), plan, held, spatial_.get())));
-}
-
 BeamSystem::BeamSystem(const BeamModel& model, MeshPlan plan, const std::vector<bool>& held)
     : BeamSystem(std::make_shared<const BeamModel>(model), std::move(plan), held) {}
 
@@ -54,6 +49,15 @@ const Assembly<2>* BeamSystem::assembly<2>() const {
 template <>
 const Assembly<3>* BeamSystem::assembly<3>() const {
   return spatial_.get();
+}
+
+std::unique_ptr<BeamSystem> BeamSystem::replanned(MeshPlan plan, const std::vector<bool>& held,
+                                                  const BeamSystem* neighbour) const {
+  const auto in_plan = [&]<int D>(const std::unique_ptr<const Assembly<D>>& own) {
+    return make_assembly<D>(shared_model(), plan, held, own.get(),
+                            neighbour ? neighbour->assembly<D>() : nullptr);
+  };
+  return std::unique_ptr<BeamSystem>(new BeamSystem(in_plan(planar_), in_plan(spatial_)));
 }
 
 const std::shared_ptr<const BeamModel>& BeamSystem::shared_model() const {

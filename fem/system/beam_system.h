@@ -29,8 +29,10 @@ class BeamSystem final : public SecondOrderSystem {
   BeamSystem(const BeamModel& model, MeshPlan plan, const std::vector<bool>& held = {});
   /// In its initial plan.
   explicit BeamSystem(const BeamModel& model);
-  /// The same model in another plan. What is the same in both need not be made anew.
-  std::unique_ptr<BeamSystem> replanned(MeshPlan plan, const std::vector<bool>& held = {}) const;
+  /// The same model in another plan. What is the same in both need not be made anew, nor what is as in the
+  /// system of a neighbouring model in that plan.
+  std::unique_ptr<BeamSystem> replanned(MeshPlan plan, const std::vector<bool>& held = {},
+                                        const BeamSystem* neighbour = nullptr) const;
   ~BeamSystem() override;
   BeamSystem(BeamSystem&&) noexcept;
   BeamSystem& operator=(BeamSystem&&) noexcept;

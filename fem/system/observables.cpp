@@ -127,23 +127,29 @@ Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   return widened<D>(sum);
 }
 
-// The sums over forces and some elements.
+// Of the elements that count, one for each of the system's, and of forces.
 template <int D>
-MotionSums sums_of(const Assembly<D>& a, const State& state, int beam,
-                   const std::vector<const MeshElement<D>*>& elements) {
-  MotionSums sums;
+SystemEnergy energy_of(const Assembly<D>& a, const State& state, const std::vector<bool>& counts) {
+  SystemEnergy sum;
+  add_axis_energy(a.axis_energy(state, &counts), sum);
+  if constexpr (D == 3)
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      if (counts[i] && a.elements()[i].twist) add_twist_energy(a.elements()[i], state, sum);
+  add_force_energies(a, state, sum);
+  return sum;
+}
+
+template <int D>
+MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std::vector<bool>& counts) {
+  MotionSums sums{.energy = energy_of(a, state, counts)};
   Eigen::Matrix<double, D, 1> momentum = Eigen::Matrix<double, D, 1>::Zero();
-  for (const MeshElement<D>* e : elements) {
-    const ElementState<D> x = gather<D>(*e, state);
-    add_axis_energy(
-        e->element.energy(x, e->element.properties().mass_per_length * a.model()->gravity.template head<D>()),
-        sums.energy);
-    if constexpr (D == 3)
-      if (e->twist) add_twist_energy(*e, state, sums.energy);
-    momentum += momentum_of<D>(*e, x, state);
-    if (e->beam == beam) sums.length += e->element.length(x.q);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (!counts[i]) continue;
+    const MeshElement<D>& e = a.elements()[i];
+    const ElementState<D> x = gather<D>(e, state);
+    momentum += momentum_of<D>(e, x, state);
+    if (e.beam == beam) sums.length += e.element.length(x.q);
   }
-  add_force_energies(a, state, sums.energy);
   add_force_momenta(a, state, momentum);
   sums.momentum = widened<D>(momentum);
   return sums;
@@ -173,6 +179,19 @@ bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<
     if (i >= 0 && (state.q[i] != other_state.q[j] || state.v[i] != other_state.v[j])) return false;
   }
   return true;
+}
+
+// The elements of both systems that the other has not, or which move otherwise there.
+template <int D>
+std::array<std::vector<bool>, 2> unlike_motion(const Assembly<D>& a, const State& state,
+                                               const Assembly<D>& other, const State& other_state) {
+  const std::vector<const MeshElement<D>*> same = same_elements(a, other);
+  std::array<std::vector<bool>, 2> unlike{std::vector<bool>(same.size(), true),
+                                          std::vector<bool>(other.elements().size(), true)};
+  for (std::size_t i = 0; i < same.size(); ++i)
+    if (same[i] && moves_alike(a.elements()[i], state, *same[i], other_state))
+      unlike[0][i] = unlike[1][static_cast<std::size_t>(same[i] - other.elements().data())] = false;
+  return unlike;
 }
 
 }  // namespace
@@ -234,22 +253,21 @@ MotionSums carried_sums(const MotionSums& sums, const BeamSystem& from, const St
       to,
       [&]<int D>(const Assembly<D>& fresh) {
         const Assembly<D>& old = *from.assembly<D>();
-        const std::vector<const MeshElement<D>*> same = same_elements(fresh, old);
-        std::vector<const MeshElement<D>*> added, removed;
-        std::vector<bool> stays(old.elements().size(), false);
-        for (std::size_t i = 0; i < same.size(); ++i) {
-          const MeshElement<D>& e = fresh.elements()[i];
-          if (same[i] && moves_alike(e, next, *same[i], state))
-            stays[static_cast<std::size_t>(same[i] - old.elements().data())] = true;
-          else
-            added.push_back(&e);
-        }
-        for (std::size_t i = 0; i < stays.size(); ++i)
-          if (!stays[i]) removed.push_back(&old.elements()[i]);
+        const auto [added, removed] = unlike_motion(fresh, next, old, state);
         MotionSums carried = sums;
         add(sums_of(fresh, next, beam, added), 1, carried);
         add(sums_of(old, state, beam, removed), -1, carried);
         return carried;
+      });
+}
+
+double energy_change(const BeamSystem& from, const State& state, const BeamSystem& to, const State& next) {
+  return with_assembly(
+      to,
+      [&]<int D>(const Assembly<D>& fresh) {
+        const Assembly<D>& old = *from.assembly<D>();
+        const auto [added, removed] = unlike_motion(fresh, next, old, state);
+        return energy_of(fresh, next, added).mechanical() - energy_of(old, state, removed).mechanical();
       });
 }
 

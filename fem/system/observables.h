@@ -27,6 +27,8 @@ MotionSums motion_sums(const BeamSystem& system, const State& state, int beam);
 /// and move alike nothing is found anew. Sums of the others from both sides are to round-off those of all.
 MotionSums carried_sums(const MotionSums& sums, const BeamSystem& from, const State& state,
                         const BeamSystem& to, const State& next, int beam);
+/// Of the mechanical energy, from (from, state) to (to, next), found alike [J].
+double energy_change(const BeamSystem& from, const State& state, const BeamSystem& to, const State& next);
 /// y(first), ... as a vector in space, z = 0 in the plane.
 Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, int first);
 /// Deformed length of a beam [m].

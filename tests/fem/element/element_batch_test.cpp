@@ -42,7 +42,8 @@ void check_batches(const BeamProperties& properties, int seed) {
   EXPECT_EQ(batches.size(), 2u);
   for (const ElementBatch<D>& batch : batches) {
     batch.add_forces(state, load, free_strain(elements[0], state), batched.data());
-    batched_energy += batch.energy(state, load, free_strain(elements[0], state));
+    const auto energies = batch.energies(state, load, free_strain(elements[0], state));
+    for (int i = 0; i < batch.count(); ++i) batched_energy += energies[static_cast<std::size_t>(i)];
   }
   expect_same(batched_energy, energy);
   EXPECT_EQ(energy.dissipation > 0, properties.is_damped());

@@ -154,7 +154,8 @@ TEST(LocalVelocities, HaveTheMomentumThatThoseOfAllUnknownsHave) {
             if (i < momentum.size()) momentum[i] *= 1 + 0.3 * unit(random);
           State whole = local;
           const State start = local;
-          const Projection near = velocities_from_momentum(to, momentum, around, local);
+          NearSolver solver;
+          const Projection near = velocities_from_momentum(to, momentum, around, solver, local);
           const Projection all = velocities_from_momentum(to, momentum, whole);
           ASSERT_EQ(near.status, ConsistencyStatus::done);
           ASSERT_EQ(all.status, ConsistencyStatus::done);
@@ -209,6 +210,8 @@ TEST(CarriedSums, AreThoseOfTheOtherMesh) {
           const MotionSums expected = motion_sums(to, next, 0);
           const double scale = expected.energy.kinetic + expected.energy.strain();
           EXPECT_NEAR(carried.energy.mechanical(), expected.energy.mechanical(), 1e-12 * scale);
+          EXPECT_NEAR(energy_change(from, state, to, next),
+                      expected.energy.mechanical() - energy(from, state).mechanical(), 1e-12 * scale);
           EXPECT_NEAR(carried.energy.kinetic, expected.energy.kinetic, 1e-12 * scale);
           EXPECT_NEAR(carried.energy.bending, expected.energy.bending, 1e-12 * scale);
           EXPECT_LT((carried.momentum - expected.momentum).norm(), 1e-12 * (1 + expected.momentum.norm()));
