@@ -36,13 +36,14 @@ void add_force_energies(const Assembly<D>& a, const State& state, SystemEnergy& 
         force);
 }
 
+// Of the elements that count, one for each of the system's, null: of all; and of forces.
 template <int D>
-SystemEnergy energy_of(const Assembly<D>& a, const State& state) {
+SystemEnergy energy_of(const Assembly<D>& a, const State& state, const std::vector<bool>* counts = nullptr) {
   SystemEnergy sum;
-  add_axis_energy(a.axis_energy(state), sum);
+  add_axis_energy(a.axis_energy(state, counts), sum);
   if constexpr (D == 3)
-    for (const MeshElement<D>& e : a.elements())
-      if (e.twist) add_twist_energy(e, state, sum);
+    for (std::size_t i = 0; i < a.elements().size(); ++i)
+      if (a.elements()[i].twist && (!counts || (*counts)[i])) add_twist_energy(a.elements()[i], state, sum);
   add_force_energies(a, state, sum);
   return sum;
 }
@@ -127,21 +128,10 @@ Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   return widened<D>(sum);
 }
 
-// Of the elements that count, one for each of the system's, and of forces.
-template <int D>
-SystemEnergy energy_of(const Assembly<D>& a, const State& state, const std::vector<bool>& counts) {
-  SystemEnergy sum;
-  add_axis_energy(a.axis_energy(state, &counts), sum);
-  if constexpr (D == 3)
-    for (std::size_t i = 0; i < counts.size(); ++i)
-      if (counts[i] && a.elements()[i].twist) add_twist_energy(a.elements()[i], state, sum);
-  add_force_energies(a, state, sum);
-  return sum;
-}
-
+// The sums over forces and the elements that count.
 template <int D>
 MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std::vector<bool>& counts) {
-  MotionSums sums{.energy = energy_of(a, state, counts)};
+  MotionSums sums{.energy = energy_of(a, state, &counts)};
   Eigen::Matrix<double, D, 1> momentum = Eigen::Matrix<double, D, 1>::Zero();
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (!counts[i]) continue;
@@ -267,7 +257,7 @@ double energy_change(const BeamSystem& from, const State& state, const BeamSyste
       [&]<int D>(const Assembly<D>& fresh) {
         const Assembly<D>& old = *from.assembly<D>();
         const auto [added, removed] = unlike_motion(fresh, next, old, state);
-        return energy_of(fresh, next, added).mechanical() - energy_of(old, state, removed).mechanical();
+        return energy_of(fresh, next, &added).mechanical() - energy_of(old, state, &removed).mechanical();
       });
 }
 
