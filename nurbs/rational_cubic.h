@@ -23,8 +23,12 @@ class RationalCubic {
   Eigen::Vector3d point(double u) const;
   /// d^k r/du^k for k = 0..5 (columns), 3 x 6.
   Eigen::Matrix<double, 3, 6> derivatives(double u) const;
-  /// d^k W/du^k for k = 0..3.
-  std::array<double, 4> weight_derivatives(double u) const;
+  /// What charts need, in one go.
+  struct WeightedDerivatives {
+    std::array<Eigen::Vector3d, 4> r;  ///< d^k r/du^k for k = 1..4
+    std::array<double, 4> weight;      ///< d^k W/du^k for k = 0..3
+  };
+  WeightedDerivatives weighted_derivatives(double u) const;
   /// Bernstein coefficients of W(u)^2 r'(u), a quartic: 3 x 5. Made of differences of control points, so they
   /// keep their digits far from the origin (Floater 1992, "Derivatives of rational Bezier curves").
   Eigen::Matrix<double, 3, 5> hodograph() const;

@@ -12,13 +12,18 @@ namespace nurbeam {
 
 namespace {
 
-// c = |r' x r''| (signed in the plane) and its first two derivatives.
-std::array<double, 3> cross_product_derivatives(const Eigen::Matrix<double, 3, 6>& r, int dimension) {
-  const Eigen::Vector3d r1 = r.col(1), r2 = r.col(2), r3 = r.col(3), r4 = r.col(4);
+// c = |r' x r''| (signed in the plane) and its first two derivatives, from those of r.
+std::array<double, 3> cross_product_derivatives(const std::array<Eigen::Vector3d, 4>& r, int dimension) {
+  const auto& [r1, r2, r3, r4] = r;
+  if (dimension == 2) {
+    const auto across = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return a.x() * b.y() - a.y() * b.x();
+    };
+    return {across(r1, r2), across(r1, r3), across(r2, r3) + across(r1, r4)};
+  }
   const Eigen::Vector3d c = r1.cross(r2);
   const Eigen::Vector3d c1 = r1.cross(r3);
   const Eigen::Vector3d c2 = r2.cross(r3) + r1.cross(r4);
-  if (dimension == 2) return {c.z(), c1.z(), c2.z()};
   const double norm = c.norm();
   if (norm < 1e-12 * r1.squaredNorm()) return {0, 0, 0};
   const double norm1 = c.dot(c1) / norm;
@@ -101,23 +106,24 @@ ChartGeometry ReferenceCurve::geometry(int j, double u) const {
 }
 
 ChartGeometry ReferenceCurve::drawn_geometry(int j, double u) const {
-  const Eigen::Matrix<double, 3, 6> r = segments_[j].derivatives(u);
-  const double a0 = r.col(1).squaredNorm();
-  const double a1 = 2 * r.col(1).dot(r.col(2));
-  const double a2 = 2 * (r.col(2).squaredNorm() + r.col(1).dot(r.col(3)));
-  const double a3 = 2 * (3 * r.col(2).dot(r.col(3)) + r.col(1).dot(r.col(4)));
-  const double J = std::sqrt(a0);
-  const double J1 = a1 / (2 * J);
-  const double J2 = (a2 - 2 * J1 * J1) / (2 * J);
-  const double J3 = (a3 - 6 * J1 * J2) / (2 * J);
-  const auto [c, c1, c2] = cross_product_derivatives(r, dimension_);
-  const double p = 1 / (J * J * J);
+  const RationalCubic::WeightedDerivatives drawn = segments_[j].weighted_derivatives(u);
+  const auto& [r1, r2, r3, r4] = drawn.r;
+  const double a0 = r1.squaredNorm();
+  const double a1 = 2 * r1.dot(r2);
+  const double a2 = 2 * (r2.squaredNorm() + r1.dot(r3));
+  const double a3 = 2 * (3 * r2.dot(r3) + r1.dot(r4));
+  const double J = std::sqrt(a0), i = 1 / J;
+  const double J1 = a1 * i / 2;
+  const double J2 = (a2 - 2 * J1 * J1) * i / 2;
+  const double J3 = (a3 - 6 * J1 * J2) * i / 2;
+  const auto [c, c1, c2] = cross_product_derivatives(drawn.r, dimension_);
+  const double p = i * i * i, q1 = J1 * i;
   const double k = c * p;
-  const double k1 = c1 * p - 3 * c * p * J1 / J;
-  const double k2 = c2 * p - 6 * c1 * p * J1 / J + 12 * c * p * J1 * J1 / (J * J) - 3 * c * p * J2 / J;
+  const double k1 = (c1 - 3 * c * q1) * p;
+  const double k2 = (c2 - 6 * c1 * q1 + c * (12 * q1 * q1 - 3 * J2 * i)) * p;
   std::array<double, 4> stretch{J, J1, J2, J3};
   if (metric_ == Metric::label) stretch = {segment_length(j), 0, 0, 0};
-  return {stretch, segments_[j].weight_derivatives(u), {k, k1, k2, 0}};
+  return {stretch, drawn.weight, {k, k1, k2, 0}};
 }
 
 Eigen::Vector3d ReferenceCurve::position(double s) const {

@@ -58,8 +58,21 @@ TEST(RationalCubicTest, TheWeightIsItsOwnTaylorPolynomial) {
   for (int i = 0; i < 1000; ++i) {
     const RationalCubic cubic = random_cubic(generator);
     const double u = uniform(generator, 0, 1), h = uniform(generator, -1, 1);
-    const auto [w, w1, w2, w3] = cubic.weight_derivatives(u);
-    ASSERT_NEAR(cubic.weight_derivatives(u + h)[0], w + h * w1 + h * h / 2 * w2 + h * h * h / 6 * w3, 1e-13);
+    const auto [w, w1, w2, w3] = cubic.weighted_derivatives(u).weight;
+    ASSERT_NEAR(cubic.weighted_derivatives(u + h).weight[0], w + h * w1 + h * h / 2 * w2 + h * h * h / 6 * w3,
+                1e-13);
+  }
+}
+
+TEST(RationalCubicTest, DerivativesWithTheWeightAreTheOnesWithout) {
+  Generator generator(13);
+  for (int i = 0; i < 1000; ++i) {
+    const RationalCubic cubic = random_cubic(generator);
+    const double u = uniform(generator, 0, 1);
+    const Eigen::Matrix<double, 3, 6> r = cubic.derivatives(u);
+    const RationalCubic::WeightedDerivatives same = cubic.weighted_derivatives(u);
+    for (int k = 1; k <= 4; ++k)
+      ASSERT_LE((same.r[static_cast<std::size_t>(k - 1)] - r.col(k)).norm(), 1e-12 * r.rightCols<5>().norm());
   }
 }
 
@@ -67,7 +80,7 @@ TEST(RationalCubicTest, TheHodographOverTheSquaredWeightIsTheFirstDerivative) {
   Generator generator(4);
   for (int i = 0; i < 1000; ++i) {
     const RationalCubic cubic = random_cubic(generator);
-    const double u = uniform(generator, 0, 1), v = 1 - u, w = cubic.weight_derivatives(u)[0];
+    const double u = uniform(generator, 0, 1), v = 1 - u, w = cubic.weighted_derivatives(u).weight[0];
     Eigen::Matrix<double, 5, 1> bernstein;
     bernstein << v * v * v * v, 4 * u * v * v * v, 6 * u * u * v * v, 4 * u * u * u * v, u * u * u * u;
     const Eigen::Vector3d slope = cubic.derivatives(u).col(1);
