@@ -9,39 +9,13 @@
 
 #include "solver/kkt_solver.h"
 #include "solver/local_solution.h"
+#include "solver/scaled_kkt.h"
 
 namespace nurbeam {
 
 namespace {
 
 using Vector = Eigen::VectorXd;
-
-/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, the first block divided by its scale.
-struct ScaledKkt {
-  Eigen::SparseMatrix<double> matrix;
-  double scale = 1;
-
-  ScaledKkt(const SecondOrderSystem& system, const State& state, double h = 0)
-      : matrix(system.tangent_pattern().matrix()) {
-    system.tangent(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, matrix);
-    scale_coordinates(system.coordinate_count());
-  }
-
- private:
-  // Divides the rows and columns of coordinates by their largest diagonal entry.
-  void scale_coordinates(int n) {
-    const int *rows = matrix.innerIndexPtr(), *starts = matrix.outerIndexPtr();
-    const auto first_at_least = [&](int row, int column) {
-      return static_cast<int>(std::lower_bound(rows + starts[column], rows + starts[column + 1], row) - rows);
-    };
-    double largest = 0;
-    for (int i = 0; i < n; ++i) largest = std::fmax(largest, matrix.valuePtr()[first_at_least(i, i)]);
-    if (!(largest > 0) || !std::isfinite(largest)) return;
-    scale = largest;
-    for (int i = 0; i < n; ++i)
-      Eigen::Map<Eigen::ArrayXd>(matrix.valuePtr() + starts[i], first_at_least(n, i) - starts[i]) /= largest;
-  }
-};
 
 /// The same in the rows near some unknowns alone.
 class LocalKkt {
@@ -54,7 +28,7 @@ class LocalKkt {
   LocalKkt(const SecondOrderSystem& system, const State& state, double h, const std::vector<int>& around)
       : n_(system.coordinate_count()),
         pattern_(system.tangent_pattern()),
-        near_(pattern_, pattern_.size() < fewest ? std::vector<int>{} : around, reach) {
+        near_(surroundings(pattern_, around)) {
     if (!is_worth_it()) return;
     // Nobody looks at the other columns.
     values_ = std::make_unique_for_overwrite<double[]>(pattern_.rows().size());
@@ -68,9 +42,16 @@ class LocalKkt {
   }
 
   /// Whether much of the system lies beyond.
-  bool is_worth_it() const {
-    return !near_.unknowns.empty() &&
-           4 * near_.unknowns.size() < 3 * static_cast<std::size_t>(pattern_.size());
+  bool is_worth_it() const { return is_worth_it(near_, pattern_); }
+
+  /// The unknowns that are solved for alone, in order; none where that is not worth it.
+  static std::vector<int> unknowns(const SecondOrderSystem& system, const std::vector<int>& around) {
+    const SparsePattern& pattern = system.tangent_pattern();
+    Surroundings near = surroundings(pattern, around);
+    if (!is_worth_it(near, pattern)) return {};
+    near.unknowns.resize(near.inner);
+    std::sort(near.unknowns.begin(), near.unknowns.end());
+    return std::move(near.unknowns);
   }
 
   /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m). Precondition: is_worth_it().
@@ -91,6 +72,13 @@ class LocalKkt {
   }
 
  private:
+  static Surroundings surroundings(const SparsePattern& pattern, const std::vector<int>& around) {
+    return {pattern, pattern.size() < fewest ? std::vector<int>{} : around, reach};
+  }
+  static bool is_worth_it(const Surroundings& near, const SparsePattern& pattern) {
+    return !near.unknowns.empty() && 4 * near.unknowns.size() < 3 * static_cast<std::size_t>(pattern.size());
+  }
+
   void scale_coordinates() {
     const int *starts = pattern_.column_starts().data(), *rows = pattern_.rows().data();
     double largest = 0;
@@ -204,11 +192,21 @@ Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
 
 /// (m) G v + dg/dt.
 Eigen::VectorXd constraint_speeds(const SecondOrderSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> gradient = system.tangent_pattern().matrix();
-  system.tangent(state, {}, gradient);
-  Eigen::VectorXd padded = Eigen::VectorXd::Zero(gradient.cols());
-  padded.head(state.v.size()) = state.v;
-  return (gradient * padded).tail(system.constraint_count()) + system.constraint_rate(state);
+  return system.constraint_product(state, state.v) + system.constraint_rate(state);
+}
+
+/// (n) M v + G' impulse.
+Eigen::VectorXd momentum_of(const SecondOrderSystem& system, const State& at, const Vector& v,
+                            const Vector& impulse) {
+  // Beside accelerations as large as that forces are lost in round-off.
+  const double vast = std::ldexp(1.0, 300);
+  State state = at;
+  state.v.setZero();
+  state.a = vast * v;
+  state.lambda = vast * impulse;
+  Vector dynamics(v.size()), constraints(impulse.size());
+  system.residual(state, dynamics, constraints);
+  return dynamics / vast;
 }
 
 /// Newton's iteration for accelerations and multipliers of which the forces depend on the multipliers;
@@ -281,6 +279,11 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   return ConsistencyStatus::done;
 }
 
+std::vector<int> solved_near(const SecondOrderSystem& system, const std::vector<int>& around) {
+  if (around.empty() || system.forces_depend_on_multipliers()) return {};
+  return LocalKkt::unknowns(system, around);
+}
+
 ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
   return make_accelerations_smooth(system, 0, state);
 }
@@ -338,6 +341,27 @@ Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen
   return from_momentum(system, momentum, state, [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
     return solver.solve(kkt.matrix, system.moving_unknowns(), b, x);
   });
+}
+
+Projection velocities_beside(const SecondOrderSystem& system, const Vector& momentum,
+                             const std::vector<int>& around, NeighbourSolver& solver, State& state) {
+  if (const auto near = near_velocities(system, momentum, around, solver.around, state)) return *near;
+  const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
+  if (solver.solution.size() != n + m)
+    return from_momentum(system, momentum, state, [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
+      if (!solver.factors.factorise(kkt.matrix, system.moving_unknowns())) return false;
+      x = solver.solution = solver.factors.solve(b);
+      solver.scale = kkt.scale;
+      return true;
+    });
+  const Vector v = solver.solution.head(n), impulse = solver.scale * solver.solution.tail(m);
+  Vector open(n + m);
+  open << (momentum - momentum_of(system, state, v, impulse)) / solver.scale,
+      -system.constraint_rate(state) - system.constraint_product(state, v);
+  const Vector x = solver.solution + solver.factors.solve(open);
+  if (!x.allFinite()) return {ConsistencyStatus::singular, {}};
+  state.v = x.head(n);
+  return {ConsistencyStatus::done, solver.scale * x.tail(m)};
 }
 
 }  // namespace nurbeam

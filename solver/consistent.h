@@ -28,6 +28,9 @@ enum class ConsistencyStatus {
                                                           const std::vector<int>& around, NearSolver& solver,
                                                           State& state);
 
+/// The unknowns, in order, that it solves for alone; none: all.
+std::vector<int> solved_near(const SecondOrderSystem& system, const std::vector<int>& around);
+
 /// The largest of what is left of the constraints g(q, t), in their units.
 double open_constraints(const SecondOrderSystem& system, const State& state);
 
@@ -60,5 +63,11 @@ struct Projection {
                                                   const Eigen::VectorXd& momentum,
                                                   const std::vector<int>& around, NearSolver& solver,
                                                   State& state);
+/// The same for a motion, of which `solver` has solved nothing, and then for its neighbours, on one mesh:
+/// these by one correction of the first one's. What that misses is of second order in how far they are, and
+/// of third in half the difference of two as far on either side.
+[[nodiscard]] Projection velocities_beside(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
+                                           const std::vector<int>& around, NeighbourSolver& solver,
+                                           State& state);
 
 }  // namespace nurbeam

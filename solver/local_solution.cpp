@@ -56,6 +56,22 @@ std::size_t append_coupled(const int* starts, const int* rows, std::size_t begin
   return end;
 }
 
+// The rows and columns of some unknowns; `place`: where each is among them, -1: it is not.
+Matrix part_of(const View& A, const std::vector<int>& unknowns, const std::vector<int>& place) {
+  const auto size = static_cast<Eigen::Index>(unknowns.size());
+  Matrix own(size, size);
+  Eigen::Index entries = 0;
+  for (const int unknown : unknowns) entries += A.outerIndexPtr()[unknown + 1] - A.outerIndexPtr()[unknown];
+  own.reserve(entries);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    own.startVec(k);
+    for (View::InnerIterator entry(A, unknowns[k]); entry; ++entry)
+      if (place[entry.row()] >= 0) own.insertBack(place[entry.row()], k) = entry.value();
+  }
+  own.finalize();
+  return own;
+}
+
 // Some of the unknowns, and the matrix of their rows and columns.
 class Window {
  public:
@@ -79,20 +95,7 @@ class Window {
   Eigen::VectorXd part(const Eigen::VectorXd& all) const { return all(unknowns_); }
   void add(const Eigen::VectorXd& part, Eigen::VectorXd& all) const { all(unknowns_) += part; }
 
-  Matrix matrix(const View& A) const {
-    Matrix own(size(), size());
-    Eigen::Index entries = 0;
-    for (const int unknown : unknowns_)
-      entries += A.outerIndexPtr()[unknown + 1] - A.outerIndexPtr()[unknown];
-    own.reserve(entries);
-    for (int k = 0; k < size(); ++k) {
-      own.startVec(k);
-      for (View::InnerIterator entry(A, unknowns_[k]); entry; ++entry)
-        if (place_[entry.row()] >= 0) own.insertBack(place_[entry.row()], k) = entry.value();
-    }
-    own.finalize();
-    return own;
-  }
+  Matrix matrix(const View& A) const { return part_of(A, unknowns_, place_); }
 
   /// Whether the solution for it leaves the rows beyond it closed, but for round-off of what it moves.
   bool suffices(const View& A, const Open& open, const Eigen::VectorXd& solution) const {
@@ -123,6 +126,14 @@ class Window {
 };
 
 }  // namespace
+
+Matrix submatrix(const View& A, const std::vector<int>& unknowns) {
+  std::vector<int> place(static_cast<std::size_t>(A.cols()), -1);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) place[unknowns[k]] = static_cast<int>(k);
+  return part_of(A, unknowns, place);
+}
+
+Matrix submatrix(const Matrix& A, const std::vector<int>& unknowns) { return submatrix(view(A), unknowns); }
 
 bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
                      Eigen::VectorXd& x) {

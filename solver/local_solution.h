@@ -14,6 +14,11 @@ namespace nurbeam {
 [[nodiscard]] bool correct_locally(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b,
                                    const std::vector<int>& last, Eigen::VectorXd& x);
 
+/// The rows and columns of these unknowns, in order.
+Eigen::SparseMatrix<double> submatrix(const Eigen::Map<const Eigen::SparseMatrix<double>>& A,
+                                      const std::vector<int>& unknowns);
+Eigen::SparseMatrix<double> submatrix(const Eigen::SparseMatrix<double>& A, const std::vector<int>& unknowns);
+
 /// Unknowns of a symmetric pattern, those first that are coupled with some over the fewest others.
 struct Surroundings {
   std::vector<int> unknowns;  ///< two levels beyond the reach

@@ -24,7 +24,14 @@ class NearSolver {
   Eigen::VectorXd x_;                    // the last solution
 };
 
+/// What has been solved for one motion, by which its neighbours are found.
+struct NeighbourSolver {
+  KktSolver factors;
+  Eigen::VectorXd solution = {};  ///< empty: nothing has
+  double scale = 1;               ///< by which the rows of coordinates were divided
+  NearSolver around = {};         ///< of unknowns near some place, where these are solved for alone
+};
 /// Of several systems that are solved one after the other.
-using NearSolvers = std::deque<NearSolver>;
+using NeighbourSolvers = std::deque<NeighbourSolver>;
 
 }  // namespace nurbeam

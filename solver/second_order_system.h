@@ -71,6 +71,14 @@ class SecondOrderSystem {
 
   /// (m) dg/dt at fixed q: a consistent velocity satisfies G v + rate = 0.
   virtual Eigen::VectorXd constraint_rate(const State& state) const = 0;
+  /// (m) G x, x (n).
+  virtual Eigen::VectorXd constraint_product(const State& state, const Eigen::VectorXd& x) const {
+    Eigen::SparseMatrix<double> gradient = tangent_pattern().matrix();
+    tangent(state, {}, gradient);
+    Eigen::VectorXd padded = Eigen::VectorXd::Zero(gradient.cols());
+    padded.head(x.size()) = x;
+    return (gradient * padded).tail(constraint_count());
+  }
   /// (m) everything in d2g/dt2 but G a: a consistent acceleration satisfies G a + curvature = 0.
   virtual Eigen::VectorXd constraint_curvature(const State& state) const = 0;
 

@@ -105,6 +105,12 @@ void MotionTangents::start_afresh(Eigen::Index parameter, const State& tangent) 
   jerk.col(parameter).setZero();
 }
 
+void MotionTangents::start_afresh() {
+  last_step.setZero();
+  algorithmic_acceleration = a;
+  jerk.setZero();
+}
+
 StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system)
     : step_(settings, system), row_starts_(static_cast<std::size_t>(step_.kkt.rows()) + 1, 0) {
   const int n = system.coordinate_count();

@@ -22,6 +22,8 @@ struct MotionTangents {
   void move(Eigen::Index parameter, const State& tangent, double part);
   /// That by one parameter where an integrator starts afresh.
   void start_afresh(Eigen::Index parameter, const State& tangent);
+  /// Those by all where one starts afresh from where they are.
+  void start_afresh();
 };
 
 /// Steps of generalized-alpha with one system, each linearised where it has ended: the tangents of many

@@ -79,7 +79,7 @@ std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool a
 }
 
 std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next, const BeamSystem& neighbour,
-                                        const std::vector<EnergyMove>& moves, NearSolvers& solvers) {
+                                        const std::vector<EnergyMove>& moves, NeighbourSolvers& solvers) {
   return go_on_there(at, changed(
                              at, next, false, &neighbour,
                              [&](const BeamSystem& to) {

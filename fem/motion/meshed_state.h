@@ -39,7 +39,7 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
 [[nodiscard]] std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
                                                       const BeamSystem& neighbour,
                                                       const std::vector<EnergyMove>& moves,
-                                                      NearSolvers& solvers);
+                                                      NeighbourSolvers& solvers);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
 /// than that can be.

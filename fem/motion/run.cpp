@@ -12,11 +12,13 @@ bool Run::restart(const std::vector<int>& changed) {
   // Other methods than this one want accelerations that are consistent everywhere.
   const std::vector<int> around =
       std::holds_alternative<GeneralizedAlpha>(options.integrator) ? changed : std::vector<int>{};
+  const double time = shortest_time();
   NearSolver solver;
-  const bool consistent = change([&, time = shortest_time()](MeshedState& of) {
+  const auto smooth = [&](MeshedState& of) {
     return make_accelerations_smooth(*of.system, time, around, solver, of.state) == ConsistencyStatus::done;
-  });
-  if (!consistent) return fail(Failure::Kind::mass_matrix);
+  };
+  if (!smooth(at)) return fail(Failure::Kind::mass_matrix);
+  if (observer.follower) observer.follower->starts(at, time, around, smooth);
   const Integrator* before = around.empty() ? nullptr : integrator.get();
   integrator = start_integrator(options.integrator, *at.system, at.state, before);
   restarted = true;

@@ -40,6 +40,12 @@ struct Run {
   void follow(const Change& change) const {
     if (observer.follower) observer.follower->changes(at, change);
   }
+  /// The same where neighbours are found beside the run's own motion: it goes first, from its state before.
+  template <class Change>
+  void follow_from(MeshedState own, const Change& change) const {
+    if (!observer.follower) return;
+    if (change(own)) follow(change);
+  }
   /// New integrator from the present state, with consistent accelerations.
   bool restart() { return restart({}); }
   /// After a change of the mesh that left all but these unknowns as they were (changed_unknowns):

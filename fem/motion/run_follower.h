@@ -35,6 +35,10 @@ class RunFollower {
   /// Something else has led to `at`: what does the same to the state of a neighbouring model, and returns
   /// whether it could. The integrator starts afresh from here.
   virtual void changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) = 0;
+  /// Accelerations and multipliers of `at` have been made those of its q and v, as
+  /// make_accelerations_smooth(h, around) does: `change` does it too.
+  virtual void starts(const MeshedState& at, double h, const std::vector<int>& around,
+                      const std::function<bool(MeshedState&)>& change) = 0;
   /// It is an event, at the present time.
   virtual void happens(const RunEvent& event) = 0;
   /// A snapshot is taken of `recorded`, with accelerations and multipliers `of_the_moment`, or as the steps

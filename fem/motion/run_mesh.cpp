@@ -50,9 +50,9 @@ bool change_due_mesh(Run& run) {
     const bool observed = static_cast<bool>(run.observer.mesh_changed);
     const std::vector<BeamRecord> before =
         observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
-    run.at = std::move(changed->now);
-    NearSolvers solvers;
-    run.follow([&](MeshedState& of) {
+    const MeshedState own = std::exchange(run.at, std::move(changed->now));
+    NeighbourSolvers solvers;
+    run.follow_from(own, [&](MeshedState& of) {
       const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
       return !change_mesh_like(of, same, *run.at.system, changed->moves, solvers);
     });

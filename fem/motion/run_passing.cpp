@@ -35,7 +35,7 @@ bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
 // A joint's body in the next element: with the moves that keep the energy, or those of a neighbouring motion
 // where they are known. False where velocities cannot be projected.
 bool go_over(MeshedState& at, const Crossing& crossing, std::optional<std::vector<EnergyMove>>& moves,
-             NearSolvers& solvers) {
+             NeighbourSolvers& solvers) {
   const SlidingJoint& joint = at.system->model().joints[crossing.joint];
   const double beyond = landing_tolerance(at.system->model(), crossing.joint);
   at.state.q[at.system->mesh().joints[crossing.joint].place] =
@@ -123,11 +123,13 @@ bool step_over(Run& run, const Crossing& crossing) {
   const bool follows_section = run.model->joints[crossing.joint].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
   std::optional<std::vector<EnergyMove>> moves;  // of the run, which is the first to go over
-  NearSolvers solvers;
-  const bool gone = run.change([&](MeshedState& at) {
+  NeighbourSolvers solvers;
+  const auto pass = [&](MeshedState& at) {
     return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), moves, solvers);
-  });
-  if (!gone) return run.fail_in_impact(crossing.joint);
+  };
+  const MeshedState own = run.at;
+  if (!pass(run.at)) return run.fail_in_impact(crossing.joint);
+  run.follow_from(own, pass);
   if (follows_section) run.account.lose(before - run.mechanical_energy());
   return run.restart();
 }

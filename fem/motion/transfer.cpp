@@ -60,8 +60,8 @@ class TangentBlocks {
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
  public:
-  // `solvers`, which may be null: of motions that lie close to this one.
-  Remap(const BeamSystem& from, const State& state, const BeamSystem& to, NearSolvers* solvers = nullptr)
+  // `solvers`, which may be null: of a motion that this one lies beside.
+  Remap(const BeamSystem& from, const State& state, const BeamSystem& to, NeighbourSolvers* solvers = nullptr)
       : from_(from),
         state_(state),
         to_(to),
@@ -125,11 +125,12 @@ class Remap {
   // places before, and for neighbouring motions at the same ones.
   Projection velocities(const Eigen::VectorXd& momentum, State& next) const {
     constexpr int few = 400;
-    if (!solvers_ && around_.empty() && to_.coordinate_count() > few)
-      return velocities_from_momentum(to_, momentum, next);
-    if (solvers_ && solved_ == solvers_->size()) solvers_->emplace_back();
-    NearSolver& solver = solvers_ ? (*solvers_)[solved_++] : own_;
-    return velocities_from_momentum(to_, momentum, around_, solver, next);
+    if (solvers_) {
+      if (solved_ == solvers_->size()) solvers_->emplace_back();
+      return velocities_beside(to_, momentum, around_, (*solvers_)[solved_++], next);
+    }
+    if (around_.empty() && to_.coordinate_count() > few) return velocities_from_momentum(to_, momentum, next);
+    return velocities_from_momentum(to_, momentum, around_, own_, next);
   }
 
   double excess(const State& x) const { return energy_change(from_, state_, to_, x); }
@@ -244,7 +245,7 @@ class Remap {
   const BeamSystem& from_;
   const State& state_;
   const BeamSystem& to_;
-  NearSolvers* const solvers_;
+  NeighbourSolvers* const solvers_;
   mutable std::size_t solved_ = 0;  // with them
   mutable NearSolver own_;          // without such motions
   const CarriedMomentum momentum_;
@@ -369,7 +370,7 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
 }
 
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves, NearSolvers& solvers) {
+                                          const std::vector<EnergyMove>& moves, NeighbourSolvers& solvers) {
   const Remap remap(from, state, to, &solvers);
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
   if (next && !remap.repeat(moves, *next)) return std::nullopt;

@@ -47,8 +47,9 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
                                      const BeamSystem& to);
 /// The same with these moves, whatever they bring, so that it is a smooth function of the state and of the
 /// model: where `moves` are those of a neighbouring motion, as far away from the energy's own as that one is.
-/// nullopt also where they cannot be made. `solvers`: those of the same for such motions.
+/// nullopt also where they cannot be made. `solvers`: as in velocities_beside, of the motion that made them
+/// first.
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves, NearSolvers& solvers);
+                                          const std::vector<EnergyMove>& moves, NeighbourSolvers& solvers);
 
 }  // namespace nurbeam

@@ -1,8 +1,10 @@
 #include "fem/sensitivity/residual_differences.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "fem/element/element_batch.h"
 #include "fem/system/with_assembly.h"
@@ -63,9 +65,10 @@ struct ResidualDifferences::In final : Implementation {
     Side more, less;
     double step = 0;
     std::vector<int> groups = {};
-    bool is_local = false;              // no more differs than elements in batches
-    std::vector<int> coordinates = {};  // of these
+    std::vector<int> coordinates = {};  // of the elements in batches
     bool was_whole = true;              // the last columns that were found may not be zero elsewhere
+    // Whether no more differs than these: at the same coordinates, and at shifted ones.
+    std::array<std::optional<bool>, 2> is_local = {};
   };
   // Elements of all pairs that are made of the same, under one load: that of the beam in one of the systems.
   struct Group {
@@ -80,6 +83,7 @@ struct ResidualDifferences::In final : Implementation {
   std::vector<Group> groups;
   Eigen::MatrixXd forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_constraints, less_constraints;
+  State general;  // to which what is not the same answers differently
 
   In(const std::vector<Pair>& of, const State& near)
       : forces(near.q.size(), 2 * static_cast<Eigen::Index>(of.size())),
@@ -88,6 +92,7 @@ struct ResidualDifferences::In final : Implementation {
     if (of.empty()) return;
     forces.setZero();
     const std::vector<State> states = uneven_states(*of.front().more, near);
+    general = states.front();
     for (const auto& [more, less, step] : of) {
       Sides& pair = pairs.emplace_back();
       pair.more.assembly = more->template assembly<D>();
@@ -99,8 +104,6 @@ struct ResidualDifferences::In final : Implementation {
       for (std::size_t i = 0; i < unlike.size(); ++i)
         if (unlike[i])
           for (Side* side : {&pair.more, &pair.less}) add(pair, *side, static_cast<int>(i));
-      pair.is_local = pair.more.apart.empty() &&
-                      pair.more.assembly->differs_in_elements(*pair.less.assembly, {states.front()});
       std::sort(pair.coordinates.begin(), pair.coordinates.end());
       pair.coordinates.erase(std::unique(pair.coordinates.begin(), pair.coordinates.end()),
                              pair.coordinates.end());
@@ -149,6 +152,17 @@ struct ResidualDifferences::In final : Implementation {
     });
   }
 
+  // Whether no more differs than elements in batches, between shifted coordinates.
+  bool is_local(Sides& pair, const std::vector<Shift>& shifts) const {
+    if (!pair.more.apart.empty()) return false;
+    std::optional<bool>& known = pair.is_local[shifts.empty() ? 0 : 1];
+    if (!known)
+      known =
+          pair.more.assembly->differs_in_elements(*pair.less.assembly, shifted(general, pair.step, 0, shifts),
+                                                  shifted(general, -pair.step, 0, shifts));
+    return *known;
+  }
+
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints) override {
     for (Group& group : groups) {
@@ -160,19 +174,19 @@ struct ResidualDifferences::In final : Implementation {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       Sides& pair = pairs[k];
-      const bool moves = later[column] != 0 || !shifts[k].empty();
-      if (!moves && pair.is_local && same_loads(pair, at, at)) {
+      if (later[column] == 0 && is_local(pair, shifts[k]) && same_loads(pair, at, at)) {
         if (pair.was_whole) {
           dynamics.col(column).setZero();
           constraints.col(column).setZero();
-          pair.was_whole = false;
         }
+        pair.was_whole = !shifts[k].empty();  // what is due to these is taken off
         for (const int i : pair.coordinates) {
           dynamics(i, column) = (forces(i, 2 * column) - forces(i, 2 * column + 1)) / (2 * pair.step);
           forces(i, 2 * column) = forces(i, 2 * column + 1) = 0;
         }
         continue;
       }
+      const bool moves = later[column] != 0 || !shifts[k].empty();
       const State above = moves ? shifted(at, pair.step, later[column], shifts[k]) : State{},
                   below = moves ? shifted(at, -pair.step, later[column], shifts[k]) : State{};
       evaluate(pair, moves ? above : at, moves ? below : at, column);

@@ -14,6 +14,7 @@
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
+#include "solver/start_tangent.h"
 
 namespace nurbeam {
 
@@ -306,6 +307,39 @@ void Sensitivities::changes(const MeshedState& at, const std::function<bool(Mesh
     if (!same_mesh(*at.system, *parameters_[k].more)) not_alike("what happens at an event changes");
   }
   start_afresh(at, tangents);
+}
+
+// (m) How G a + curvature changes by each parameter, with a as it is.
+MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
+  MotionTangents::Matrix changes(at.lambda.size(), tangents_.parameters());
+  const auto of = [&](const BeamSystem& system, Eigen::Index k, double part) -> Vector {
+    State state = at;
+    state.t += part * tangents_.t[k];
+    state.q += part * tangents_.q.col(k);
+    state.v += part * tangents_.v.col(k);
+    return system.constraint_product(state, at.a) + system.constraint_curvature(state);
+  };
+  for (Eigen::Index k = 0; k < changes.cols(); ++k) {
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    const double p = parameter.pair.step;
+    changes.col(k) = (of(*parameter.more, k, p) - of(*parameter.less, k, -p)) / (2 * p);
+  }
+  return changes;
+}
+
+void Sensitivities::starts(const MeshedState& at, double h, const std::vector<int>& around,
+                           const std::function<bool(MeshedState&)>& change) {
+  const StartTangent start(*at.system, h, around, at.state);
+  if (!start.regular()) return changes(at, change);
+  carry();
+  MotionTangents::Matrix dynamics = MotionTangents::Matrix::Zero(dynamics_.rows(), dynamics_.cols());
+  for (const StartTangent::Part& part : start.parts()) {
+    take_off(find_residual_changes(part.state, tangents_.t), part.stiffness);
+    dynamics += part.factor * dynamics_;
+  }
+  start.find(dynamics, curvature_changes(at.state), tangents_);
+  tangents_.start_afresh();
+  state_ = at.state;
 }
 
 void Sensitivities::happens(const RunEvent& event) {

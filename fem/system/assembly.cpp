@@ -364,7 +364,7 @@ std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other,
 }
 
 template <int D>
-bool Assembly<D>::differs_in_elements(const Assembly& other, const std::vector<State>& states) const {
+bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, const State& of_other) const {
   const auto is_still = [](const BeamModel& model) {
     const auto moves = [](const auto& each) {
       if constexpr (requires { each.motion.has_value(); }) return each.motion.has_value();
@@ -376,13 +376,15 @@ bool Assembly<D>::differs_in_elements(const Assembly& other, const std::vector<S
   };
   if (!forces_.empty() || !other.forces_.empty() || !is_still(*model_) || !is_still(*other.model_))
     return false;
-  const auto of = [&](const Assembly& assembly, const State& state) {
+  const auto ties = [](const Assembly& assembly, const State& state) {
     Eigen::VectorXd both = Eigen::VectorXd::Zero(state.q.size() + state.lambda.size());
     assembly.add_forces_and_constraints(state, both.head(state.q.size()), both.tail(state.lambda.size()));
     return both;
   };
-  return std::all_of(states.begin(), states.end(),
-                     [&](const State& state) { return of(*this, state) == of(other, state); });
+  constexpr double round_off = 1e-13;
+  const Eigen::VectorXd here = ties(*this, own), there = ties(other, of_other);
+  return (here - there).template lpNorm<Eigen::Infinity>() <=
+         round_off * here.template lpNorm<Eigen::Infinity>();
 }
 
 template <int D>
@@ -405,6 +407,21 @@ Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
         },
         constraints_[i]);
   return rate;
+}
+
+template <int D>
+Eigen::VectorXd Assembly<D>::constraint_product(const State& state, const Eigen::VectorXd& x) const {
+  const MeshedBeams<D> at = beams();
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(constraint_count_);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const ConstraintBlock& block = constraint_blocks_[i];
+    const ConstraintTerms<D> terms =
+        std::visit([&](const auto& c) { return c.terms(at, state, nullptr); }, constraints_[i]);
+    for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
+      if (const int dof = block.block.dofs[k]; dof >= 0)
+        product.segment(block.row, block.rows) += x[dof] * terms.gradient.col(static_cast<Eigen::Index>(k));
+  }
+  return product;
 }
 
 template <int D>

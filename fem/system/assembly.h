@@ -78,8 +78,9 @@ class Assembly final : public SecondOrderSystem {
   /// corresponding places.
   std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states) const;
   /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces, no motions,
-  /// and constraints that are the same at these states, which must be general ones.
-  bool differs_in_elements(const Assembly& other, const std::vector<State>& states) const;
+  /// and constraints that are the same to round-off at these states, which must be general ones that
+  /// correspond.
+  bool differs_in_elements(const Assembly& other, const State& own, const State& of_other) const;
   /// Adds to the dynamics of a residual the forces of these elements and of all that is no element, which is
   /// all that the constraints need.
   void add_residual_of(const std::vector<int>& elements, const State& state,
@@ -107,6 +108,7 @@ class Assembly final : public SecondOrderSystem {
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
+  Eigen::VectorXd constraint_product(const State& state, const Eigen::VectorXd& x) const override;
   Eigen::VectorXd constraint_curvature(const State& state) const override;
   double step_limit(const State& state) const override;
   bool admissible(const State& state) const override;

@@ -91,6 +91,9 @@ void BeamSystem::moving_tangent(const State& state, const TangentWeights& w, Eig
 Eigen::VectorXd BeamSystem::constraint_rate(const State& state) const {
   return system_->constraint_rate(state);
 }
+Eigen::VectorXd BeamSystem::constraint_product(const State& state, const Eigen::VectorXd& x) const {
+  return system_->constraint_product(state, x);
+}
 Eigen::VectorXd BeamSystem::constraint_curvature(const State& state) const {
   return system_->constraint_curvature(state);
 }

@@ -54,6 +54,7 @@ class BeamSystem final : public SecondOrderSystem {
   const std::vector<int>& moving_unknowns() const override;
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
+  Eigen::VectorXd constraint_product(const State& state, const Eigen::VectorXd& x) const override;
   Eigen::VectorXd constraint_curvature(const State& state) const override;
   double step_limit(const State& state) const override;
   bool admissible(const State& state) const override;

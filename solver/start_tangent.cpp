@@ -1,0 +1,87 @@
+#include "solver/start_tangent.h"
+
+#include <algorithm>
+
+#include "solver/consistent.h"
+#include "solver/local_solution.h"
+#include "solver/scaled_kkt.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Columns = MotionTangents::Matrix;
+using Tangent = Eigen::SparseMatrix<double>;
+
+Tangent tangent_at(const SecondOrderSystem& system, const State& state, const TangentWeights& weights) {
+  Tangent matrix = system.tangent_pattern().matrix();
+  system.tangent(state, weights, matrix);
+  return matrix;
+}
+
+// The rows and columns of coordinates of a matrix times columns for these.
+Columns product(const Tangent& matrix, const Columns& columns) {
+  Columns padded = Columns::Zero(matrix.cols(), columns.cols());
+  padded.topRows(columns.rows()) = columns;
+  return (matrix * padded).topRows(columns.rows());
+}
+
+std::vector<State> parts_of_rho(const SecondOrderSystem& system, double h, const State& state) {
+  std::vector<State> states{state};
+  if (h == 0) return states;
+  State still = state;
+  still.a.setZero();
+  still.lambda = Eigen::VectorXd::Zero(system.constraint_count());
+  for (const double sign : {1.0, -1.0}) {
+    states.push_back(still);
+    states.back().q += sign * h * h / 4 * state.a;
+    states.back().v += sign * h / 2 * state.a;
+  }
+  return states;
+}
+
+}  // namespace
+
+StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std::vector<int>& around,
+                           const State& state)
+    : damping_(system.tangent_pattern().matrix()) {
+  if (system.forces_depend_on_multipliers()) return;
+  for (State& each : parts_of_rho(system, h, state)) {
+    const double factor = parts_.empty() ? 1 : parts_.size() == 1 ? 0.5 : -0.5;
+    damping_ += factor * tangent_at(system, each, {.damping = 1});
+    Tangent stiffness = tangent_at(system, each, {.stiffness = 1});
+    parts_.push_back({std::move(each), factor, std::move(stiffness)});
+  }
+  State still = state;
+  still.a.setZero();
+  still.lambda.setZero();
+  ScaledKkt kkt(system, still, h);
+  kkt_ = std::move(kkt.matrix);
+  scale_ = kkt.scale;
+  unknowns_ = solved_near(system, around);
+  regular_ = unknowns_.empty() ? solver_.factorise(kkt_, system.moving_unknowns())
+                               : solver_.factorise(submatrix(kkt_, unknowns_));
+}
+
+void StartTangent::find(const Matrix& dynamics, const Matrix& curvature, MotionTangents& tangents) const {
+  const Eigen::Index n = dynamics.rows(), m = curvature.rows();
+  Matrix change = dynamics + product(damping_, tangents.v);
+  for (const Part& part : parts_) change += part.factor * product(part.stiffness, tangents.q);
+  Matrix right(n + m, dynamics.cols()), left;
+  right << -change / scale_, -curvature;
+  if (unknowns_.empty()) {
+    solver_.solve(right, left);
+  } else {
+    left.resize(n + m, dynamics.cols());
+    left << tangents.a, tangents.lambda / scale_;
+    right -= kkt_ * left;
+    const Matrix open = right(unknowns_, Eigen::all);
+    Matrix correction;
+    solver_.solve(open, correction);
+    left(unknowns_, Eigen::all) += correction;
+  }
+  tangents.a = left.topRows(n);
+  tangents.lambda = scale_ * left.bottomRows(m);
+}
+
+}  // namespace nurbeam

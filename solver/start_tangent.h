@@ -1,0 +1,50 @@
+#pragma once
+#include <vector>
+
+#include "solver/kkt_solver.h"
+#include "solver/step_tangent.h"
+
+namespace nurbeam {
+
+/// make_accelerations_smooth, linearised where it has been: how accelerations and multipliers that belong to
+/// a state change with it and with parameters of the system. What is zero of them,
+///   rho = M a + G'lambda - f + [(h/2) D + (h^2/4) K] a,   c = G a + curvature,
+/// has products of tangents with accelerations in it. Of these
+///   [(h/2) D + (h^2/4) K] a = (F(q + d, v + d') - F(q - d, v - d')) / 2,   d = h^2/4 a, d' = h/2 a,
+/// to third order in d, F = -f, so that rho is a sum of residuals of three states, and its derivatives by q
+/// and v are those of their tangents.
+class StartTangent {
+ public:
+  using Matrix = MotionTangents::Matrix;
+
+  /// Of the accelerations and multipliers of `state`, which make_accelerations_smooth has found with
+  /// `around`.
+  StartTangent(const SecondOrderSystem& system, double h, const std::vector<int>& around, const State& state);
+
+  /// Whether there is one. Precondition of what follows.
+  bool regular() const { return regular_; }
+
+  /// A share of rho: the residual of a state times a factor, and how it changes with q, constraints below
+  /// (n + m).
+  struct Part {
+    State state;
+    double factor;
+    Eigen::SparseMatrix<double> stiffness;
+  };
+  const std::vector<Part>& parts() const { return parts_; }
+
+  /// Puts a and lambda of tangents to what q and v of them say. A column for each parameter: `dynamics` (n),
+  /// how rho changes with the parameter itself and with t; `curvature` (m), how c does with all but a.
+  void find(const Matrix& dynamics, const Matrix& curvature, MotionTangents& tangents) const;
+
+ private:
+  std::vector<Part> parts_;
+  Eigen::SparseMatrix<double> damping_;  // of rho
+  Eigen::SparseMatrix<double> kkt_;      // of rho and c by a and lambda, the first n rows and columns scaled
+  double scale_ = 1;
+  std::vector<int> unknowns_;  // that are solved for, where these are not all
+  KktSolver solver_;
+  bool regular_ = false;
+};
+
+}  // namespace nurbeam
