@@ -33,14 +33,15 @@ bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
 }
 
 // A joint's body in the next element: with the moves that keep the energy, or those of a neighbouring motion
-// where they are known. False where velocities cannot be projected.
-bool go_over(MeshedState& at, const Crossing& crossing, std::optional<std::vector<EnergyMove>>& moves,
-             NeighbourSolvers& solvers) {
+// where they are known. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
+// cannot be projected.
+bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighbour,
+             std::optional<std::vector<EnergyMove>>& moves, NeighbourSolvers& solvers) {
   const SlidingJoint& joint = at.system->model().joints[crossing.joint];
   const double beyond = landing_tolerance(at.system->model(), crossing.joint);
   at.state.q[at.system->mesh().joints[crossing.joint].place] =
       crossing.s + (crossing.forward ? beyond : -beyond);
-  auto next = at.system->replanned(present_plan(*at.system, at.state));
+  auto next = at.system->replanned(present_plan(*at.system, at.state), {}, neighbour);
   if (!joint.follows_section) {
     // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
     State moved = interpolated(*at.system, at.state, *next);
@@ -123,12 +124,15 @@ bool step_over(Run& run, const Crossing& crossing) {
   const bool follows_section = run.model->joints[crossing.joint].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
   std::optional<std::vector<EnergyMove>> moves;  // of the run, which is the first to go over
+  std::shared_ptr<const BeamSystem> over;        // its own
   NeighbourSolvers solvers;
   const auto pass = [&](MeshedState& at) {
-    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), moves, solvers);
+    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), over.get(), moves,
+                   solvers);
   };
   const MeshedState own = run.at;
   if (!pass(run.at)) return run.fail_in_impact(crossing.joint);
+  over = run.at.system;
   run.follow_from(own, pass);
   if (follows_section) run.account.lose(before - run.mechanical_energy());
   return run.restart();

@@ -41,6 +41,14 @@ State shifted(const State& at, double part, double later, const std::vector<Resi
   return state;
 }
 
+// What loads look at.
+State at_time(const State& at, double later) {
+  State state;
+  state.t = at.t + later;
+  state.load = at.load;
+  return state;
+}
+
 }  // namespace
 
 struct ResidualDifferences::Implementation {
@@ -92,7 +100,8 @@ struct ResidualDifferences::In final : Implementation {
     if (of.empty()) return;
     forces.setZero();
     const std::vector<State> states = uneven_states(*of.front().more, near);
-    general = states.front();
+    general = states.front();  // bent, and driven as fast as what is bent answers
+    general.a = states.back().a / states.back().a.template lpNorm<Eigen::Infinity>();
     for (const auto& [more, less, step] : of) {
       Sides& pair = pairs.emplace_back();
       pair.more.assembly = more->template assembly<D>();
@@ -174,7 +183,8 @@ struct ResidualDifferences::In final : Implementation {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       Sides& pair = pairs[k];
-      if (later[column] == 0 && is_local(pair, shifts[k]) && same_loads(pair, at, at)) {
+      if (is_local(pair, shifts[k]) &&
+          same_loads(pair, at_time(at, pair.step * later[column]), at_time(at, -pair.step * later[column]))) {
         if (pair.was_whole) {
           dynamics.col(column).setZero();
           constraints.col(column).setZero();

@@ -367,14 +367,23 @@ template <int D>
 bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, const State& of_other) const {
   const auto is_still = [](const BeamModel& model) {
     const auto moves = [](const auto& each) {
-      if constexpr (requires { each.motion.has_value(); }) return each.motion.has_value();
+      if constexpr (
+          requires { each.motion.has_value(); })
+        return each.motion.has_value();
       return false;
     };
-    return std::none_of(model.constraints.begin(), model.constraints.end(),
-                        [&](const auto& each) { return std::visit(moves, each); }) &&
+    return std::none_of(
+               model.constraints.begin(), model.constraints.end(),
+               [&](const auto& each) { return std::visit(moves, each); }) &&
            std::none_of(model.joints.begin(), model.joints.end(), moves);
   };
-  if (!forces_.empty() || !other.forces_.empty() || !is_still(*model_) || !is_still(*other.model_))
+  const auto are_of_bodies = [](const std::vector<BoundForce<D>>& forces) {
+    return std::all_of(forces.begin(), forces.end(), [](const BoundForce<D>& force) {
+      return std::holds_alternative<PointMass<D>>(force);
+    });
+  };
+  if (!are_of_bodies(forces_) || !are_of_bodies(other.forces_) || !is_still(*model_) ||
+      !is_still(*other.model_))
     return false;
   const auto ties = [](const Assembly& assembly, const State& state) {
     Eigen::VectorXd both = Eigen::VectorXd::Zero(state.q.size() + state.lambda.size());

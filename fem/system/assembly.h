@@ -77,9 +77,9 @@ class Assembly final : public SecondOrderSystem {
   /// apart from loads and free strains: to round-off, sections at these states; ends that move at
   /// corresponding places.
   std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states) const;
-  /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces, no motions,
-  /// and constraints that are the same to round-off at these states, which must be general ones that
-  /// correspond.
+  /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces but inertia
+  /// and weight of bodies, no motions, and what there is the same to round-off at these states, which must be
+  /// general ones that correspond.
   bool differs_in_elements(const Assembly& other, const State& own, const State& of_other) const;
   /// Adds to the dynamics of a residual the forces of these elements and of all that is no element, which is
   /// all that the constraints need.
