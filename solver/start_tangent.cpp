@@ -19,6 +19,13 @@ Tangent tangent_at(const SecondOrderSystem& system, const State& state, const Ta
   return matrix;
 }
 
+// Both of one pattern.
+void add(double factor, const Tangent& part, Tangent& sum) {
+  using Values = Eigen::ArrayXd;
+  Eigen::Map<Values>(sum.valuePtr(), sum.nonZeros()) +=
+      factor * Eigen::Map<const Values>(part.valuePtr(), part.nonZeros());
+}
+
 // The rows and columns of coordinates of a matrix times columns for these.
 Columns product(const Tangent& matrix, const Columns& columns) {
   Columns padded = Columns::Zero(matrix.cols(), columns.cols());
@@ -44,12 +51,13 @@ std::vector<State> parts_of_rho(const SecondOrderSystem& system, double h, const
 
 StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std::vector<int>& around,
                            const State& state)
-    : damping_(system.tangent_pattern().matrix()) {
+    : stiffness_(system.tangent_pattern().matrix()), damping_(stiffness_) {
   if (system.forces_depend_on_multipliers()) return;
   for (State& each : parts_of_rho(system, h, state)) {
     const double factor = parts_.empty() ? 1 : parts_.size() == 1 ? 0.5 : -0.5;
-    damping_ += factor * tangent_at(system, each, {.damping = 1});
+    add(factor, tangent_at(system, each, {.damping = 1}), damping_);
     Tangent stiffness = tangent_at(system, each, {.stiffness = 1});
+    add(factor, stiffness, stiffness_);
     parts_.push_back({std::move(each), factor, std::move(stiffness)});
   }
   State still = state;
@@ -65,8 +73,7 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
 
 void StartTangent::find(const Matrix& dynamics, const Matrix& curvature, MotionTangents& tangents) const {
   const Eigen::Index n = dynamics.rows(), m = curvature.rows();
-  Matrix change = dynamics + product(damping_, tangents.v);
-  for (const Part& part : parts_) change += part.factor * product(part.stiffness, tangents.q);
+  const Matrix change = dynamics + product(stiffness_, tangents.q) + product(damping_, tangents.v);
   Matrix right(n + m, dynamics.cols()), left;
   right << -change / scale_, -curvature;
   if (unknowns_.empty()) {

@@ -39,8 +39,8 @@ class StartTangent {
 
  private:
   std::vector<Part> parts_;
-  Eigen::SparseMatrix<double> damping_;  // of rho
-  Eigen::SparseMatrix<double> kkt_;      // of rho and c by a and lambda, the first n rows and columns scaled
+  Eigen::SparseMatrix<double> stiffness_, damping_;  // of rho
+  Eigen::SparseMatrix<double> kkt_;  // of rho and c by a and lambda, the first n rows and columns scaled
   double scale_ = 1;
   std::vector<int> unknowns_;  // that are solved for, where these are not all
   KktSolver solver_;
