@@ -1,5 +1,7 @@
 #pragma once
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "fem/motion/crossing.h"
 #include "fem/motion/meshed_state.h"
@@ -21,6 +23,14 @@ struct FollowedStep {
   std::function<double(const BeamSystem&, const State&)> beyond;
 };
 
+/// A change of the mesh by projected().
+struct FollowedTransfer {
+  const MeshedState& before;
+  const std::vector<EnergyMove>& moves;
+  /// The mesh of a neighbouring motion behind it.
+  std::function<std::unique_ptr<BeamSystem>(const MeshedState&)> replanned;
+};
+
 /// Is told how each state of a run comes from the one before, so that neighbouring motions can go along: all
 /// that the run decides, as when the mesh changes and for how long a step is, is decided for them too.
 class RunFollower {
@@ -35,6 +45,9 @@ class RunFollower {
   /// Something else has led to `at`: what does the same to the state of a neighbouring model, and returns
   /// whether it could. The integrator starts afresh from here.
   virtual void changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) = 0;
+  /// It was a transfer to another mesh: `change` does the same.
+  virtual void transfers(const MeshedState& at, const FollowedTransfer& transfer,
+                         const std::function<bool(MeshedState&)>& change) = 0;
   /// Accelerations and multipliers of `at` have been made those of its q and v, as
   /// make_accelerations_smooth(h, around) does: `change` does it too.
   virtual void starts(const MeshedState& at, double h, const std::vector<int>& around,

@@ -23,6 +23,29 @@ void refuse(Run& run, const NextPlan& next, std::optional<double> cost) {
   run.report.fail(std::move(failure));
 }
 
+// Tells a follower of a change that has been made.
+void follow_change(const Run& run, const MeshedState& before, const NextPlan& next,
+                   const ChangedMesh& changed) {
+  const BeamSystem& system = *run.at.system;
+  const auto plan_of = [&](const MeshedState& of) { return plan_like(next.plan, *of.system, of.state); };
+  NeighbourSolvers solvers;
+  const auto make = [&](MeshedState& of) {
+    return !change_mesh_like(of, {next.change, next.joint, plan_of(of)}, system, changed.moves, solvers);
+  };
+  const auto change = [&, first = true](MeshedState& of) mutable {
+    // The run's own motion goes before those that are found beside it.
+    if (MeshedState own = before; std::exchange(first, false)) (void)make(own);
+    return make(of);
+  };
+  if (changed.impulse.size() == 0) return run.follow(change);
+  const std::vector<bool> held(run.model->joints.size(), false);
+  run.observer.follower->transfers(
+      run.at,
+      {before, changed.moves,
+       [&](const MeshedState& of) { return of.system->replanned(plan_of(of), held, &system); }},
+      change);
+}
+
 // Applies one change of the mesh if one is due and can be; one that would cost energy waits as long as it
 // can.
 bool change_due_mesh(Run& run) {
@@ -51,11 +74,7 @@ bool change_due_mesh(Run& run) {
     const std::vector<BeamRecord> before =
         observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
     const MeshedState own = std::exchange(run.at, std::move(changed->now));
-    NeighbourSolvers solvers;
-    run.follow_from(own, [&](MeshedState& of) {
-      const NextPlan same{next.change, next.joint, plan_like(next.plan, *of.system, of.state)};
-      return !change_mesh_like(of, same, *run.at.system, changed->moves, solvers);
-    });
+    if (run.observer.follower) follow_change(run, own, next, *changed);
     if (!run.restart(changed->around)) return false;
     run.at.state = run.integrator->state();
     event.support_impulse = support_impulse(run.at, changed->impulse);

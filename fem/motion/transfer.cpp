@@ -120,7 +120,40 @@ class Remap {
     return true;
   }
 
+  // The same with all that is between; nothing where it is more than that.
+  std::optional<TransferPath> path(const std::vector<EnergyMove>& moves) const {
+    if (!bodies_are_on_axes()) return std::nullopt;
+    TransferPath path{interpolated(from_, state_, to_), {}, {}};
+    if (!(open_constraints(to_, path.interpolated) <= enough_)) return std::nullopt;
+    std::optional<Transferred> next = with_velocities(path.interpolated);
+    for (const EnergyMove& move : moves) {
+      if (!next) return std::nullopt;
+      const double e = excess(next->state);
+      const std::vector<int> free = free_coordinates(move.rings);
+      Eigen::MatrixXd allowed;
+      const EnergyParabola energy = parabola(next->state, free, allowed);
+      if (allowed.cols() == 0) return std::nullopt;
+      LeastMove least = least_move(energy, e, move.mu);
+      const double left = energy.g.dot(least.d) + least.d.dot(energy.K * least.d) / 2 + e;
+      if (!(std::abs(left) <= 1e-6 * std::abs(e))) {
+        if (!(std::abs(least.mu) * energy.M.norm() <= 1e-9 * energy.K.norm())) return std::nullopt;
+        least.mu = 0;
+      }
+      path.stages.push_back(*next);
+      path.moves.push_back({free, allowed * least.d, least.mu, move.halvings});
+      next = with_move(next->state, free, std::ldexp(1.0, -move.halvings) * path.moves.back().d);
+    }
+    if (!next) return std::nullopt;
+    path.stages.push_back(std::move(*next));
+    return path;
+  }
+
  private:
+  bool bodies_are_on_axes() const {
+    const std::vector<SlidingJoint>& joints = to_.model().joints;
+    return std::none_of(joints.begin(), joints.end(), [](const SlidingJoint& j) { return j.is_offset(); });
+  }
+
   // Those with this momentum at the places next.q. What is solved for them lies near what was solved at the
   // places before, and for neighbouring motions at the same ones.
   Projection velocities(const Eigen::VectorXd& momentum, State& next) const {
@@ -375,6 +408,11 @@ std::optional<Transferred> projected_like(const BeamSystem& from, const State& s
   std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
   if (next && !remap.repeat(moves, *next)) return std::nullopt;
   return next;
+}
+
+std::optional<TransferPath> path_of(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                    const std::vector<EnergyMove>& moves) {
+  return Remap(from, state, to).path(moves);
 }
 
 }  // namespace nurbeam

@@ -30,6 +30,21 @@ struct Transferred {
   std::vector<EnergyMove> moves = {};  ///< that have kept the energy
 };
 
+/// A move of them as it has been made: 2^-halvings d of these coordinates.
+struct MadeMove {
+  std::vector<int> free;
+  Eigen::VectorXd d;
+  double mu;  ///< 0 where d does not bring the energy, but leads to the lowest
+  int halvings;
+};
+
+/// A motion on its way to another mesh.
+struct TransferPath {
+  State interpolated;
+  std::vector<Transferred> stages;  ///< with velocities, before and after each move
+  std::vector<MadeMove> moves;
+};
+
 /// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far
 /// as they were, or round-off.
 double closed_enough(const BeamSystem& from, const State& state);
@@ -51,5 +66,11 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
 /// first.
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
                                           const std::vector<EnergyMove>& moves, NeighbourSolvers& solvers);
+
+/// The way of projected(), for a motion that has made these moves. nullopt where it is more than that: where
+/// bodies stand off their beams, constraints must be closed, or a move leads neither to its energy
+/// nor to the lowest.
+std::optional<TransferPath> path_of(const BeamSystem& from, const State& state, const BeamSystem& to,
+                                    const std::vector<EnergyMove>& moves);
 
 }  // namespace nurbeam

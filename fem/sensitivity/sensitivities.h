@@ -37,6 +37,7 @@ struct NeighbourPair {
 ///     whose length does not depend on the state are kept until something else happens, which takes the
 ///     tangents over all of them. Back over those that are left at the end of the run go adjoints, to the
 ///     tangents where they begin.
+///   - Over a transfer to another mesh: TransferTangent, where it can be linearised.
 ///   - Where an integrator starts, accelerations and multipliers are those of q and v: StartTangent.
 ///   - Over all else, as a change of the mesh or an impact: half the difference of what the same does to the
 ///     states q +- step dq/dp of the neighbours.
@@ -93,6 +94,8 @@ class Sensitivities final : public RunFollower {
   void rests(const MeshedState& at) override;
   void steps(const FollowedStep& step) override;
   void changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) override;
+  void transfers(const MeshedState& at, const FollowedTransfer& transfer,
+                 const std::function<bool(MeshedState&)>& change) override;
   void starts(const MeshedState& at, double h, const std::vector<int>& around,
               const std::function<bool(MeshedState&)>& change) override;
   void happens(const RunEvent& event) override;
@@ -114,6 +117,7 @@ class Sensitivities final : public RunFollower {
   Shifts find_residual_changes(const State& at, const Eigen::RowVectorXd& time);
   void take_off(const Shifts& shifts, const Eigen::SparseMatrix<double>& stiffness);
   MotionTangents::Matrix curvature_changes(const State& at) const;
+  MotionTangents::Matrix residual_changes(const State& at, const MotionTangents::Matrix& q);
   bool has_own_length(const FollowedStep& step) const;
   Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
   Longer by_length(const FollowedStep& step) const;

@@ -229,6 +229,7 @@ void check_constraints(int seed, const auto& make_model) {
   };
   const Eigen::MatrixXd G = Eigen::MatrixXd(tangent(system, state, {})).bottomLeftCorner(m, n);
   expect_second_order(constraints, G * state.v + system.constraint_rate(state), 1e-3);
+  EXPECT_LT((system.constraint_product(state, state.a) - G * state.a).norm(), 1e-14 * G.norm());
   const double h = 1e-3;
   const Eigen::VectorXd second = (constraints(h) - 2 * constraints(0) + constraints(-h)) / (h * h);
   const Eigen::VectorXd expected = G * state.a + system.constraint_curvature(state);

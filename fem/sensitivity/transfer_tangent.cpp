@@ -1,0 +1,215 @@
+#include "fem/sensitivity/transfer_tangent.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "solver/scaled_kkt.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = MotionTangents::Matrix;
+
+// Beside accelerations as large as that forces are lost in round-off.
+const double vast = std::ldexp(1.0, 300);
+
+State without_motion(const State& state) {
+  State still = state;
+  still.v.setZero();
+  still.a.setZero();
+  still.lambda.setZero();
+  return still;
+}
+
+Eigen::SparseMatrix<double> tangent_of(const BeamSystem& system, const State& at,
+                                       const TangentWeights& weights) {
+  Eigen::SparseMatrix<double> matrix = system.tangent_pattern().matrix();
+  system.tangent(at, weights, matrix);
+  return matrix;
+}
+
+// (rows, columns) Entries of a sparse matrix.
+Eigen::MatrixXd block(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& rows,
+                      const std::vector<int>& columns) {
+  Eigen::MatrixXd dense(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  Vector column(matrix.rows());
+  for (Eigen::Index k = 0; k < dense.cols(); ++k) {
+    column = matrix.col(columns[static_cast<std::size_t>(k)]);
+    dense.col(k) = column(rows);
+  }
+  return dense;
+}
+
+}  // namespace
+
+TransferTangent::TransferTangent(std::shared_ptr<const BeamSystem> system, const TransferPath& path,
+                                 std::vector<Neighbours> neighbours, ResidualChanges residual_changes)
+    : system_(std::move(system)),
+      path_(path),
+      neighbours_(std::move(neighbours)),
+      residual_changes_(std::move(residual_changes)) {
+  for (const Neighbours& each : neighbours_)
+    momenta_.emplace_back(CarriedMomentum(*each.more_before.system, each.more_before.state, *each.more),
+                          CarriedMomentum(*each.less_before.system, each.less_before.state, *each.less));
+}
+
+bool TransferTangent::carry(MotionTangents& tangents) const {
+  interpolate(tangents);
+  for (std::size_t i = 0; i < path_.stages.size(); ++i) {
+    if (i > 0 && !move(path_.stages[i - 1], path_.moves[i - 1], tangents)) return false;
+    put_bodies(path_.stages[i].state, tangents);
+    if (!find_velocities(path_.stages[i], tangents)) return false;
+  }
+  return true;
+}
+
+// Half the difference over the step of `of`(parameter, whether it is more), a column for each parameter.
+template <class Of>
+TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) const {
+  Matrix rates(rows, static_cast<Eigen::Index>(neighbours_.size()));
+  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+    rates.col(static_cast<Eigen::Index>(k)) = (of(k, true) - of(k, false)) / (2 * neighbours_[k].step);
+  return rates;
+}
+
+// The state of a neighbour on the mesh behind, with the multipliers of `at`.
+State TransferTangent::beside(const State& at, const MotionTangents& tangents, std::size_t parameter,
+                              double part) const {
+  const auto k = static_cast<Eigen::Index>(parameter);
+  State state = at;
+  state.t += part * tangents.t[k];
+  state.q += part * tangents.q.col(k);
+  state.v += part * tangents.v.col(k);
+  return state;
+}
+
+void TransferTangent::interpolate(MotionTangents& tangents) const {
+  for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+    const Neighbours& of = neighbours_[k];
+    const State more = interpolated(*of.more_before.system, of.more_before.state, *of.more),
+                less = interpolated(*of.less_before.system, of.less_before.state, *of.less);
+    const auto column = static_cast<Eigen::Index>(k);
+    const double per = 1 / (2 * of.step);
+    tangents.q.col(column) = per * (more.q - less.q);
+    tangents.v.col(column) = per * (more.v - less.v);
+    tangents.a.col(column) = per * (more.a - less.a);
+    tangents.lambda.col(column) = per * (more.lambda - less.lambda);
+  }
+}
+
+// Those on points of the mesh, which must lie on the curve.
+void TransferTangent::put_bodies(const State& at, MotionTangents& tangents) const {
+  const Mesh& mesh = system_->mesh();
+  const int D = mesh.dimension;
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    if (mesh.plan.modes[j] != JointMode::point) continue;
+    const SlidingJoint& joint = system_->model().joints[j];
+    const Matrix places = rates(D, [&](std::size_t k, bool more) -> Vector {
+      const Neighbours& of = neighbours_[k];
+      const State state = beside(at, tangents, k, more ? of.step : -of.step);
+      return material_point(more ? *of.more : *of.less, state, joint.beam, state.q[mesh.joints[j].place])
+          .r.head(D);
+    });
+    tangents.q.middleRows(mesh.bodies[joint.body], D) = places;
+  }
+}
+
+bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& tangents) const {
+  const Eigen::Index n = stage.state.q.size(), m = stage.state.lambda.size();
+  State driven = without_motion(stage.state);
+  driven.a = vast * stage.state.v;
+  driven.lambda = vast * stage.impulse;
+  const auto part = [&](std::size_t k, bool more) {
+    return more ? neighbours_[k].step : -neighbours_[k].step;
+  };
+  Matrix right(n + m, tangents.parameters()), left;
+  right.topRows(n) = rates(n, [&](std::size_t k, bool more) -> Vector {
+    const State at = beside(stage.state, tangents, k, part(k, more));
+    return (more ? momenta_[k].first : momenta_[k].second).on(at);
+  });
+  right.topRows(n) -= residual_changes_(driven, tangents.q) / vast;
+  right.bottomRows(m) = -rates(m, [&](std::size_t k, bool more) -> Vector {
+    const BeamSystem& system = more ? *neighbours_[k].more : *neighbours_[k].less;
+    const State at = beside(stage.state, tangents, k, part(k, more));
+    return system.constraint_product(at, stage.state.v) + system.constraint_rate(at);
+  });
+  const ScaledKkt kkt(*system_, without_motion(stage.state));
+  KktSolver solver;
+  if (!solver.factorise(kkt.matrix, system_->moving_unknowns())) return false;
+  right.topRows(n) /= kkt.scale;
+  solver.solve(right, left);
+  tangents.v = left.topRows(n);
+  return true;
+}
+
+bool TransferTangent::move(const Transferred& stage, const MadeMove& made, MotionTangents& tangents) const {
+  const BeamSystem& system = *system_;
+  const Eigen::Index n = stage.state.q.size(), m = stage.state.lambda.size(),
+                     f = static_cast<Eigen::Index>(made.free.size());
+  const State still = without_motion(stage.state);
+  const Eigen::SparseMatrix<double> stiffness = tangent_of(system, still, {.stiffness = 1}),
+                                    mass = tangent_of(system, still, {.mass = 1});
+  const Eigen::MatrixXd K = block(stiffness, made.free, made.free), M = block(mass, made.free, made.free);
+  std::vector<int> ties(static_cast<std::size_t>(m));
+  for (std::size_t i = 0; i < ties.size(); ++i) ties[i] = static_cast<int>(n) + static_cast<int>(i);
+  const Eigen::MatrixXd G = block(mass, ties, made.free);
+  Vector force(n), constraints(m);
+  system.residual(still, force, constraints);
+  const Vector g = force(made.free), Kd = K * made.d, Md = M * made.d;
+  const Vector nu = G.transpose().completeOrthogonalDecomposition().solve(-(Kd + made.mu * Md + g));
+
+  // What they change by while d, nu and mu stay.
+  Vector whole = Vector::Zero(n);
+  whole(made.free) = made.d;
+  State ahead = still, behind = still, driven = still;
+  ahead.q += whole;
+  behind.q -= whole;
+  driven.a = (vast * made.mu) * whole;
+  driven.lambda = vast * nu;
+  const auto change_at = [&](const State& at) -> Matrix {
+    return residual_changes_(at, tangents.q)(made.free, Eigen::all);
+  };
+  const Matrix dg = change_at(still), dKd = (change_at(ahead) - change_at(behind)) / 2,
+               inertia = change_at(driven) / vast;
+  const auto part = [&](std::size_t k, bool more) {
+    return more ? neighbours_[k].step : -neighbours_[k].step;
+  };
+  const Matrix across = rates(m, [&](std::size_t k, bool more) -> Vector {
+    const BeamSystem& of = more ? *neighbours_[k].more : *neighbours_[k].less;
+    return of.constraint_product(beside(still, tangents, k, part(k, more)), whole);
+  });
+  // Of the energy that is to be brought: nothing where the move does not.
+  Matrix energy = Matrix::Zero(1, tangents.parameters());
+  if (made.mu != 0) {
+    energy = rates(1, [&](std::size_t k, bool more) {
+      const Neighbours& of = neighbours_[k];
+      const MeshedState& before = more ? of.more_before : of.less_before;
+      return Eigen::Matrix<double, 1, 1>(energy_change(*before.system, before.state,
+                                                       more ? *of.more : *of.less,
+                                                       beside(stage.state, tangents, k, part(k, more))));
+    });
+    energy += made.d.transpose() * (dg + dKd / 2);
+  }
+
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(f + m + 1, f + m + 1);
+  matrix.topLeftCorner(f, f) = K + made.mu * M;
+  matrix.block(0, f, f, m) = G.transpose();
+  matrix.block(f, 0, m, f) = G;
+  if (made.mu != 0) {
+    matrix.block(0, f + m, f, 1) = Md;
+    matrix.block(f + m, 0, 1, f) = (g + Kd).transpose();
+  }
+  Eigen::MatrixXd right(f + m + 1, tangents.parameters());
+  right << -(dg + dKd + inertia), -across, -energy;
+  // Rows of constraints that hold nothing of it are zero, and that of the energy where it is not brought.
+  const Eigen::MatrixXd left = matrix.completeOrthogonalDecomposition().solve(right);
+  if (!left.allFinite()) return false;
+  tangents.q(made.free, Eigen::all) += std::ldexp(1.0, -made.halvings) * left.topRows(f);
+  return true;
+}
+
+}  // namespace nurbeam

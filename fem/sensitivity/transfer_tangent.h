@@ -1,0 +1,57 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fem/motion/meshed_state.h"
+#include "fem/system/momentum.h"
+#include "solver/step_tangent.h"
+
+namespace nurbeam {
+
+/// A transfer to another mesh (projected), linearised where it has been. With the equations that each of its
+/// stages solves, of velocities v and impulse y, and of a move d with its multipliers nu and mu,
+///   M v + G'y = p,  G v + rate = 0;   (K + mu M) d + g + G'nu = 0,  G d = 0,  g d + d K d / 2 + e = 0,
+/// its tangents are solutions with the same matrices. On the right are changes of M v + G'y, which are those
+/// of a residual at accelerations so large that forces are lost beside them, and of K d, which are those of
+/// (F(q + d) - F(q - d)) / 2: for all parameters at once, by tangents of the run itself and by differences of
+/// residuals of neighbours. Momentum p, energy e and what is interpolated change as those of neighbours do.
+class TransferTangent {
+ public:
+  using Matrix = MotionTangents::Matrix;
+
+  /// Of one parameter that is greater and less by `step`: on the mesh before, and the meshes behind.
+  struct Neighbours {
+    MeshedState more_before, less_before;
+    std::shared_ptr<const BeamSystem> more, less;
+    double step;
+  };
+  /// (n, a column for each parameter) how the dynamics of `system` change at a state with the parameter
+  /// itself, with t, and by these tangents of q.
+  using ResidualChanges = std::function<Matrix(const State& at, const Matrix& q)>;
+
+  TransferTangent(std::shared_ptr<const BeamSystem> system, const TransferPath& path,
+                  std::vector<Neighbours> neighbours, ResidualChanges residual_changes);
+
+  /// Puts q, v, a and lambda of tangents, which have t, to what they are behind it; false where an equation
+  /// is singular.
+  [[nodiscard]] bool carry(MotionTangents& tangents) const;
+
+ private:
+  template <class Of>
+  Matrix rates(Eigen::Index rows, const Of& of) const;
+  State beside(const State& at, const MotionTangents& tangents, std::size_t parameter, double part) const;
+  void interpolate(MotionTangents& tangents) const;
+  void put_bodies(const State& at, MotionTangents& tangents) const;
+  bool find_velocities(const Transferred& stage, MotionTangents& tangents) const;
+  bool move(const Transferred& stage, const MadeMove& made, MotionTangents& tangents) const;
+
+  std::shared_ptr<const BeamSystem> system_;
+  const TransferPath& path_;
+  std::vector<Neighbours> neighbours_;
+  std::vector<std::pair<CarriedMomentum, CarriedMomentum>> momenta_;
+  ResidualChanges residual_changes_;
+};
+
+}  // namespace nurbeam

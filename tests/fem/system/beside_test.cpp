@@ -1,0 +1,142 @@
+// What is found for a motion beside another one, against what is found for it alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "fem/system/beam_system.h"
+#include "fem/system/same_elements.h"
+#include "solver/consistent.h"
+#include "solver/start_tangent.h"
+#include "tests/fem/random_models.h"
+#include "tests/fem/torsion_models.h"
+
+namespace nurbeam {
+namespace {
+
+using testing::cornered_model;
+using testing::disturbed_state;
+using testing::joined_model;
+using testing::model_with_everything;
+using testing::torsion_model;
+
+/// Somewhere off a state: places of joints stay in their elements.
+State direction_at(const State& state, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  State direction = state;
+  for (Eigen::VectorXd* each : {&direction.q, &direction.v, &direction.a, &direction.lambda})
+    for (double& x : *each) x = unit(random);
+  return direction;
+}
+
+State moved_along(const State& state, const State& direction, double by) {
+  State moved = state;
+  moved.q += by * direction.q;
+  moved.v += by * direction.v;
+  moved.a += by * direction.a;
+  moved.lambda += by * direction.lambda;
+  return moved;
+}
+
+Eigen::VectorXd bound_accelerations(const BeamSystem& system, const State& state, const Eigen::VectorXd& a) {
+  return system.constraint_product(state, a) + system.constraint_curvature(state);
+}
+
+// Differences of what make_accelerations_smooth finds tend to the tangent with the square of their step.
+void check_start(const BeamSystem& system, const std::vector<int>& around, State at, std::mt19937& random) {
+  constexpr double h = 1e-3;
+  ASSERT_EQ(project_velocities(system, at).status, ConsistencyStatus::done);
+  ASSERT_EQ(make_accelerations_smooth(system, h, at), ConsistencyStatus::done);
+  const State direction = direction_at(at, random);
+  const auto found = [&](double by) {
+    State moved = moved_along(at, direction, by);
+    NearSolver solver;
+    EXPECT_EQ(make_accelerations_smooth(system, h, around, solver, moved), ConsistencyStatus::done);
+    return moved;
+  };
+  const Eigen::Index n = at.q.size(), m = at.lambda.size();
+  constexpr double small = 1e-6;
+  MotionTangents::Matrix curvature(m, 1);
+  curvature << (bound_accelerations(system, moved_along(at, direction, small), at.a) -
+                bound_accelerations(system, moved_along(at, direction, -small), at.a)) /
+                   (2 * small);
+  MotionTangents tangents = MotionTangents::zero(n, m, 1);
+  tangents.start_afresh(0, direction);
+  const StartTangent start(system, h, around, at);
+  ASSERT_TRUE(start.regular());
+  start.find(MotionTangents::Matrix::Zero(n, 1), curvature, tangents);
+  const auto error = [&](double by) {
+    const State more = found(by), less = found(-by);
+    return ((more.a - less.a) / (2 * by) - tangents.a.col(0)).norm() / tangents.a.norm() +
+           ((more.lambda - less.lambda) / (2 * by) - tangents.lambda.col(0)).norm() / tangents.lambda.norm();
+  };
+  const double coarse = error(2e-4), fine = error(1e-4);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_NEAR(coarse / fine, 4, 0.4) << coarse << " " << fine;
+  if (!around.empty())
+    EXPECT_GT((tangents.a.col(0).array() == direction.a.array()).count(), n / 2) << "those far away";
+}
+
+TEST(StartTangent, IsWhatDifferencesTendToWithTheSquareOfTheirStep) {
+  for (const int dimension : {2, 3})
+    for (const auto& make : {model_with_everything, joined_model, cornered_model}) {
+      std::mt19937 random(70 + dimension);
+      const BeamSystem system(make(random, dimension));
+      check_start(system, {}, disturbed_state(system, random, 1e-3), random);
+    }
+}
+
+TEST(StartTangent, IsOfTheUnknownsNearAChangeOfTheMeshAlone) {
+  for (const int dimension : {2, 3}) {
+    std::mt19937 random(80 + dimension);
+    BeamModel model = testing::one_beam(testing::uneven_axis(random, dimension), dimension,
+                                        {300, 2, 0.7, 0.02, {}}, 300, {{0, true}});
+    testing::add_slider(model, 0.8, 0.33 * model.beams[0].curve.length());
+    const BeamSystem from(model);
+    MeshPlan plan = initial_plan(model);
+    plan.beams[0].present.assign(plan.beams[0].present.size(), true);
+    plan.beams[0].present[101] = false;
+    plan.places[0] = (model.beams[0].home[100].s + model.beams[0].home[102].s) / 2;
+    const auto to = from.replanned(plan);
+    const std::vector<int> around = changed_unknowns(from, *to);
+    ASSERT_FALSE(around.empty());
+    ASSERT_FALSE(solved_near(*to, around).empty());
+    check_start(*to, around, disturbed_state(*to, random, 1e-6), random);
+  }
+}
+
+// One correction misses what is of second order, and of half the difference of two neighbours of third.
+TEST(VelocitiesBeside, MissWhatGoesOutOfHalfTheDifference) {
+  for (const int dimension : {2, 3})
+    for (const auto& make : {model_with_everything, joined_model, cornered_model}) {
+      std::mt19937 random(90 + dimension);
+      const BeamSystem system(make(random, dimension));
+      const State at = disturbed_state(system, random, 1e-3);
+      const State direction = direction_at(at, random);
+      const Eigen::VectorXd momentum = direction_at(at, random).q, change = direction_at(at, random).q;
+      const auto alone = [&](double by) {
+        State moved = moved_along(at, direction, by);
+        EXPECT_EQ(velocities_from_momentum(system, momentum + by * change, moved).status,
+                  ConsistencyStatus::done);
+        return moved.v;
+      };
+      NeighbourSolver solver;
+      const auto beside = [&](double by) {
+        State moved = moved_along(at, direction, by);
+        EXPECT_EQ(velocities_beside(system, momentum + by * change, {}, solver, moved).status,
+                  ConsistencyStatus::done);
+        return moved.v;
+      };
+      const double size = alone(0).norm();
+      EXPECT_LT((beside(0) - alone(0)).norm(), 1e-10 * size);
+      const auto missed = [&](double by) { return Eigen::VectorXd(beside(by) - alone(by)); };
+      const auto odd = [&](double by) { return (missed(by) - missed(-by)).norm() / (2 * size); };
+      constexpr double coarse = 4e-3, fine = 2e-3;
+      const double ratio = missed(coarse).norm() / missed(fine).norm();
+      EXPECT_NEAR(ratio, 4, 1) << missed(fine).norm() / size;
+      EXPECT_NEAR(odd(coarse) / odd(fine), 8, 3) << odd(fine);
+    }
+}
+
+}  // namespace
+}  // namespace nurbeam
