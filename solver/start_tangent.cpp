@@ -1,6 +1,7 @@
 #include "solver/start_tangent.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "solver/consistent.h"
 #include "solver/local_solution.h"
@@ -33,18 +34,22 @@ Columns product(const Tangent& matrix, const Columns& columns) {
   return (matrix * padded).topRows(columns.rows());
 }
 
-std::vector<State> parts_of_rho(const SecondOrderSystem& system, double h, const State& state) {
-  std::vector<State> states{state};
-  if (h == 0) return states;
+// Each with its factor.
+std::vector<std::pair<State, double>> parts_of_rho(const SecondOrderSystem& system, double h,
+                                                   const State& state) {
+  std::vector<std::pair<State, double>> parts{{state, 1}};
+  if (h == 0) return parts;
+  const Eigen::VectorXd d = h * h / 4 * state.a;
+  const double e = small_part(system, d);
   State still = state;
   still.a.setZero();
   still.lambda = Eigen::VectorXd::Zero(system.constraint_count());
-  for (const double sign : {1.0, -1.0}) {
-    states.push_back(still);
-    states.back().q += sign * h * h / 4 * state.a;
-    states.back().v += sign * h / 2 * state.a;
+  for (const double by : {e, -e}) {
+    parts.emplace_back(still, 1 / (2 * by));
+    parts.back().first.q += by * d;
+    parts.back().first.v += by * h / 2 * state.a;
   }
-  return states;
+  return parts;
 }
 
 }  // namespace
@@ -53,8 +58,7 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
                            const State& state)
     : stiffness_(system.tangent_pattern().matrix()), damping_(stiffness_) {
   if (system.forces_depend_on_multipliers()) return;
-  for (State& each : parts_of_rho(system, h, state)) {
-    const double factor = parts_.empty() ? 1 : parts_.size() == 1 ? 0.5 : -0.5;
+  for (auto& [each, factor] : parts_of_rho(system, h, state)) {
     add(factor, tangent_at(system, each, {.damping = 1}), damping_);
     Tangent stiffness = tangent_at(system, each, {.stiffness = 1});
     add(factor, stiffness, stiffness_);
@@ -69,6 +73,12 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
   unknowns_ = solved_near(system, around);
   regular_ = unknowns_.empty() ? solver_.factorise(kkt_, system.moving_unknowns())
                                : solver_.factorise(submatrix(kkt_, unknowns_));
+}
+
+double small_part(const SecondOrderSystem& system, const Eigen::VectorXd& d) {
+  constexpr double small = 1e-5;  // of the coordinates' sizes: its square counts, and round-off over it
+  const double size = d.cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>();
+  return size > small ? small / size : 1;
 }
 
 void StartTangent::find(const Matrix& dynamics, const Matrix& curvature, MotionTangents& tangents) const {

@@ -6,12 +6,16 @@
 
 namespace nurbeam {
 
+/// The part of a displacement d (n), up to all of it, over which differences of the residual are its
+/// derivative along d.
+double small_part(const SecondOrderSystem& system, const Eigen::VectorXd& d);
+
 /// make_accelerations_smooth, linearised where it has been: how accelerations and multipliers that belong to
 /// a state change with it and with parameters of the system. What is zero of them,
 ///   rho = M a + G'lambda - f + [(h/2) D + (h^2/4) K] a,   c = G a + curvature,
 /// has products of tangents with accelerations in it. Of these
-///   [(h/2) D + (h^2/4) K] a = (F(q + d, v + d') - F(q - d, v - d')) / 2,   d = h^2/4 a, d' = h/2 a,
-/// to third order in d, F = -f, so that rho is a sum of residuals of three states, and its derivatives by q
+///   [(h/2) D + (h^2/4) K] a = (F(q + e d, v + e d') - F(q - e d, v - e d')) / 2e,   d = h^2/4 a, d' = h/2 a,
+/// for a small e, F = -f, so that rho is a sum of residuals of three states, and its derivatives by q
 /// and v are those of their tangents.
 class StartTangent {
  public:

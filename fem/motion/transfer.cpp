@@ -72,16 +72,7 @@ class Remap {
 
   // The velocities for the places next.q, by L2 projection: nothing when that is singular.
   std::optional<Transferred> with_velocities(State next) const {
-    const BeamModel& model = to_.model();
-    const Mesh& mesh = to_.mesh();
-    // A body on a point must lie on the curve, which the removal of its node has moved a little.
-    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-      if (mesh.plan.modes[j] != JointMode::point) continue;
-      const double s = next.q[mesh.joints[j].place];
-      next.q.segment(mesh.bodies[model.joints[j].body], mesh.dimension) =
-          material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
-    }
-    carry_bodies(to_, next);
+    put_bodies(next);
     if (!close_constraints(to_, enough_, next)) return std::nullopt;
     const Projection projection = velocities(momentum_.on(next), next);
     if (projection.status != ConsistencyStatus::done) return std::nullopt;
@@ -123,11 +114,17 @@ class Remap {
   // The same with all that is between; nothing where it is more than that.
   std::optional<TransferPath> path(const std::vector<EnergyMove>& moves) const {
     if (!bodies_are_on_axes()) return std::nullopt;
-    TransferPath path{interpolated(from_, state_, to_), {}, {}};
-    if (!(open_constraints(to_, path.interpolated) <= enough_)) return std::nullopt;
-    std::optional<Transferred> next = with_velocities(path.interpolated);
-    for (const EnergyMove& move : moves) {
+    TransferPath path;
+    State start = interpolated(from_, state_, to_);
+    std::optional<Transferred> next;
+    for (std::size_t i = 0;; ++i) {
+      put_bodies(start);
+      if (!to_.admissible(start) || !(open_constraints(to_, start) <= enough_)) return std::nullopt;
+      next = with_velocities(start);
       if (!next) return std::nullopt;
+      path.stages.push_back(*next);
+      if (i == moves.size()) return path;
+      const EnergyMove& move = moves[i];
       const double e = excess(next->state);
       const std::vector<int> free = free_coordinates(move.rings);
       Eigen::MatrixXd allowed;
@@ -139,16 +136,26 @@ class Remap {
         if (!(std::abs(least.mu) * energy.M.norm() <= 1e-9 * energy.K.norm())) return std::nullopt;
         least.mu = 0;
       }
-      path.stages.push_back(*next);
       path.moves.push_back({free, allowed * least.d, least.mu, move.halvings});
-      next = with_move(next->state, free, std::ldexp(1.0, -move.halvings) * path.moves.back().d);
+      start = next->state;
+      start.q(free) += std::ldexp(1.0, -move.halvings) * path.moves.back().d;
     }
-    if (!next) return std::nullopt;
-    path.stages.push_back(std::move(*next));
-    return path;
   }
 
  private:
+  // A body on a point must lie on the curve, which the removal of its node has moved a little.
+  void put_bodies(State& next) const {
+    const BeamModel& model = to_.model();
+    const Mesh& mesh = to_.mesh();
+    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+      if (mesh.plan.modes[j] != JointMode::point) continue;
+      const double s = next.q[mesh.joints[j].place];
+      next.q.segment(mesh.bodies[model.joints[j].body], mesh.dimension) =
+          material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
+    }
+    carry_bodies(to_, next);
+  }
+
   bool bodies_are_on_axes() const {
     const std::vector<SlidingJoint>& joints = to_.model().joints;
     return std::none_of(joints.begin(), joints.end(), [](const SlidingJoint& j) { return j.is_offset(); });

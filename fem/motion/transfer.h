@@ -40,7 +40,6 @@ struct MadeMove {
 
 /// A motion on its way to another mesh.
 struct TransferPath {
-  State interpolated;
   std::vector<Transferred> stages;  ///< with velocities, before and after each move
   std::vector<MadeMove> moves;
 };

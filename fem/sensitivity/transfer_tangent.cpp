@@ -6,6 +6,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "solver/scaled_kkt.h"
+#include "solver/start_tangent.h"
 
 namespace nurbeam {
 
@@ -166,14 +167,15 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
   Vector whole = Vector::Zero(n);
   whole(made.free) = made.d;
   State ahead = still, behind = still, driven = still;
-  ahead.q += whole;
-  behind.q -= whole;
+  const double part_of_it = small_part(system, whole);
+  ahead.q += part_of_it * whole;
+  behind.q -= part_of_it * whole;
   driven.a = (vast * made.mu) * whole;
   driven.lambda = vast * nu;
   const auto change_at = [&](const State& at) -> Matrix {
     return residual_changes_(at, tangents.q)(made.free, Eigen::all);
   };
-  const Matrix dg = change_at(still), dKd = (change_at(ahead) - change_at(behind)) / 2,
+  const Matrix dg = change_at(still), dKd = (change_at(ahead) - change_at(behind)) / (2 * part_of_it),
                inertia = change_at(driven) / vast;
   const auto part = [&](std::size_t k, bool more) {
     return more ? neighbours_[k].step : -neighbours_[k].step;
@@ -195,18 +197,33 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
     energy += made.d.transpose() * (dg + dKd / 2);
   }
 
+  // Rows and columns of one size: the rank is looked for, as rows of constraints that hold nothing of the
+  // move are zero, and that of the energy where it is not brought.
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(f + m + 1, f + m + 1);
   matrix.topLeftCorner(f, f) = K + made.mu * M;
-  matrix.block(0, f, f, m) = G.transpose();
   matrix.block(f, 0, m, f) = G;
+  matrix.block(0, f, f, m) = G.transpose();
   if (made.mu != 0) {
-    matrix.block(0, f + m, f, 1) = Md;
     matrix.block(f + m, 0, 1, f) = (g + Kd).transpose();
+    matrix.block(0, f + m, f, 1) = Md;
   }
+  Vector rows = Vector::Ones(f + m + 1);
+  for (Eigen::Index i = 0; i < f; ++i)
+    if (const double stiff = std::abs(matrix(i, i)); stiff > 0) rows[i] = std::sqrt(stiff);
+  Vector columns = rows;
+  matrix.topRows(f).array().colwise() /= rows.head(f).array();
+  matrix.leftCols(f).array().rowwise() /= columns.head(f).transpose().array();
+  for (Eigen::Index i = f; i <= f + m; ++i) {
+    if (const double size = matrix.row(i).norm(); size > 0) rows[i] = size;
+    if (const double size = matrix.col(i).norm(); size > 0) columns[i] = size;
+  }
+  matrix.bottomRows(m + 1).array().colwise() /= rows.tail(m + 1).array();
+  matrix.rightCols(m + 1).array().rowwise() /= columns.tail(m + 1).transpose().array();
   Eigen::MatrixXd right(f + m + 1, tangents.parameters());
   right << -(dg + dKd + inertia), -across, -energy;
-  // Rows of constraints that hold nothing of it are zero, and that of the energy where it is not brought.
-  const Eigen::MatrixXd left = matrix.completeOrthogonalDecomposition().solve(right);
+  right.array().colwise() /= rows.array();
+  const Eigen::MatrixXd left =
+      columns.asDiagonal().inverse() * Eigen::MatrixXd(matrix.completeOrthogonalDecomposition().solve(right));
   if (!left.allFinite()) return false;
   tangents.q(made.free, Eigen::all) += std::ldexp(1.0, -made.halvings) * left.topRows(f);
   return true;

@@ -15,8 +15,9 @@ namespace nurbeam {
 ///   M v + G'y = p,  G v + rate = 0;   (K + mu M) d + g + G'nu = 0,  G d = 0,  g d + d K d / 2 + e = 0,
 /// its tangents are solutions with the same matrices. On the right are changes of M v + G'y, which are those
 /// of a residual at accelerations so large that forces are lost beside them, and of K d, which are those of
-/// (F(q + d) - F(q - d)) / 2: for all parameters at once, by tangents of the run itself and by differences of
-/// residuals of neighbours. Momentum p, energy e and what is interpolated change as those of neighbours do.
+/// (F(q + e d) - F(q - e d)) / 2e, e small: for all parameters at once, by tangents of the run itself and by
+/// differences of residuals of neighbours. Momentum p, energy e and what is interpolated change as those of
+/// neighbours do.
 class TransferTangent {
  public:
   using Matrix = MotionTangents::Matrix;
