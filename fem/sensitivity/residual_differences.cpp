@@ -74,6 +74,7 @@ struct ResidualDifferences::In final : Implementation {
     double step = 0;
     std::vector<int> groups = {};
     std::vector<int> coordinates = {};  // of the elements in batches
+    bool carries_point = false;         // a body moves over an element that differs
     bool was_whole = true;              // the last columns that were found may not be zero elsewhere
     // Whether no more differs than these: at the same coordinates, and at shifted ones.
     std::array<std::optional<bool>, 2> is_local = {};
@@ -113,10 +114,24 @@ struct ResidualDifferences::In final : Implementation {
       for (std::size_t i = 0; i < unlike.size(); ++i)
         if (unlike[i])
           for (Side* side : {&pair.more, &pair.less}) add(pair, *side, static_cast<int>(i));
+      pair.carries_point = carries_point(*pair.more.assembly, unlike, near);
       std::sort(pair.coordinates.begin(), pair.coordinates.end());
       pair.coordinates.erase(std::unique(pair.coordinates.begin(), pair.coordinates.end()),
                              pair.coordinates.end());
     }
+  }
+
+  // Whether a body is a point of one of these elements, wherever on it.
+  static bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& elements,
+                            const State& near) {
+    const Mesh& mesh = assembly.mesh();
+    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+      const JointMode mode = mesh.plan.modes[j];
+      if (mode == JointMode::node || mode == JointMode::free) continue;
+      const int beam = assembly.model()->joints[j].beam;
+      if (elements[find_span(*assembly.model(), mesh, near.q, beam, mesh.plan.places[j])]) return true;
+    }
+    return false;
   }
 
   void add(Sides& pair, Side& side, int i) {
@@ -163,7 +178,7 @@ struct ResidualDifferences::In final : Implementation {
 
   // Whether no more differs than elements in batches, between shifted coordinates.
   bool is_local(Sides& pair, const std::vector<Shift>& shifts) const {
-    if (!pair.more.apart.empty()) return false;
+    if (!pair.more.apart.empty() || pair.carries_point) return false;
     std::optional<bool>& known = pair.is_local[shifts.empty() ? 0 : 1];
     if (!known)
       known =
