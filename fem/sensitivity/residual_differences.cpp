@@ -121,7 +121,7 @@ struct ResidualDifferences::In final : Implementation {
     }
   }
 
-  // Whether a body is a point of one of these elements, wherever on it.
+  // Whether a body is a point of one of these elements, wherever on it, or runs on a guide.
   static bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& elements,
                             const State& near) {
     const Mesh& mesh = assembly.mesh();
@@ -129,6 +129,7 @@ struct ResidualDifferences::In final : Implementation {
       const JointMode mode = mesh.plan.modes[j];
       if (mode == JointMode::node || mode == JointMode::free) continue;
       const int beam = assembly.model()->joints[j].beam;
+      if (assembly.model()->beams[beam].rigid) return true;
       if (elements[find_span(*assembly.model(), mesh, near.q, beam, mesh.plan.places[j])]) return true;
     }
     return false;
