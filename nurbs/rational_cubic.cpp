@@ -59,25 +59,17 @@ Eigen::Matrix<double, 3, 6> RationalCubic::derivatives(double u) const {
 }
 
 RationalCubic::WeightedDerivatives RationalCubic::weighted_derivatives(double u) const {
-  const double v = 1 - u, i0 = 1 / weight(0);
-  // As derivatives() does it; the first control point is the origin.
-  const auto local = [&](int i) -> Eigen::Vector4d {
-    const double w = weight(i), part = w * i0;
-    return {points_(0, i) - part * points_(0, 0), points_(1, i) - part * points_(1, 0),
-            points_(2, i) - part * points_(2, 0), w};
-  };
-  const Eigen::Vector4d p0(0, 0, 0, weight(0)), p1 = local(1), p2 = local(2), p3 = local(3);
-  const Eigen::Vector4d d0 = 3 * (p1 - p0), d1 = 3 * (p2 - p1), d2 = 3 * (p3 - p2);
-  const Eigen::Vector4d e0 = 2 * (d1 - d0), e1 = 2 * (d2 - d1);
-  const Eigen::Vector4d A3 = e1 - e0, A2 = e0 + u * A3, A1 = (v * v) * d0 + (2 * u * v) * d1 + (u * u) * d2,
-                        A0 =
-                            (v * v * v) * p0 + (3 * u * v * v) * p1 + (3 * u * u * v) * p2 + (u * u * u) * p3;
-  const double W1 = A1[3], W2 = A2[3], W3 = A3[3], i = 1 / A0[3];
-  // Of what the weights leave of it nobody looks at the last component.
-  const Eigen::Vector4d r0 = i * A0, r1 = i * (A1 - W1 * r0), r2 = i * (A2 - 2 * W1 * r1 - W2 * r0),
-                        r3 = i * (A3 - 3 * W1 * r2 - 3 * W2 * r1 - W3 * r0),
-                        r4 = -i * (4 * W1 * r3 + 6 * W2 * r2 + 4 * W3 * r1);
-  return {{r1.head<3>(), r2.head<3>(), r3.head<3>(), r4.head<3>()}, {A0[3], W1, W2, W3}};
+  // As derivatives() does it, to the last bit.
+  const Eigen::Vector3d origin = control_point(0);
+  Points local = points_;
+  local.topRows<3>() -= origin * points_.row(3);
+  const Points A = cubic_derivatives(local, u);
+  const double W = A(3, 0), W1 = A(3, 1), W2 = A(3, 2), W3 = A(3, 3);
+  const Eigen::Vector3d r0 = A.col(0).head<3>() / W, r1 = (A.col(1).head<3>() - W1 * r0) / W,
+                        r2 = (A.col(2).head<3>() - 2 * W1 * r1 - W2 * r0) / W,
+                        r3 = (A.col(3).head<3>() - 3 * W1 * r2 - 3 * W2 * r1 - W3 * r0) / W,
+                        r4 = -(4 * W1 * r3 + 6 * W2 * r2 + 4 * W3 * r1) / W;
+  return {{r1, r2, r3, r4}, {W, W1, W2, W3}};
 }
 
 Eigen::Matrix<double, 3, 5> RationalCubic::hodograph() const {
