@@ -28,10 +28,11 @@
 /// it does to points of beams; on_body(at, body, state), what it gives to a body [N]; on_element(e, state),
 /// the generalised force on an element of its `beam` with torsion, with per_length(state) about the tangent;
 /// `depends_on_multipliers`; `has_constant_inertia`, where it is the same in all states and nothing of it
-/// changes with velocities; is_damper(at), whether it ends transients; what it is of: a dragged_body() with
-/// its force(at, state), a sliding_joint() with its friction(at, state), a connector() with its
-/// length_and_force(at, state). State::load scales all loads. A description that is not itself such a force
-/// names its Bound<D>, made of (description, at, drawn); it may ask for nodes with for_each_node(visit).
+/// changes with velocities; `is_body`, where it is no more than a body's inertia and weight; is_damper(at),
+/// whether it ends transients; what it is of: a dragged_body() with its force(at, state), a sliding_joint()
+/// with its friction(at, state), a connector() with its length_and_force(at, state). State::load scales all
+/// loads. A description that is not itself such a force names its Bound<D>, made of (description, at, drawn);
+/// it may ask for nodes with for_each_node(visit).
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;

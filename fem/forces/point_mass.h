@@ -11,6 +11,7 @@ template <int D>
 class PointMass {
  public:
   static constexpr bool has_constant_inertia = true;
+  static constexpr bool is_body = true;
   using Vector = Eigen::Matrix<double, D, 1>;
 
   PointMass(const MeshedBeams<D>& at, int body) : mass_(at.structure.bodies[body].mass) {

@@ -378,9 +378,11 @@ bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, c
            std::none_of(model.joints.begin(), model.joints.end(), moves);
   };
   const auto are_of_bodies = [](const std::vector<BoundForce<D>>& forces) {
-    return std::all_of(forces.begin(), forces.end(), [](const BoundForce<D>& force) {
-      return std::holds_alternative<PointMass<D>>(force);
-    });
+    const auto is_body = [](const auto& force) {
+      return requires { force.is_body; };
+    };
+    return std::all_of(forces.begin(), forces.end(),
+                       [&](const BoundForce<D>& force) { return std::visit(is_body, force); });
   };
   if (!are_of_bodies(forces_) || !are_of_bodies(other.forces_) || !is_still(*model_) ||
       !is_still(*other.model_))
