@@ -154,6 +154,9 @@ class EquilibriumSearch {
     auto quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
     Outcome outcome{.converged = quality.residual_norm <= settings_.tolerance,
                     .residual_norm = quality.residual_norm};
+    // Without loads, beside which it could be small, a residual of round-off is as good as none: of what moves
+    // freely nothing tells where to look for less.
+    if (quality.acceptable && !(applied_force(trial) > 0)) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
@@ -195,9 +198,8 @@ class EquilibriumSearch {
     report_.newton_iterations += iterations;
   }
 
-  /// The largest of full load and constraint force, else of the unbalanced internal force, else of that which
-  /// moved supports would make, else 1; each as work over coordinate scale.
-  double largest_force(const State& state) const {
+  /// The largest of full load and constraint force, as work over coordinate scale.
+  double applied_force(const State& state) const {
     State free = at_rest(state, system_);
     const Vector with_multipliers = dynamics(free);
     free.lambda.setZero();
@@ -206,9 +208,18 @@ class EquilibriumSearch {
     const Vector unloaded = dynamics(free);
     free.load = 1;
     const Vector loaded = dynamics(free);
-    const double applied = std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
-    if (applied > 0) return applied;
-    const double internal = work(unloaded), held = work(dynamics(towards_constraints(free)));
+    return std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
+  }
+
+  /// That, else of the unbalanced internal force, else of that which moved supports would make, else 1.
+  double largest_force(const State& state) const {
+    if (const double applied = applied_force(state); applied > 0) return applied;
+    State free = at_rest(state, system_);
+    free.lambda.setZero();
+    free.load = 0;
+    const double internal = work(dynamics(free));
+    free.load = 1;
+    const double held = work(dynamics(towards_constraints(free)));
     if (held > 10 * internal) return held;  // beside it the other is round-off
     return internal > 0 ? internal : 1;
   }

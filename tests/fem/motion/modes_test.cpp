@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fem/system/initial_state.h"
+#include "solver/static_equilibrium.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {
@@ -123,6 +124,24 @@ TEST(Modes, OfAColumnThatIsTooHeavyAreRefusedAsUnstable) {
   EXPECT_FALSE(modes_of(column(7.8).build(), {.count = 1}).rest.failure);  // q L^3/EI = 7.837
   const ModesReport heavy = modes_of(column(7.9).build(), {.count = 1});
   ASSERT_TRUE(heavy.rest.failure);
+}
+
+// What is left of forces in its drawn shape is round-off, and nothing holds it.
+TEST(Modes, OfAFreeSlenderBeamNeedNoLuckWithTheLastBitsOfItsDrawing) {
+  std::mt19937 random(8);
+  std::uniform_int_distribution<int> bits(-1, 1);
+  ModelBuilder builder(2);
+  builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {1, 0, 0})}, 2), BeamProperties{1e8, 1, 1}, {32});
+  const MeshedState at = MeshedState::drawn(std::make_shared<const BeamModel>(builder.build()));
+  for (int trial = 0; trial < 50; ++trial) {
+    State state = at.state;
+    for (double& q : state.q) q += bits(random) * 0x1p-52;
+    const Eigen::VectorXd drawn = state.q;
+    const StaticReport report = find_static_equilibrium({}, *at.system, state);
+    EXPECT_EQ(report.status, StaticStatus::converged) << trial;
+    EXPECT_EQ(report.newton_iterations, 0) << trial;
+    EXPECT_EQ(state.q, drawn) << trial;
+  }
 }
 
 TEST(Buckling, OfAColumnUnderItsWeightAndALoad) {
