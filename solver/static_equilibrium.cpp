@@ -154,8 +154,8 @@ class EquilibriumSearch {
     auto quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
     Outcome outcome{.converged = quality.residual_norm <= settings_.tolerance,
                     .residual_norm = quality.residual_norm};
-    // Without loads, beside which it could be small, a residual of round-off is as good as none: of what moves
-    // freely nothing tells where to look for less.
+    // Without loads, beside which it could be small, a residual of round-off is as good as none: of what
+    // moves freely nothing tells where to look for less.
     if (quality.acceptable && !(applied_force(trial) > 0)) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
     const auto improve_by = [&](int strategy, int iterations) {
