@@ -24,11 +24,19 @@ class ThreadLimit {
 void side_by_side(int count, void (*work)(const void* context, int i), const void* context);
 
 /// Calls work(i) for i = 0 .. count - 1, several at a time and in no order: the calls write to different
-/// places, and none throws.
+/// places, and an exception of one is thrown on.
 template <class Work>
 void side_by_side(int count, const Work& work) {
   side_by_side(
       count, [](const void* of, int i) { (*static_cast<const Work*>(of))(i); }, &work);
+}
+
+/// Calls both, at a time where a second thread is free: neither looks at what the other writes, and an
+/// exception of one is thrown on.
+template <class One, class Other>
+void both(const One& one, const Other& other) {
+  side_by_side(
+      2, [&](int i) { i == 0 ? one() : other(); });
 }
 
 /// Calls work(first, end) for the pieces of 0 .. size - 1: for all of it at once where it is shorter than two

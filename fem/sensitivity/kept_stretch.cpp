@@ -3,6 +3,7 @@
 
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "solver/rates_by_unknowns.h"
+#include "solver/side_by_side.h"
 #include "solver/step_adjoint.h"
 
 namespace nurbeam {
@@ -160,10 +161,14 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
       add_unknowns(by_state(*record), adjoints);
     if (record == records.rbegin()) return;
     ++work_.tangents;
-    if (!adjoint.take(step.before, step.history, step.after, step.repeated)) singular_step();
+    bool regular = false;
+    Shifts shifts;
+    both([&] { regular = adjoint.take(step.before, step.history, step.after, step.repeated); },
+         [&] { shifts = find_residual_changes(step.after, same_time); });
+    if (!regular) singular_step();
     const MotionTangents::Matrix mu = adjoint.multipliers(adjoints);
     work_.solves += mu.cols();
-    take_off(find_residual_changes(step.after, same_time), adjoint.stiffness());
+    take_off(shifts, adjoint.stiffness());
     sum.noalias() -= mu.topRows(n).transpose() * dynamics_;
     sum.noalias() -= mu.bottomRows(m).transpose() * constraints_;
     Vector later;

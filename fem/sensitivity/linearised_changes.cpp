@@ -9,6 +9,7 @@
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/sensitivity/transfer_tangent.h"
 #include "nurbs/number_text.h"
+#include "solver/side_by_side.h"
 #include "solver/start_tangent.h"
 
 namespace nurbeam {
@@ -23,11 +24,11 @@ MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
     state.v += part * tangents_.v.col(k);
     return system.constraint_product(state, at.a) + system.constraint_curvature(state);
   };
-  for (Eigen::Index k = 0; k < changes.cols(); ++k) {
+  side_by_side(static_cast<int>(changes.cols()), [&](int k) {
     const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
     const double p = parameter.pair.step;
     changes.col(k) = (of(*parameter.more, k, p) - of(*parameter.less, k, -p)) / (2 * p);
-  }
+  });
   return changes;
 }
 
@@ -35,10 +36,11 @@ MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
 MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const MotionTangents::Matrix& q) {
   const Eigen::Index n = q.rows();
   Eigen::SparseMatrix<double> stiffness = system_->tangent_pattern().matrix();
-  system_->tangent(at, {.stiffness = 1}, stiffness);
+  Shifts shifts;
+  both([&] { system_->tangent(at, {.stiffness = 1}, stiffness); },
+       [&] { shifts = find_residual_changes(at, tangents_.t); });
   MotionTangents::Matrix moved = MotionTangents::Matrix::Zero(stiffness.cols(), q.cols());
   moved.topRows(n) = q;
-  const Shifts shifts = find_residual_changes(at, tangents_.t);
   for (std::size_t k = 0; k < shifts.size(); ++k)
     for (const auto& [place, by] : shifts[k]) moved(place, static_cast<Eigen::Index>(k)) -= by;
   return dynamics_ + (stiffness * moved).topRows(n);
@@ -53,10 +55,10 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
                : std::nullopt;
   if (!path) return changes(at, change);
   carry();
-  std::vector<TransferTangent::Neighbours> neighbours;
-  for (std::size_t k = 0; k < parameters_.size(); ++k) {
-    Parameter& parameter = parameters_[k];
-    const State tangent = tangents_.of(static_cast<Eigen::Index>(k));
+  std::vector<TransferTangent::Neighbours> neighbours(parameters_.size());
+  side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
+    Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    const State tangent = tangents_.of(k);
     const auto go_over = [&](std::shared_ptr<const BeamSystem>& system, double by) {
       MeshedState before{std::move(system), moved(transfer.before.state, tangent, by)};
       system = transfer.replanned(before);
@@ -65,8 +67,9 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
     const double step = parameter.pair.step;
     MeshedState more = go_over(parameter.more, step), less = go_over(parameter.less, -step);
     if (!same_mesh(*at.system, *parameter.more)) not_alike("what happens at an event changes");
-    neighbours.push_back({std::move(more), std::move(less), parameter.more, parameter.less, step});
-  }
+    neighbours[static_cast<std::size_t>(k)] = {std::move(more), std::move(less), parameter.more,
+                                               parameter.less, step};
+  });
   const Eigen::RowVectorXd t = tangents_.t;
   tangents_ = MotionTangents::zero(at.state.q.size(), at.state.lambda.size(), t.size());
   tangents_.t = t;

@@ -8,6 +8,7 @@
 
 #include "fem/element/element_batch.h"
 #include "fem/system/with_assembly.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -103,12 +104,18 @@ struct ResidualDifferences::In final : Implementation {
     const std::vector<State> states = uneven_states(*of.front().more, near);
     general = states.front();  // bent, and driven as fast as what is bent answers
     general.a = states.back().a / states.back().a.template lpNorm<Eigen::Infinity>();
+    std::vector<std::vector<bool>> elements(of.size());  // that are unlike, of each pair
+    side_by_side(static_cast<int>(of.size()), [&](int k) {
+      const auto& [more, less, step] = of[static_cast<std::size_t>(k)];
+      elements[static_cast<std::size_t>(k)] =
+          more->template assembly<D>()->elements_unlike(*less->template assembly<D>(), states);
+    });
     for (const auto& [more, less, step] : of) {
+      const std::vector<bool>& unlike = elements[pairs.size()];
       Sides& pair = pairs.emplace_back();
       pair.more.assembly = more->template assembly<D>();
       pair.less.assembly = less->template assembly<D>();
       pair.step = step;
-      const std::vector<bool> unlike = pair.more.assembly->elements_unlike(*pair.less.assembly, states);
       work += 2 * static_cast<double>(std::count(unlike.begin(), unlike.end(), true)) /
               std::max<double>(1, static_cast<double>(unlike.size()));
       for (std::size_t i = 0; i < unlike.size(); ++i)

@@ -14,6 +14,7 @@
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -154,23 +155,25 @@ void Sensitivities::take_off(const Shifts& shifts, const Eigen::SparseMatrix<dou
 
 void Sensitivities::begins(const MeshedState& drawn) {
   const std::vector<double> kinks = kink_times(drawn.system->model());
-  std::vector<State> rates;
-  for (Parameter& parameter : parameters_) {
+  for (Parameter& parameter : parameters_)
     for (Neighbour* each : {&parameter.pair.more, &parameter.pair.less}) {
       if (kink_times(*each->model) != kinks) not_alike("the times of tables or releases change");
       each->model = divided_like(each->model, drawn.system->model());
     }
-    if (begins_at_rest_) continue;
+  if (begins_at_rest_) return;
+  std::vector<State> rates(parameters_.size());
+  side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
+    Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
     const BeamSystem* like = drawn.system.get();
     MeshedState more = MeshedState::drawn(parameter.pair.more.model, like),
                 less = MeshedState::drawn(parameter.pair.less.model, like);
     for (const MeshedState* each : {&more, &less})
       if (!same_mesh(*drawn.system, *each->system)) not_alike("the mesh changes");
-    rates.push_back(rate(more.state, less.state, parameter.pair.step));
+    rates[static_cast<std::size_t>(k)] = rate(more.state, less.state, parameter.pair.step);
     parameter.more = std::move(more.system);
     parameter.less = std::move(less.system);
-  }
-  if (!begins_at_rest_) start_afresh(drawn, rates);
+  });
+  start_afresh(drawn, rates);
 }
 
 void Sensitivities::rests(const MeshedState& at) {
@@ -292,8 +295,12 @@ void Sensitivities::steps(const FollowedStep& step) {
 void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change) {
   if (!step_) step_.emplace(settings_, *system_);
   ++work_.tangents;
-  if (!step_->take(step.before, step.history, step.after, step.repeated)) singular_step();
-  take_off(find_residual_changes(step.after, tangents_.t + change), step_->stiffness());
+  bool regular = false;
+  Shifts shifts;
+  both([&] { regular = step_->take(step.before, step.history, step.after, step.repeated); },
+       [&] { shifts = find_residual_changes(step.after, tangents_.t + change); });
+  if (!regular) singular_step();
+  take_off(shifts, step_->stiffness());
   tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
   work_.solves += tangents_.parameters();
 }

@@ -6,6 +6,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "solver/scaled_kkt.h"
+#include "solver/side_by_side.h"
 #include "solver/start_tangent.h"
 
 namespace nurbeam {
@@ -52,10 +53,13 @@ TransferTangent::TransferTangent(std::shared_ptr<const BeamSystem> system, const
     : system_(std::move(system)),
       path_(path),
       neighbours_(std::move(neighbours)),
+      momenta_(neighbours_.size()),
       residual_changes_(std::move(residual_changes)) {
-  for (const Neighbours& each : neighbours_)
-    momenta_.emplace_back(CarriedMomentum(*each.more_before.system, each.more_before.state, *each.more),
-                          CarriedMomentum(*each.less_before.system, each.less_before.state, *each.less));
+  for_each_parameter([&](std::size_t k) {
+    const Neighbours& of = neighbours_[k];
+    momenta_[k].more.emplace(*of.more_before.system, of.more_before.state, *of.more);
+    momenta_[k].less.emplace(*of.less_before.system, of.less_before.state, *of.less);
+  });
 }
 
 bool TransferTangent::carry(MotionTangents& tangents) const {
@@ -68,12 +72,19 @@ bool TransferTangent::carry(MotionTangents& tangents) const {
   return true;
 }
 
+template <class Work>
+void TransferTangent::for_each_parameter(const Work& work) const {
+  side_by_side(
+      static_cast<int>(neighbours_.size()), [&](int k) { work(static_cast<std::size_t>(k)); });
+}
+
 // Half the difference over the step of `of`(parameter, whether it is more), a column for each parameter.
 template <class Of>
 TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) const {
   Matrix rates(rows, static_cast<Eigen::Index>(neighbours_.size()));
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  for_each_parameter([&](std::size_t k) {
     rates.col(static_cast<Eigen::Index>(k)) = (of(k, true) - of(k, false)) / (2 * neighbours_[k].step);
+  });
   return rates;
 }
 
@@ -89,7 +100,7 @@ State TransferTangent::beside(const State& at, const MotionTangents& tangents, s
 }
 
 void TransferTangent::interpolate(MotionTangents& tangents) const {
-  for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+  for_each_parameter([&](std::size_t k) {
     const Neighbours& of = neighbours_[k];
     const State more = interpolated(*of.more_before.system, of.more_before.state, *of.more),
                 less = interpolated(*of.less_before.system, of.less_before.state, *of.less);
@@ -99,7 +110,7 @@ void TransferTangent::interpolate(MotionTangents& tangents) const {
     tangents.v.col(column) = per * (more.v - less.v);
     tangents.a.col(column) = per * (more.a - less.a);
     tangents.lambda.col(column) = per * (more.lambda - less.lambda);
-  }
+  });
 }
 
 // Those on points of the mesh, which must lie on the curve.
@@ -130,7 +141,7 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
   Matrix right(n + m, tangents.parameters()), left;
   right.topRows(n) = rates(n, [&](std::size_t k, bool more) -> Vector {
     const State at = beside(stage.state, tangents, k, part(k, more));
-    return (more ? momenta_[k].first : momenta_[k].second).on(at);
+    return (more ? momenta_[k].more : momenta_[k].less)->on(at);
   });
   right.topRows(n) -= residual_changes_(driven, tangents.q) / vast;
   right.bottomRows(m) = -rates(m, [&](std::size_t k, bool more) -> Vector {

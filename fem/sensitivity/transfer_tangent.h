@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "fem/motion/meshed_state.h"
@@ -26,7 +26,7 @@ class TransferTangent {
   struct Neighbours {
     MeshedState more_before, less_before;
     std::shared_ptr<const BeamSystem> more, less;
-    double step;
+    double step = 0;
   };
   /// (n, a column for each parameter) how the dynamics of `system` change at a state with the parameter
   /// itself, with t, and by these tangents of q.
@@ -40,6 +40,12 @@ class TransferTangent {
   [[nodiscard]] bool carry(MotionTangents& tangents) const;
 
  private:
+  struct Momenta {
+    std::optional<CarriedMomentum> more, less;
+  };
+
+  template <class Work>
+  void for_each_parameter(const Work& work) const;
   template <class Of>
   Matrix rates(Eigen::Index rows, const Of& of) const;
   State beside(const State& at, const MotionTangents& tangents, std::size_t parameter, double part) const;
@@ -51,7 +57,7 @@ class TransferTangent {
   std::shared_ptr<const BeamSystem> system_;
   const TransferPath& path_;
   std::vector<Neighbours> neighbours_;
-  std::vector<std::pair<CarriedMomentum, CarriedMomentum>> momenta_;
+  std::vector<Momenta> momenta_;
   ResidualChanges residual_changes_;
 };
 

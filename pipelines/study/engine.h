@@ -11,6 +11,7 @@ namespace nurbeam {
 struct VariantTask {
   std::size_t number = 0;
   std::vector<double> values;  ///< of all variables
+  int threads = 1;             ///< that it may use
 };
 
 /// What runs variants.

@@ -20,10 +20,16 @@ class ProcessPool : public StudyEngine {
 
   void run(const std::vector<VariantTask>& tasks, const std::function<void(Variant)>& finished,
            const std::function<bool()>& interrupted) override {
+    // Where there are fewer than processes, each has the cores of some that have nothing to do.
+    const int threads = workers() / std::max(1, static_cast<int>(tasks.size()));
     auto next = tasks.begin();
     for (;;) {
       for (const auto& worker : workers_)
-        if (!worker->busy() && next != tasks.end() && !interrupted()) worker->begin(*next++);
+        if (!worker->busy() && next != tasks.end() && !interrupted()) {
+          VariantTask task = *next++;
+          task.threads = std::max(1, threads);
+          worker->begin(std::move(task));
+        }
       if (std::none_of(workers_.begin(), workers_.end(), [](const auto& worker) { return worker->busy(); }))
         return;
       if (interrupted()) return;  // what runs is ended with its process, or thrown away when it comes

@@ -93,7 +93,8 @@ void ProcessWorker::stop() {
 }
 
 void ProcessWorker::begin(VariantTask task) {
-  const std::string line = line_of({.number = task.number, .values = task.values});
+  const std::string line =
+      std::to_string(task.threads) + ' ' + line_of({.number = task.number, .values = task.values});
   task_ = std::move(task);
   begun_ = std::chrono::steady_clock::now();
   if (process_ < 0) start();
@@ -149,9 +150,9 @@ int serve_variants(const StudyFile& study, const StudyCase* study_case) {
   if (poll(&study_end, 1, 0) > 0 && (study_end.revents & POLLHUP)) return 1;  // it ended before that
   signal(SIGINT, SIG_IGN);                                                    // the study ends its processes
   std::string line;
-  while (std::getline(std::cin, line)) {
+  for (int threads = 1; std::cin >> threads && std::getline(std::cin, line);) {
     const Variant task = variant_of(line);
-    const Variant variant = run_variant(study, study_case, task.number, task.values);
+    const Variant variant = run_variant(study, study_case, task.number, task.values, threads);
     std::cout << line_of(variant) << std::flush;
     if (!std::cout) return 1;
   }

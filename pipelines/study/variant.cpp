@@ -218,9 +218,9 @@ std::vector<double> all_values(const StudyFile& study, const std::vector<double>
 }
 
 Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
-                    std::vector<double> values) {
+                    std::vector<double> values, int threads) {
   const auto start = std::chrono::steady_clock::now();
-  const ThreadLimit alone(1);  // variants themselves run side by side
+  const ThreadLimit limit(threads);
   Variant variant{.number = number, .values = std::move(values)};
   try {
     const ExpressionScope scope = scope_of_variables(study, variant.values);
@@ -243,7 +243,7 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
   if (!ran && study.derivatives && study.derivatives_where_known) {
     StudyFile plain = study;
     plain.derivatives = false;
-    variant = run_variant(plain, study_case, number, std::move(variant.values));
+    variant = run_variant(plain, study_case, number, std::move(variant.values), threads);
   }
   variant.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return variant;

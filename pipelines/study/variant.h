@@ -37,9 +37,10 @@ struct Variant {
 std::vector<double> all_values(const StudyFile& study, const std::vector<double>& free);
 
 /// Runs the variant in which the variables have these values: never throws for what is wrong with it.
-/// `study_case` is null where the study has no case.
+/// `study_case` is null where the study has no case. Nothing that comes out but the time depends on
+/// `threads`, at least 1.
 Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::size_t number,
-                    std::vector<double> values);
+                    std::vector<double> values, int threads = 1);
 
 /// Whether the nominal variant can be built with derivatives of all quantities.
 bool has_derivatives(const StudyFile& study, const StudyCase* study_case);
