@@ -17,11 +17,12 @@ using Vector = Eigen::VectorXd;
 /// of free rings came out at up to 2e-13.
 constexpr double zero_eigenvalue = 5e-13;
 /// Small beside K, so that directions that the constraints forbid count as stiff; not so small that they
-/// drown the soft ones in round-off.
-constexpr double regularisation = 1e-2;
+/// drown the soft ones in round-off. Where that makes too soft what they forbid, less, of which more is
+/// round-off.
+constexpr double first_regularisation = 1e-2, least_regularisation = 1e-8, finer = 1e-3;
 
-/// [[K + shift, G'], [G, -regularisation]], equilibrated and factorised. By Sylvester's law it has as many
-/// negative pivots as the augmented K + shift + G'G/regularisation has negative eigenvalues, and one for each
+/// [[K + shift, G'], [G, -r]], r the regularisation, equilibrated and factorised. By Sylvester's law it has
+/// as many negative pivots as the augmented K + shift + G'G/r has negative eigenvalues, and one for each
 /// constraint.
 class ShiftedTangent {
  public:
@@ -30,10 +31,15 @@ class ShiftedTangent {
     solver_.analyzePattern(shifted_);
   }
 
+  void set_regularisation(double r) { regularisation_ = r; }
+
+  /// Eigenvalues that are no greater are round-off.
+  double round_off() const { return zero_eigenvalue * first_regularisation / regularisation_; }
+
   /// The number of negative eigenvalues of K + shift on the null space of G.
   int factorise(double shift) {
     shifted_.coeffs() = kkt_.coeffs();
-    for (int i = 0; i < shifted_.cols(); ++i) shifted_.coeffRef(i, i) += i < n_ ? shift : -regularisation;
+    for (int i = 0; i < shifted_.cols(); ++i) shifted_.coeffRef(i, i) += i < n_ ? shift : -regularisation_;
     solver_.factorize(shifted_);
     if (solver_.info() != Eigen::Success) return n_;
     const auto negative = (solver_.vectorD().array() < 0).count();
@@ -54,8 +60,19 @@ class ShiftedTangent {
 
   bool descends(const Vector& x) const {
     const double forbidden = (kkt_.bottomLeftCorner(kkt_.rows() - n_, n_) * x).squaredNorm();
-    return x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / regularisation <
-           -zero_eigenvalue * x.squaredNorm();
+    return x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / regularisation_ <
+           -round_off() * x.squaredNorm();
+  }
+  /// What of it the constraints allow.
+  Vector allowed(const Vector& x) const {
+    const Matrix G = kkt_.bottomLeftCorner(kkt_.rows() - n_, n_);
+    if (G.rows() == 0) return x;
+    Matrix across = G * Matrix(G.transpose()), identity(G.rows(), G.rows());
+    identity.setIdentity();
+    constexpr double little = 1e-14;  // of constraints that say the same
+    const Eigen::SimplicialLDLT<Matrix> solver(across + little * identity);
+    if (solver.info() != Eigen::Success) return x;
+    return x - G.transpose() * Vector(solver.solve(Vector(G * x)));
   }
   /// In the coordinates that were given, of unit length, the largest component positive.
   Vector direction(const Vector& x) const {
@@ -69,8 +86,24 @@ class ShiftedTangent {
   Vector factor_;
   Matrix kkt_, shifted_;
   int n_;
+  double regularisation_ = first_regularisation;
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
+
+/// The eigenvector of the lowest eigenvalue, which is below that of round-off.
+Vector lowest_of(ShiftedTangent& tangent) {
+  double negative = tangent.round_off(), positive = 10 * negative;  // it is between -positive and -negative
+  while (tangent.factorise(positive) > 0 && positive < 10) {
+    negative = positive;
+    positive *= 10;
+  }
+  while (positive > 1.1 * negative) {
+    const double middle = std::sqrt(positive * negative);
+    (tangent.factorise(middle) > 0 ? negative : positive) = middle;
+  }
+  tangent.factorise(positive);
+  return tangent.nearest_eigenvector();
+}
 
 }  // namespace
 
@@ -85,23 +118,15 @@ std::optional<Stability> stability(const Matrix& kkt, int n) {
   if (!is_symmetric(kkt, n)) return std::nullopt;
   ShiftedTangent tangent(kkt, n);
   Stability result;
-  result.unstable_directions = tangent.factorise(zero_eigenvalue);
-  if (result.unstable_directions == 0) return result;
-
-  // The lowest eigenvalue, between -positive and -negative.
-  double negative = zero_eigenvalue, positive = 10 * negative;
-  while (tangent.factorise(positive) > 0 && positive < 10) {
-    negative = positive;
-    positive *= 10;
+  for (double r = first_regularisation; r >= least_regularisation; r *= finer) {
+    tangent.set_regularisation(r);
+    const int unstable = tangent.factorise(tangent.round_off());
+    if (unstable == 0) return Stability{};
+    const Vector lowest = lowest_of(tangent);
+    if (!tangent.descends(lowest)) return Stability{};  // pivots of round-off
+    result = {.unstable_directions = unstable, .direction = tangent.direction(lowest)};
+    if (tangent.descends(tangent.allowed(lowest))) return result;
   }
-  while (positive > 1.1 * negative) {
-    const double middle = std::sqrt(positive * negative);
-    (tangent.factorise(middle) > 0 ? negative : positive) = middle;
-  }
-  tangent.factorise(positive);
-  const Vector lowest = tangent.nearest_eigenvector();
-  if (!tangent.descends(lowest)) return Stability{};  // pivots of round-off
-  result.direction = tangent.direction(lowest);
   return result;
 }
 

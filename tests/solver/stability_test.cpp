@@ -50,6 +50,17 @@ TEST(Stability, CountsTheNegativeEigenvaluesOnTheNullSpaceOfTheConstraints) {
   }
 }
 
+// The second coordinate is held, and a large force couples it with the first, which is soft.
+TEST(Stability, IsNotLostToWhatTheConstraintsForbid) {
+  for (const double coupling : {1.0, 50.0, 5e3, 1e5})
+    for (const double stiffness : {1.0, -1.0}) {
+      const Eigen::Matrix2d K{{stiffness, coupling}, {coupling, 0}};
+      const auto found = stability(kkt(K, Eigen::RowVector2d(0, 1)), 2);
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->unstable_directions, stiffness > 0 ? 0 : 1) << coupling;
+    }
+}
+
 TEST(Stability, SaysNothingOfAnUnsymmetricTangent) {
   Eigen::MatrixXd K = Eigen::MatrixXd::Identity(3, 3);
   K(0, 1) = 0.5;
