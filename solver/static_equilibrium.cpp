@@ -1,9 +1,11 @@
 #include "solver/static_equilibrium.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "solver/arguments.h"
+#include "solver/equilibrated_kkt.h"
 #include "solver/kinsol.h"
 #include "solver/kkt_solver.h"
 #include "solver/stability.h"
@@ -31,6 +33,7 @@ class EquilibriumSearch {
         system_(system),
         scale_(system.coordinate_scale()),
         state_(at_rest(start, system)),
+        start_(state_),
         equations_(system, state_),
         kinsol_(equations_) {}
 
@@ -42,6 +45,8 @@ class EquilibriumSearch {
         relax(1);
     }
     state_.load = report_.load_factor;
+    if (report_.status != StaticStatus::converged && lost_in_round_off_)
+      report_.status = StaticStatus::lost_in_round_off;
     return report_;
   }
 
@@ -104,13 +109,14 @@ class EquilibriumSearch {
     const double inertia = equations_.inertial_work(centre);
     if (!(inertia > 0)) return false;
     double proximity = 10 * largest_force(centre) / inertia;
-    std::optional<Departure> departure;
+    std::optional<Vector> left;  // the unstable equilibrium
     while (steps_left()) {
       ++report_.load_steps;
       State trial = centre;
       const Outcome step = proximal_step(proximity, trial);
       const double moved = change(trial, centre);
-      const bool back = departure && !departure->goes_on(centre.q, trial.q);
+      // The energy falls from step to step, and never leads there again.
+      const bool back = left && change(trial.q, *left) < departing_change / 10;
       if (!step.converged || !(moved <= largest_change) || back) {
         proximity *= 10;
         continue;
@@ -122,9 +128,11 @@ class EquilibriumSearch {
         accept(factor, trial, settled);
         return true;
       }
-      if (settled.unstable() && settling <= settled_change && !departure) {
-        departure = Departure{trial.q, depart(*settled.stability)};
-        centre.q = departure->from + departure->direction;
+      // From one after the other: what is pressed together hard has many.
+      const bool is_left = left && change(trial.q, *left) <= settled_change;
+      if (settled.unstable() && settling <= settled_change && !is_left) {
+        left = trial.q;
+        centre.q = trial.q + departure(*settled.stability);
         continue;
       }
       proximity *= step.iterations <= easy_iterations ? 0.2 : 0.5;
@@ -132,14 +140,8 @@ class EquilibriumSearch {
     return false;
   }
 
-  /// From an unstable equilibrium: steps lead away from it.
-  struct Departure {
-    Vector from, direction;
-    bool goes_on(const Vector& before, const Vector& after) const {
-      return (after - before).dot(direction) > 0 || (after - from).norm() > 100 * direction.norm();
-    }
-  };
-  Vector depart(const Stability& from) const {
+  /// From an unstable equilibrium.
+  Vector departure(const Stability& from) const {
     return departing_change / from.direction.lpNorm<Eigen::Infinity>() * from.direction.cwiseProduct(scale_);
   }
 
@@ -156,7 +158,8 @@ class EquilibriumSearch {
                     .residual_norm = quality.residual_norm};
     // Without loads, beside which it could be small, a residual of round-off is as good as none: of what
     // moves freely nothing tells where to look for less.
-    if (quality.acceptable && !(applied_force(trial) > 0)) outcome = {.converged = true};
+    const bool is_loaded = applied_force(trial) > 0;
+    if (quality.acceptable && !is_loaded) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
@@ -170,13 +173,40 @@ class EquilibriumSearch {
     };
     if (!outcome.converged) improve_by(KIN_NONE, settings_.max_iterations);
     if (!outcome.converged) improve_by(KIN_LINESEARCH, std::min(20, settings_.max_iterations));
-    if (outcome.residual_norm > settings_.tolerance) improve_by(KIN_NONE, 2);  // down to the round-off
+    if (outcome.residual_norm > settings_.tolerance) {
+      // What is soft may be as far off as its own small forces are wrong in the round-off of large ones.
+      constexpr double of_the_way = 1e-2, of_the_scale = 1e-6;
+      const double left = outcome.converged ? polish(trial) : 0;
+      const bool is_lost = is_loaded && left > std::max(of_the_way * change(trial, start_), of_the_scale);
+      outcome.converged = outcome.converged && !is_lost;
+      lost_in_round_off_ = lost_in_round_off_ || is_lost;
+    }
     if (outcome.converged) outcome.stability = stability(equations_.tangent(), equations_.coordinates());
     report_.status = outcome.unstable()          ? StaticStatus::unstable
                      : outcome.singular_at_start ? StaticStatus::singular_matrix
                                                  : StaticStatus::not_converged;
     report_.residual_norm = outcome.residual_norm;
     return outcome;
+  }
+
+  /// Newton's corrections of what is converged, as long as they shrink. Returns the largest one, in scaled
+  /// coordinates, that is left: of round-off; 0 where the tangent tells nothing.
+  double polish(State& trial) {
+    constexpr int most_corrections = 8;
+    Vector x = equations_.scaled_unknowns(trial), rows(equations_.size());
+    double last = std::numeric_limits<double>::infinity(), left = 0;
+    for (int i = 0; i < most_corrections; ++i) {
+      if (!equations_.evaluate(x, rows) || !equations_.differentiate(x)) return left;
+      const EquilibratedKkt kkt(equations_.tangent(), equations_.coordinates());
+      if (!kkt.regular()) return left;
+      const Vector correction = kkt.solve(rows);
+      left = correction.head(equations_.coordinates()).lpNorm<Eigen::Infinity>();
+      if (!(left < last / 2)) break;
+      x -= correction;
+      last = left;
+      trial = equations_.state_of(x);
+    }
+    return left;
   }
 
   /// Solves M(q)(q - q_k) proximity - f + G'lambda = 0 from q_k = trial.q, in place.
@@ -246,9 +276,10 @@ class EquilibriumSearch {
 
   double work(const Vector& force) const { return force.cwiseProduct(scale_).lpNorm<Eigen::Infinity>(); }
 
-  double change(const State& a, const State& b) const {
-    return (a.q - b.q).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+  double change(const Vector& a, const Vector& b) const {
+    return (a - b).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
   }
+  double change(const State& a, const State& b) const { return change(a.q, b.q); }
 
   void accept(double factor, const State& equilibrium, const Outcome& outcome) {
     state_ = at_rest(equilibrium, system_);
@@ -263,7 +294,9 @@ class EquilibriumSearch {
   const SecondOrderSystem& system_;
   Vector scale_;
   State state_;
+  const State start_;
   StaticReport report_;
+  bool lost_in_round_off_ = false;
   ScaledEquations equations_;
   Kinsol kinsol_;
   KktSolver kkt_solver_;

@@ -13,7 +13,8 @@ enum class StaticStatus {
   converged,
   not_converged,
   singular_matrix,
-  unstable  ///< equilibria were found, but none that is stable
+  unstable,          ///< equilibria were found, but none that is stable
+  lost_in_round_off  ///< the loads are no greater than the round-off of internal forces
 };
 
 struct StaticReport {

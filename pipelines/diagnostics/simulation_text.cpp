@@ -28,6 +28,9 @@ std::string reason_of(StaticStatus status) {
       return "the tangent is singular (is the model held everywhere?)";
     case StaticStatus::unstable:
       return "only unstable ones, which the model leaves when it is touched";
+    case StaticStatus::lost_in_round_off:
+      return "the loads are lost in the round-off of forces along a slender beam (a section of a hundredth of the "
+             "\"area\" and the same \"second_moment\" bends alike)";
     case StaticStatus::not_converged:
     case StaticStatus::converged:
       break;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -107,6 +109,61 @@ TEST(ZipLine, IsAccurateOnCoarseMeshes) {
           std::max(farthest, std::hypot(coarse.value(i, "trolley.x [m]") - fine.value(i, "trolley.x [m]"),
                                         coarse.value(i, "trolley.z [m]") - fine.value(i, "trolley.z [m]")));
     EXPECT_LT(farthest, 1.2 * error) << elements;
+  }
+}
+
+// A glass fibre of 30 m: forces along it of last bits are as large as its tip load, which bends it as the
+// elastica of that load (Mattiasson; P L^2 / EI = 1, 5).
+TEST(Fibre, BendsAsItsLoadSaysOrSaysThatNobodyKnows) {
+  constexpr double length = 30, radius = 62.5e-6, E = 70e9;
+  const double EI = E * std::numbers::pi * std::pow(radius, 4) / 4;
+  const TemporaryDirectory directory;
+  for (const auto& [q, deflection] : {std::pair{0.05, 0.016662}, {1.0, 0.30172}, {5.0, 0.71379}})
+    for (const int elements : {20, 80, 200}) {
+      std::ostringstream text;
+      text.precision(17);
+      text << R"({"nurbeam": 1, "gravity": [0, 0, 0],
+        "beams": [{"name": "fibre", "axis": {"polyline": [[0, 0, 0], [30, 0, 0]]},
+                   "section": {"radius": 6.25e-5}, "material": {"density": 2200, "youngs_modulus": 7e10},
+                   "elements": {"count": )"
+           << elements << R"(}}], "supports": [{"beam": "fibre", "at": "start", "type": "clamped"}],
+        "loads": [{"beam": "fibre", "at": "end", "force": [0, 0, )"
+           << -q * EI / (length * length) << R"(]}], "analysis": {"type": "static"},
+        "output": {"probes": [{"name": "tip", "beam": "fibre", "at": "end"}]}})";
+      const CaseRun run = run_file(directory.write("fibre.json", text.str()));
+      if (run.code == 0)
+        EXPECT_NEAR(-run.last("tip.z [m]") / length, deflection, 1e-3 * deflection) << q << " " << elements;
+      else
+        EXPECT_NE(run.messages.find("lost in the round-off"), std::string::npos) << run.messages;
+    }
+}
+
+// Drawn as its chord, with more length than that: pressed straight, from where it has many ways down.
+TEST(SlackWire, FallsIntoItsCatenaryOnEveryMesh) {
+  const TemporaryDirectory directory;
+  for (const double radius : {0.0002, 0.005})
+    for (const auto& [length, sag] : {std::pair{101.0, 6.14512}, {103.0, 10.71733}})
+      for (const int elements : {30, 60, 100}) {
+        std::ostringstream text;
+        text << R"({"nurbeam": 1, "beams": [{"name": "w", "axis": {"polyline": [[0, 0, 0], [100, 0, 0]]},
+          "unstressed_length": )"
+             << length << R"(, "section": {"radius": )" << radius
+             << R"(}, "material": "steel", "elements": {"count": )" << elements
+             << R"(}}], "supports": [{"beam": "w", "at": "start", "type": "pinned"},
+                                    {"beam": "w", "at": "end", "type": "pinned"}],
+          "analysis": {"type": "static"}, "output": {"probes": [{"name": "m", "beam": "w", "at": {"fraction": 0.5}}]}})";
+        const CaseRun run = run_file(directory.write("wire.json", text.str()));
+        ASSERT_EQ(run.code, 0) << run.messages;
+        EXPECT_NEAR(-run.last("m.z [m]"), sag, 4e-3 * sag) << radius << " " << elements;
+      }
+}
+
+TEST(ZipLine, HangsAsWithoutItsTrolleyWhereASupportCarriesThat) {
+  for (const char* at : {R"("start")", R"({"length": 1e-4})", R"("end")"}) {
+    const CaseRun run = run_file(sample("zipline/zipline.json"),
+                                 {std::string("sliding_joints[0].at=") + at, "analysis.end_time=0.02",
+                                  "output.cad=null", "output.report=false"});
+    EXPECT_EQ(run.code, 0) << at << run.messages;
   }
 }
 
