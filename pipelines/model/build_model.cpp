@@ -384,9 +384,15 @@ double mass_of(const BeamModel& model) {
 }
 
 // Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
-// another one than drawn.
-bool is_given_torsion(const CaseBeam& beam, const ReferenceCurve& curve) {
-  return beam.torsion_by_drawing && curve.dimension() == 3 && is_curved(curve);
+// another one than drawn, and what a corner or a joint holds at an angle would turn about it.
+bool is_given_torsion(const ResolvedCase& resolved, const CaseBeam& beam, const DrawnBeam& drawn) {
+  if (!beam.torsion_by_drawing || drawn.curve.dimension() != 3) return false;
+  const bool keeps_corner = beam.corners == Corners::rigid && !drawn.corners.empty();
+  const auto holds_it = [&](const CaseBeamJoint& joint) {
+    return joint.rigid && std::find(joint.beams.begin(), joint.beams.end(), beam.name) != joint.beams.end();
+  };
+  return is_curved(drawn.curve) || keeps_corner ||
+         std::any_of(resolved.joints.begin(), resolved.joints.end(), holds_it);
 }
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
@@ -410,14 +416,15 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
       continue;
     }
     const bool asked = from.torsion;
-    from.torsion = from.torsion || is_given_torsion(from, drawn->curve);
+    from.torsion = from.torsion || is_given_torsion(resolved, from, *drawn);
     const std::optional<BeamSection> section = beam_section(from, built.frame.dimension, files, findings);
     if (!section) break;
     const bool uneven = !from.torsion && section->profile && section->section.second_moments;
     from.torsion = from.torsion || uneven;
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
-    if (built.frame.dimension == 3) built.sources.back().torsion = why_torsion(from, asked, uneven);
+    if (built.frame.dimension == 3)
+      built.sources.back().torsion = why_torsion(from, asked, uneven, is_curved(drawn->curve));
     built.sources.back().outline = section_outline(*section);
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);

@@ -54,6 +54,28 @@ TEST(RigidCornerRun, AMomentAtTheCornerTurnsTheArmWithTheColumn) {
   EXPECT_NEAR(run.last("tip.y [m]") - 1, M / EI, 1e-5 * M / EI);
 }
 
+// Out of its plane an arm of 1 m bends and twists its column of 1 m: P (L³/3 EI + h³/3 EI + h L²/GJ).
+TEST(RigidCornerRun, AnArmInSpaceIsHeldAcrossToo) {
+  const double P = 0.01, GJ = 210e9 / 2.6 * std::numbers::pi * 1e-8 / 2, across = P * (2 / (3 * EI) + 1 / GJ);
+  const std::vector<std::string> load = {R"(loads=[{"beam": "frame", "at": "end", "force": [0, 0, 0.01]}])"};
+  const CaseRun one = run_frame(load);
+  ASSERT_EQ(one.code, 0) << one.messages;
+  EXPECT_NEAR(one.last("tip.z [m]"), across, 1e-3 * across);
+  const TemporaryDirectory directory;
+  const CaseRun two = test::run_file(
+      directory.write("frame.json", frame),
+      {R"(beams=[{"name": "column", "axis": {"polyline": [[0, 0, 0], [0, 1, 0]]}, "section": {"radius": 0.01},
+                  "material": {"density": 7800, "youngs_modulus": 210e9}, "elements": {"count": 8}},
+                 {"name": "arm", "axis": {"polyline": [[0, 1, 0], [1, 1, 0]]}, "section": {"radius": 0.01},
+                  "material": {"density": 7800, "youngs_modulus": 210e9}, "elements": {"count": 8}}])",
+       R"(joints=[{"beams": ["column", "arm"], "type": "rigid"}])",
+       R"(supports=[{"beam": "column", "at": "start", "type": "clamped"}])",
+       R"(output.probes=[{"name": "tip", "beam": "arm", "at": "end"}])",
+       R"(loads=[{"beam": "arm", "at": "end", "force": [0, 0, 0.01]}])"});
+  ASSERT_EQ(two.code, 0) << two.messages;
+  EXPECT_NEAR(two.last("tip.z [m]"), across, 1e-3 * across);
+}
+
 // The frame falls in space: what moves it.
 std::vector<std::string> falling(const std::string& analysis) {
   return {"gravity=[3, -5, 8]", "beams[0].material.youngs_modulus=2e8", "output.every=0.02",
