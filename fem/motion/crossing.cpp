@@ -57,7 +57,7 @@ std::optional<Crossing> end_passed(const BeamSystem& system, const State& state)
     const std::optional<PlaceMotion>& motion = model.joints[j].motion;
     const bool by_table = motion && !motion->rows().empty();  // which is known to stay on the beam
     if (curve.closed() || by_table || system.mesh().plan.modes[j] != JointMode::point) continue;
-    const double s = *place(system, state, j), beyond = motion ? landing_tolerance(model, j) : 0;
+    const double s = *place(system, state, j), beyond = landing_tolerance(model, j);
     if (s < -beyond) return Crossing{j, 0, false};
     if (s > curve.length() + beyond) return Crossing{j, curve.length(), true};
   }

@@ -255,5 +255,21 @@ TEST(FrictionRun, WhatCannotBeIsRefused) {
   says("bodies[0].drag_area=0.8", "bodies[0].drag_area: needs the \"air\" that drags");
 }
 
+// A beam that gives a little under a body at its start, whose brake lets go by 0.6 s: down a slope of 20
+// degrees.
+TEST(Friction, AtTheStartOfABeamHoldsABodyNoLongerThanItSticks) {
+  const TemporaryDirectory directory;
+  const CaseRun run = run_file(directory.write("brake.json", R"({"nurbeam": 1,
+    "beams": [{"name": "l", "axis": {"polyline": [[0, 0, 0], [9.396926207859085, 0, -3.420201433256687]]},
+               "section": {"rectangle": [0.1, 0.2]}, "material": "steel"}],
+    "bodies": [{"name": "b", "mass": 3}],
+    "sliding_joints": [{"body": "b", "beam": "l", "at": "start",
+                        "friction": {"force": [[0, 100], [0.5, 100], [0.6, 0]]}}],
+    "supports": [{"beam": "l", "at": "start", "type": "clamped"}, {"beam": "l", "at": "end", "type": "clamped"}],
+    "analysis": {"end_time": 2, "step": "5 ms"}})"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("b.s [m]"), 3.3146, 5e-3);  // as on a rigid guide, or from the beam's equilibrium
+}
+
 }  // namespace
 }  // namespace nurbeam::test
