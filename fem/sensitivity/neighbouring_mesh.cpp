@@ -107,6 +107,22 @@ std::vector<bool> held_joints(const BeamSystem& system) {
   return held;
 }
 
+void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour) {
+  const Mesh &mesh = at.system->mesh(), &other = neighbour.system->mesh();
+  MeshPlan plan = other.plan;
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
+    const int beam = at.system->model().joints[j].beam;
+    if (plan.modes[j] != JointMode::point || at.system->model().beams[beam].rigid) continue;
+    const int span = find_span(at.system->model(), mesh, at.state.q, beam, mesh.plan.places[j]);
+    if (find_span(neighbour.system->model(), other, neighbour.state.q, beam, plan.places[j]) == span)
+      continue;
+    const MeshSpan& like = other.spans[static_cast<std::size_t>(span)];
+    plan.places[j] = (like.start(neighbour.state.q) + like.end(neighbour.state.q)) / 2;
+  }
+  if (plan.places != other.plan.places)
+    neighbour.system = neighbour.system->replanned(std::move(plan), held_joints(*neighbour.system));
+}
+
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model) {
   MeshPlan plan = at.system->mesh().plan;

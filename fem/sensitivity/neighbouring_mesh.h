@@ -24,6 +24,10 @@ std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, c
 /// The joints whose places a system holds, but for those whose motion is prescribed.
 std::vector<bool> held_joints(const BeamSystem& system);
 
+/// Puts bodies of a neighbour that are carried as points on the spans on which those of `at` are, whichever
+/// side of a node they stand on: a run keeps a span until the body passes its end. Precondition: same_mesh.
+void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour);
+
 /// The system of a neighbouring model on the mesh of a rest: with the same nodes, and joints held at the
 /// corresponding places. Throws std::runtime_error where sections have other charts than the drawing's, or
 /// elements constant weights.

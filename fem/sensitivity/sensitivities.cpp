@@ -167,8 +167,10 @@ void Sensitivities::begins(const MeshedState& drawn) {
     const BeamSystem* like = drawn.system.get();
     MeshedState more = MeshedState::drawn(parameter.pair.more.model, like),
                 less = MeshedState::drawn(parameter.pair.less.model, like);
-    for (const MeshedState* each : {&more, &less})
+    for (MeshedState* each : {&more, &less}) {
       if (!same_mesh(*drawn.system, *each->system)) not_alike("the mesh changes");
+      stand_on_like_spans(drawn, *each);
+    }
     rates[static_cast<std::size_t>(k)] = rate(more.state, less.state, parameter.pair.step);
     parameter.more = std::move(more.system);
     parameter.less = std::move(less.system);

@@ -53,6 +53,26 @@ TEST(Gradient, OfBodiesBehindAKnotThatMoves) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
+// It stands on the first node of an element that a control point changes, as a point of the one before.
+TEST(Gradient, OfABodyCarriedAsAPointThatStandsOnANode) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.25, 0.5, 0.75, 1, 1, 1, 1],
+        "control_points": [[0, 0, 0.8], [0.4, 0, 0.6], [0.9, 0, 0.4], [1.5, 0, 0.3], [2.1, 0, 0.4], [2.6, 0, 0.6], [3, 0, 0.8]]}},
+      "section": {"radius": "14 mm"}, "material": {"density": 1900, "youngs_modulus": "6 GPa"},
+      "elements": {"count": 4}}],
+    "bodies": [{"name": "a", "mass": 0.7}],
+    "sliding_joints": [{"body": "a", "beam": "beam", "at": {"fraction": 0.5}, "speed": 1.5, "carried_as": "point"}],
+    "supports": [{"beam": "beam", "at": "start", "type": "pinned"}, {"beam": "beam", "at": "end", "type": "clamped"}],
+    "analysis": {"type": "dynamic", "end_time": 0.08, "step": "1 ms"}, "output": {"every": 0.08}})json",
+                 R"json("variables": [
+      {"name": "z5", "control_point": {"beam": "beam", "index": 5, "axis": "z"}, "range": [0.5, 0.7]},
+      {"name": "z6", "control_point": {"beam": "beam", "index": 6, "axis": "z"}, "range": [0.7, 0.9]}],
+    "quantities": [{"name": "s", "value": "at(end, a.s)"}, {"name": "v", "value": "at(end, a.speed)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 1e-3, 1e-3);  // accelerations jump there
+}
+
 // Control points that move spans before the body alone: its own are drawn alike, only further on.
 TEST(Gradient, OfABodyOnSpansThatAreDrawnAlike) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
