@@ -32,7 +32,7 @@ struct SobolIndices {
     double value = 0, lower = 0, upper = 0;
   };
   std::string quantity;
-  std::vector<Index> first_order, total_order;
+  std::vector<Index> first_order, total_order;  ///< all 0 where it is the same in all variants
 };
 struct SensitivityResult {
   std::vector<SobolIndices> indices;
@@ -62,6 +62,7 @@ struct OptimumResult {
   StudyPoints quantities;  ///< of each
   std::vector<double>
       history;  ///< the best objective so far that holds the constraints, after each variant; NaN before
+  bool cut_off = false;  ///< the search ended because it had no more variants
 };
 /// With derivatives where they are given. Throws std::runtime_error where no variant holds the
 /// constraints.

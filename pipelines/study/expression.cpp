@@ -269,6 +269,14 @@ class ExpressionParser {
     at_ = static_cast<std::size_t>(end - text_.data());
     return std::make_shared<const Node>(std::move(leaf));
   }
+  /// That word, and not a longer name that begins with it.
+  bool accept_word(const std::string& word) {
+    const std::size_t from = at_;
+    if (!accept(word)) return false;
+    if (at_ == text_.size() || !(in_word(text_[at_]) || text_[at_] == '.')) return true;
+    at_ = from;
+    return false;
+  }
   std::string name_part() {
     const std::size_t from = at_;
     if (at_ < text_.size() && text_[at_] == '\'') {
@@ -321,9 +329,9 @@ class ExpressionParser {
   /// at(t, history) with t a number, start or end.
   NodePointer at_call() {
     std::optional<bool> at_end;
-    if (accept("start"))
+    if (accept_word("start"))
       at_end = false;
-    else if (accept("end"))
+    else if (accept_word("end"))
       at_end = true;
     Node::Arguments arguments;
     if (!at_end) arguments.push_back(comparison());

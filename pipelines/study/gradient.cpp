@@ -63,7 +63,9 @@ double derivative_step(const StudyVariable& variable, double value) {
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
-  return part * std::clamp(std::abs(value), 0.1 * width, width);
+  // Not too small beside the value, as far as the range allows: that is lost in round-off.
+  const double size = std::max(std::clamp(std::abs(value), 0.1 * width, width), 0.1 * std::abs(value));
+  return std::min(part * size, 0.1 * width);
 }
 
 std::vector<double> differences(const StudyFile& study, const std::vector<double>& values,

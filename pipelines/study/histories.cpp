@@ -85,7 +85,7 @@ void Histories::nudge(std::size_t time, double part) {
   for (std::vector<double>& column : values_) {
     double largest = 0;
     for (const double value : column) largest = std::fmax(largest, std::abs(value));
-    column[time] += part * largest;
+    column[time] += part * (largest > 0 ? largest : 1);
   }
 }
 

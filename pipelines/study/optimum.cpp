@@ -85,15 +85,21 @@ class Search {
   }
   /// The objectives and the margins by the parts; none of a variant that is not done.
   StudyGradient objective_gradient(const std::vector<double>& part) {
-    return gradient(
-        part, [&](const std::vector<double>& quantities,
-                  const std::vector<double>&) { return goal_.objectives(quantities); });
+    StudyGradient rows =
+        gradient(part, [&](const std::vector<double>& quantities, const std::vector<double>&) {
+          return goal_.objectives(quantities);
+        });
+    for (std::vector<double>& row : rows)
+      for (double& by : row) by /= unit_;
+    return rows;
   }
   StudyGradient margin_gradient(const std::vector<double>& part) {
     return gradient(
         part, [&](const std::vector<double>& quantities,
                   const std::vector<double>& point) { return goal_.margins(quantities, point); });
   }
+  /// What a search sees of objectives from now on is in this unit.
+  void set_unit(double unit) { unit_ = unit; }
   bool has_derivatives() const { return static_cast<bool>(derivatives_); }
 
   bool stopped() const { return stopped_ != nullptr; }
@@ -102,7 +108,9 @@ class Search {
   }
 
   std::vector<double> objectives(const std::vector<double>& quantities) const {
-    return quantities.empty() ? worse_than_all() : goal_.objectives(quantities);
+    std::vector<double> values = quantities.empty() ? worse_than_all() : goal_.objectives(quantities);
+    for (double& value : values) value /= unit_;
+    return values;
   }
   std::vector<double> margins(const std::vector<double>& quantities, const std::vector<double>& part) const {
     return quantities.empty() ? least_margins_ : goal_.margins(quantities, point_of(part));
@@ -195,6 +203,7 @@ class Search {
   StudyPoints points_, quantities_;
   std::vector<double> least_, most_;   // of each objective
   std::vector<double> least_margins_;  // and what a variant that is not done counts as
+  double unit_ = 1;
   std::exception_ptr stopped_;
 };
 
@@ -256,7 +265,17 @@ OT::OptimizationAlgorithm algorithm_of(const StudyFile& study, const StudyOptimu
   algorithm.setMaximumIterationNumber(static_cast<std::size_t>(optimum.evaluations));
   algorithm.setMaximumAbsoluteError(optimum.tolerance);
   algorithm.setMaximumRelativeError(optimum.tolerance);
+  algorithm.setMaximumResidualError(0);  // however little the objective changes
+  algorithm.setMaximumConstraintError(0);
   return algorithm;
+}
+
+// The slope of the objective where a search along gradients begins: its first step is as long.
+double slope_at_start(const Search& search, const OT::OptimizationProblem& problem) {
+  const OT::Matrix slopes = problem.getObjective().gradient(to_point(search.start()));
+  double sum = 0;
+  for (std::size_t i = 0; i < slopes.getNbRows(); ++i) sum += slopes(i, 0) * slopes(i, 0);
+  return sum > 0 && std::isfinite(sum) ? std::sqrt(sum) : 1;
 }
 
 bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
@@ -305,8 +324,9 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
   const Goal goal(study, optimum);
   Search search(study, evaluate, derivatives, goal);
   try {
-    OT::OptimizationAlgorithm algorithm =
-        algorithm_of(study, optimum, problem_of(study, optimum, search), search);
+    const OT::OptimizationProblem problem = problem_of(study, optimum, search);
+    if (optimum.method == StudyOptimum::Method::gradient) search.set_unit(slope_at_start(search, problem));
+    OT::OptimizationAlgorithm algorithm = algorithm_of(study, optimum, problem, search);
     algorithm.setStopCallback([](void* of) -> OT::Bool { return static_cast<Search*>(of)->stopped(); },
                               &search);
     algorithm.run();
@@ -316,6 +336,8 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
   }
   search.throw_if_stopped();
   OptimumResult result = best_of(search, goal);
+  result.cut_off = optimum.method != StudyOptimum::Method::genetic &&
+                   search.points().size() >= static_cast<std::size_t>(optimum.evaluations);
   if (result.points.empty())
     throw std::runtime_error("no variant of " + std::to_string(search.points().size()) +
                              " is done and holds \"subject_to\"; take wider ranges or more \"evaluations\"");

@@ -12,11 +12,11 @@ namespace {
 // At most so many variants of a simulation run together: few where it may end after each such block.
 constexpr std::size_t long_block = 1024, short_block = 32;
 
-// What is over the threshold, in units of `scale`. Differences are taken over a thousandth of the scatter:
-// runs are not exact to the last digit.
+// What is over the threshold, in units of `scale`; `of_not_done`: of a variant that is not done. Differences
+// are taken over a thousandth of the scatter: runs are not exact to the last digit.
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
                              const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
-                             double scale) {
+                             double scale, double of_not_done) {
   const std::size_t k = quantity_index(study, reliability.quantity);
   const double threshold = reliability.threshold;
   StudyDerivatives gradient;
@@ -29,9 +29,8 @@ OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& rel
     };
   OT::Function f = study_function(
       study, evaluate, 1,
-      [k, threshold, scale](const std::vector<double>& quantities, const std::vector<double>&) {
-        constexpr double none = std::numeric_limits<double>::quiet_NaN();
-        return std::vector<double>{quantities.empty() ? none : (quantities[k] - threshold) / scale};
+      [k, threshold, scale, of_not_done](const std::vector<double>& quantities, const std::vector<double>&) {
+        return std::vector<double>{quantities.empty() ? of_not_done : (quantities[k] - threshold) / scale};
       },
       gradient);
   const OT::Distribution joint = joint_distribution(study);
@@ -64,7 +63,19 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
   search.setMaximumResidualError(tolerance);
   search.setMaximumConstraintError(tolerance);
   OT::FORM form(OT::OptimizationAlgorithm(search), event, to_point(study.nominal()));
-  form.run();
+  try {
+    form.run();
+  } catch (const OT::Exception&) {  // which speaks of its own points and functions
+    throw std::runtime_error(
+        "FORM found no design point: the quantity hardly changes where it looks, or variants there are not "
+        "done; take \"monte_carlo\"");
+  }
+  const OT::OptimizationResult last = form.getResult().getOptimizationResult();
+  // The limit is a margin away where it begins.
+  constexpr double near = 1e-3;
+  if (!(last.getConstraintError() <= near) || !(last.getResidualError() <= near))
+    throw std::runtime_error("FORM found no design point within " + std::to_string(reliability.count) +
+                             " variants; give a greater \"count\", or take \"monte_carlo\"");
   return form.getResult();
 }
 
@@ -79,8 +90,9 @@ ReliabilityResult simulated(const StudyReliability& reliability, const OT::Rando
   algorithm.setMaximumCoefficientOfVariation(reliability.coefficient_of_variation);
   algorithm.run();
   const OT::ProbabilitySimulationResult result = algorithm.getResult();
-  return {.probability = result.getProbabilityEstimate(),
-          .coefficient_of_variation = result.getCoefficientOfVariation()};
+  ReliabilityResult estimate{.probability = result.getProbabilityEstimate()};
+  if (estimate.probability > 0) estimate.coefficient_of_variation = result.getCoefficientOfVariation();
+  return estimate;
 }
 
 }  // namespace
@@ -98,12 +110,16 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
   };
   const bool searches = reliability.method != Method::monte_carlo;
   const double scale = searches ? scale_of(study, reliability, counted) : 1;
-  const OT::RandomVector event = limit_event(study, reliability, counted, derivatives, scale);
+  // To a simulation what is not done does not fail; a search does not go there.
+  const OT::RandomVector counts =
+      limit_event(study, reliability, counted, derivatives, scale, reliability.fails_above ? -1 : 1);
   if (!searches) {
-    ReliabilityResult result = simulated(reliability, event, OT::MonteCarloExperiment());
+    ReliabilityResult result = simulated(reliability, counts, OT::MonteCarloExperiment());
     result.not_done = not_done;
     return result;
   }
+  const OT::RandomVector event =
+      limit_event(study, reliability, counted, derivatives, scale, std::numeric_limits<double>::quiet_NaN());
   const OT::FORMResult form = form_of(study, reliability, event);
   ReliabilityResult result{.probability = form.getEventProbability(),
                            .reliability_index = form.getHasoferReliabilityIndex(),
@@ -115,7 +131,7 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
   if (reliability.method == Method::form) return result;
   const OT::ImportanceSamplingExperiment around(
       OT::Normal(form.getStandardSpaceDesignPoint(), OT::CovarianceMatrix(result.design_point.size())));
-  const OT::StandardEvent standard(event);
+  const OT::StandardEvent standard(counts);
   const ReliabilityResult estimate = simulated(reliability, standard, around);
   result.probability = estimate.probability;
   result.coefficient_of_variation = estimate.coefficient_of_variation;

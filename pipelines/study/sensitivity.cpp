@@ -48,6 +48,12 @@ SensitivityResult sobol_indices(const StudyFile& study, const StudySensitivity& 
         inputs.push_back(points[block + row]);
         outputs.push_back({quantities[block + row][k]});
       }
+    if (std::all_of(outputs.begin(), outputs.end(),
+                    [&](const auto& row) { return row == outputs.front(); })) {
+      const std::vector<SobolIndices::Index> none(study.free_variables().size());
+      result.indices.push_back({.quantity = name, .first_order = none, .total_order = none});
+      continue;
+    }
     OT::SaltelliSensitivityAlgorithm algorithm(to_sample(inputs), to_sample(outputs), rows.size());
     algorithm.setConfidenceLevel(sensitivity.confidence);
     result.indices.push_back({.quantity = name,

@@ -234,6 +234,32 @@ void with_target(const StudyVariable& variable, Apply apply) {
   }
 }
 
+// Whether a path leads into the axis of a beam, by its name or its index.
+bool is_in_axis(const std::string& path, const std::string& beam, std::size_t index) {
+  return path.starts_with("beams[" + beam + "].axis") ||
+         path.starts_with("beams[" + std::to_string(index) + "].axis");
+}
+
+// Whether the numbers that variables set are there, and are not those of a curve that others move.
+void check_paths(const StudyFile& study, const std::string& case_json,
+                 const std::map<std::string, StudyCurve>& curves, Findings& findings) {
+  for (const StudyVariable& variable : study.variables) {
+    const auto* numbers = variable.target ? std::get_if<CasePaths>(&*variable.target) : nullptr;
+    if (!numbers) continue;
+    for (const std::string& path : numbers->paths) {
+      Json json = Json::parse(case_json);
+      std::vector<Diagnostic> wrong;
+      apply_overrides(json, {path + "=1"}, wrong);
+      for (const Diagnostic& each : wrong) findings.error(variable.path + ".path", each.message);
+      for (const auto& [beam, curve] : curves)
+        if (is_in_axis(path, beam, curve.beam))
+          findings.error(variable.path + ".path",
+                         "is of a curve that other variables move: move it with \"control_point\", "
+                         "\"weight\" or \"transform\"");
+    }
+  }
+}
+
 }  // namespace
 
 std::map<std::string, NurbsCurve> StudyCase::moved(const std::vector<StudyVariable>& variables,
@@ -310,6 +336,7 @@ StudyCaseReport read_study_case(const StudyFile& study) {
   } catch (const std::invalid_argument& problem) {
     findings.error("variables", problem.what());
   }
+  check_paths(study, text.json, curves, findings);
   const bool usable = !findings.has_errors();
   const std::vector<Diagnostic> found = findings.take();
   report.diagnostics.insert(report.diagnostics.end(), found.begin(), found.end());

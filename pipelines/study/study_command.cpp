@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
@@ -66,11 +67,27 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
   return ready;
 }
 
-/// What rows belong to: the program, the study, its case with what both change, the curves.
+/// The digests of the files that stand anywhere in a case, in order: CAD files, tables.
+void add_files_of(const nlohmann::ordered_json& json, const std::filesystem::path& folder,
+                  std::string& text) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_structured()) add_files_of(value, folder, text);
+    if (key != "file" || !value.is_string()) continue;
+    const std::filesystem::path file = folder / value.get<std::string>();
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none)) text += sha256_of_file(file) + "\n";
+  }
+}
+
+/// What rows belong to: the program, the study, its case with what both change, the files that it reads.
 std::string digest_of(const ReadyStudy& ready) {
   std::string text = std::string(NURBEAM_VERSION) + "\n" + ready.study.json + "\n";
   if (ready.study_case) {
-    text += ready.study_case->variant(ready.study.variables, all_values(ready.study, ready.study.nominal()));
+    const std::string nominal =
+        ready.study_case->variant(ready.study.variables, all_values(ready.study, ready.study.nominal()));
+    text += nominal;
+    add_files_of(nlohmann::ordered_json::parse(nominal),
+                 std::filesystem::absolute(ready.study_case->file()).parent_path(), text);
     for (const auto& input : ready.study_case->inputs()) text += sha256_of_file(input) + "\n";
   }
   return sha256_of_text(text);
@@ -221,8 +238,12 @@ int study_check_command(const StudyOptions& options, std::ostream& out, std::ost
 }
 
 int study_worker_command(const std::filesystem::path& file, std::ostream& err) {
-  const std::optional<ReadyStudy> ready = read_study(file, err);
-  if (!ready) return exit_bad_input;
+  std::ostringstream messages;  // the study has said them already, where it runs
+  const std::optional<ReadyStudy> ready = read_study(file, messages);
+  if (!ready) {
+    err << messages.str();
+    return exit_bad_input;
+  }
   return serve_variants(ready->study, ready->study_case ? &*ready->study_case : nullptr);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -77,7 +79,30 @@ class StudyReader : StudyPartReader {
       variable.nominal = measured(json["nominal"], dimension, child(path, "nominal")).value_or(0);
     else if (!variable.derived)
       variable.nominal = middle_of(variable.distribution);
+    if (!variable.derived && !findings_.has_errors()) check_ends(variable);
     study_.variables.push_back(std::move(variable));
+  }
+
+  // Something of the distribution must lie between where it is cut off, and the nominal value within.
+  void check_ends(const StudyVariable& variable) {
+    using Law = StudyDistribution::Kind;
+    constexpr double none = std::numeric_limits<double>::infinity(), widest = 35;  // standard deviations
+    const StudyDistribution& d = variable.distribution;
+    const std::vector<double>& p = d.parameters;
+    if (p.size() < 2) return;
+    double from = -none, to = none;
+    if (d.kind == Law::uniform || d.kind == Law::triangular) from = p.front(), to = p.back();
+    if (d.kind == Law::lognormal || d.kind == Law::weibull) from = 0;
+    const bool narrow = d.kind == Law::normal;
+    const double lower = std::max(d.lower.value_or(-none), from),
+                 upper = std::min(d.upper.value_or(none), to);
+    if (!(lower < upper) || (narrow && (lower > p[0] + widest * p[1] || upper < p[0] - widest * p[1])))
+      return findings_.error(child(variable.path, "distribution"),
+                             "has nothing between \"lower\" and \"upper\"");
+    if (variable.nominal < lower || variable.nominal > upper)
+      findings_.error(child(variable.path, "nominal"), "is " + text_of(variable.nominal, all_digits) +
+                                                           ", outside of " + text_of(lower, all_digits) +
+                                                           " to " + text_of(upper, all_digits));
   }
 
   static double middle_of(const StudyDistribution& d) {
@@ -169,6 +194,37 @@ class StudyReader : StudyPartReader {
       if (!variable.name.empty() && !seen.insert(variable.name).second)
         findings_.error(child(variable.path, "name"),
                         in_quotes(variable.name) + " is the name of two variables; names must differ");
+    for (const StudyVariable& variable : study_.variables) {
+      if (variable.name == "pi")
+        findings_.error(child(variable.path, "name"), "is that of 3.14159...; give another");
+      if (variable.name.find('\'') != std::string::npos)
+        findings_.error(child(variable.path, "name"),
+                        "has a single quote, which cannot stand in an expression; leave it out");
+    }
+    check_targets();
+  }
+
+  // What two variables set has the value of one alone.
+  void check_targets() {
+    std::map<std::string, std::string> owners;
+    for (const StudyVariable& variable : study_.variables) {
+      std::vector<std::string> places;
+      if (const auto* target = variable.target ? &*variable.target : nullptr) {
+        if (const auto* numbers = std::get_if<CasePaths>(target))
+          for (const std::string& path : numbers->paths) places.push_back(in_quotes(path));
+        if (const auto* point = std::get_if<ControlPointCoordinate>(target))
+          places.push_back(std::string(1, "xyz"[point->axis]) + " of control point " +
+                           std::to_string(point->index) + " of " + in_quotes(point->beam));
+        if (const auto* weight = std::get_if<ControlPointWeight>(target))
+          places.push_back("the weight of control point " + std::to_string(weight->index) + " of " +
+                           in_quotes(weight->beam));
+      }
+      for (const std::string& place : places)
+        if (const auto [owner, is_first] = owners.emplace(place, variable.name); !is_first)
+          findings_.error(variable.path,
+                          "sets " + place + ", as " + in_quotes(owner->second) +
+                              " does; one variable can set it, with a \"value\" made of others");
+    }
   }
 
   void check_variables(const Expression& expression, const std::string& path) {

@@ -91,6 +91,7 @@ Json answer_json(const StudyFile& study, const OptimumResult& result) {
       quantities[study.quantities[k].name] = result.quantities[i][k];
     json["optima"].push_back({{"variables", named(study, result.points[i])}, {"quantities", quantities}});
   }
+  if (result.cut_off) json["evaluations_used_up"] = true;
   for (const double best : result.history)
     json["history"].push_back(std::isfinite(best) ? Json(best) : Json());
   return json;
@@ -201,6 +202,8 @@ void tell(std::ostream& out, const StudyFile& study, const OptimumResult& result
     out << "  within 1 % of it after " << variants_until(result.history, 0.01)
         << " variants, within 0.1 % after " << variants_until(result.history, 0.001) << ", of "
         << result.history.size() << "\n";
+  if (result.cut_off)
+    out << "  the search has used up its \"evaluations\": give more of them to see whether it gets better\n";
 }
 
 void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& result) {

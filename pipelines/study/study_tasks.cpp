@@ -163,6 +163,9 @@ class StudyTaskReader : StudyPartReader {
         findings_.error("optimise.method", "with several objectives it must be \"genetic\"");
       optimum.method = Method::genetic;
     }
+    if (optimum.method == Method::nelder_mead && has(json, "subject_to"))
+      findings_.error("optimise.method",
+                      "is \"nelder_mead\", which knows no \"subject_to\"; take \"cobyla\" or \"gradient\"");
     study_.derivatives = read_derivatives(json, "optimise", optimum.method == Method::gradient);
     optimum.evaluations = static_cast<int>(number(json, "evaluations", 100));
     optimum.tolerance = number(json, "tolerance", 1e-4);
@@ -191,6 +194,12 @@ class StudyTaskReader : StudyPartReader {
       normal += study_.variables[i].distribution.kind == Law::normal ? 1 : 0;
       uniform += study_.variables[i].distribution.kind == Law::uniform ? 1 : 0;
     }
+    for (const std::size_t i : study_.free_variables())
+      if (const StudyVariable& v = study_.variables[i]; v.distribution.lower || v.distribution.upper)
+        findings_.error(
+            child(v.path, "distribution"),
+            "has \"lower\" or \"upper\", which a calibration does not hold; leave them out, or give "
+            "a \"range\" of each variable");
     const std::size_t free = study_.free_variables().size();
     calibration.prior = normal == free;
     if (normal != free && uniform != free)

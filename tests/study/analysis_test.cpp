@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "pipelines/study/variant.h"
 #include "tests/study/study_text.h"
@@ -49,6 +50,18 @@ TEST(SobolIndices, OfIshigamisFunctionAreWithinTheirIntervals) {
     EXPECT_LE(total[i], result.indices[0].total_order[i].upper + 0.01) << i;
     EXPECT_LE(result.indices[0].first_order[i].upper - result.indices[0].first_order[i].lower, 0.2);
   }
+}
+
+TEST(SobolIndices, OfWhatIsTheSameInAllVariantsAreZero) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
+    "quantities": [{"name": "same", "value": "3 + 0 * x"}, {"name": "f", "value": "x"}],
+    "sensitivity": {"count": 64}})json");
+  const SensitivityResult result =
+      sobol_indices(study, std::get<StudySensitivity>(study.task), evaluation_of(study));
+  ASSERT_EQ(result.indices.size(), 2U);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(result.indices[0].total_order[i].value, 0);
+  EXPECT_NEAR(result.indices[1].total_order[0].value, 1, 0.1);
 }
 
 TEST(Surrogate, OfIshigamisFunctionHasItsSobolIndices) {
@@ -169,6 +182,63 @@ TEST(Reliability, BySimulationRunsAsManyAsAskedForOrUntilItIsSure) {
       runs(R"(, "coefficient_of_variation": 0.1)");  // sqrt((1 - p) / (p n)), p = 0.34
   EXPECT_GE(until_sure, 120U);
   EXPECT_LE(until_sure, 300U);
+}
+
+// x is normal; those from 1 on are not done.
+TEST(Reliability, CountsWhatIsNotDoneAsWhatDoesNotFail) {
+  for (const auto& [limit, method, exact] : {std::tuple{"\"above\": 2", "monte_carlo", 0.0},
+                                             {"\"below\": -1", "monte_carlo", 0.158655},
+                                             {"\"below\": -1", "importance_sampling", 0.158655}}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "distribution": {"normal": {"mean": 0, "sd": 1}}}],
+      "constraints": ["x < 1"], "quantities": [{"name": "q", "value": "x"}],
+      "reliability": {"quantity": "q", "count": 2000, )json" +
+                                     std::string(limit) + ", \"method\": \"" + method + "\"}}");
+    const ReliabilityResult result =
+        failure_probability(study, std::get<StudyReliability>(study.task), evaluation_of(study));
+    EXPECT_NEAR(result.probability, exact, 0.15 * exact) << limit << method;
+    EXPECT_EQ(result.coefficient_of_variation.has_value(), exact > 0);
+  }
+}
+
+TEST(Reliability, ByFormThatDoesNotEndIsNoAnswer) {
+  const auto found = [](const std::string& count) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "distribution": {"normal": {"mean": 0, "sd": 1}}},
+                    {"name": "y", "distribution": {"normal": {"mean": 0, "sd": 1}}}],
+      "quantities": [{"name": "g", "value": "x + y + 0.2 * sin(3 * x)"}],
+      "reliability": {"quantity": "g", "above": 4, "count": )json" +
+                                     count + "}}");
+    return failure_probability(study, std::get<StudyReliability>(study.task), evaluation_of(study));
+  };
+  EXPECT_THROW(found("10"), std::runtime_error);
+  EXPECT_GT(*found("1000").reliability_index, 2);
+}
+
+// Its value hardly changes, far from zero or near it.
+TEST(Optimum, IsFoundWhateverTheSizeOfWhatIsMinimised) {
+  for (const char* method : {"cobyla", "nelder_mead", "gradient"})
+    for (const char* f : {"1e-6 * ((x - 0.3)^2 + (y - 0.8)^2)", "100 + 0.02 * ((x - 0.3)^2 + (y - 0.8)^2)"}) {
+      const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+        "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
+        "quantities": [{"name": "f", "value": ")json" +
+                                       std::string(f) + R"json("}],
+        "optimise": {"minimise": "f", "evaluations": 400, "tolerance": 1e-4, "method": ")json" +
+                                       method + "\"}}");
+      const OptimumResult result =
+          find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+      EXPECT_NEAR(result.points[0][0], 0.3, 2e-3) << method << f;
+      EXPECT_NEAR(result.points[0][1], 0.8, 2e-3) << method << f;
+      EXPECT_FALSE(result.cut_off) << method << f;
+    }
+}
+
+TEST(Optimum, SaysThatItsEvaluationsAreUsedUp) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [-2, 2]}, {"name": "y", "range": [-2, 2]}],
+    "quantities": [{"name": "f", "value": "(1 - x)^2 + 100 * (y - x^2)^2"}],
+    "optimise": {"minimise": "f", "evaluations": 12, "method": "cobyla"}})json");
+  EXPECT_TRUE(find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study)).cut_off);
 }
 
 TEST(Optimum, HoldsItsConstraints) {

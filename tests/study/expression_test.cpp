@@ -54,6 +54,8 @@ TEST(Expression, TakesNumbersOfHistories) {
 TEST(Expression, NamesWhatItNeeds) {
   const auto names = Expression::parse("x + max(a.b.c) * x - time(leaves, trolley)").names();
   EXPECT_EQ(names, (std::vector<std::string>{"x", "a.b.c"}));
+  EXPECT_EQ(Expression::parse("at(end_z, start_h.s)").names(),
+            (std::vector<std::string>{"end_z", "start_h.s"}));
 }
 
 // What is wrong, with the number of the character.

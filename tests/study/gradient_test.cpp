@@ -113,5 +113,22 @@ TEST(Gradient, OfAMotionInSpaceWithTorsion) {
   expect_gradient(of, 0.004, 1e-5);
 }
 
+// In its plane nothing is across it: all that is asked of is exactly zero.
+TEST(Gradient, OfWhatIsZeroAsDrawn) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "b", "torsion": true, "elements": {"count": 5},
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1],
+                         "control_points": [[0, 0, 0], [0.5, 0, 0.1], [1, 0, 0.3], [1.4, 0, 0.4]]}},
+      "section": {"radius": 0.012}, "material": {"density": 2700, "youngs_modulus": 7e9}}],
+    "supports": [{"beam": "b", "at": "start", "type": "clamped"}],
+    "loads": [{"beam": "b", "at": "end", "force": [0, 0, -4]}], "analysis": {"type": "static"},
+    "output": {"probes": [{"name": "tip", "beam": "b", "at": "end"}]}})json",
+                 R"json("variables": [
+      {"name": "y3", "control_point": {"beam": "b", "index": 3, "axis": "y"}, "range": [-0.1, 0.1]},
+      {"name": "fy", "path": "loads[0].force[1]", "range": [-1, 1]}],
+    "quantities": [{"name": "y", "value": "at(end, tip.y)"}], "plan": {"grid": 2})json");
+  expect_gradient(of, 1e-2, 1e-5);
+}
+
 }  // namespace
 }  // namespace nurbeam

@@ -65,6 +65,41 @@ TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
     EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
 }
 
+TEST(StudyFile, RefusesWhatWouldBeLeftOutWithoutAWord) {
+  const std::string wrong = wrong_with(R"json({
+    "nurbeam_study": 1, "case": "c.json",
+    "variables": [
+      {"name": "pi", "path": "gravity[2]", "range": [1, 2]},
+      {"name": "it's", "path": "gravity[1]", "range": [1, 2]},
+      {"name": "c", "path": "gravity[2]", "range": [1, 2]},
+      {"name": "d", "control_point": {"beam": "b", "index": 1, "axis": "z"}, "range": [1, 2]},
+      {"name": "e", "control_point": {"beam": "b", "index": 1, "axis": "z"}, "range": [1, 2]}],
+    "quantities": [{"name": "q", "value": "max(x.y)"}],
+    "optimise": {"minimise": "q", "method": "nelder_mead", "subject_to": ["q < 1"]}})json");
+  for (const char* text : {"study.json: variables[0].name: is that of 3.14159",
+                           "study.json: variables[1].name: has a single quote",
+                           "study.json: variables[2]: sets \"gravity[2]\", as \"pi\" does",
+                           "study.json: variables[4]: sets z of control point 1 of \"b\", as \"d\" does",
+                           "study.json: optimise.method: is \"nelder_mead\", which knows no \"subject_to\""})
+    EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
+}
+
+TEST(StudyFile, RefusesEndsBetweenWhichNothingIs) {
+  const auto wrong = [](const std::string& variable) {
+    return wrong_with(R"json({"nurbeam_study": 1, "variables": [{"name": "x", )json" + variable +
+                      R"json(}], "quantities": [{"name": "y", "value": "x"}],
+                          "plan": {"monte_carlo": {"count": 10}}})json");
+  };
+  const std::string normal = R"("distribution": {"normal": {"mean": 1, "sd": 0.1}, )";
+  EXPECT_NE(wrong(normal + R"("lower": 9}, "nominal": 9.5)").find("variables[0].distribution: has nothing"),
+            std::string::npos);
+  EXPECT_NE(wrong(R"("distribution": {"uniform": [1, 2], "upper": 0.5})").find("has nothing"),
+            std::string::npos);
+  EXPECT_NE(wrong(R"("range": [1, 2], "nominal": 3)").find("variables[0].nominal: is 3, outside of 1 to 2"),
+            std::string::npos);
+  EXPECT_EQ(wrong(normal + R"("lower": 0.9, "upper": 1.3})"), "");
+}
+
 TEST(StudyFile, NeedsOneTask) {
   const std::string head = R"json({"nurbeam_study": 1, "variables": [{"name": "x", "range": [0, 1]}],
                                "quantities": [{"name": "y", "value": "x"}])json";

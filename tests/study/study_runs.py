@@ -192,6 +192,23 @@ def bad_files_are_refused():
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 3}}})
     done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=4)
     assert "belongs to another study" in done.stderr
+    # A table that the case reads, changed between a study and its resumption.
+    here = scratch / "table"
+    here.mkdir(parents=True, exist_ok=True)
+    (here / "load.csv").write_text("t,f\n0,-10\n1,-10\n")
+    (here / "case.json").write_text(json.dumps({
+        "nurbeam": 1, "gravity": [0, 0, 0],
+        "beams": [{"name": "b", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": 0.01}, "material": "steel"}],
+        "supports": [{"beam": "b", "at": "start", "type": "clamped"}],
+        "loads": [{"beam": "b", "at": "end", "force": [0, 0, 1], "time": {"file": "load.csv"}}],
+        "analysis": {"type": "static"}, "output": {"probes": [{"name": "tip", "beam": "b", "at": "end"}]}}))
+    (here / "study.json").write_text(json.dumps({
+        "nurbeam_study": 1, "case": "case.json", "variables": [{"name": "r", "path": "beams[0].section.radius", "range": [0.009, 0.011]}],
+        "quantities": [{"name": "z", "value": "at(end, tip.z)"}], "plan": {"grid": 2}}))
+    run(here / "study.json", "--out", here / "out")
+    (here / "load.csv").write_text("t,f\n0,-20\n1,-20\n")
+    done = run(here / "study.json", "--out", here / "out", "--resume", expected=4)
+    assert "belongs to another study" in done.stderr
 
 
 def a_full_disk_costs_nothing(expected):
