@@ -180,6 +180,8 @@ class EquilibriumSearch {
       const bool is_lost = is_loaded && left > std::max(of_the_way * change(trial, start_), of_the_scale);
       outcome.converged = outcome.converged && !is_lost;
       lost_in_round_off_ = lost_in_round_off_ || is_lost;
+      outcome.residual_norm =
+          equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance).residual_norm;
     }
     if (outcome.converged) outcome.stability = stability(equations_.tangent(), equations_.coordinates());
     report_.status = outcome.unstable()          ? StaticStatus::unstable

@@ -138,6 +138,32 @@ TEST(Fibre, BendsAsItsLoadSaysOrSaysThatNobodyKnows) {
     }
 }
 
+// A straight strut, clamped at its foot, above its critical load: the elastica, by Timoshenko & Gere's table
+// 2-4.
+TEST(Strut, BucklesIntoTheElastica) {
+  const TemporaryDirectory directory;
+  constexpr double radius = 0.002, E = 210e9;
+  const double critical = std::pow(std::numbers::pi, 3) * E * std::pow(radius, 4) / 16;  // pi^2 EI / 4 L^2
+  for (const auto& [part, aside] : {std::pair{0.99, 0.0},
+                                    {1.01539, 0.21942},
+                                    {1.06367, 0.42224},
+                                    {1.15173, 0.59321},
+                                    {2.54220, 0.75039}}) {
+    std::ostringstream text;
+    text.precision(17);
+    text << R"({"nurbeam": 1, "gravity": [0, 0, 0],
+      "beams": [{"name": "strut", "axis": {"polyline": [[0, 0, 0], [0, 0, 1]]}, "section": {"radius": 0.002},
+                 "material": {"density": 7800, "youngs_modulus": 210e9}, "elements": {"count": 12}}],
+      "supports": [{"beam": "strut", "at": "start", "type": "clamped"}],
+      "loads": [{"beam": "strut", "at": "end", "force": [0, 0, )"
+         << -part * critical << R"(]}], "analysis": {"type": "static"},
+      "output": {"probes": [{"name": "tip", "beam": "strut", "at": "end"}]}})";
+    const CaseRun run = run_file(directory.write("strut.json", text.str()));
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(std::hypot(run.last("tip.x [m]"), run.last("tip.y [m]")), aside, 3e-4) << part;
+  }
+}
+
 // Drawn as its chord, with more length than that: pressed straight, from where it has many ways down.
 TEST(SlackWire, FallsIntoItsCatenaryOnEveryMesh) {
   const TemporaryDirectory directory;
