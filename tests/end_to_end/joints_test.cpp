@@ -157,10 +157,9 @@ TEST(BeamJoints, ThatCannotBeAreRefused) {
                         R"(sliding_joints=[{"body": "bead", "beam": "column", "at": {"fraction": 0.2}}])",
                         "beams[1].axis.polyline=[[0, 0.5, 0], [1, 0.5, 0]]"},
                        {"over which body \"bead\" slides"});
-  expect_joint_refused(
-      {"gravity=[0, 0, -1]", "beams[1].axis.polyline=[[0, 1, 0], [0, 2, 0]]", "loads[0].force=[1, 0, 0]",
-       "beams[0].torsion=false", "beams[1].torsion=false"},
-      {"joints[0].type", "run in one line"});
+  expect_joint_refused({"gravity=[0, 0, -1]", "beams[1].axis.polyline=[[0, 1, 0], [0, 2, 0]]",
+                        "loads[0].force=[1, 0, 0]", "beams[0].torsion=false", "beams[1].torsion=false"},
+                       {"joints[0].type", "run in one line"});
 }
 
 TEST(BeamJoints, ABodyStopsAtAJoinedEnd) {
