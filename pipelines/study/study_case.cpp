@@ -234,6 +234,18 @@ void with_target(const StudyVariable& variable, Apply apply) {
   }
 }
 
+// Adds the files that stand anywhere in a case: CAD files, tables.
+void add_files_of(const Json& json, const std::filesystem::path& folder,
+                  std::vector<std::filesystem::path>& files) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_structured()) add_files_of(value, folder, files);
+    if (key != "file" || !value.is_string()) continue;
+    std::error_code none;
+    if (const auto file = folder / value.get<std::string>(); std::filesystem::is_regular_file(file, none))
+      files.push_back(file);
+  }
+}
+
 // Whether a path leads into the axis of a beam, by its name or its index.
 bool is_in_axis(const std::string& path, const std::string& beam, std::size_t index) {
   return path.starts_with("beams[" + beam + "].axis") ||
@@ -340,7 +352,10 @@ StudyCaseReport read_study_case(const StudyFile& study) {
   const bool usable = !findings.has_errors();
   const std::vector<Diagnostic> found = findings.take();
   report.diagnostics.insert(report.diagnostics.end(), found.begin(), found.end());
-  if (usable) report.value.emplace(text.json, *study.case_file, std::move(curves), files.inputs());
+  if (!usable) return report;
+  std::vector<std::filesystem::path> inputs;
+  add_files_of(Json::parse(text.json), std::filesystem::absolute(*study.case_file).parent_path(), inputs);
+  report.value.emplace(text.json, *study.case_file, std::move(curves), std::move(inputs));
   return report;
 }
 

@@ -44,7 +44,7 @@ class StudyCase {
                                           const std::vector<double>& values) const;
 
   const std::filesystem::path& file() const { return file_; }
-  /// The CAD files that hold the curves which variables move.
+  /// The files that its case names: CAD files, tables.
   const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
   /// By the name of the beam.
   const std::map<std::string, StudyCurve>& curves() const { return curves_; }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
@@ -68,27 +67,11 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
   return ready;
 }
 
-/// The digests of the files that stand anywhere in a case, in order: CAD files, tables.
-void add_files_of(const nlohmann::ordered_json& json, const std::filesystem::path& folder,
-                  std::string& text) {
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_structured()) add_files_of(value, folder, text);
-    if (key != "file" || !value.is_string()) continue;
-    const std::filesystem::path file = folder / value.get<std::string>();
-    std::error_code none;
-    if (std::filesystem::is_regular_file(file, none)) text += sha256_of_file(file) + "\n";
-  }
-}
-
 /// What rows belong to: the program, the study, its case with what both change, the files that it reads.
 std::string digest_of(const ReadyStudy& ready) {
   std::string text = std::string(NURBEAM_VERSION) + "\n" + ready.study.json + "\n";
   if (ready.study_case) {
-    const std::string nominal =
-        ready.study_case->variant(ready.study.variables, all_values(ready.study, ready.study.nominal()));
-    text += nominal;
-    add_files_of(nlohmann::ordered_json::parse(nominal),
-                 std::filesystem::absolute(ready.study_case->file()).parent_path(), text);
+    text += ready.study_case->variant(ready.study.variables, all_values(ready.study, ready.study.nominal()));
     for (const auto& input : ready.study_case->inputs()) text += sha256_of_file(input) + "\n";
   }
   return sha256_of_text(text);
