@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/equilibrated_kkt.h"
 
@@ -58,10 +59,10 @@ class ShiftedTangent {
     return x.head(n_).normalized();
   }
 
-  bool descends(const Vector& x) const {
+  /// By how much the augmented K falls along x: less is round_off().
+  double descent(const Vector& x) const {
     const double forbidden = (kkt_.bottomLeftCorner(kkt_.rows() - n_, n_) * x).squaredNorm();
-    return x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / regularisation_ <
-           -round_off() * x.squaredNorm();
+    return -(x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / regularisation_) / x.squaredNorm();
   }
   /// What of it the constraints allow.
   Vector allowed(const Vector& x) const {
@@ -118,14 +119,18 @@ std::optional<Stability> stability(const Matrix& kkt, int n) {
   if (!is_symmetric(kkt, n)) return std::nullopt;
   ShiftedTangent tangent(kkt, n);
   Stability result;
+  double descent = std::numeric_limits<double>::infinity();
   for (double r = first_regularisation; r >= least_regularisation; r *= finer) {
     tangent.set_regularisation(r);
     const int unstable = tangent.factorise(tangent.round_off());
-    if (unstable == 0) return Stability{};
+    // Unless what was found before is too flat to be seen now.
+    if (unstable == 0) return descent > tangent.round_off() ? Stability{} : result;
     const Vector lowest = lowest_of(tangent);
-    if (!tangent.descends(lowest)) return Stability{};  // pivots of round-off
+    if (!(tangent.descent(lowest) > tangent.round_off()))  // pivots of round-off
+      return descent > tangent.round_off() ? Stability{} : result;
+    descent = tangent.descent(lowest);
     result = {.unstable_directions = unstable, .direction = tangent.direction(lowest)};
-    if (tangent.descends(tangent.allowed(lowest))) return result;
+    if (tangent.descent(tangent.allowed(lowest)) > tangent.round_off()) return result;
   }
   return result;
 }
