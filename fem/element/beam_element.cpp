@@ -77,6 +77,23 @@ AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
 }
 
 template <int D>
+Eigen::Matrix4d BeamElement<D>::stretch(const ElementVector<D>& q) const {
+  if (fixed()) return stretch_;
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for_each_point(q[ElementLayout<D>::place(0)], q[ElementLayout<D>::place(1)],
+                 [&](const ShapeFunctions<double>& shape, double, double weight) {
+                   const Eigen::Vector4d S1 = row(shape.d1);
+                   sum += weight * S1 * S1.transpose();
+                 });
+  return sum;
+}
+
+template <int D>
+double BeamElement<D>::strain_of_axis(const ElementVector<D>& q) const {
+  return (q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)]) / 2 + strain0_[0];
+}
+
+template <int D>
 TautViscosity<D> BeamElement<D>::taut_viscosity(const ElementState<D>& x) const {
   if (!(properties_->tension_damping > 0)) return {};
   AxialSums<D> sums = axial_sums(x.q);

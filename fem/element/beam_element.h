@@ -82,6 +82,11 @@ class BeamElement {
   double length(const ElementVector<D>& q) const;
   /// What the assumed strain is made of, with its gradient in q.
   AxialSums<D> axial_sums(const ElementVector<D>& q) const;
+  /// int S'_k S'_l ds for the end positions in q: int eps ds of the pointwise axial strain is e S e / 2 less
+  /// strain_of_axis(q), e the nodes.
+  Eigen::Matrix4d stretch(const ElementVector<D>& q) const;
+  /// int (1/2 + eps_0) ds for the end positions in q [m].
+  double strain_of_axis(const ElementVector<D>& q) const;
   /// Largest difference of the pointwise axial strain from the assumed one, at the Gauss points: how much
   /// bending between the nodes the element cannot follow without stretching.
   double axial_mismatch(const ElementVector<D>& q) const;

@@ -18,9 +18,10 @@ struct Conditions {
 
 class NodeMatch {
  public:
-  NodeMatch(const BeamSystem& to, const MeshNode& node, int left, int right, const AssumedStrain& strain,
-            double length, double xi)
-      : to_(to), node_(node), left_(left), right_(right), length_(length) {
+  /// `drawn`: any state of `to` with the same ends of spans.
+  NodeMatch(const BeamSystem& to, const State& drawn, const MeshNode& node, int left, int right,
+            const AssumedStrain& strain, double length, double xi)
+      : to_(to), node_(node), left_(to, drawn, left), right_(to, drawn, right), length_(length) {
     wanted_ << length * strain.mean_part(0, xi), length * strain.mean_part(xi, 1), length * strain.at(xi);
   }
 
@@ -48,7 +49,7 @@ class NodeMatch {
 
  private:
   Conditions conditions(const State& state) const {
-    const StrainIntegral a = strain_integral(to_, state, left_), b = strain_integral(to_, state, right_);
+    const StrainIntegral a = left_.at(state), b = right_.at(state);
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();
     slope.head(to_.dimension()) = state.q.segment(node_.slope_right, to_.dimension());
     Conditions c;
@@ -70,7 +71,7 @@ class NodeMatch {
 
   const BeamSystem& to_;
   const MeshNode& node_;
-  int left_, right_;
+  SpanStrain left_, right_;
   double length_;
   Eigen::Vector3d wanted_;
 };
@@ -95,7 +96,7 @@ void match_axial_strain(const BeamSystem& from, const State& state, const BeamSy
   if (left < 0 || right < 0) return;
   const double length = end - start;
   State matched = next;
-  if (NodeMatch(to, added, left, right, *strain, length, (s - start) / length).move(matched))
+  if (NodeMatch(to, next, added, left, right, *strain, length, (s - start) / length).move(matched))
     next = std::move(matched);
 }
 

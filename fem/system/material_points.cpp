@@ -231,19 +231,29 @@ std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const Stat
       });
 }
 
-StrainIntegral strain_integral(const BeamSystem& system, const State& state, int span) {
-  return with_assembly(
+SpanStrain::SpanStrain(const BeamSystem& system, const State& state, int span)
+    : system_(system), span_(span) {
+  with_assembly(
       system,
       [&]<int D>(const Assembly<D>& a) {
-        using Layout = ElementLayout<D>;
         const MeshElement<D>& e = a.elements()[span];
-        const AxialSums<D> sums = e.element.axial_sums(gather<D>(e, state.q));
-        const auto part = [&](int first) {
-          return widened<D>(Eigen::Matrix<double, D, 1>(sums.y_q.template block<1, D>(0, first).transpose()));
-        };
-        return StrainIntegral{sums.y[0],
-                              {part(Layout::r(0)), part(Layout::r(1))},
-                              {part(Layout::slope(0)), part(Layout::slope(1))}};
+        const ElementVector<D> q = gather<D>(e, state.q);
+        stretch_ = e.element.stretch(q);
+        of_axis_ = e.element.strain_of_axis(q);
+      });
+}
+
+StrainIntegral SpanStrain::at(const State& state) const {
+  return with_assembly(
+      system_,
+      [&]<int D>(const Assembly<D>& a) {
+        ElementNodes<D> e = ElementLayout<D>::nodes(gather<D>(a.elements()[span_], state.q));
+        // From where it begins: strains far from the origin are not lost in round-off.
+        e.col(2) -= e.col(0);
+        e.col(0).setZero();
+        const ElementNodes<D> gradient = e * stretch_;
+        const auto by = [&](int node) { return widened<D>(Eigen::Matrix<double, D, 1>(gradient.col(node))); };
+        return StrainIntegral{gradient.cwiseProduct(e).sum() / 2 - of_axis_, {by(0), by(2)}, {by(1), by(3)}};
       });
 }
 

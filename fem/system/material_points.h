@@ -83,7 +83,18 @@ struct StrainIntegral {
   double value;
   std::array<Eigen::Vector3d, 2> by_position, by_slope;
 };
-StrainIntegral strain_integral(const BeamSystem& system, const State& state, int span);
+/// The same for all states of a system in which the span has the same ends.
+class SpanStrain {
+ public:
+  SpanStrain(const BeamSystem& system, const State& state, int span);
+  StrainIntegral at(const State& state) const;
+
+ private:
+  const BeamSystem& system_;
+  int span_;
+  Eigen::Matrix4d stretch_;
+  double of_axis_;
+};
 
 /// The weights w_0..w_3 of the element in a span.
 Eigen::Vector4d element_weights(const BeamSystem& system, const State& state, int span);
