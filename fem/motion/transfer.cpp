@@ -312,7 +312,8 @@ void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, i
 
 void place_node(const BeamSystem& from, const State& state, int beam, const MeshNode& node, State& next) {
   const int D = from.dimension();
-  const MaterialPoint<3> p = material_point(from, state, beam, node.s);
+  const double s = node.joint >= 0 ? state.q[from.mesh().joints[node.joint].place] : node.s;
+  const MaterialPoint<3> p = material_point(from, state, beam, s);
   const double rate = node.joint >= 0 ? place_rate(from, state, node.joint) : 0;
   next.q.segment(node.r, D) = p.r.head(D);
   next.v.segment(node.r, D) = (p.velocity + rate * p.rs).head(D);
@@ -324,10 +325,9 @@ void place_node(const BeamSystem& from, const State& state, int beam, const Mesh
   // as it moves over it, the twist.
   if (node.angle_left >= 0)
     for (const int angle : {node.angle_left, node.angle_right})
-      next.v[angle] =
-          material_spin(from, state, beam, node.s) + rate * section_twist(from, state, beam, node.s);
+      next.v[angle] = material_spin(from, state, beam, s) + rate * section_twist(from, state, beam, s);
   if (node.place < 0) return;
-  next.q[node.place] = node.s;
+  next.q[node.place] = s;
   next.v[node.place] = rate;
 }
 

@@ -8,80 +8,125 @@
 #include "fem/sensitivity/neighbouring_mesh.h"
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/sensitivity/transfer_tangent.h"
+#include "fem/system/same_elements.h"
 #include "nurbs/number_text.h"
 #include "solver/side_by_side.h"
 #include "solver/start_tangent.h"
+#include "solver/tangent_rows.h"
 
 namespace nurbeam {
 
 // (m) How G a + curvature changes by each parameter, with a as it is.
 MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
   MotionTangents::Matrix changes(at.lambda.size(), tangents_.parameters());
-  const auto of = [&](const BeamSystem& system, Eigen::Index k, double part) -> Eigen::VectorXd {
-    State state = at;
-    state.t += part * tangents_.t[k];
-    state.q += part * tangents_.q.col(k);
-    state.v += part * tangents_.v.col(k);
-    return system.constraint_product(state, at.a) + system.constraint_curvature(state);
-  };
   side_by_side(static_cast<int>(changes.cols()), [&](int k) {
-    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
-    const double p = parameter.pair.step;
-    changes.col(k) = (of(*parameter.more, k, p) - of(*parameter.less, k, -p)) / (2 * p);
+    State tangent = tangents_.of(k);
+    tangent.a.setZero();
+    tangent.lambda.setZero();
+    const auto of = [&](bool more) -> Eigen::VectorXd {
+      const auto [system, state] = beside(static_cast<std::size_t>(k), at, tangent, more);
+      return system.constraint_product(state, at.a) + system.constraint_curvature(state);
+    };
+    const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
+    changes.col(k) = (of(true) - of(false)) / (2 * p);
   });
   return changes;
 }
 
-// (n) How the dynamics at a state change by each parameter, by t and by these tangents of q.
-MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const MotionTangents::Matrix& q) {
-  const Eigen::Index n = q.rows();
-  Eigen::SparseMatrix<double> stiffness = system_->tangent_pattern().matrix();
-  Shifts shifts;
-  both([&] { system_->tangent(at, {.stiffness = 1}, stiffness); },
-       [&] { shifts = find_residual_changes(at, tangents_.t); });
-  MotionTangents::Matrix moved = MotionTangents::Matrix::Zero(stiffness.cols(), q.cols());
-  moved.topRows(n) = q;
+// (n) How the dynamics at a state change by each parameter, by t and, in some rows, by these tangents of q:
+// of neighbours that lag those of the run's own places.
+MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const MotionTangents::Matrix& q,
+                                                       const std::vector<int>& rows) {
+  Shifts shifts = shifts_at(at);
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    if (parameters_[k].lags) shifts[k].clear();
+  MotionTangents::Matrix moved = q;
   for (std::size_t k = 0; k < shifts.size(); ++k)
     for (const auto& [place, by] : shifts[k]) moved(place, static_cast<Eigen::Index>(k)) -= by;
-  return dynamics_ + (stiffness * moved).topRows(n);
+  Eigen::MatrixXd by_tangents;
+  both([&] { by_tangents = TangentRows(*system_, at, {.stiffness = 1}, rows).product(moved); },
+       [&] { differences_->find(at, tangents_.t, shifts, dynamics_, constraints_); });
+  work_.residuals += differences_->work();
+  MotionTangents::Matrix changes = dynamics_;
+  changes(rows, Eigen::all) += by_tangents;
+  return changes;
+}
+
+// Lets the neighbours lag in which nothing differs where the mesh changes.
+std::vector<bool> Sensitivities::outlasting(const MeshedState& before, const BeamSystem& behind) {
+  const auto is_drawn = [](const BeamSystem& system) {
+    return system.mesh().plan.section_charts.empty() && system.mesh().plan.weights.empty();
+  };
+  if (!is_drawn(*before.system) || !is_drawn(behind)) return std::vector<bool>(parameters_.size(), false);
+  return differences_->outlast(before.state, shifts_at(before.state), kept_elements(*before.system, behind));
+}
+
+// The places of tangents of neighbours that lag, away from those that correspond, or back to these.
+void Sensitivities::shift_lagging(const State& at, double part) {
+  const Shifts shifts = shifts_at(at);
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    for (const auto& [place, by] : shifts[k])
+      if (parameters_[k].lags) tangents_.q(place, static_cast<Eigen::Index>(k)) += part * by;
 }
 
 void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& transfer,
                               const std::function<bool(MeshedState&)>& change) {
+  const MeshedState& before = transfer.before;
   const bool is_plain = at.system->mesh().plan.section_charts.empty() &&  // without torsion
                         !at.system->forces_depend_on_multipliers();
   const std::optional<TransferPath> path =
-      is_plain ? path_of(*transfer.before.system, transfer.before.state, *at.system, transfer.moves)
-               : std::nullopt;
+      is_plain ? path_of(*before.system, before.state, *at.system, transfer.moves) : std::nullopt;
   if (!path) return changes(at, change);
   carry();
+  const std::vector<bool> lagging = outlasting(before, *at.system);
+  const Eigen::RowVectorXd energies_before = differences_->energies(before.state);
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    if (lagging[k])
+      parameters_[k].lags = true;
+    else
+      parameters_[k].catch_up(*before.system);
+  shift_lagging(before.state, -1);
   std::vector<TransferTangent::Neighbours> neighbours(parameters_.size());
   side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
     Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
     const State tangent = tangents_.of(k);
-    const auto go_over = [&](std::shared_ptr<const BeamSystem>& system, double by) {
-      MeshedState before{std::move(system), moved(transfer.before.state, tangent, by)};
-      system = transfer.replanned(before);
-      return before;
-    };
     const double step = parameter.pair.step;
-    MeshedState more = go_over(parameter.more, step), less = go_over(parameter.less, -step);
+    TransferTangent::Neighbours& of = neighbours[static_cast<std::size_t>(k)];
+    of = {{before.system, moved(before.state, tangent, step)},
+          {before.system, moved(before.state, tangent, -step)},
+          at.system,
+          at.system,
+          step};
+    if (parameter.lags) return;
+    of.more_before.system = std::exchange(parameter.more, nullptr);
+    of.less_before.system = std::exchange(parameter.less, nullptr);
+    of.more = parameter.more = transfer.replanned(of.more_before);
+    of.less = parameter.less = transfer.replanned(of.less_before);
     if (!same_mesh(*at.system, *parameter.more)) not_alike("what happens at an event changes");
-    neighbours[static_cast<std::size_t>(k)] = {std::move(more), std::move(less), parameter.more,
-                                               parameter.less, step};
   });
   const Eigen::RowVectorXd t = tangents_.t;
   tangents_ = MotionTangents::zero(at.state.q.size(), at.state.lambda.size(), t.size());
   tangents_.t = t;
   dynamics_ = tangents_.q;
   constraints_ = tangents_.lambda;
-  go_on_from(at);
+  go_on_from(at, ResidualDifferences(pairs(), at.state, *differences_, lagging, *at.system,
+                                     kept_elements(*before.system, *at.system)));
+  const auto energies = [&](const State& behind) -> Eigen::RowVectorXd {
+    Eigen::RowVectorXd gained = differences_->energies(behind) - energies_before;
+    for (std::size_t k = 0; k < lagging.size(); ++k)
+      if (!lagging[k]) gained[static_cast<Eigen::Index>(k)] = 0;
+    return gained;
+  };
   const TransferTangent tangent(
       at.system, *path, std::move(neighbours),
-      [&](const State& state, const MotionTangents::Matrix& q) { return residual_changes(state, q); });
+      {differences_->momenta(interpolated(*before.system, before.state, *at.system).v), energies},
+      [&](const State& state, const MotionTangents::Matrix& q, const std::vector<int>& rows) {
+        return residual_changes(state, q, rows);
+      });
   if (!tangent.carry(tangents_))
     throw std::runtime_error(
         "a derivative cannot follow the run through an event at t = " + text_of(at.state.t) + " s");
+  shift_lagging(at.state, 1);
   tangents_.start_afresh();
 }
 

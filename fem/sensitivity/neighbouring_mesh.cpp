@@ -83,6 +83,15 @@ bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour) {
   return same;
 }
 
+MeshPlan corresponding_plan(const BeamSystem& system, const BeamModel& neighbour) {
+  MeshPlan plan = system.mesh().plan;
+  const BeamModel& model = system.model();
+  for (std::size_t j = 0; j < plan.places.size(); ++j)
+    plan.places[j] = corresponding_place(model.beam_of(model.joints[j]), plan.places[j],
+                                         neighbour.beam_of(neighbour.joints[j]));
+  return plan;
+}
+
 std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, const State& state,
                                                      const BeamModel& more, const BeamModel& less,
                                                      double step) {

@@ -15,6 +15,10 @@ bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
 /// not correspond.
 std::shared_ptr<const BeamModel> divided_like(std::shared_ptr<const BeamModel> model, const BeamModel& drawn);
 
+/// The plan of a system's mesh for a neighbouring model, with places that correspond. Precondition: sections
+/// have the drawing's charts, and no elements constant weights.
+MeshPlan corresponding_plan(const BeamSystem& system, const BeamModel& neighbour);
+
 /// By how much the places of the joints of a system, which are coordinates, lie elsewhere in two neighbouring
 /// models whose parameter differs by twice `step`.
 std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, const State& state,

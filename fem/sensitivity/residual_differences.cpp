@@ -16,7 +16,7 @@ namespace {
 
 // Shapes, velocities and accelerations to which sections that are not the same answer differently: nodes have
 // nothing to do with each other, and one of the three outweighs all else.
-std::vector<State> uneven_states(const BeamSystem& system, const State& near) {
+std::vector<State> uneven_states(const SecondOrderSystem& system, const State& near) {
   constexpr double strain = 1e-4, speed = 1e6, acceleration = 1e9;
   State still = near;
   still.v.setZero();
@@ -53,10 +53,15 @@ State at_time(const State& at, double later) {
 }  // namespace
 
 struct ResidualDifferences::Implementation {
+  using Columns = ResidualDifferences::Columns;
   virtual ~Implementation() = default;
   virtual void find(const State& at, const Eigen::RowVectorXd& later,
                     const std::vector<std::vector<Shift>>& shifts, Columns& dynamics,
                     Columns& constraints) = 0;
+  virtual std::vector<bool> outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
+                                    const std::vector<int>& elements) = 0;
+  virtual Columns momenta(const Eigen::VectorXd& velocities) const = 0;
+  virtual Eigen::RowVectorXd energies(const State& at) const = 0;
   double work = 0;
 };
 
@@ -64,17 +69,20 @@ template <int D>
 struct ResidualDifferences::In final : Implementation {
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  // The elements of one beam that differ in a pair, on the two sides; those that are one with others of their
-  // kind are in a group's batches, the indices of the rest here.
-  struct Side {
-    const Assembly<D>* assembly = nullptr;
-    std::vector<int> apart = {};
+  // An element that differs: its index in the two systems, and in the present mesh, which may be another one.
+  struct Different {
+    int index, now;
+    std::array<int, element_size<D>> dofs = {};  // there
   };
   struct Sides {
-    Side more, less;
+    const Assembly<D>*more = nullptr, *less = nullptr;
     double step = 0;
+    double work = 0;
+    std::vector<Different> batched = {};  // in a group's batches
+    std::vector<int> apart = {};          // the others, by their index
     std::vector<int> groups = {};
     std::vector<int> coordinates = {};  // of the elements in batches
+    bool outlasts = false;              // the last change of the mesh
     bool carries_point = false;         // a body moves over an element that differs
     bool was_whole = true;              // the last columns that were found may not be zero elsewhere
     // Whether no more differs than these: at the same coordinates, and at shifted ones.
@@ -85,7 +93,8 @@ struct ResidualDifferences::In final : Implementation {
     const Assembly<D>* of;
     int beam;
     std::vector<ElementBatch<D>> batches = {};
-    Vector load = Vector::Zero();  // at present
+    std::vector<Eigen::Index> columns = {};  // of forces, of the elements in batches
+    Vector load = Vector::Zero();            // at present
     double free_strain = 0;
   };
 
@@ -95,37 +104,70 @@ struct ResidualDifferences::In final : Implementation {
   Eigen::VectorXd more_constraints, less_constraints;
   State general;  // to which what is not the same answers differently
 
-  In(const std::vector<Pair>& of, const State& near)
+  // What is there already of pairs that outlast a change of the mesh.
+  struct Before {
+    const In* of;
+    const std::vector<bool>* outlasting;
+    const Assembly<D>* system;  // behind the change
+    const std::vector<int>* elements;
+  };
+
+  In(const std::vector<Pair>& of, const State& near, const std::optional<Before>& before = {})
       : forces(near.q.size(), 2 * static_cast<Eigen::Index>(of.size())),
         more_constraints(near.lambda.size()),
         less_constraints(near.lambda.size()) {
     if (of.empty()) return;
     forces.setZero();
-    const std::vector<State> states = uneven_states(*of.front().more, near);
+    const auto outlasts = [&](std::size_t k) { return before && (*before->outlasting)[k]; };
+    const std::vector<State> states =
+        before ? uneven_states(*before->system, near) : uneven_states(*of.front().more, near);
     general = states.front();  // bent, and driven as fast as what is bent answers
     general.a = states.back().a / states.back().a.template lpNorm<Eigen::Infinity>();
-    std::vector<std::vector<bool>> elements(of.size());  // that are unlike, of each pair
+    std::vector<std::vector<bool>> unlike(of.size());  // the elements of each pair
     side_by_side(static_cast<int>(of.size()), [&](int k) {
       const auto& [more, less, step] = of[static_cast<std::size_t>(k)];
-      elements[static_cast<std::size_t>(k)] =
+      if (outlasts(static_cast<std::size_t>(k))) return;
+      unlike[static_cast<std::size_t>(k)] =
           more->template assembly<D>()->elements_unlike(*less->template assembly<D>(), states);
     });
-    for (const auto& [more, less, step] : of) {
-      const std::vector<bool>& unlike = elements[pairs.size()];
-      Sides& pair = pairs.emplace_back();
-      pair.more.assembly = more->template assembly<D>();
-      pair.less.assembly = less->template assembly<D>();
-      pair.step = step;
-      work += 2 * static_cast<double>(std::count(unlike.begin(), unlike.end(), true)) /
-              std::max<double>(1, static_cast<double>(unlike.size()));
-      for (std::size_t i = 0; i < unlike.size(); ++i)
-        if (unlike[i])
-          for (Side* side : {&pair.more, &pair.less}) add(pair, *side, static_cast<int>(i));
-      pair.carries_point = carries_point(*pair.more.assembly, unlike, near);
-      std::sort(pair.coordinates.begin(), pair.coordinates.end());
-      pair.coordinates.erase(std::unique(pair.coordinates.begin(), pair.coordinates.end()),
-                             pair.coordinates.end());
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      pairs.push_back(outlasts(k) ? outlasting(before->of->pairs[k], *before->elements)
+                                  : different(of[k], unlike[k], near));
+      list(pairs.back(), static_cast<Eigen::Index>(k), before ? *before->system : *pairs.back().more);
+      work += pairs.back().work;
     }
+  }
+
+  // A pair behind a change that it outlasts.
+  static Sides outlasting(const Sides& before, const std::vector<int>& elements) {
+    Sides pair{.more = before.more,
+               .less = before.less,
+               .step = before.step,
+               .work = before.work,
+               .batched = before.batched,
+               .outlasts = true,
+               .is_local = {true, true}};
+    for (Different& each : pair.batched) each.now = elements[each.now];
+    return pair;
+  }
+
+  // `unlike`: of all elements whether they are.
+  static Sides different(const Pair& of, const std::vector<bool>& unlike, const State& near) {
+    Sides pair{.more = of.more->template assembly<D>(),
+               .less = of.less->template assembly<D>(),
+               .step = of.step,
+               .work = 2 * static_cast<double>(std::count(unlike.begin(), unlike.end(), true)) /
+                       std::max<double>(1, static_cast<double>(unlike.size()))};
+    for (int i = 0; i < static_cast<int>(unlike.size()); ++i) {
+      if (!unlike[i]) continue;
+      const MeshElement<D>& e = pair.more->elements()[i];
+      if (e.twist || !ElementBatch<D>::takes(e.element))
+        pair.apart.push_back(i);
+      else
+        pair.batched.push_back({i, i});
+    }
+    pair.carries_point = carries_point(*pair.more, unlike, near);
+    return pair;
   }
 
   // Whether a body is a point of one of these elements, wherever on it, or runs on a guide.
@@ -142,17 +184,26 @@ struct ResidualDifferences::In final : Implementation {
     return false;
   }
 
-  void add(Sides& pair, Side& side, int i) {
-    const MeshElement<D>& e = side.assembly->elements()[i];
-    if (e.twist || !ElementBatch<D>::takes(e.element)) return side.apart.push_back(i);
-    std::copy_if(e.dofs.begin(), e.dofs.end(), std::back_inserter(pair.coordinates),
-                 [](int dof) { return dof >= 0; });
-    const int g = group_of(*side.assembly, e);
-    if (pair.groups.empty() || pair.groups.back() != g) pair.groups.push_back(g);
-    std::vector<ElementBatch<D>>& batches = groups[g].batches;
-    if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
-    const std::ptrdiff_t column = 2 * (&pair - pairs.data()) + (&side == &pair.less ? 1 : 0);
-    batches.back().add(e.element, e.dofs, e.slope_offset, column * forces.rows());
+  // Puts elements into batches, with the coordinates that they have in the present mesh.
+  void list(Sides& pair, Eigen::Index k, const Assembly<D>& present) {
+    for (auto& [index, now, dofs] : pair.batched) {
+      dofs = present.elements()[now].dofs;
+      std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(pair.coordinates),
+                   [](int dof) { return dof >= 0; });
+      for (const Assembly<D>* side : {pair.more, pair.less}) {
+        const MeshElement<D>& e = side->elements()[index];
+        const int g = group_of(*side, e);
+        if (pair.groups.empty() || pair.groups.back() != g) pair.groups.push_back(g);
+        std::vector<ElementBatch<D>>& batches = groups[g].batches;
+        if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
+        const Eigen::Index column = 2 * k + (side == pair.less ? 1 : 0);
+        groups[g].columns.push_back(column);
+        batches.back().add(e.element, dofs, e.slope_offset, column * forces.rows());
+      }
+    }
+    std::sort(pair.coordinates.begin(), pair.coordinates.end());
+    pair.coordinates.erase(std::unique(pair.coordinates.begin(), pair.coordinates.end()),
+                           pair.coordinates.end());
   }
 
   int group_of(const Assembly<D>& assembly, const MeshElement<D>& e) {
@@ -169,15 +220,14 @@ struct ResidualDifferences::In final : Implementation {
   // the loads of these.
   bool same_loads(const Sides& pair, const State& above, const State& below) const {
     const auto loads_are = [&](int beam, const Vector& load, double strain) {
-      return pair.more.assembly->line_load(beam, above) == load &&
-             pair.less.assembly->line_load(beam, below) == load &&
-             pair.more.assembly->free_strain_of(beam, above) == strain &&
-             pair.less.assembly->free_strain_of(beam, below) == strain;
+      return pair.more->line_load(beam, above) == load && pair.less->line_load(beam, below) == load &&
+             pair.more->free_strain_of(beam, above) == strain &&
+             pair.less->free_strain_of(beam, below) == strain;
     };
-    const BeamModel& model = *pair.more.assembly->model();
+    const BeamModel& model = *pair.more->model();
     for (int b = 0; b < static_cast<int>(model.beams.size()); ++b)
-      if (!model.beams[b].rigid && !loads_are(b, pair.more.assembly->line_load(b, above),
-                                              pair.more.assembly->free_strain_of(b, above)))
+      if (!model.beams[b].rigid &&
+          !loads_are(b, pair.more->line_load(b, above), pair.more->free_strain_of(b, above)))
         return false;
     return std::all_of(pair.groups.begin(), pair.groups.end(), [&](int g) {
       return loads_are(groups[g].beam, groups[g].load, groups[g].free_strain);
@@ -186,23 +236,82 @@ struct ResidualDifferences::In final : Implementation {
 
   // Whether no more differs than elements in batches, between shifted coordinates.
   bool is_local(Sides& pair, const std::vector<Shift>& shifts) const {
-    if (!pair.more.apart.empty() || pair.carries_point) return false;
+    if (!pair.apart.empty() || pair.carries_point) return false;
     std::optional<bool>& known = pair.is_local[shifts.empty() ? 0 : 1];
     if (!known)
-      known =
-          pair.more.assembly->differs_in_elements(*pair.less.assembly, shifted(general, pair.step, 0, shifts),
-                                                  shifted(general, -pair.step, 0, shifts));
+      known = pair.more->differs_in_elements(*pair.less, shifted(general, pair.step, 0, shifts),
+                                             shifted(general, -pair.step, 0, shifts));
     return *known;
+  }
+
+  std::vector<bool> outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
+                            const std::vector<int>& elements) override {
+    set_loads(at);
+    std::vector<bool> all;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      all.push_back(std::all_of(pairs[k].batched.begin(), pairs[k].batched.end(),
+                                [&](const Different& each) { return elements[each.now] >= 0; }) &&
+                    is_local(pairs[k], shifts[k]) && same_loads(pairs[k], at, at) &&
+                    same_free_strains(pairs[k]));
+    return all;
+  }
+
+  // Whether they are at all times.
+  static bool same_free_strains(const Sides& pair) {
+    const std::vector<Beam>&more = pair.more->model()->beams, &less = pair.less->model()->beams;
+    return std::equal(more.begin(), more.end(), less.begin(), less.end(), [](const Beam& a, const Beam& b) {
+      return a.properties.free_strain == b.properties.free_strain;
+    });
+  }
+
+  Columns momenta(const Eigen::VectorXd& velocities) const override {
+    Columns momenta = Columns::Zero(velocities.size(), static_cast<Eigen::Index>(pairs.size()));
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      for (const auto& [index, now, dofs] : pairs[k].batched) {
+        if (!pairs[k].outlasts) break;
+        ElementVector<D> rates = ElementVector<D>::Zero();
+        for (int i = 0; i < ElementLayout<D>::nodal; ++i) rates[i] = velocities[dofs[i]];
+        const ElementNodes<D> of_nodes = ElementLayout<D>::nodes(rates),
+                              change = pairs[k].more->elements()[index].element.nodal_momentum(of_nodes) -
+                                       pairs[k].less->elements()[index].element.nodal_momentum(of_nodes);
+        for (int i = 0; i < ElementLayout<D>::nodal; ++i)
+          momenta(dofs[i], static_cast<Eigen::Index>(k)) += change.reshaped()[i] / (2 * pairs[k].step);
+      }
+    return momenta;
+  }
+
+  Eigen::RowVectorXd energies(const State& at) const override {
+    Eigen::RowVectorXd energies = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(pairs.size()));
+    for (const Group& group : groups) {
+      const BeamModel& model = *group.of->model();
+      const Vector weight =
+          model.beams[group.beam].properties.mass_per_length * model.gravity.template head<D>();
+      auto column = group.columns.begin();
+      for (const ElementBatch<D>& batch : group.batches) {
+        const auto each = batch.energies(at, weight, group.of->free_strain_of(group.beam, at));
+        for (int i = 0; i < batch.count(); ++i, ++column) {
+          const auto& [kinetic, axial, bending, external, dissipation] = each[i];
+          energies[*column / 2] += (*column % 2 == 0 ? 1 : -1) * (kinetic + axial + bending + external) /
+                                   (2 * pairs[static_cast<std::size_t>(*column / 2)].step);
+        }
+      }
+    }
+    return energies;
+  }
+
+  void set_loads(const State& at) {
+    for (Group& group : groups) {
+      group.load = group.of->line_load(group.beam, at);
+      group.free_strain = group.of->free_strain_of(group.beam, at);
+    }
   }
 
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints) override {
-    for (Group& group : groups) {
-      group.load = group.of->line_load(group.beam, at);
-      group.free_strain = group.of->free_strain_of(group.beam, at);
+    set_loads(at);
+    for (const Group& group : groups)
       for (const ElementBatch<D>& batch : group.batches)
         batch.add_forces(at, group.load, group.free_strain, forces.data());
-    }
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       Sides& pair = pairs[k];
@@ -234,11 +343,11 @@ struct ResidualDifferences::In final : Implementation {
   void evaluate(const Sides& pair, const State& above, const State& below, Eigen::Index column) {
     auto more = forces.col(2 * column), less = forces.col(2 * column + 1);
     if (same_loads(pair, above, below)) {
-      pair.more.assembly->add_residual_of(pair.more.apart, above, more, more_constraints);
-      pair.less.assembly->add_residual_of(pair.less.apart, below, less, less_constraints);
+      pair.more->add_residual_of(pair.apart, above, more, more_constraints);
+      pair.less->add_residual_of(pair.apart, below, less, less_constraints);
     } else {
-      pair.more.assembly->residual(above, more, more_constraints);
-      pair.less.assembly->residual(below, less, less_constraints);
+      pair.more->residual(above, more, more_constraints);
+      pair.less->residual(below, less, less_constraints);
     }
   }
 };
@@ -250,6 +359,19 @@ ResidualDifferences::ResidualDifferences(const std::vector<Pair>& pairs, const S
     in_ = std::make_unique<In<3>>(pairs, near);
 }
 
+ResidualDifferences::ResidualDifferences(const std::vector<Pair>& pairs, const State& near,
+                                         const ResidualDifferences& before,
+                                         const std::vector<bool>& outlasting, const BeamSystem& system,
+                                         const std::vector<int>& elements) {
+  with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& assembly) {
+        const In<D>& was = dynamic_cast<const In<D>&>(*before.in_);
+        in_ = std::make_unique<In<D>>(pairs, near,
+                                      typename In<D>::Before{&was, &outlasting, &assembly, &elements});
+      });
+}
+
 ResidualDifferences::~ResidualDifferences() = default;
 ResidualDifferences::ResidualDifferences(ResidualDifferences&&) noexcept = default;
 ResidualDifferences& ResidualDifferences::operator=(ResidualDifferences&&) noexcept = default;
@@ -259,6 +381,17 @@ void ResidualDifferences::find(const State& at, const Eigen::RowVectorXd& later,
                                Columns& constraints) {
   in_->find(at, later, shifts, dynamics, constraints);
 }
+
+std::vector<bool> ResidualDifferences::outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
+                                               const std::vector<int>& elements) {
+  return in_->outlast(at, shifts, elements);
+}
+
+ResidualDifferences::Columns ResidualDifferences::momenta(const Eigen::VectorXd& velocities) const {
+  return in_->momenta(velocities);
+}
+
+Eigen::RowVectorXd ResidualDifferences::energies(const State& at) const { return in_->energies(at); }
 
 double ResidualDifferences::work() const { return in_->work; }
 

@@ -20,6 +20,11 @@ class ResidualDifferences {
   };
   /// `near`: any state that all can have. The systems must outlive it.
   ResidualDifferences(const std::vector<Pair>& pairs, const State& near);
+  /// Behind a change of the mesh, to that of `system`: those of pairs that outlast it are what they were, and
+  /// their systems those of the mesh before. `elements`: as below.
+  ResidualDifferences(const std::vector<Pair>& pairs, const State& near, const ResidualDifferences& before,
+                      const std::vector<bool>& outlasting, const BeamSystem& system,
+                      const std::vector<int>& elements);
   ~ResidualDifferences();
   ResidualDifferences(ResidualDifferences&&) noexcept;
   ResidualDifferences& operator=(ResidualDifferences&&) noexcept;
@@ -34,6 +39,18 @@ class ResidualDifferences {
   /// before has left them.
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints);
+
+  /// Which pairs outlast a change of the mesh: at a state, and coordinates so far shifted, nothing differs in
+  /// them but elements with fixed ends that are behind the change what they are before it. `elements`: by the
+  /// index of an element before the change the one behind it, -1 where it is gone.
+  std::vector<bool> outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
+                            const std::vector<int>& elements);
+
+  /// (coordinates, pairs) How the momentum of these velocities changes in the elements of pairs that outlast
+  /// the last change, of other pairs zero.
+  Columns momenta(const Eigen::VectorXd& velocities) const;
+  /// How the mechanical energy of a state changes in the elements of all pairs.
+  Eigen::RowVectorXd energies(const State& at) const;
 
   /// The residuals of whole systems whose elements find evaluates, where the same loads act in both of a
   /// pair.

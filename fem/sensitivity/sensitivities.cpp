@@ -116,28 +116,63 @@ void Sensitivities::start_afresh(const MeshedState& at, const std::vector<State>
     tangents_.start_afresh(static_cast<Eigen::Index>(k), tangents[k]);
   dynamics_ = tangents_.q;
   constraints_ = tangents_.lambda;
-  go_on_from(at);
+  go_on_from(at, ResidualDifferences(pairs(), at.state));
 }
 
-void Sensitivities::go_on_from(const MeshedState& at) {
+void Sensitivities::go_on_from(const MeshedState& at, ResidualDifferences differences) {
   system_ = at.system;
   state_ = at.state;
   meshes_ = nullptr;
   step_.reset();
+  differences_ = std::move(differences);
+}
+
+std::vector<ResidualDifferences::Pair> Sensitivities::pairs() const {
   std::vector<ResidualDifferences::Pair> pairs;
   for (const Parameter& parameter : parameters_)
     pairs.push_back({parameter.more.get(), parameter.less.get(), parameter.pair.step});
-  differences_.emplace(pairs, at.state);
+  return pairs;
 }
 
-// Into the columns of dynamics_ and constraints_, at a state whose time changes too, and whose places of
-// joints are those that correspond, by the shifts that it returns.
-Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
+void Sensitivities::Parameter::catch_up(const BeamSystem& system) {
+  if (!std::exchange(lags, false)) return;
+  for (std::shared_ptr<const BeamSystem>* each : {&more, &less})
+    *each = (*each)->replanned(corresponding_plan(system, (*each)->model()), held_joints(system), &system);
+}
+
+// Before the run goes on otherwise than by steps.
+void Sensitivities::catch_up() {
+  side_by_side(
+      static_cast<int>(parameters_.size()),
+      [&](int k) { parameters_[static_cast<std::size_t>(k)].catch_up(*system_); });
+}
+
+Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, const State& tangent,
+                                            bool more) const {
+  const Parameter& parameter = parameters_[k];
+  const NeighbourPair& pair = parameter.pair;
+  const double part = more ? pair.step : -pair.step;
+  State state = moved(at, tangent, part);
+  if (!parameter.lags) return {more ? *parameter.more : *parameter.less, std::move(state)};
+  for (const auto& [place, by] :
+       shifts_of_places(*system_, at, *pair.more.model, *pair.less.model, pair.step))
+    state.q[place] -= part * by;
+  return {*system_, std::move(state)};
+}
+
+Sensitivities::Shifts Sensitivities::shifts_at(const State& at) const {
   Shifts shifts;
   for (const Parameter& parameter : parameters_) {
     const auto& [more, less, step] = parameter.pair;
     shifts.push_back(shifts_of_places(*system_, at, *more.model, *less.model, step));
   }
+  return shifts;
+}
+
+// Into the columns of dynamics_ and constraints_, at a state whose time changes too, and whose places of
+// joints are those that correspond, by the shifts that it returns.
+Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
+  Shifts shifts = shifts_at(at);
   differences_->find(at, time, shifts, dynamics_, constraints_);
   work_.residuals += differences_->work();
   return shifts;
@@ -232,12 +267,12 @@ Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) co
   if (step.asked <= limit) return -h / step.rest * tangents_.t;
   Eigen::RowVectorXd changes(tangents_.parameters());
   for (Eigen::Index k = 0; k < changes.size(); ++k) {
-    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
-    const double p = parameter.pair.step;
-    const State tangent = tangents_.of(k);
-    const double more = parameter.more->step_limit(moved(step.before, tangent, p)),
-                 less = parameter.less->step_limit(moved(step.before, tangent, -p));
-    changes[k] = h / limit * (more - less) / (2 * p);
+    const auto limit_of = [&](bool more) {
+      const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, tangents_.of(k), more);
+      return system.step_limit(state);
+    };
+    const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
+    changes[k] = h / limit * (limit_of(true) - limit_of(false)) / (2 * p);
   }
   return changes;
 }
@@ -282,12 +317,12 @@ void Sensitivities::steps(const FollowedStep& step) {
   if (step.beyond) {
     const Longer longer = by_length(step);
     for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
-      const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
-      const double p = parameter.pair.step;
-      const State end = tangents_.of(k);
-      const double late = -(step.beyond(*parameter.more, moved(step.after, end, p)) -
-                            step.beyond(*parameter.less, moved(step.after, end, -p))) /
-                          (2 * p) / longer.approach;
+      const auto beyond = [&](bool more) {
+        const auto [system, state] = beside(static_cast<std::size_t>(k), step.after, tangents_.of(k), more);
+        return step.beyond(system, state);
+      };
+      const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
+      const double late = -(beyond(true) - beyond(false)) / (2 * p) / longer.approach;
       tangents_.move(k, longer.tangent, late);
     }
   }
@@ -309,6 +344,7 @@ void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVect
 
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {
   carry();
+  catch_up();
   std::vector<State> tangents;
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     tangents.push_back(parameters_[k].change(state_, tangents_.of(static_cast<Eigen::Index>(k)), change));
@@ -328,8 +364,11 @@ void Sensitivities::happens(const RunEvent& event) {
 void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
   if (!meshes_) {
     auto meshes = std::make_shared<Meshes>();
+    const auto plan_of = [&](const Parameter& parameter, const BeamSystem& system) {
+      return parameter.lags ? corresponding_plan(*system_, system.model()) : system.mesh().plan;
+    };
     for (const Parameter& parameter : parameters_)
-      meshes->plans.emplace_back(parameter.more->mesh().plan, parameter.less->mesh().plan);
+      meshes->plans.emplace_back(plan_of(parameter, *parameter.more), plan_of(parameter, *parameter.less));
     meshes->held = held_joints(*at.system);
     meshes_ = std::move(meshes);
   }
@@ -349,7 +388,7 @@ std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std:
   const NeighbourPair& pair = parameters_[parameter].pair;
   const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(parameter))
                                     : still(of.state.q.size(), of.state.lambda.size());
-  const bool present = of.meshes == meshes_;
+  const bool present = of.meshes == meshes_ && !parameters_[parameter].lags;
   const auto snapshot = [&](const Neighbour& neighbour, const BeamSystem* now, const MeshPlan& plan,
                             double part) {
     std::optional<BeamSystem> then;

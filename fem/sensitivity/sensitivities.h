@@ -108,16 +108,24 @@ class Sensitivities final : public RunFollower {
   struct Longer;
   struct Rest;
   struct Stretch;
+  struct Beside;
   using Shifts = std::vector<std::vector<ResidualDifferences::Shift>>;
 
   void start_afresh(const MeshedState& at, const std::vector<State>& tangents);
-  void go_on_from(const MeshedState& at);
+  void go_on_from(const MeshedState& at, ResidualDifferences differences);
+  std::vector<bool> outlasting(const MeshedState& before, const BeamSystem& behind);
+  void shift_lagging(const State& at, double part);
+  void catch_up();
+  Beside beside(std::size_t parameter, const State& at, const State& tangent, bool more) const;
   void solve_at_rest(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
   void keep_for_adjoint(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
+  std::vector<ResidualDifferences::Pair> pairs() const;
+  Shifts shifts_at(const State& at) const;
   Shifts find_residual_changes(const State& at, const Eigen::RowVectorXd& time);
   void take_off(const Shifts& shifts, const Eigen::SparseMatrix<double>& stiffness);
   MotionTangents::Matrix curvature_changes(const State& at) const;
-  MotionTangents::Matrix residual_changes(const State& at, const MotionTangents::Matrix& q);
+  MotionTangents::Matrix residual_changes(const State& at, const MotionTangents::Matrix& q,
+                                          const std::vector<int>& rows);
   bool has_own_length(const FollowedStep& step) const;
   Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
   Longer by_length(const FollowedStep& step) const;

@@ -11,7 +11,12 @@ namespace nurbeam {
 struct Sensitivities::Parameter {
   NeighbourPair pair;
   std::shared_ptr<const BeamSystem> more = nullptr, less = nullptr;
+  /// Whether their mesh is one of before, where they differ in nothing but elements that have outlasted all
+  /// changes since: all else is as in the run's own system, at the places that correspond.
+  bool lags = false;
 
+  /// Gives them the mesh of the run's system.
+  void catch_up(const BeamSystem& system);
   /// The tangent after what `change` makes of the neighbours of a state.
   State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change);
 };
@@ -50,6 +55,12 @@ struct Sensitivities::Stretch {
 struct Sensitivities::Longer {
   State tangent;
   double approach;
+};
+
+/// A system of a neighbour, or the run's own, and a state of it.
+struct Sensitivities::Beside {
+  const BeamSystem& system;
+  State state;
 };
 
 /// The state `part` of a tangent away.

@@ -2,12 +2,15 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <numeric>
 
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
+#include "fem/system/with_assembly.h"
 #include "solver/scaled_kkt.h"
 #include "solver/side_by_side.h"
 #include "solver/start_tangent.h"
+#include "solver/tangent_rows.h"
 
 namespace nurbeam {
 
@@ -27,34 +30,37 @@ State without_motion(const State& state) {
   return still;
 }
 
-Eigen::SparseMatrix<double> tangent_of(const BeamSystem& system, const State& at,
-                                       const TangentWeights& weights) {
-  Eigen::SparseMatrix<double> matrix = system.tangent_pattern().matrix();
-  system.tangent(at, weights, matrix);
-  return matrix;
-}
-
-// (rows, columns) Entries of a sparse matrix.
-Eigen::MatrixXd block(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& rows,
-                      const std::vector<int>& columns) {
-  Eigen::MatrixXd dense(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-  Vector column(matrix.rows());
-  for (Eigen::Index k = 0; k < dense.cols(); ++k) {
-    column = matrix.col(columns[static_cast<std::size_t>(k)]);
-    dense.col(k) = column(rows);
-  }
-  return dense;
+// Of elements whose ends move or that have torsion, and of all that constraints hold.
+std::vector<int> rows_that_change_with_shape(const BeamSystem& system) {
+  const int n = system.coordinate_count();
+  const SparsePattern& pattern = system.tangent_pattern();
+  std::vector<bool> wanted(static_cast<std::size_t>(pattern.size()), false);
+  for (int k = pattern.column_starts()[n]; k < pattern.column_starts()[pattern.size()]; ++k)
+    wanted[pattern.rows()[k]] = true;
+  with_assembly(system, [&]<int D>(const Assembly<D>& assembly) {
+    for (const MeshElement<D>& e : assembly.elements())
+      if (e.twist || !e.element.fixed())
+        for (const int dof : e.dofs)
+          if (dof >= 0) wanted[dof] = true;
+  });
+  std::vector<int> rows;
+  for (int i = 0; i < n; ++i)
+    if (wanted[i]) rows.push_back(i);
+  return rows;
 }
 
 }  // namespace
 
 TransferTangent::TransferTangent(std::shared_ptr<const BeamSystem> system, const TransferPath& path,
-                                 std::vector<Neighbours> neighbours, ResidualChanges residual_changes)
+                                 std::vector<Neighbours> neighbours, Kept kept,
+                                 ResidualChanges residual_changes)
     : system_(std::move(system)),
       path_(path),
       neighbours_(std::move(neighbours)),
       momenta_(neighbours_.size()),
-      residual_changes_(std::move(residual_changes)) {
+      kept_(std::move(kept)),
+      residual_changes_(std::move(residual_changes)),
+      with_shape_(rows_that_change_with_shape(*system_)) {
   for_each_parameter([&](std::size_t k) {
     const Neighbours& of = neighbours_[k];
     momenta_[k].more.emplace(*of.more_before.system, of.more_before.state, *of.more);
@@ -143,7 +149,8 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
     const State at = beside(stage.state, tangents, k, part(k, more));
     return (more ? momenta_[k].more : momenta_[k].less)->on(at);
   });
-  right.topRows(n) -= residual_changes_(driven, tangents.q) / vast;
+  right.topRows(n) += kept_.momenta;
+  right.topRows(n) -= residual_changes_(driven, tangents.q, with_shape_) / vast;
   right.bottomRows(m) = -rates(m, [&](std::size_t k, bool more) -> Vector {
     const BeamSystem& system = more ? *neighbours_[k].more : *neighbours_[k].less;
     const State at = beside(stage.state, tangents, k, part(k, more));
@@ -163,12 +170,12 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
   const Eigen::Index n = stage.state.q.size(), m = stage.state.lambda.size(),
                      f = static_cast<Eigen::Index>(made.free.size());
   const State still = without_motion(stage.state);
-  const Eigen::SparseMatrix<double> stiffness = tangent_of(system, still, {.stiffness = 1}),
-                                    mass = tangent_of(system, still, {.mass = 1});
-  const Eigen::MatrixXd K = block(stiffness, made.free, made.free), M = block(mass, made.free, made.free);
+  const TangentRows stiffness(system, still, {.stiffness = 1}, made.free),
+      mass(system, still, {.mass = 1}, made.free);
+  const Eigen::MatrixXd K = stiffness.entries(made.free), M = mass.entries(made.free);
   std::vector<int> ties(static_cast<std::size_t>(m));
-  for (std::size_t i = 0; i < ties.size(); ++i) ties[i] = static_cast<int>(n) + static_cast<int>(i);
-  const Eigen::MatrixXd G = block(mass, ties, made.free);
+  std::iota(ties.begin(), ties.end(), static_cast<int>(n));
+  const Eigen::MatrixXd G = mass.entries(ties).transpose();
   Vector force(n), constraints(m);
   system.residual(still, force, constraints);
   const Vector g = force(made.free), Kd = K * made.d, Md = M * made.d;
@@ -184,7 +191,7 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
   driven.a = (vast * made.mu) * whole;
   driven.lambda = vast * nu;
   const auto change_at = [&](const State& at) -> Matrix {
-    return residual_changes_(at, tangents.q)(made.free, Eigen::all);
+    return residual_changes_(at, tangents.q, made.free)(made.free, Eigen::all);
   };
   const Matrix dg = change_at(still), dKd = (change_at(ahead) - change_at(behind)) / (2 * part_of_it),
                inertia = change_at(driven) / vast;
@@ -205,6 +212,7 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
                                                        more ? *of.more : *of.less,
                                                        beside(stage.state, tangents, k, part(k, more))));
     });
+    energy += kept_.energies(stage.state);
     energy += made.d.transpose() * (dg + dKd / 2);
   }
 

@@ -29,11 +29,20 @@ class TransferTangent {
     double step = 0;
   };
   /// (n, a column for each parameter) how the dynamics of `system` change at a state with the parameter
-  /// itself, with t, and by these tangents of q.
-  using ResidualChanges = std::function<Matrix(const State& at, const Matrix& q)>;
+  /// itself, with t, and in these rows by these tangents of q.
+  using ResidualChanges =
+      std::function<Matrix(const State& at, const Matrix& q, const std::vector<int>& rows)>;
+
+  /// What neighbours lack that lie beside the run's own systems, by their elements that are there before and
+  /// behind.
+  struct Kept {
+    Matrix momenta;  ///< (n, a column for each parameter) of what is carried over
+    /// (a column for each parameter) Of what a state behind has more energy than that before.
+    std::function<Eigen::RowVectorXd(const State& behind)> energies;
+  };
 
   TransferTangent(std::shared_ptr<const BeamSystem> system, const TransferPath& path,
-                  std::vector<Neighbours> neighbours, ResidualChanges residual_changes);
+                  std::vector<Neighbours> neighbours, Kept kept, ResidualChanges residual_changes);
 
   /// Puts q, v, a and lambda of tangents, which have t, to what they are behind it; false where an equation
   /// is singular.
@@ -58,7 +67,9 @@ class TransferTangent {
   const TransferPath& path_;
   std::vector<Neighbours> neighbours_;
   std::vector<Momenta> momenta_;
+  Kept kept_;
   ResidualChanges residual_changes_;
+  std::vector<int> with_shape_;  // rows of dynamics in which inertia and constraints change with q
 };
 
 }  // namespace nurbeam

@@ -69,14 +69,16 @@ class VelocityField {
   std::optional<ElementPositions<D>> positions_;
 };
 
-// The places between which an element is integrated in parts.
+// The places between which an element of a mesh is integrated in parts: it ends at joints where these are.
 template <int D>
-std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& old, const State& state) {
+std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& mesh, const Mesh& old, const State& state) {
   const ReferenceCurve& curve = e.element.curve();
-  std::vector<double> parts{e.s_a, e.s_b};
+  const auto joint_at = [&](const MeshNode& node) { return state.q[old.joints[node.joint].place]; };
+  std::vector<double> parts{e.place_a >= 0 ? joint_at(mesh.node_a(e)) + e.shift_a : e.s_a,
+                            e.place_b >= 0 ? joint_at(mesh.node_b(e)) + e.shift_b : e.s_b};
   const auto add = [&](double place) {
     const double s = curve.unrolled(place, (e.s_a + e.s_b) / 2);
-    if (s > e.s_a && s < e.s_b) parts.push_back(s);
+    if (s > parts[0] && s < parts[1]) parts.push_back(s);
   };
   for (const MeshNode& node : old.nodes[e.beam]) add(node.place >= 0 ? state.q[node.place] : node.s);
   for (const double s : curve.breaks()) add(s);
@@ -141,7 +143,7 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
       continue;
     }
     Element& carried = elements_.emplace_back(Element{i, {}});
-    const std::vector<double> parts = parts_of(e, old.mesh(), state);
+    const std::vector<double> parts = parts_of(e, own.mesh(), old.mesh(), state);
     for (std::size_t part = 0; part + 1 < parts.size(); ++part)
       for (int g = 0; g < GaussRule::size; ++g) {
         const double length = parts[part + 1] - parts[part];

@@ -70,6 +70,19 @@ std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const As
   return same;
 }
 
+std::vector<int> kept_elements(const BeamSystem& from, const BeamSystem& to) {
+  return with_assembly(
+      to,
+      [&]<int D>(const Assembly<D>& assembly) {
+        const Assembly<D>& old = *from.assembly<D>();
+        const std::vector<const MeshElement<D>*> same = same_elements(assembly, old);
+        std::vector<int> kept(old.elements().size(), -1);
+        for (std::size_t i = 0; i < same.size(); ++i)
+          if (same[i]) kept[static_cast<std::size_t>(same[i] - old.elements().data())] = static_cast<int>(i);
+        return kept;
+      });
+}
+
 std::vector<int> changed_unknowns(const BeamSystem& from, const BeamSystem& to) {
   return with_assembly(
       to, [&]<int D>(const Assembly<D>& assembly) { return changed(*from.assembly<D>(), assembly); });

@@ -12,6 +12,9 @@ namespace nurbeam {
 template <int D>
 std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const Assembly<D>& from);
 
+/// By the index of an element of `from` that of the same one of `to`, -1 where there is none.
+std::vector<int> kept_elements(const BeamSystem& from, const BeamSystem& to);
+
 /// Unknowns of `to` in whose rows equations that `from` satisfies may be open, its rates carried over: those
 /// of elements that `from` has not. Constraints that nodes near there open by their moves are near too. Empty
 /// where they may be in all rows: with torsion, or where joints or stops have other modes.
