@@ -63,7 +63,8 @@ struct StudyRefinement {
 /// What a study varies.
 struct StudyVariable {
   std::string name;
-  std::string path;                        ///< JSON path of this object, for messages
+  std::string path;       ///< JSON path of this object, for messages
+  std::string unit = {};  ///< of its values: SI, degrees of a rotation; "" for a plain number
   std::optional<StudyTarget> target = {};  ///< none: it only stands in expressions
   StudyDistribution distribution = {};
   double nominal = 0;                      ///< where a search begins

@@ -245,6 +245,9 @@ def a_variant_that_cannot_be_built_says_why():
     status = rows[0].index("status")
     assert [row[status] for row in rows[1:]] == ["done", "refused"], rows
     assert rows[2][-1].startswith("with end = 0: "), rows[2]
+    page = (scratch / "refused/turned/study.html").read_text()
+    data = json.loads(page.split('<script type="application/json" id="data">')[1].split("</script>")[0])
+    assert sorted(data["curves"][0]["variants"]) == ["0", "1"], "its curve is there to see"
 
 
 def the_best_variant_runs():
