@@ -33,8 +33,8 @@ class StudyReader : StudyPartReader {
     if (has(json_, "case")) study_.case_file = (directory / text(json_, "case")).lexically_normal();
     for_each_item(
         json_, "set", "",
-        [&](const Json& change, const std::string&) {
-          study_.overrides.push_back(change.get<std::string>());
+        [&](const Json& change, const std::string& path) {
+          study_.changes.push_back({change.get<std::string>(), path});
         });
     for_each_item(
         json_, "refine", "",

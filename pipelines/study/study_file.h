@@ -60,6 +60,12 @@ struct StudyRefinement {
   int parts = 1;                   ///< into which each span of the curve is divided
 };
 
+/// A change of the case for all variants.
+struct StudyChange {
+  std::string text;  ///< path=value, as --set has it
+  std::string path;  ///< JSON path of this text, for messages
+};
+
 /// What a study varies.
 struct StudyVariable {
   std::string name;
@@ -147,8 +153,8 @@ struct StudyFile {
   std::string json;  ///< as read, without comments
   std::string name;
   std::optional<std::filesystem::path> case_file = {};  ///< absolute; none where all quantities are formulas
-  std::vector<std::string> overrides = {};              ///< of the case, as --set has them
-  std::vector<StudyRefinement> refinements = {};        ///< of curves, before variables move them
+  std::vector<StudyChange> changes = {};
+  std::vector<StudyRefinement> refinements = {};  ///< of curves, before variables move them
   std::vector<StudyVariable> variables;
   std::vector<Expression> constraints = {};  ///< a variant for which one is 0 does not run
   std::vector<StudyQuantity> quantities;

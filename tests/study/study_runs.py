@@ -185,6 +185,12 @@ def bad_files_are_refused():
     for place in ("constraints[0]: there is no variable \"ryse\"", "plan.grid: has 2 numbers",
                   "variables[0]: the case has no beam", "quantities[0].value: a run of this case has no column"):
         assert place in done.stderr, (place, done.stderr)
+    wrong = {**STUDY, "set": ["analysis.stp=1", "analysis.step=-1"], "quantities": [{"name": "q", "value": "max(tipp.x)"}]}
+    done = run(write(scratch / "bad", wrong), "--out", scratch / "bad/out", expected=2)
+    for place in ("study.json: set[0]: \"analysis.stp=1\": there is no \"stp\"",
+                  "study.json: set[1]: \"analysis.step=-1\": analysis.step: ",
+                  "quantities[0].value: a run of this case has no column"):
+        assert place in done.stderr, (place, done.stderr)
     run(scratch / "bad/nothing.json", expected=2)
     run(study, "--out", scratch / "bad/none", "--resume", expected=2)
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
