@@ -129,6 +129,7 @@ struct StudyCalibration {
   /// What was measured of one history.
   struct Observation {
     std::string value;  ///< the expression
+    std::string path;   ///< JSON path of this object, for messages
     std::vector<double> times, measured;
     double sd = 1;  ///< of the noise
   };
