@@ -35,6 +35,7 @@ struct Failure {
     bodies_meet,         ///< sliding bodies on one beam
     equilibrium,         ///< is not found: `equilibrium`
     resting_place,       ///< of a sliding body is not found
+    leaves_beam,         ///< the joint's body, at a free end of its beam, where nothing holds it
     free_lengths,        ///< of connectors are not found
     wrong_sign,          ///< of `force` in the `connector` whose length the equilibrium gives
     unstable_state,      ///< vibrations about it would grow with the rate `growth`

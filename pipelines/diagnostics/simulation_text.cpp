@@ -109,6 +109,13 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the loads do not change the stiffness: nothing buckles under them";
     case Failure::Kind::eigenvalues:
       return "the eigenvalues are not found; a smaller \"count\" may help";
+    case Failure::Kind::leaves_beam: {
+      const SlidingJoint& joint = model.joints[failure.joint];
+      return "there is no equilibrium with \"" + model.body_of(joint).name + "\" on beam \"" +
+             model.beam_of(joint).name + "\": it slides off its free end" + places +
+             "; give a stop there (\"stops\", or \"at_beam_end\": \"stop\" of its sliding joint), or hold it at its "
+             "place (\"equilibrium\": \"held\")";
+    }
     case Failure::Kind::free_lengths:
       return "no lengths of the connectors were found with which they do in equilibrium what \"as-drawn\" or "
              "\"force\" says: one of them does not move its end, or another one holds it";
