@@ -113,6 +113,14 @@ bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
     run.note(std::move(happened));
   return true;
 }
+bool pass_first_impacts(Run& run) {
+  for (int i = 0; i < static_cast<int>(run.model->stops.size()); ++i)
+    if (runs_into(run.at, i, run.shortest_time()) &&
+        !pass_event(run, ContactEvent{ContactEvent::Kind::hits, i}, Arrival::in_step))
+      return false;
+  return true;
+}
+
 
 bool rests_by(const Run& run, const StepEvent& event) {
   const auto* contact = std::get_if<ContactEvent>(&event);
