@@ -131,7 +131,8 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
   }
   is_by_adjoint_ = pays_by_adjoint();
-  sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours), is_by_adjoint_);
+  sensitivities_ =
+      std::make_unique<Sensitivities>(options, probe_places(model), std::move(neighbours), is_by_adjoint_);
 }
 
 VariantGradient::~VariantGradient() = default;
@@ -158,7 +159,7 @@ Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
     changed.replace(time, histories);
     return all;
   };
-  return sensitivities_->through_states(times, probe_places(model_), histories.contents(), count, quantities);
+  return sensitivities_->through_states(times, histories.contents(), count, quantities);
 }
 
 StudyGradient VariantGradient::of_quantities(const Histories& histories,
