@@ -122,11 +122,15 @@ std::optional<ContactEvent> first_contact(const BeamSystem& system, const State&
   return first;
 }
 
+bool runs_into(const MeshedState& at, int stop, double step) {
+  return !stop_of(*at.system, stop).buffer && touches(*at.system, at.state, stop) &&
+         opening_rate(*at.system, at.state, stop) < -unnoticed_speed(at, stop, step);
+}
+
 bool start_contacts(MeshedState& at, double step) {
   const BeamModel& model = at.system->model();
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
-    if (!is_in_place(at.system->mesh(), model.stops[i])) continue;
-    if (distance(*at.system, at.state, i) > touching(model, model.stops[i].joint)) continue;
+    if (!touches(*at.system, at.state, i) || runs_into(at, i, step)) continue;
     if (model.stops[i].buffer)
       set_buffer_contact(model, at.state.memory, i, BufferContact::pressing);
     else if (std::optional<MeshedState> next = hit_stop(at, i, step, Arrival::in_step))

@@ -35,8 +35,11 @@ std::optional<ContactEvent> first_contact(const BeamSystem& system, const State&
 double beyond(const BeamSystem& system, const State& before, const State& state, const ContactEvent& event);
 double tolerance(const BeamSystem& system, const State& before, const ContactEvent& event);
 
+/// Whether a body is at a hard stop and moves on into it.
+bool runs_into(const MeshedState& at, int stop, double step);
 /// The stops at which bodies press when the run begins: buffers into the memory, hard ones that a body at
-/// rest is pushed against into the plan. False where the mass matrix is singular.
+/// rest is pushed against into the plan. What runs into one is none of these. False where the mass matrix is
+/// singular.
 [[nodiscard]] bool start_contacts(MeshedState& at, double step);
 /// What happens to bodies at a stop; not of bodies that meet. At a hard one velocities across it turn round
 /// times its restitution, by one impulse on all that is connected. A rebound that would end within a

@@ -27,7 +27,7 @@ class Groups {
 // Of which limits the move is held to equality, and with what multipliers.
 struct HeldLimits {
   std::vector<int> which;
-  Eigen::VectorXd pressure;
+  Eigen::VectorXd pressure;  // [N]
 };
 
 Eigen::VectorXd least_on(const Eigen::VectorXd& f, const Eigen::MatrixXd& H,
@@ -45,7 +45,7 @@ Eigen::VectorXd least_on(const Eigen::VectorXd& f, const Eigen::MatrixXd& H,
     rhs[n + k] = limit.least;
   }
   const Eigen::VectorXd solution = kkt.completeOrthogonalDecomposition().solve(rhs);
-  held.pressure = solution.tail(m);
+  held.pressure = scale * solution.tail(m);
   return solution.head(n);
 }
 
@@ -91,7 +91,11 @@ LimitedMove least_within(const Eigen::VectorXd& f, const Eigen::MatrixXd& H, dou
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H);
   const Eigen::MatrixXd& V = eigen.eigenvectors();
   Eigen::VectorXd values = eigen.eigenvalues(), along = V.transpose() * f;
-  const double flat = std::max(1e-12 * values.cwiseAbs().maxCoeff(), round_off / push);
+  // What is flatter, as all is on a straight guide, makes no move longer than the limits of a move.
+  constexpr double far_beyond = 1e3;  // moves
+  const double flat = std::max({1e-12 * values.cwiseAbs().maxCoeff(), round_off / push,
+                                f.lpNorm<Eigen::Infinity>() / (far_beyond * push)});
+  if (flat == 0) return {Eigen::VectorXd::Zero(f.size()), std::vector<bool>(limits.size(), false)};
   for (Eigen::Index k = 0; k < f.size(); ++k) {
     const bool ridge = values[k] < -flat;
     values[k] = std::max(std::abs(values[k]), flat);
@@ -121,7 +125,7 @@ LimitedMove least_within(const Eigen::VectorXd& f, const Eigen::MatrixXd& H, dou
     held.which.push_back(worst);
   }
   for (std::size_t k = 0; k < held.which.size(); ++k)
-    if (held.pressure[static_cast<Eigen::Index>(k)] > 0) move.pushed[held.which[k]] = true;
+    if (held.pressure[static_cast<Eigen::Index>(k)] > round_off) move.pushed[held.which[k]] = true;
   return move;
 }
 

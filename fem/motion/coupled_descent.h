@@ -20,12 +20,12 @@ std::optional<Eigen::MatrixXd> holding_stiffness(const BeamSystem& system, const
 /// A row x >= b of what a move may be.
 struct MoveLimit {
   Eigen::VectorXd row;
-  double least;  ///< b [m]
-  bool lasting;  ///< of a stop or an end; else of the move alone
+  double least;                          ///< b [m]
+  enum class Of { move, stop, end } of;  ///< this move alone, a stop, an end of a beam
 };
 struct LimitedMove {
   Eigen::VectorXd x;         ///< [m]
-  std::vector<bool> pushed;  ///< per limit: it is reached and pressed against
+  std::vector<bool> pushed;  ///< per limit: it is reached and pressed against, by more than round-off
 };
 /// The x that is least in f.x + x'|H|x/2 within the limits, |H| with the magnitudes of H's eigenvalues: down
 /// from ridges, too. Where along an eigenvector of a negative one nothing pulls (less than `round_off` [N]),

@@ -60,6 +60,15 @@ double before_stops(const MeshedState& at, int joint, double s, double ds) {
   return ds;
 }
 
+// Whether a hard stop holds a joint's body at an end of its beam.
+bool stands_at(const BeamModel& model, int joint, double end, bool from_below) {
+  const double same = 1e-9 * model.beam_of(model.joints[joint]).curve.length();
+  return std::any_of(model.stops.begin(), model.stops.end(), [&](const Stop& stop) {
+    return stop.joint == joint && stop.other < 0 && !stop.buffer && stop.from_below == from_below &&
+           std::abs(stop.place - end) <= same;
+  });
+}
+
 }  // namespace
 
 double next_move(const MeshedState& at, int joint, Descent& body) {
@@ -83,10 +92,11 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
   const double room = 0.4 * distance_to_others(at, joint);
   ds = std::clamp(ds, -room, room);
-  if (!curve.closed()) ds = std::clamp(ds, -s, curve.length() - s);
-  ds = before_stops(at, joint, s, ds);
+  const double wanted = before_stops(at, joint, s, ds);
+  ds = curve.closed() ? wanted : std::clamp(wanted, -s, curve.length() - s);
   body.at_end = ds == 0 && !nothing_pulls;
   body.arrived = std::abs(ds) < 1e-6 * spacing;
+  body.leaves = body.arrived && !nothing_pulls && std::abs(wanted) >= 1e-6 * spacing;
   if (body.arrived) return 0;
   body.s = s;
   body.force = force;
@@ -111,7 +121,7 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
     const int j = joints_[k];
     Descent& body = bodies[j];
     body.arrived = true;
-    body.at_end = false;
+    body.at_end = body.leaves = false;
     moves[j] = 0;
     if (body.most == 0) continue;
     const double force = force_beyond_friction(at, j, holding_force(*at.system, at.state, j), body);
@@ -130,7 +140,7 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
   const auto count = static_cast<Eigen::Index>(movable.size());
   for (Eigen::Index i = 0; i < count; ++i)
     if (const int way = bodies[movable[i]].way; way != 0)
-      within.push_back({way * Eigen::VectorXd::Unit(count, i), 0, false});
+      within.push_back({way * Eigen::VectorXd::Unit(count, i), 0, MoveLimit::Of::move});
   const Eigen::Map<const Eigen::VectorXd> f(forces.data(), count);
   const LimitedMove move = least_within(f, *H, round_off, most_, within);
   const bool arrived = move.x.lpNorm<Eigen::Infinity>() < 1e-6 * spacing_;
@@ -138,8 +148,11 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
     const auto at_row = static_cast<Eigen::Index>(i);
     Descent& body = bodies[movable[i]];
     body.arrived = arrived;
-    for (std::size_t k = 0; k < within.size(); ++k)
-      if (within[k].lasting && move.pushed[k] && within[k].row[at_row] != 0) body.at_end = arrived;
+    for (std::size_t k = 0; k < within.size(); ++k) {
+      if (!move.pushed[k] || within[k].row[at_row] == 0) continue;
+      if (within[k].of != MoveLimit::Of::move) body.at_end = arrived;
+      if (within[k].of == MoveLimit::Of::end) body.leaves = arrived;
+    }
     if (arrived) continue;
     if (std::abs(move.x[at_row]) < 1e-6 * spacing_) body.way = 0;  // it is asked again whether it is held
     moves[movable[i]] = move.x[at_row];
@@ -151,8 +164,9 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
   const BeamModel& model = at.system->model();
   const auto count = static_cast<Eigen::Index>(movable.size());
   std::vector<MoveLimit> all;
-  const auto add = [&](const Eigen::VectorXd& row, double least, bool lasting) {
-    if (!row.isZero()) all.push_back({row, std::min(least, 0.0), lasting});
+  using Of = MoveLimit::Of;
+  const auto add = [&](const Eigen::VectorXd& row, double least, Of of) {
+    if (!row.isZero()) all.push_back({row, std::min(least, 0.0), of});
   };
   const auto row_of = [&](int joint) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(count);
@@ -163,10 +177,10 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
   for (const int j : movable) {
     const double s = *place(*at.system, at.state, j);
     const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
-    for (const double way : {1.0, -1.0}) add(way * row_of(j), -most_, false);
+    for (const double way : {1.0, -1.0}) add(way * row_of(j), -most_, Of::move);
     if (!curve.closed()) {
-      add(row_of(j), -s, true);
-      add(-row_of(j), s - curve.length(), true);
+      if (!stands_at(model, j, 0, false)) add(row_of(j), -s, Of::end);
+      if (!stands_at(model, j, curve.length(), true)) add(-row_of(j), s - curve.length(), Of::end);
     }
     // Those that nothing keeps apart come no nearer than by a part of their distance at once.
     for (int other = 0; other < static_cast<int>(model.joints.size()); ++other) {
@@ -174,14 +188,14 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
       if (!std::isfinite(distance) || kept_apart(model, j, other)) continue;
       const double there = curve.unrolled(*place(*at.system, at.state, other), s);
       const Eigen::VectorXd apart = row_of(other) - row_of(j);
-      add(there > s ? apart : Eigen::VectorXd(-apart), -0.4 * distance, false);
+      add(there > s ? apart : Eigen::VectorXd(-apart), -0.4 * distance, Of::move);
     }
   }
   for (const Stop& stop : model.stops) {
     if (stop.buffer || !is_in_place(at.system->mesh(), stop)) continue;
     Eigen::VectorXd row = stop.weight_of_joint() * row_of(stop.joint);
     if (stop.other >= 0) row += stop.weight_of_other() * row_of(stop.other);
-    add(row, -stop_distance(at.system->mesh(), stop, at.state.q), true);
+    add(row, -stop_distance(at.system->mesh(), stop, at.state.q), Of::stop);
   }
   return all;
 }

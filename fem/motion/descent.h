@@ -11,7 +11,8 @@ namespace nurbeam {
 struct Descent {
   double most;                         // of the next move [m]; 0 for one that does not move
   double s = 0, force = 0, moved = 0;  // before the last move, that held it there [m], [N], and the move [m]
-  bool arrived = false, at_end = false;  // the latter: of the beam
+  bool arrived = false, at_end = false;  // the latter: of the beam, or at a stop
+  bool leaves = false;                   // it is at an end, and nothing else holds it there
   int balanced = 0;                      // places in a row at which nothing held it
   int way = 0;                           // that it slides against its friction
 };

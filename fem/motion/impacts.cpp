@@ -50,21 +50,14 @@ struct Unnoticed {
 
 Unnoticed unnoticed(const MeshedState& at, double step) {
   const BeamModel& model = at.system->model();
-  const double round_off = contact_noise * fastest(*at.system, at.state);
   Unnoticed least;
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
-    const int joint = model.stops[i].joint;
-    least.speed.push_back(step > 0 ? std::max(round_off, touching(model, joint) / step) : round_off);
-    least.impulse.push_back(model.body_of(model.joints[joint]).mass * least.speed[i]);
+    least.speed.push_back(unnoticed_speed(at, i, step));
+    least.impulse.push_back(model.body_of(model.joints[model.stops[i].joint]).mass * least.speed[i]);
     if (at.system->mesh().plan.is_closed(i))
       least.impulse[i] += std::max(0.0, contact_force(*at.system, at.state, i)) * shortest_rebound / 2 * step;
   }
   return least;
-}
-
-bool touches(const BeamSystem& system, const State& state, int stop) {
-  return is_in_place(system.mesh(), stop_of(system, stop)) &&
-         distance(system, state, stop) <= touching(system.model(), stop_of(system, stop).joint);
 }
 
 // Per stop: contact that is kept, or across which bodies that touch do not rebound. Impacts of others pass
@@ -144,6 +137,17 @@ std::optional<MeshedState> after_impact(const MeshedState& at, int stop, const U
 
 double touching(const BeamModel& model, int joint) {
   return 1e-13 * model.beam_of(model.joints[joint]).curve.length();
+}
+
+bool touches(const BeamSystem& system, const State& state, int stop) {
+  return is_in_place(system.mesh(), stop_of(system, stop)) &&
+         distance(system, state, stop) <= touching(system.model(), stop_of(system, stop).joint);
+}
+
+double unnoticed_speed(const MeshedState& at, int stop, double step) {
+  const double round_off = contact_noise * fastest(*at.system, at.state);
+  const double kept = touching(at.system->model(), stop_of(*at.system, stop).joint);
+  return step > 0 ? std::max(round_off, kept / step) : round_off;
 }
 
 std::vector<bool> closed_contacts(const BeamSystem& system) {

@@ -18,6 +18,12 @@ inline double opening_rate(const BeamSystem& system, const State& state, int sto
 }
 /// A body is at its stop when it is nearer than this [m].
 double touching(const BeamModel& model, int joint);
+/// Whether the bodies of a stop are on their beams and at it.
+bool touches(const BeamSystem& system, const State& state, int stop);
+
+/// A body that meets its stop no faster than this does not tell from one that touches it, over such a step
+/// [m/s].
+double unnoticed_speed(const MeshedState& at, int stop, double step);
 
 /// Per stop: whether contact with it is kept.
 std::vector<bool> closed_contacts(const BeamSystem& system);

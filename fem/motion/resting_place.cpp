@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/motion/carried_sections.h"
+#include "fem/motion/crossing.h"
 #include "fem/motion/descent.h"
 #include "fem/motion/friction_modes.h"
 #include "fem/motion/recentring.h"
@@ -141,7 +142,7 @@ class RestSearch {
     constexpr int most_moves = 2000;
     for (int moves = 0; !report_.failure && let_down(bodies); ++moves)
       if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
-    if (report_.failure) return;
+    if (report_.failure || !goes_on(leaving_body(bodies))) return;
     std::vector<bool> stays;
     for (int j = 0; j < joints(); ++j)
       stays.push_back(bodies[j].at_end || !(slides[j] || model().joints[j].motion));
@@ -152,6 +153,19 @@ class RestSearch {
   bool goes_on(std::optional<Failure> failure) {
     report_.failure = std::move(failure);
     return !report_.failure;
+  }
+
+  // A body that has arrived at a free end which it would leave is not at rest there.
+  std::optional<Failure> leaving_body(const std::vector<Descent>& bodies) const {
+    for (int j = 0; j < joints(); ++j) {
+      if (!bodies[j].leaves || !model().joints[j].leave_at_end) continue;
+      const double s = *place(*at_.system, at_.state, j),
+                   length = model().beam_of(model().joints[j]).curve.length();
+      if (!is_held(model(), {j, s, s > length / 2}))
+        return Failure{
+            .kind = Failure::Kind::leaves_beam, .time = at_.state.t, .places = places_of(at_), .joint = j};
+    }
+    return {};
   }
 
   // Takes bodies whose motion is prescribed to where they are at the time.

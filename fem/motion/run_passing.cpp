@@ -83,8 +83,7 @@ bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double
 bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
   const auto* contact = std::get_if<ContactEvent>(&event);
   if (contact && contact->kind == ContactEvent::Kind::bodies_meet)
-    return run.goes_on(
-        Failure{.kind = Failure::Kind::bodies_meet, .time = run.at.state.t, .places = places_of(run.at)});
+    return run.goes_on(meeting(run.at, contact->joints.first, contact->joints.second));
   if (const auto* taut = std::get_if<TautEvent>(&event)) {
     run.change([&](MeshedState& at) {
       apply(at, *taut);
@@ -111,6 +110,14 @@ bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
     events.pop_back();
   else
     run.note(std::move(happened));
+  return true;
+}
+
+bool pass_first_impacts(Run& run) {
+  for (int i = 0; i < static_cast<int>(run.model->stops.size()); ++i)
+    if (runs_into(run.at, i, run.shortest_time()) &&
+        !pass_event(run, ContactEvent{ContactEvent::Kind::hits, i}, Arrival::in_step))
+      return false;
   return true;
 }
 

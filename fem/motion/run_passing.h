@@ -11,6 +11,8 @@ namespace nurbeam {
 
 /// What the event that a step has ended at, or would begin with, does.
 [[nodiscard]] bool pass_event(Run& run, const StepEvent& event, Arrival arrival);
+/// As the run begins: the impacts of bodies that are at a hard stop and move on into it.
+[[nodiscard]] bool pass_first_impacts(Run& run);
 /// Whether the event has closed a hard stop.
 bool rests_by(const Run& run, const StepEvent& event);
 /// Goes on beyond a place that a joint has landed at: a point in the next element.

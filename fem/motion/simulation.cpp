@@ -199,7 +199,7 @@ struct Simulation::Implementation {
     if (no_memory(*run_.model).size() > 0 &&
         !(start_memory(run_.at, run_.shortest_time()) && start_contacts(run_.at, run_.shortest_time())))
       return run_.fail(Failure::Kind::mass_matrix);
-    return run_.restart();
+    return pass_first_impacts(run_) && run_.restart();
   }
 
   // Whether it has begun.

@@ -32,9 +32,10 @@ struct Failure {
     mesh_energy,         ///< a change of the mesh for the joint's body would change the energy by `energy`
     energy,              ///< has come from nowhere, `energy`, more than all that moves
     endless_events,      ///< of the joint's body at one moment
-    bodies_meet,         ///< sliding bodies on one beam
+    bodies_meet,         ///< those of two joints on one beam: they come `nearest` or nearer
     equilibrium,         ///< is not found: `equilibrium`
     resting_place,       ///< of a sliding body is not found
+    leaves_beam,         ///< the joint's body, at a free end of its beam, where nothing holds it
     free_lengths,        ///< of connectors are not found
     wrong_sign,          ///< of `force` in the `connector` whose length the equilibrium gives
     unstable_state,      ///< vibrations about it would grow with the rate `growth`
@@ -46,7 +47,8 @@ struct Failure {
   Kind kind;
   double time = 0;  ///< [s]
   std::vector<BodyPlace> places = {};
-  int joint = -1;
+  int joint = -1, other = -1;
+  double distance = 0, nearest = 0;  ///< between the bodies of these, and at which a run can go on [m]
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};
   double energy = 0;  ///< [J]

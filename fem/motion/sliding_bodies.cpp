@@ -9,6 +9,16 @@
 
 namespace nurbeam {
 
+namespace {
+
+// How near others on its beam may come to a joint [m].
+double nearest(const BeamModel& model, int joint) {
+  const bool rigid = model.beam_of(model.joints[joint]).rigid;
+  return (rigid ? touching_distance : meeting_distance) * home_spacing(model, joint);
+}
+
+}  // namespace
+
 double home_spacing(const BeamModel& model, int joint) {
   const Beam& beam = model.beam_of(model.joints[joint]);
   return beam.curve.length() / beam.home_intervals();
@@ -54,15 +64,22 @@ std::vector<BodyPlace> places_of(const MeshedState& at) {
   return places;
 }
 
+Failure meeting(const MeshedState& at, int joint, int other) {
+  return {.kind = Failure::Kind::bodies_meet,
+          .time = at.state.t,
+          .places = places_of(at),
+          .joint = joint,
+          .other = other,
+          .distance = distance_between(at, joint, other),
+          .nearest = nearest(at.system->model(), joint)};
+}
+
 std::optional<Failure> meeting_bodies(const MeshedState& at) {
   const BeamModel& model = at.system->model();
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
-    const bool rigid = model.beam_of(model.joints[j]).rigid;
-    const double nearest = (rigid ? touching_distance : meeting_distance) * home_spacing(model, j);
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
     for (int other = 0; other < j; ++other)
-      if (!kept_apart(model, other, j) && distance_between(at, other, j) <= nearest)
-        return Failure{.kind = Failure::Kind::bodies_meet, .time = at.state.t, .places = places_of(at)};
-  }
+      if (!kept_apart(model, other, j) && distance_between(at, other, j) <= nearest(model, j))
+        return meeting(at, other, j);
   return std::nullopt;
 }
 

@@ -22,6 +22,8 @@ double distance_to_others(const MeshedState& at, int joint);
 /// Where each body is that a joint holds.
 std::vector<BodyPlace> places_of(const MeshedState& at);
 
+/// What ends a run in which the bodies of two joints on one beam meet.
+Failure meeting(const MeshedState& at, int joint, int other);
 /// Two bodies that meet on one beam end the run; nothing where all are apart.
 [[nodiscard]] std::optional<Failure> meeting_bodies(const MeshedState& at);
 

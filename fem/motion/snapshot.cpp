@@ -98,7 +98,8 @@ std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& stat
 
 // Without its section.
 ProbeRecord record_place(const BeamSystem& system, const State& state, const ProbePlace& probe) {
-  const MaterialPoint<3> p = material_point(system, state, probe.beam, probe.s);
+  const MaterialPoint<3> p = probe.span < 0 ? material_point(system, state, probe.beam, probe.s)
+                                            : material_point_in(system, state, probe.span, probe.s);
   ProbeRecord record;
   record.position = p.r;
   record.velocity = p.velocity;
@@ -116,7 +117,7 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state,
                          const ProbePlace& probe) {
   ProbeRecord record = record_place(system, state, probe);
   if (system.model().beams[probe.beam].rigid) return record;
-  const int span = find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
+  const int span = probe.span < 0 ? span_of(system, state, probe) : probe.span;
   record.section = section_at(system, state, span, carried[span], probe.s);
   record.section.twist += beams[probe.beam].elements[span - system.mesh().first_span[probe.beam]].twist[0];
   return record;
@@ -137,6 +138,11 @@ PointRecord record_body(const BeamSystem& system, const State& state, int body) 
 }
 
 }  // namespace
+
+int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe) {
+  if (system.model().beams[probe.beam].rigid) return -1;
+  return find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
+}
 
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state) {
   return record_beams(system, state, stress_resultants(system, state));

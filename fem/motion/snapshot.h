@@ -99,7 +99,8 @@ struct Snapshot {
 /// A place where a snapshot records position and velocity.
 struct ProbePlace {
   int beam;
-  double s;  ///< [m]
+  double s;       ///< [m]
+  int span = -1;  ///< of the mesh, as whose element has it; that which holds it where none is given
 };
 
 /// Names in the order of the vectors of a Snapshot.
@@ -117,6 +118,9 @@ struct SnapshotContents {
   bool sections = true;  ///< of probes: else their SectionRecord says nothing
   bool energy = true;
 };
+
+/// The span that holds a place; -1 on a rigid guide, which has none.
+int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe);
 
 /// The beams of a state.
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state);

@@ -111,11 +111,10 @@ void Sensitivities::choose(const std::vector<std::size_t>& records, std::size_t 
 }
 
 MotionTangents::Matrix Sensitivities::through_states(const std::vector<std::size_t>& records,
-                                                     const std::vector<ProbePlace>& probes,
                                                      const SnapshotContents& contents, std::size_t count,
                                                      const Quantities& quantities) {
   const auto at_record = [&](std::size_t record, const BeamSystem& system, const State& state) {
-    return quantities(record, record_snapshot(system, state, probes, contents));
+    return quantities(record, record_snapshot(system, state, records_[record].probes, contents));
   };
   MotionTangents::Matrix sum =
       MotionTangents::Matrix::Zero(static_cast<Eigen::Index>(count), tangents_.parameters());

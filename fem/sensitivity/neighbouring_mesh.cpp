@@ -135,10 +135,15 @@ void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour) {
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model) {
   MeshPlan plan = at.system->mesh().plan;
-  if (!plan.section_charts.empty() || !plan.weights.empty())
+  if (!plan.section_charts.empty())
     throw std::runtime_error(
-        "an equilibrium has no derivative here where bodies slide to it on beams with torsion or constant "
-        "weights, or sections turn far");
+        "an equilibrium of beams with torsion has no derivative here where it follows from another one (of a "
+        "load step before it, or as bodies slide), or where sections turn far; leave load steps out, or "
+        "differences of runs");
+  if (!plan.weights.empty())
+    throw std::runtime_error(
+        "an equilibrium has no derivative here where bodies slide to it on beams with constant weights; take "
+        "differences of runs");
   for (int j = 0; j < static_cast<int>(plan.places.size()); ++j) plan.places[j] = held_place(at, j, *model);
   return std::make_unique<BeamSystem>(model, std::move(plan), held_joints(*at.system), *at.system);
 }

@@ -91,11 +91,12 @@ State Sensitivities::Parameter::change(const State& from, const State& tangent,
   return rate(above.state, below.state, pair.step);
 }
 
-Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
-                             bool by_adjoint)
+Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<ProbePlace> probes,
+                             std::vector<NeighbourPair> parameters, bool by_adjoint)
     : begins_at_rest_(options.statics || options.start_from_equilibrium),
       is_static_(options.statics),
-      by_adjoint_(by_adjoint) {
+      by_adjoint_(by_adjoint),
+      probes_(std::move(probes)) {
   const auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
   if (!options.statics && !settings)
     throw std::invalid_argument("derivatives of a motion need the integrator generalized-alpha");
@@ -372,7 +373,9 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
     meshes->held = held_joints(*at.system);
     meshes_ = std::move(meshes);
   }
-  Record record{.state = at.state, .of_the_moment = of_the_moment, .meshes = meshes_, .rest = rest_};
+  Record record{
+      .state = at.state, .of_the_moment = of_the_moment, .probes = probes_, .meshes = meshes_, .rest = rest_};
+  for (ProbePlace& probe : record.probes) probe.span = span_of(*at.system, at.state, probe);
   if (stretch_) {
     record.position = stretch_->steps.size();
     stretch_->records.push_back(records_.size());
@@ -396,7 +399,9 @@ std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std:
     State state = moved(of.state, tangent, part);
     if (of.of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
-    return record_snapshot(system, state, neighbour.probes, contents);
+    std::vector<ProbePlace> probes = neighbour.probes;
+    for (std::size_t i = 0; i < probes.size(); ++i) probes[i].span = of.probes[i].span;
+    return record_snapshot(system, state, probes, contents);
   };
   const auto& [plan_of_more, plan_of_less] = of.meshes->plans[parameter];
   const Parameter& at_end = parameters_[parameter];

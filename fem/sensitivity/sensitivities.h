@@ -55,10 +55,11 @@ class Sensitivities final : public RunFollower {
  public:
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
   /// what has no tangent: friction, buffers, connectors whose length is found.
+  /// `probes`: of the run itself, where neighbours are recorded on the same elements.
   /// `by_adjoint`: tangents of rests, in statics, and of the last stretch of steps are left out, and
   /// through_states has what they would do.
-  Sensitivities(const SimulationOptions& options, std::vector<NeighbourPair> parameters,
-                bool by_adjoint = false);
+  Sensitivities(const SimulationOptions& options, std::vector<ProbePlace> probes,
+                std::vector<NeighbourPair> parameters, bool by_adjoint = false);
   ~Sensitivities() override;
 
   /// Derivatives of the time of each event of the run, in order, by each parameter [s]; NaN where steps
@@ -84,9 +85,8 @@ class Sensitivities final : public RunFollower {
   /// What quantities are where one record has another snapshot.
   using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;
   /// Of quantities of these records (quantities x parameters), by adjoints: what they change by as these do,
-  /// but for how their neighbours differ. `probes`: of the run itself.
+  /// but for how their neighbours differ.
   MotionTangents::Matrix through_states(const std::vector<std::size_t>& records,
-                                        const std::vector<ProbePlace>& probes,
                                         const SnapshotContents& contents, std::size_t count,
                                         const Quantities& quantities);
 
@@ -139,6 +139,7 @@ class Sensitivities final : public RunFollower {
 
   GeneralizedAlpha settings_;
   bool begins_at_rest_, is_static_, by_adjoint_;
+  std::vector<ProbePlace> probes_;
   std::vector<Parameter> parameters_;
   std::optional<ResidualDifferences> differences_;  // of their present systems
   std::optional<StepTangent> step_;                 // with the present system

@@ -30,6 +30,7 @@ struct Sensitivities::Meshes {
 struct Sensitivities::Record {
   State state;
   bool of_the_moment;
+  std::vector<ProbePlace> probes = {};          ///< of the run, with their spans
   std::optional<MotionTangents> tangents = {};  ///< empty where steps have been kept and not gone over
   std::size_t position = 0;                     ///< after so many of them
   std::shared_ptr<const Meshes> meshes;

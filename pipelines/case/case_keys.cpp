@@ -417,12 +417,12 @@ Shape connector() {
 }
 
 Shape analysis() {
-  const Shape integrator =
-      object({{"type", choice({"generalized-alpha", "ida", "rk4"}),
-               "ida: SUNDIALS' BDF of variable order; rk4: explicit, fixed `step`, no sliding bodies; "
-               "generalized-alpha when omitted"},
-              {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
-               "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
+  const Shape integrator = object(
+      {{"type", choice({"generalized-alpha", "ida", "rk4"}),
+        "ida: SUNDIALS' BDF of variable order, slow on stiff beams without damping; rk4: explicit, fixed "
+        "`step`, no sliding bodies; generalized-alpha when omitted"},
+       {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+        "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
   const Shape length_control =
       object({{"min", quantity(Dimension::number, {.lower = 0, .upper = 1, .open = true}),
                "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},

@@ -86,8 +86,8 @@ std::optional<double> loose_number(std::string_view text) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
-/// Sets one value of the case; null removes the key. Returns what is wrong, "" if nothing.
-std::string apply_override(Json& root, const std::string& path, const Json& new_value) {
+/// Sets one value of the case; null removes the key.
+AppliedOverride apply_override(Json& root, const std::string& path, const Json& new_value) {
   Json* value = &root;
   const Shape* shape = &case_keys();
   std::string walked;
@@ -97,58 +97,59 @@ std::string apply_override(Json& root, const std::string& path, const Json& new_
     const std::string here = walked.empty() ? "the case file" : walked;
     const Shape& holder = object_alternative(*shape);
     if (holder.kind != Kind::object && !value->is_array())
-      return here + " has no parts here; set it as a whole";
+      return {here + " has no parts here; set it as a whole", {}};
     if (value->is_array()) {
       const auto index = item_of(*value, part);
       if (!index)
-        return here + " has " + std::to_string(value->size()) + " item(s), counted from 0; there is no [" +
-               part + "]" + known_items(*value, part);
+        return {here + " has " + std::to_string(value->size()) + " item(s), counted from 0; there is no [" +
+                    part + "]" + known_items(*value, part),
+                {}};
       walked = child(walked, *index);
       shape = holder.kind == Kind::array ? &holder.items[0] : shape;
       value = &(*value)[*index];
       continue;
     }
     const Key* key = find_key(holder, part);
-    if (!key) return "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder));
+    if (!key)
+      return {"there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder)), {}};
     walked = child(walked, part);
     shape = &key->shape;
     if (new_value.is_null() && i + 1 == parts.size()) {
       if (value->is_object()) value->erase(part);
-      return {};
+      return {{}, walked};
     }
     if (!value->is_object()) *value = Json::object();
     value = &(*value)[part];
   }
   *value = new_value;
-  return {};
+  return {{}, walked};
 }
 
-/// What is wrong with a --set text, "" if nothing; then the case has been changed.
-std::string apply_override(Json& root, const std::string& text) {
+}  // namespace
+
+AppliedOverride apply_override(Json& root, const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos) return "expected path=value, for example analysis.end_time=0.1";
+  if (equals == std::string::npos) return {"expected path=value, for example analysis.end_time=0.1", {}};
   const std::string path = text.substr(0, equals), value_text = text.substr(equals + 1);
   if (!has_sound_brackets(path))
-    return "the brackets of the path do not match; write it as in beams[0].section.radius=0.01";
-  if (too_deep_at(value_text) != std::string::npos) return too_deep_message();
+    return {"the brackets of the path do not match; write it as in beams[0].section.radius=0.01", {}};
+  if (too_deep_at(value_text) != std::string::npos) return {too_deep_message(), {}};
   Json value = Json::parse(value_text, nullptr, false);
   if (value.is_discarded()) {
-    if (const auto number = loose_number(value_text)) {
-      return in_quotes(value_text) + " is not a number as JSON writes it; write " +
-             text_of(*number, all_digits);
-    }
+    if (const auto number = loose_number(value_text))
+      return {
+          in_quotes(value_text) + " is not a number as JSON writes it; write " + text_of(*number, all_digits),
+          {}};
     value = value_text;  // what does not read as JSON is a text
   }
   Json changed = root;
   if (path.starts_with("gravity[") && changed.is_object() &&
       !changed.contains("gravity"))  // a part of what it is when omitted
     for (const double g : CaseFile{}.gravity) changed["gravity"].push_back(g);
-  const std::string problem = apply_override(changed, path, value);
-  if (problem.empty()) root = std::move(changed);
-  return problem;
+  AppliedOverride applied = apply_override(changed, path, value);
+  if (applied.problem.empty()) root = std::move(changed);
+  return applied;
 }
-
-}  // namespace
 
 DimensionAtPath dimension_at(const std::string& path) {
   if (!has_sound_brackets(path))
@@ -185,7 +186,7 @@ DimensionAtPath dimension_at(const std::string& path) {
 
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong) {
   for (const std::string& text : overrides)
-    if (const std::string problem = apply_override(root, text); !problem.empty())
+    if (const std::string problem = apply_override(root, text).problem; !problem.empty())
       wrong.push_back({Severity::error, "--set " + text, problem});
 }
 

@@ -3,6 +3,12 @@
 
 namespace nurbeam {
 
+/// What a path=value text did to a case.
+struct AppliedOverride {
+  std::string problem;  ///< "" where the case has been changed
+  std::string path;     ///< of the value, items of arrays by their number: beams[0].section.radius
+};
+AppliedOverride apply_override(Json& root, const std::string& text);
 /// Applies --set path=value texts; what is wrong with them goes to `wrong`.
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong);
 

@@ -58,6 +58,21 @@ std::string slope_hint(const BeamModel& model) {
              : "";
 }
 
+// On a beam that deforms bodies that come near each other are as good as met.
+std::string meeting_text(const Failure& failure, const BeamModel& model) {
+  const SlidingJoint& joint = model.joints[failure.joint];
+  const std::string bodies = "sliding bodies \"" + model.body_of(joint).name + "\" and \"" +
+                             model.body_of(model.joints[failure.other]).name + "\" ",
+                    where = " on beam \"" + model.beam_of(joint).name +
+                            "\" at t = " + text_of(failure.time, 8) + " s";
+  if (model.beam_of(joint).rigid) return bodies + "meet" + where + "; give a stop that keeps them apart";
+  return bodies + "are " + text_of(failure.distance, 3) + " m apart" + where + ", and nearer than " +
+         text_of(failure.nearest) +
+         " m, a twentieth of an element, their motion is not followed; give a stop between them "
+         "with a \"gap\" of at least " +
+         text_of(2 * failure.nearest) + " m, or more elements";
+}
+
 std::string failure_text(const Failure& failure, const BeamModel& model) {
   const std::string time = text_of(failure.time, 8) + " s", places = places_text(failure.places, model);
   switch (failure.kind) {
@@ -93,7 +108,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
              " J has come from nowhere, more than all that moves" + places +
              "; take a shorter \"step\" or a \"tolerance\"";
     case Failure::Kind::bodies_meet:
-      return "sliding bodies meet at t = " + time + "; give a stop that keeps them apart" + places;
+      return meeting_text(failure, model) + places;
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
              "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) + slope_hint(model);
@@ -109,6 +124,13 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the loads do not change the stiffness: nothing buckles under them";
     case Failure::Kind::eigenvalues:
       return "the eigenvalues are not found; a smaller \"count\" may help";
+    case Failure::Kind::leaves_beam: {
+      const SlidingJoint& joint = model.joints[failure.joint];
+      return "there is no equilibrium with \"" + model.body_of(joint).name + "\" on beam \"" +
+             model.beam_of(joint).name + "\": it slides off its free end" + places +
+             "; give a stop there (\"stops\", or \"at_beam_end\": \"stop\" of its sliding joint), or hold it at its "
+             "place (\"equilibrium\": \"held\")";
+    }
     case Failure::Kind::free_lengths:
       return "no lengths of the connectors were found with which they do in equilibrium what \"as-drawn\" or "
              "\"force\" says: one of them does not move its end, or another one holds it";

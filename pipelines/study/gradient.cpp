@@ -51,6 +51,23 @@ std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vec
   return times;
 }
 
+/// Throws std::invalid_argument where beams of a neighbouring model are drawn in another way.
+void check_drawn_alike(const BeamModel& own, const BeamModel& other) {
+  if (other.dimension != own.dimension)
+    throw std::invalid_argument(
+        "the model is plane, and one in space with another value; take a nominal value that is out of the "
+        "plane, or differences of runs");
+  for (std::size_t b = 0; b < own.beams.size(); ++b) {
+    const int parts = own.beams[b].curve.segment_count(), others = other.beams[b].curve.segment_count();
+    if (parts != others)
+      throw std::invalid_argument(
+          "beam " + in_quotes(own.beams[b].name) + " is divided into " + std::to_string(parts) +
+          " rational cubics, and into " + std::to_string(others) +
+          " with another value, as a curve may be where its weights are all equal and where they differ; take "
+          "a value a little off (1.001 for a weight of 1), or differences of runs");
+  }
+}
+
 bool same_times(const SimulationOptions& a, const SimulationOptions& b) {
   return a.end_time == b.end_time && a.step == b.step && a.output_times == b.output_times;
 }
@@ -114,6 +131,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
   const auto run_of = [&](std::vector<double> of) {
     BuildReport report = build_model(case_of(of), {}, &model);
     if (!report.value) throw std::invalid_argument("a neighbouring variant has no model");
+    check_drawn_alike(model.model, report.value->model);
     return NeighbouringRun(study, std::move(of),
                            std::make_unique<const BuiltModel>(std::move(*report.value)));
   };
@@ -131,7 +149,8 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
   }
   is_by_adjoint_ = pays_by_adjoint();
-  sensitivities_ = std::make_unique<Sensitivities>(options, std::move(neighbours), is_by_adjoint_);
+  sensitivities_ =
+      std::make_unique<Sensitivities>(options, probe_places(model), std::move(neighbours), is_by_adjoint_);
 }
 
 VariantGradient::~VariantGradient() = default;
@@ -158,7 +177,7 @@ Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
     changed.replace(time, histories);
     return all;
   };
-  return sensitivities_->through_states(times, probe_places(model_), histories.contents(), count, quantities);
+  return sensitivities_->through_states(times, histories.contents(), count, quantities);
 }
 
 StudyGradient VariantGradient::of_quantities(const Histories& histories,

@@ -246,6 +246,60 @@ void add_files_of(const Json& json, const std::filesystem::path& folder,
   }
 }
 
+/// A change of a study that has been made, and the path in the case whose value it has set.
+struct MadeChange {
+  StudyChange change;
+  std::string path;
+};
+
+// Makes the changes that can be made; what is wrong with others goes to the findings.
+std::vector<MadeChange> make_changes(const StudyFile& study, Json& json, Findings& findings) {
+  std::vector<MadeChange> made;
+  for (const StudyChange& change : study.changes)
+    if (const AppliedOverride applied = apply_override(json, change.text); applied.problem.empty())
+      made.push_back({change, applied.path});
+    else
+      findings.error(change.path, in_quotes(change.text) + ": " + applied.problem);
+  return made;
+}
+
+// What is said of a value of the case is said of the change that has set it.
+void name_changes(const StudyFile& study, const std::vector<MadeChange>& made,
+                  std::vector<Diagnostic>& diagnostics) {
+  const std::string of_case = study.case_file->string() + ": ";
+  const auto is_of = [&](const Diagnostic& d, const MadeChange& change) {
+    const std::string place = of_case + change.path;
+    return d.where == place || d.where.starts_with(place + ".") || d.where.starts_with(place + "[");
+  };
+  for (Diagnostic& d : diagnostics) {
+    const auto last =
+        std::find_if(made.rbegin(), made.rend(), [&](const MadeChange& m) { return is_of(d, m); });
+    if (last == made.rend()) continue;
+    d.message = in_quotes(last->change.text) + ": " + d.where.substr(of_case.size()) + ": " + d.message;
+    d.where = study.path.string() + ": " + last->change.path;
+  }
+}
+
+// Changes that have set what is wrong cannot be made either.
+std::vector<StudyChange> without_errors(const StudyFile& study, const std::vector<MadeChange>& made,
+                                        const std::vector<Diagnostic>& diagnostics) {
+  std::vector<StudyChange> sound;
+  for (const auto& [change, path] : made) {
+    const std::string place = study.path.string() + ": " + change.path;
+    const bool wrong = std::any_of(diagnostics.begin(), diagnostics.end(), [&](const Diagnostic& d) {
+      return d.severity == Severity::error && d.where == place;
+    });
+    if (!wrong) sound.push_back(change);
+  }
+  return sound;
+}
+
+std::vector<std::string> texts_of(const std::vector<MadeChange>& made) {
+  std::vector<std::string> texts;
+  for (const auto& [change, path] : made) texts.push_back(change.text);
+  return texts;
+}
+
 // Whether a path leads into the axis of a beam, by its name or its index.
 bool is_in_axis(const std::string& path, const std::string& beam, std::size_t index) {
   return path.starts_with("beams[" + beam + "].axis") ||
@@ -253,16 +307,15 @@ bool is_in_axis(const std::string& path, const std::string& beam, std::size_t in
 }
 
 // Whether the numbers that variables set are there, and are not those of a curve that others move.
-void check_paths(const StudyFile& study, const std::string& case_json,
+void check_paths(const StudyFile& study, const Json& case_json,
                  const std::map<std::string, StudyCurve>& curves, Findings& findings) {
   for (const StudyVariable& variable : study.variables) {
     const auto* numbers = variable.target ? std::get_if<CasePaths>(&*variable.target) : nullptr;
     if (!numbers) continue;
     for (const std::string& path : numbers->paths) {
-      Json json = Json::parse(case_json);
-      std::vector<Diagnostic> wrong;
-      apply_overrides(json, {path + "=1"}, wrong);
-      for (const Diagnostic& each : wrong) findings.error(variable.path + ".path", each.message);
+      Json json = case_json;
+      if (const std::string problem = apply_override(json, path + "=1").problem; !problem.empty())
+        findings.error(variable.path + ".path", problem);
       for (const auto& [beam, curve] : curves)
         if (is_in_axis(path, beam, curve.beam))
           findings.error(variable.path + ".path",
@@ -323,10 +376,10 @@ Json StudyCase::json_of(const std::vector<StudyVariable>& variables,
       if (!std::isfinite(values[i]))
         throw std::invalid_argument(text_of(values[i]) + " cannot stand in a case");
       if constexpr (requires { target.paths; }) {
-        std::vector<Diagnostic> wrong;
         for (const std::string& path : target.paths)
-          apply_overrides(json, {path + "=" + Json(values[i]).dump()}, wrong);
-        if (!wrong.empty()) throw std::invalid_argument(wrong.front().message);
+          if (const std::string problem = apply_override(json, path + "=" + Json(values[i]).dump()).problem;
+              !problem.empty())
+            throw std::invalid_argument(problem);
       }
     });
   for (const auto& [name, curve] : moved(variables, values))
@@ -336,26 +389,30 @@ Json StudyCase::json_of(const std::vector<StudyVariable>& variables,
 
 StudyCaseReport read_study_case(const StudyFile& study) {
   StudyCaseReport report;
-  CaseFileReport read = read_case_file(*study.case_file, study.overrides);
-  report.diagnostics = read.diagnostics;
-  if (!read.value) return report;
-  const CaseTextReport text = case_text(*study.case_file, study.overrides);
+  const CaseTextReport text = case_text(*study.case_file);
+  if (text.json.empty()) return {{}, text.diagnostics};
   Findings findings(study.path.string());
+  Json json = Json::parse(text.json);
+  const std::vector<MadeChange> made = make_changes(study, json, findings);
+  const CaseFileReport read = read_case_file(*study.case_file, texts_of(made));
+  report.diagnostics = read.diagnostics;
+  name_changes(study, made, report.diagnostics);
+  report.changes = without_errors(study, made, report.diagnostics);
   std::map<std::string, StudyCurve> curves;
   CadFiles files;
   try {
-    curves = curves_to_move(study, *read.value, files, findings);
+    if (read.value) curves = curves_to_move(study, *read.value, files, findings);
   } catch (const std::invalid_argument& problem) {
     findings.error("variables", problem.what());
   }
-  check_paths(study, text.json, curves, findings);
-  const bool usable = !findings.has_errors();
+  check_paths(study, json, curves, findings);
+  const bool usable = read.value && !findings.has_errors();
   const std::vector<Diagnostic> found = findings.take();
   report.diagnostics.insert(report.diagnostics.end(), found.begin(), found.end());
   if (!usable) return report;
   std::vector<std::filesystem::path> inputs;
-  add_files_of(Json::parse(text.json), std::filesystem::absolute(*study.case_file).parent_path(), inputs);
-  report.value.emplace(text.json, *study.case_file, std::move(curves), std::move(inputs));
+  add_files_of(json, std::filesystem::absolute(*study.case_file).parent_path(), inputs);
+  report.value.emplace(json.dump(), *study.case_file, std::move(curves), std::move(inputs));
   return report;
 }
 

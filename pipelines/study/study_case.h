@@ -62,9 +62,11 @@ class StudyCase {
 struct StudyCaseReport {
   std::optional<StudyCase> value;  ///< empty when any diagnostic is an error
   std::vector<Diagnostic> diagnostics;
+  std::vector<StudyChange> changes = {};  ///< those of the study that can be made
 };
 
-/// Reads the case of a study, and the curves that its variables move. Precondition: the study has a case.
+/// Reads the case of a study, and the curves that its variables move; changes that cannot be made are errors,
+/// and left out as more is looked for. Precondition: the study has a case.
 StudyCaseReport read_study_case(const StudyFile& study);
 
 }  // namespace nurbeam

@@ -29,11 +29,9 @@ struct ReadyStudy {
   std::optional<StudyCase> study_case;
 };
 
-// What is wrong with a study besides what its file alone shows: beams, control points, columns.
-void tell_of_case(StudyFile study, std::ostream& err) {
-  if (!study.case_file) return;
-  const StudyCaseReport of_case = read_study_case(study);
-  print_diagnostics(err, of_case.diagnostics);
+// What is wrong with the quantities of a study whose case, changes or variables cannot be used as they are.
+void tell_of_quantities(StudyFile study, const std::vector<StudyChange>& changes, std::ostream& err) {
+  study.changes = changes;
   for (StudyVariable& variable : study.variables) {  // the case as it stands: their values may be wrong
     variable.target.reset();
     variable.derived.reset();
@@ -41,6 +39,14 @@ void tell_of_case(StudyFile study, std::ostream& err) {
   study.refinements.clear();
   const StudyCaseReport plain = read_study_case(study);
   if (plain.value) print_diagnostics(err, check_quantities(study, &*plain.value));
+}
+
+// What is wrong with a study besides what its file alone shows: beams, control points, columns.
+void tell_of_case(StudyFile study, std::ostream& err) {
+  if (!study.case_file) return;
+  const StudyCaseReport of_case = read_study_case(study);
+  print_diagnostics(err, of_case.diagnostics);
+  tell_of_quantities(std::move(study), of_case.changes, err);
 }
 
 /// Nothing, with its errors printed, where it cannot run.
@@ -55,7 +61,10 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
   if (ready.study.case_file) {
     StudyCaseReport of_case = read_study_case(ready.study);
     print_diagnostics(err, of_case.diagnostics);
-    if (!of_case.value) return {};
+    if (!of_case.value) {
+      tell_of_quantities(std::move(ready.study), of_case.changes, err);
+      return {};
+    }
     ready.study_case = std::move(of_case.value);
   }
   const std::vector<Diagnostic> wrong =

@@ -33,8 +33,8 @@ class StudyReader : StudyPartReader {
     if (has(json_, "case")) study_.case_file = (directory / text(json_, "case")).lexically_normal();
     for_each_item(
         json_, "set", "",
-        [&](const Json& change, const std::string&) {
-          study_.overrides.push_back(change.get<std::string>());
+        [&](const Json& change, const std::string& path) {
+          study_.changes.push_back({change.get<std::string>(), path});
         });
     for_each_item(
         json_, "refine", "",
@@ -68,6 +68,7 @@ class StudyReader : StudyPartReader {
     StudyVariable variable{.name = text(json, "name"), .path = path};
     variable.target = read_target(json, path);
     const Dimension dimension = dimension_of(variable, path);
+    variable.unit = turns(variable) ? "degrees" : si_unit(dimension);
     if (has(json, "value")) variable.derived = parsed(text(json, "value"), child(path, "value"));
     if (has(json, "range")) {
       variable.distribution.parameters = all_measured(json["range"], dimension, child(path, "range"));
@@ -81,6 +82,11 @@ class StudyReader : StudyPartReader {
       variable.nominal = middle_of(variable.distribution);
     if (!variable.derived && !findings_.has_errors()) check_ends(variable);
     study_.variables.push_back(std::move(variable));
+  }
+
+  static bool turns(const StudyVariable& variable) {
+    const auto* transform = variable.target ? std::get_if<CurveTransform>(&*variable.target) : nullptr;
+    return transform && transform->kind == CurveTransform::Kind::rotate;
   }
 
   // Something of the distribution must lie between where it is cut off, and the nominal value within.

@@ -60,10 +60,17 @@ struct StudyRefinement {
   int parts = 1;                   ///< into which each span of the curve is divided
 };
 
+/// A change of the case for all variants.
+struct StudyChange {
+  std::string text;  ///< path=value, as --set has it
+  std::string path;  ///< JSON path of this text, for messages
+};
+
 /// What a study varies.
 struct StudyVariable {
   std::string name;
-  std::string path;                        ///< JSON path of this object, for messages
+  std::string path;       ///< JSON path of this object, for messages
+  std::string unit = {};  ///< of its values: SI, degrees of a rotation; "" for a plain number
   std::optional<StudyTarget> target = {};  ///< none: it only stands in expressions
   StudyDistribution distribution = {};
   double nominal = 0;                      ///< where a search begins
@@ -122,6 +129,7 @@ struct StudyCalibration {
   /// What was measured of one history.
   struct Observation {
     std::string value;  ///< the expression
+    std::string path;   ///< JSON path of this object, for messages
     std::vector<double> times, measured;
     double sd = 1;  ///< of the noise
   };
@@ -146,8 +154,8 @@ struct StudyFile {
   std::string json;  ///< as read, without comments
   std::string name;
   std::optional<std::filesystem::path> case_file = {};  ///< absolute; none where all quantities are formulas
-  std::vector<std::string> overrides = {};              ///< of the case, as --set has them
-  std::vector<StudyRefinement> refinements = {};        ///< of curves, before variables move them
+  std::vector<StudyChange> changes = {};
+  std::vector<StudyRefinement> refinements = {};  ///< of curves, before variables move them
   std::vector<StudyVariable> variables;
   std::vector<Expression> constraints = {};  ///< a variant for which one is 0 does not run
   std::vector<StudyQuantity> quantities;

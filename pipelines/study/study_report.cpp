@@ -1,6 +1,7 @@
 #include "pipelines/study/study_report.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -23,6 +24,16 @@ Json homogeneous(const NurbsCurve& curve) {
   return points;
 }
 
+/// The curves of a variant; none where its values make no curves, of one that is refused.
+std::map<std::string, NurbsCurve> moved_curves(const StudyFile& study, const StudyCase& study_case,
+                                               const Variant& variant) {
+  try {
+    return study_case.moved(study.variables, variant.values);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
 Json curves_of(const StudyFile& study, const StudyCase& study_case, const std::vector<Variant>& variants,
                const std::vector<std::size_t>& best) {
   Json curves = Json::array();
@@ -35,8 +46,8 @@ Json curves_of(const StudyFile& study, const StudyCase& study_case, const std::v
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const Variant& variant = variants[i];
     const bool wanted = i < most_curves || std::find(best.begin(), best.end(), variant.number) != best.end();
-    if (!wanted || variant.status != VariantStatus::done) continue;
-    for (const auto& [beam, curve] : study_case.moved(study.variables, variant.values))
+    if (!wanted) continue;
+    for (const auto& [beam, curve] : moved_curves(study, study_case, variant))
       for (Json& of : curves)
         if (of["beam"] == beam) of["variants"][std::to_string(variant.number)] = homogeneous(curve);
   }
@@ -77,7 +88,8 @@ Json page_data(const StudyFile& study, const StudyCase* study_case, const StudyR
                {"rows", Json::array()},
                {"best", best},
                {"curves", study_case ? curves_of(study, *study_case, result.variants, best) : Json::array()}};
-  for (const StudyVariable& variable : study.variables) data["variables"].push_back(variable.name);
+  for (const StudyVariable& variable : study.variables)
+    data["variables"].push_back({{"name", variable.name}, {"unit", variable.unit}});
   std::size_t shown = 0;  // what is observed stands in the answer
   for (const StudyQuantity& quantity : study.quantities) {
     if (quantity.observed) break;

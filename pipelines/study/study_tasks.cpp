@@ -216,7 +216,8 @@ class StudyTaskReader : StudyPartReader {
   }
 
   void read_observation(const Json& json, const std::string& path, StudyCalibration& calibration) {
-    StudyCalibration::Observation observation{.value = text(json, "value"), .sd = number(json, "sd", 1)};
+    StudyCalibration::Observation observation{
+        .value = text(json, "value"), .path = path, .sd = number(json, "sd", 1)};
     if (!parsed(observation.value, child(path, "value"))) return;
     for (const auto& [time, value] : time_table(json, "measured")) {
       observation.times.push_back(time);

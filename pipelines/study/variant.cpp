@@ -176,6 +176,25 @@ void check_kind(const StudyFile& study, const StudyQuantity& quantity, const Bea
   }
 }
 
+// What was measured is looked for at its times: a run must go on as long.
+void check_times(const StudyFile& study, const CaseFile& case_file, Findings& findings) {
+  const auto* calibration = std::get_if<StudyCalibration>(&study.task);
+  if (!calibration) return;
+  const SimulationOptions options = simulation_options(case_file);
+  const double end = options.output_times.empty() ? 0 : options.output_times.back();
+  const std::string ends =
+      options.statics ? "the load steps of the case end at " : "a run of this case ends at ";
+  const std::string cure = options.statics ? "\"analysis.load_steps\"" : "a longer \"analysis.end_time\"";
+  for (const StudyCalibration::Observation& observation : calibration->observations)
+    for (const double time : observation.times)
+      if (time > end) {
+        findings.error(observation.path + ".measured",
+                       ends + text_of(end) + " s, before the measurement at " + text_of(time) + " s; give " +
+                           cure + " that reaches it, or leave out what was measured later");
+        break;
+      }
+}
+
 // What takes sums over the run has none: its tangent does not go along.
 void check_derivatives(const StudyFile& study, const StudyCase& study_case, const std::vector<double>& values,
                        const CaseFile& case_file, const BuiltModel& model, Findings& findings) {
@@ -289,6 +308,7 @@ std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase
       }
       if (complete) check_kind(study, quantity, built.value->model, findings);
     }
+    check_times(study, *read.value, findings);
     if (!findings.has_errors() && study.derivatives && !study.derivatives_where_known)
       check_derivatives(study, *study_case, nominal, *read.value, *built.value, findings);
   } catch (const std::invalid_argument& problem) {

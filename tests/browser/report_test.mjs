@@ -155,6 +155,17 @@ for (const [directory, probe, body] of [['zipline', 'middle', 'trolley'], ['fall
     });
 }
 
+report_test('labels of a history that does not change are seen whole', 'still.html', {}, async (page) => {
+  const { left, labels } = await page.$eval('[data-plot="length"] svg.plot', (plot) => ({
+    left: plot.getBoundingClientRect().left,
+    labels: [...plot.querySelectorAll('text')].map((text) => ({ text: text.textContent, left: text.getBoundingClientRect().left })),
+  }));
+  assert.ok(labels.some(({ text }) => text.length > 10), 'the labels tell nearly equal values apart');
+  for (const label of labels) {
+    assert.ok(label.left >= left, `${label.text} begins at ${label.left}, the plot at ${left}`);
+  }
+});
+
 report_test('keys step, jump and turn', zipline, {}, async (page) => {
   const last = await last_frame(page);
   const pressed = async (key) => {

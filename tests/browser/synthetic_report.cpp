@@ -1,5 +1,6 @@
-// synthetic_report arc|large|twisted|sections FILE: writes a report of frames that no run has computed.
+// synthetic_report arc|still|large|twisted|sections FILE: writes a report of frames that no run has computed.
 //   arc    a quarter of a circle of radius 1 m about the origin, one rational element
+//   still  the same for a second, in which nothing changes
 //   large  1000 frames of a wave on 1000 elements
 //   twisted   a bar of a flat rectangle, 1 m long along x, that turns by a right angle about itself
 //   sections  such bars above each other: a rectangle, a disk, a pipe and an I-section
@@ -66,11 +67,16 @@ ElementRecord wave_element(double time, int i, int count) {
   return element;
 }
 
-ReportFrames arc() {
+ReportFrames arc(const std::vector<double>& times) {
   return {"arc",
           {{}, {}, {"arc"}},
-          {0},
-          [](std::size_t, std::size_t) { return std::vector<Snapshot>{frame_of(0, {quarter_circle()})}; }};
+          times,
+          [times](std::size_t first, std::size_t count) {
+            std::vector<Snapshot> piece;
+            for (std::size_t i = first; i < first + count; ++i)
+              piece.push_back(frame_of(times[i], {quarter_circle()}));
+            return piece;
+          }};
 }
 
 ReportFrames large() {
@@ -164,7 +170,8 @@ std::string model_of(const std::vector<Outline>& all) {
 }
 
 ReportFrames frames_of(const std::string& kind) {
-  if (kind == "arc") return arc();
+  if (kind == "arc") return arc({0});
+  if (kind == "still") return arc({0, 1});
   if (kind == "large") return large();
   return sections(kind == "twisted" ? 1 : 4);
 }

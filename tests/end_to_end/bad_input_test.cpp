@@ -249,8 +249,9 @@ TEST(HardInput, TwoBodiesThatMeetEndTheRun) {
   const CaseRun met = run_beam(
       {bodies,
        R"(sliding_joints=[{"body":"a","beam":"beam","at":{"length":0.2},"speed":5},{"body":"b","beam":"beam","at":{"length":0.6}}])"});
-  expect_stopped(met,
-                 {"sliding bodies meet at t = ", "\"a\" is at s = ", "give a stop that keeps them apart"});
+  expect_stopped(met, {"sliding bodies \"a\" and \"b\" are 0.0", " m apart on beam \"beam\" at t = ",
+                       "nearer than 0.00625 m, a twentieth of an element, their motion is not followed",
+                       "\"a\" is at s = ", "give a stop between them with a \"gap\" of at least 0.0125 m"});
   EXPECT_GT(met.last("a.s [m]"), 0.5);
   const CaseRun same_place = run_beam(
       {bodies,
@@ -264,7 +265,7 @@ TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
       test::sample("statics/bead_level.json"),
       {R"(bodies=[{"name":"a","mass":40},{"name":"b","mass":40}])",
        R"(sliding_joints=[{"body":"a","beam":"cable","at":{"length":20},"slope":"discontinuous","at_beam_end":"stop"},{"body":"b","beam":"cable","at":{"length":90},"slope":"discontinuous","at_beam_end":"stop"}])"});
-  expect_stopped(run, {"sliding bodies meet", "give a stop that keeps them apart"});
+  expect_stopped(run, {"sliding bodies \"a\" and \"b\" are ", "give a stop between them"});
 }
 
 TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {

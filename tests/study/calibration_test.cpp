@@ -5,6 +5,8 @@
 #include <random>
 
 #include "pipelines/study/analysis.h"
+#include "pipelines/study/variant.h"
+#include "tests/study/study_of_case.h"
 #include "tests/study/study_text.h"
 
 namespace nurbeam {
@@ -153,6 +155,28 @@ TEST(Calibration, NeedsRangesOrNormalDistributionsAndEnoughValues) {
                 .find("calibrate.observations: has 2 values for 2 variables"),
             std::string::npos);
   EXPECT_EQ(wrong_with(two_variables(normal, normal, measured)), "");
+}
+
+TEST(Calibration, RefusesWhatWasMeasuredAfterTheEndOfTheRun) {
+  const auto told = [](double last) {
+    const test::StudyOfCase of(
+        test::spline_case(6, 4, R"json({"end_time": 0.4, "step": 0.01})json"),
+        R"json("variables": [{"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1e9, 3e9]}],
+          "calibrate": {"observations": [{"value": "tip.z", "measured": [[0.1, 0], [)json" +
+            std::to_string(last) + R"json(, 0]]}]})json");
+    std::string all;
+    for (const Diagnostic& d : check_quantities(of.study, &of.study_case))
+      all += d.where + ": " + d.message + "\n";
+    return all;
+  };
+  EXPECT_EQ(told(0.4), "");
+  EXPECT_NE(
+      told(0.5).find(
+          "study.json: calibrate.observations[0].measured: a run of this case ends at 0.4 s, before the "
+          "measurement at 0.5 s; give a longer \"analysis.end_time\" that reaches it, or leave out what "
+          "was measured later"),
+      std::string::npos)
+      << told(0.5);
 }
 
 }  // namespace

@@ -106,5 +106,61 @@ TEST(Gradient, IsRefusedWhereThereIsNone) {
   EXPECT_NE(refused(rough, mass).find("friction"), std::string::npos);
 }
 
+// What is said of a variant that has no derivatives.
+std::string told_of(const std::string& of_case, const std::string& variables, const std::string& quantity) {
+  StudyOfCase of(of_case, variables + R"json(, "quantities": [{"name": "q", "value": ")json" + quantity +
+                              R"json("}], "plan": {"gradient": "nominal"})json");
+  std::string all;
+  for (const Diagnostic& d : check_quantities(of.study, &of.study_case)) all += d.message + "\n";
+  return all + run_variant(of.study, &of.study_case, 0, all_values(of.study, of.nominal())).reason;
+}
+
+TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {
+  const std::string plane_case = test::spline_case(6, 4, R"json({"type": "static"})json");
+  const std::string out_of_plane = told_of(
+      plane_case,
+      R"json("variables": [{"name": "y", "control_point": {"beam": "beam", "index": 2, "axis": "y"}, "range": [-1, 1]}])json",
+      "at(end, tip.z)");
+  EXPECT_NE(
+      out_of_plane.find("no derivative by \"y\": the model is plane, and one in space with another value"),
+      std::string::npos)
+      << out_of_plane;
+
+  // A parabola that turns by more than a right angle is one cubic, or two where it is rational.
+  const auto guide = [](const char* weight) {
+    return told_of(
+        std::string(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "rail", "rigid": true,
+        "axis": {"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [[0, 0, 0], [1, 0, -3], [2, 0, 0]],
+                           "weights": [1, )json") +
+            weight + R"json(, 1]}}}],
+      "bodies": [{"name": "car", "mass": 2}],
+      "sliding_joints": [{"body": "car", "beam": "rail", "at": {"length": 0.5}}],
+      "analysis": {"end_time": 0.1, "step": 0.01}})json",
+        std::string(
+            R"json("variables": [{"name": "w", "weight": {"beam": "rail", "index": 1}, "range": [0.5, 1.5], "nominal": )json") +
+            weight + "}]",
+        "at(end, car.z)");
+  };
+  const std::string told = guide("1");
+  EXPECT_NE(
+      told.find("no derivative by \"w\": beam \"rail\" is divided into 1 rational cubics, and into 2 with "
+                "another value"),
+      std::string::npos)
+      << told;
+  EXPECT_EQ(guide("1.001"), "");
+
+  const std::string twisted = told_of(
+      "{\"nurbeam\": 1, " + test::space_beam +
+          R"json("loads": [{"beam": "beam", "at": "end", "force": [0, 0, -2], "time": [[0, 0], [1, 1]]}],
+        "output": {"probes": [{"name": "tip", "beam": "beam", "at": "end"}]},
+        "analysis": {"type": "static", "load_steps": [0.5, 1]}})json",
+      R"json("variables": [{"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1e9, 3e9]}])json",
+      "at(end, tip.z)");
+  EXPECT_NE(twisted.find("an equilibrium of beams with torsion has no derivative here where it follows from "
+                         "another one (of a load step before it, or as bodies slide)"),
+            std::string::npos)
+      << twisted;
+}
+
 }  // namespace
 }  // namespace nurbeam

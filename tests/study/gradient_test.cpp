@@ -130,5 +130,39 @@ TEST(Gradient, OfWhatIsZeroAsDrawn) {
   expect_gradient(of, 1e-2, 1e-5);
 }
 
+// The elements on both sides of a knot carry an axial force of their own. Where a probe is at the knot, which
+// moves, runs on one side of the nominal one look at the element that this looks at: differences towards
+// there, whose error is of first order.
+TEST(Gradient, OfASectionAtAKnotIsThatOfTheElementThatTheRunLooksAt) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 1, 1, 1, 1],
+                         "control_points": [[0, 0, 0], [0.8, 0, 0.35], [1.5, 0, 0.5], [2.2, 0, 0.35], [3, 0, 0]]}},
+      "section": {"radius": "20 mm"}, "material": {"density": 2700, "youngs_modulus": "2 GPa"},
+      "elements": {"count": 4}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped"}],
+    "output": {"probes": [{"name": "mid", "beam": "beam", "at": {"fraction": 0.5}}]},
+    "analysis": {"type": "static"}})json",
+                 R"json("variables": [
+      {"name": "x2", "control_point": {"beam": "beam", "index": 2, "axis": "x"}, "range": [1, 2]}],
+    "quantities": [{"name": "axial force", "value": "at(end, mid.axial_force)"},
+                   {"name": "moment", "value": "at(end, mid.moment)"},
+                   {"name": "shear force", "value": "at(end, mid.shear_force)"},
+                   {"name": "displacement", "value": "at(end, mid.uz)"}],
+    "plan": {"gradient": "nominal"})json");
+  const Variant at_knot = of.run({1.5}, true);
+  const auto change = [&](double h, std::size_t quantity) {
+    return of.run({1.5 + h}, false).quantities[quantity] - at_knot.quantities[quantity];
+  };
+  constexpr double step = 4e-3;
+  const double same_side = std::abs(change(step, 0)) < std::abs(change(-step, 0)) ? step : -step;
+  ASSERT_GT(std::abs(change(-same_side, 0)), 100 * std::abs(change(same_side, 0))) << "the force jumps";
+  for (std::size_t i = 0; i < at_knot.quantities.size(); ++i) {
+    const double g = at_knot.gradient[i][0], coarse = change(same_side, i) / same_side,
+                 fine = change(same_side / 2, i) / (same_side / 2);
+    EXPECT_NEAR(g, 2 * fine - coarse, 1e-3 * std::abs(g)) << i;
+    EXPECT_NEAR((coarse - g) / (fine - g), 2, 0.1) << i << ": the rate";
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam

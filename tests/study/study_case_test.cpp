@@ -71,6 +71,36 @@ TEST(StudyCase, RefinedCurvesKeepTheirShapeAndHaveMoreControlPoints) {
   EXPECT_LE((bent.point(2) - refined.point(2)).norm(), 1e-14);
 }
 
+TEST(StudyCase, SaysWhichChangesAreWrongAndLooksForMore) {
+  const ReadCase read = read_with(R"json(
+    {"name": "a", "control_point": {"beam": "rial", "index": 2, "axis": "z"}, "range": [0, 2]},
+    {"name": "b", "path": "beams[5].section.radius", "range": [1, 2]})json",
+                                  R"json(, "set": ["analysis.stp=1", "gravity[2]=-1", "beams"])json");
+  EXPECT_FALSE(read.of_case.value);
+  ASSERT_EQ(read.of_case.changes.size(), 1U);
+  EXPECT_EQ(read.of_case.changes[0].text, "gravity[2]=-1");
+  for (const char* expected :
+       {"study.json: set[0]: \"analysis.stp=1\": there is no \"stp\" in analysis; did you mean \"step\"",
+        "study.json: set[2]: \"beams\": expected path=value",
+        "study.json: variables[0]: the case has no beam \"rial\"; did you mean \"rail\"",
+        "study.json: variables[1].path: beams has 2 item(s)"})
+    EXPECT_NE(read.messages.find(expected), std::string::npos) << expected << "\n" << read.messages;
+  EXPECT_EQ(read.messages.find("--set"), std::string::npos) << read.messages;
+}
+
+TEST(StudyCase, SaysWhichChangeHasSetAValueThatIsWrong) {
+  const ReadCase read = read_with(one_point, R"json(, "set": ["beams[rail].elements.count=0",
+    "analysis.step=2", "analysis={\"end_time\": 1, \"step\": -0.1}"])json");
+  EXPECT_FALSE(read.of_case.value);
+  for (const char* expected :
+       {"study.json: set[0]: \"beams[rail].elements.count=0\": beams[0].elements.count: ",
+        "study.json: set[2]: \"analysis={\"end_time\": 1, \"step\": -0.1}\": analysis.step: "})
+    EXPECT_NE(read.messages.find(expected), std::string::npos) << expected << "\n" << read.messages;
+  EXPECT_EQ(read.messages.find("set[1]"), std::string::npos) << read.messages;
+  ASSERT_EQ(read.of_case.changes.size(), 1U);
+  EXPECT_EQ(read.of_case.changes[0].text, "analysis.step=2");
+}
+
 TEST(StudyCase, SaysOfEveryVariableWhatIsWrongWithIt) {
   const ReadCase read = read_with(R"json(
     {"name": "a", "control_point": {"beam": "rial", "index": 2, "axis": "z"}, "range": [0, 2]},

@@ -30,6 +30,9 @@ TEST(StudyFile, ReadsUnitsByWhatTheVariableIs) {
   EXPECT_EQ(study.variables[1].distribution.lower, 1.5e11);
   EXPECT_EQ(study.variables[2].distribution.parameters, (std::vector<double>{0.1, 1}));
   EXPECT_EQ(std::get<CurveTransform>(*study.variables[2].target).direction, -Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(study.variables[0].unit, "m");
+  EXPECT_EQ(study.variables[1].unit, "Pa");
+  EXPECT_EQ(study.variables[4].unit, "");
   EXPECT_EQ(study.free_variables(), (std::vector<std::size_t>{0, 1, 2, 3}));
   EXPECT_EQ(std::get<StudyPlan>(study.task).rows, (StudyPoints{{0.005, 2e11, 0.5, 0.01}}));
   EXPECT_EQ(study.seed, 7U);

@@ -185,6 +185,12 @@ def bad_files_are_refused():
     for place in ("constraints[0]: there is no variable \"ryse\"", "plan.grid: has 2 numbers",
                   "variables[0]: the case has no beam", "quantities[0].value: a run of this case has no column"):
         assert place in done.stderr, (place, done.stderr)
+    wrong = {**STUDY, "set": ["analysis.stp=1", "analysis.step=-1"], "quantities": [{"name": "q", "value": "max(tipp.x)"}]}
+    done = run(write(scratch / "bad", wrong), "--out", scratch / "bad/out", expected=2)
+    for place in ("study.json: set[0]: \"analysis.stp=1\": there is no \"stp\"",
+                  "study.json: set[1]: \"analysis.step=-1\": analysis.step: ",
+                  "quantities[0].value: a run of this case has no column"):
+        assert place in done.stderr, (place, done.stderr)
     run(scratch / "bad/nothing.json", expected=2)
     run(study, "--out", scratch / "bad/none", "--resume", expected=2)
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
@@ -245,6 +251,9 @@ def a_variant_that_cannot_be_built_says_why():
     status = rows[0].index("status")
     assert [row[status] for row in rows[1:]] == ["done", "refused"], rows
     assert rows[2][-1].startswith("with end = 0: "), rows[2]
+    page = (scratch / "refused/turned/study.html").read_text()
+    data = json.loads(page.split('<script type="application/json" id="data">')[1].split("</script>")[0])
+    assert sorted(data["curves"][0]["variants"]) == ["0", "1"], "its curve is there to see"
 
 
 def the_best_variant_runs():

@@ -3,7 +3,7 @@ import { line_style } from './colours.js';
 import { common_exponent, element, number, number_beside, round_down, scaled_unit } from './format.js';
 import { energy_parts } from './tables.js';
 
-const height = 150, left = 58, right = 14, top = 10, bottom = 24;
+const height = 150, right = 14, top = 10, bottom = 24;
 
 /** Round values between low and high, about `wanted` of them. */
 export function ticks(low, high, wanted) {
@@ -30,6 +30,9 @@ function labels_of({ step, values }) {
     texts: values.map((value) => (value * scale).toFixed(Math.min(decimals, 12)).replace('-', '−')),
   };
 }
+
+/** The width of what stands left of the axis, of which a character takes at most 6.5 pixels. */
+const margin_of = (texts) => Math.max(58, 10 + Math.ceil(6.5 * Math.max(...texts.map((text) => text.length))));
 
 /** Least and greatest value of all series; a margin where they are (nearly) equal. */
 function range_of(series) {
@@ -88,14 +91,14 @@ function path_of(time, values, x_of, y_of, pixels, steps) {
   return path;
 }
 
-/** Axes, their ticks and labels, for a width in pixels; x_of and y_of turn values into pixels. */
+/** Axes, their ticks and labels, for a width in pixels; x_of and y_of turn values into pixels, of which x starts at `left`. */
 function axes(svg, width, [start, end], [low, high], x_unit) {
+  const y_ticks = ticks(low, high, 4), y_labels = labels_of(y_ticks), left = margin_of(y_labels.texts);
   const x_of = (x) => left + ((x - start) / (end - start)) * (width - left - right);
   const y_of = (value) => height - bottom - ((value - low) / (high - low)) * (height - bottom - top);
   svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
   svg.setAttribute('width', width);
-  const y_ticks = ticks(low, high, 4), x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90)));
-  const y_labels = labels_of(y_ticks), x_labels = labels_of(x_ticks);
+  const x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90))), x_labels = labels_of(x_ticks);
   const parts = [];
   y_ticks.values.forEach((value, i) => {
     const y = y_of(value).toFixed(1);
@@ -113,7 +116,7 @@ function axes(svg, width, [start, end], [low, high], x_unit) {
     parts.push(element('svg:text', { x: 2, y: height - 7 }, scaled_unit(y_labels.exponent, '')));
   }
   parts.push(element('svg:line', { class: 'axis', x1: left, x2: width - right, y1: height - bottom, y2: height - bottom }));
-  return { parts, x_of, y_of };
+  return { parts, left, x_of, y_of };
 }
 
 /** A line and a name, for the key of a plot. */
@@ -149,7 +152,7 @@ export class Plot {
     const follow = (event) => {
       const box = this.svg.getBoundingClientRect();
       const [start, end] = [time[0], time[time.length - 1]];
-      const part = (event.clientX - box.left - left) / (box.width - left - right);
+      const part = (event.clientX - box.left - this.left) / (box.width - this.left - right);
       pick(start + Math.min(Math.max(part, 0), 1) * (end - start));
     };
     this.svg.addEventListener('pointerdown', (event) => {
@@ -182,7 +185,8 @@ export class Plot {
     const [low, high] = range_of(this.series);
     this.largest = Math.max(Math.abs(low), Math.abs(high));
     const [start, end] = [time[0], time[time.length - 1]];
-    const { parts, x_of, y_of } = axes(svg, width, [start, end], [low, high], this.time_unit);
+    const { parts, left, x_of, y_of } = axes(svg, width, [start, end], [low, high], this.time_unit);
+    this.left = left;
     this.x_of = x_of;
     parts.push(element('svg:path', { class: 'mesh-marks',
       d: this.marks.mesh.map((t) => `M${x_of(t).toFixed(1)} ${height - bottom}v-5`).join('') }));

@@ -27,8 +27,8 @@ TEST(LeastWithin, IsNewtonsStepHoweverStiffBodiesAreCoupled) {
 }
 
 TEST(LeastWithin, StopsWhereALimitIsAndSaysWhatPushes) {
-  const std::vector<MoveLimit> limits{{Eigen::Vector2d(1, 0), -0.25, true},
-                                      {Eigen::Vector2d(0, 1), -9, true}};
+  const std::vector<MoveLimit> limits{{Eigen::Vector2d(1, 0), -0.25, MoveLimit::Of::stop},
+                                      {Eigen::Vector2d(0, 1), -9, MoveLimit::Of::stop}};
   const LimitedMove move = least_within(Eigen::Vector2d(4, 2), stiff_pair, 1e-9, 0.1, limits);
   EXPECT_NEAR(move.x[0], -0.25, 1e-9);
   EXPECT_NEAR(move.x[1], -0.25, 1e-7);
@@ -144,6 +144,84 @@ TEST(CoupledRest, IsWhereFrictionHoldsEach) {
   }
   EXPECT_LT(angle_of(rest, 0) + angle_of(rest, 1), 0);  // they came from there
   EXPECT_GT(angle_of(rest, 0), -0.5);
+}
+
+// ---- Where bodies come to the end of their beam ----
+
+SimulationReport resting(const BeamModel& model) {
+  return simulate(model, {}, {.statics = true, .output_times = {0}}, {});
+}
+
+/// A straight guide that falls to its end at s = 5 m, with bodies at rest on it.
+ModelBuilder slope(const std::vector<double>& places) {
+  ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+  builder.add_guide(ReferenceCurve({testing::line_cubic({0, 0, 0}, {4, -3, 0})}, 2));
+  for (const double s : places) builder.slide(builder.add_body("", first_mass), 0, s);
+  return builder;
+}
+
+void expect_leaving(const BeamModel& model, int joint) {
+  const SimulationReport report = resting(model);
+  ASSERT_TRUE(report.failure);
+  EXPECT_EQ(report.failure->kind, Failure::Kind::leaves_beam);
+  EXPECT_EQ(report.failure->joint, joint);
+  EXPECT_NEAR(report.failure->places[joint].s, 5, 1e-9);
+}
+
+TEST(RestAtAnEnd, IsNoneForABodyThatSlidesOff) {
+  for (const double start : {1.0, 5.0}) expect_leaving(slope({start}).build(), 0);
+  ModelBuilder with_friction = slope({1});
+  BeamModel model = with_friction.build();
+  model.joints[0].friction = Friction{.coefficient = 0.1};
+  expect_leaving(model, 0);
+}
+
+TEST(RestAtAnEnd, IsThatOfABodyThatSomethingHolds) {
+  BeamModel stopped_by_end = slope({1}).build();
+  stopped_by_end.joints[0].leave_at_end = false;
+  EXPECT_NEAR(*rest_of(stopped_by_end).bodies[0].s, 5, 1e-9);
+  for (const double start : {1.0, 5.0}) {
+    BeamModel stopped = slope({start}).build();
+    stopped.stops = {{.joint = 0, .place = 5}};
+    EXPECT_NEAR(*rest_of(stopped).bodies[0].s, 5, 1e-9) << start;
+  }
+  // Pressed inwards, against a stop at the upper end.
+  BeamModel inwards = slope({0}).build();
+  inwards.stops = {{.joint = 0, .place = 0}};
+  EXPECT_NEAR(*rest_of(inwards).bodies[0].s, 0, 1e-9);
+  BeamModel held = slope({5}).build();
+  held.joints[0].rest = StaticPlace::held;
+  EXPECT_NEAR(*rest_of(held).bodies[0].s, 5, 1e-9);
+  BeamModel rough = slope({5}).build();
+  rough.joints[0].friction = Friction{.coefficient = 0.9};
+  EXPECT_NEAR(*rest_of(rough).bodies[0].s, 5, 1e-9);
+  BeamModel weightless = slope({5}).build();
+  weightless.gravity.setZero();
+  EXPECT_NEAR(*rest_of(weightless).bodies[0].s, 5, 1e-9);
+}
+
+TEST(RestAtAnEnd, IsNoneForBodiesOfWhichOneSlidesOff) {
+  BeamModel model = slope({1, 3}).build();
+  model.stops = {{.joint = 0, .other = 1, .place = 1}};
+  expect_leaving(model, 1);
+  model.stops.push_back({.joint = 1, .place = 5});
+  const Snapshot rest = rest_of(model);
+  EXPECT_NEAR(*rest.bodies[0].s, 4, 1e-9);
+  EXPECT_NEAR(*rest.bodies[1].s, 5, 1e-9);
+}
+
+TEST(RestAtAnEnd, IsThatOfABodyAtASupportedEnd) {
+  const auto beam = [](bool pinned) {
+    ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+    builder.add_beam(ReferenceCurve({testing::line_cubic({0, 0, 0}, {4, -3, 0})}, 2),
+                     BeamProperties(2e7, 2e4, 1), {4});
+    builder.clamp(0, 0);
+    if (pinned) builder.pin(0, 5);
+    builder.slide(builder.add_body("", 1), 0, 3.5);
+    return builder.build();
+  };
+  EXPECT_NEAR(*rest_of(beam(true)).bodies[0].s, 5, 1e-9);
+  expect_leaving(beam(false), 0);
 }
 
 }  // namespace
