@@ -31,7 +31,8 @@ void add(double factor, const Tangent& part, Tangent& sum) {
 Columns product(const Tangent& matrix, const Columns& columns) {
   Columns padded = Columns::Zero(matrix.cols(), columns.cols());
   padded.topRows(columns.rows()) = columns;
-  return (matrix * padded).topRows(columns.rows());
+  const Columns whole = matrix * padded;  // row by row, side by side
+  return whole.topRows(columns.rows());
 }
 
 // Each with its factor.

@@ -25,6 +25,13 @@ Jet curvature_at(const std::array<double, 3>& kappa0, const Jet& s) {
   return Jet(Jet::Coefficients{k0, a * k1, b * k1, a * a * k2 / 2, a * b * k2, b * b * k2 / 2});
 }
 
+Eigen::RowVector4d hermite_at(double u, double weight, double u_a, double l) {
+  const double xi = (u - u_a) / l, xi2 = xi * xi, xi3 = xi2 * xi;
+  return Eigen::RowVector4d(1 - 3 * xi2 + 2 * xi3, l * (xi - 2 * xi2 + xi3), 3 * xi2 - 2 * xi3,
+                            l * (xi3 - xi2)) /
+         weight;
+}
+
 Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, double l) {
   const double xi = (p.u[0] - u_a) / l, xi2 = xi * xi, xi3 = xi2 * xi, i = 1 / l;
   Eigen::Matrix<double, 5, 4> f;  // by u

@@ -24,6 +24,8 @@ std::array<double, 4> along(const std::array<double, 4>& f, const std::array<dou
 /// s.
 Jet curvature_at(const std::array<double, 3>& kappa0, const Jet& s);
 
+/// H / W of the four Hermite functions of u on [u_a, u_a + l], W = `weight`.
+Eigen::RowVector4d hermite_at(double u, double weight, double u_a, double l);
 /// Rows: H / W of the four Hermite functions of u on [u_a, u_a + l] and its first four s-derivatives.
 Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, double l);
 

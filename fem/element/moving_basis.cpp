@@ -14,6 +14,12 @@ std::array<double, 4> product(const std::array<double, 4>& f, const std::array<d
           f[3] * g[0] + 3 * f[2] * g[1] + 3 * f[1] * g[2] + f[0] * g[3]};
 }
 
+double weight_at(const RationalCubic& cubic, double u) {
+  const double v = 1 - u;
+  return cubic.weight(0) * v * v * v + 3 * u * v * (cubic.weight(1) * v + cubic.weight(2) * u) +
+         cubic.weight(3) * u * u * u;
+}
+
 // l^m, l = b - a.
 Jet power_of_length(double l, int m) {
   const double f = std::pow(l, m), d1 = m * f / l, d2 = (m - 1) * d1 / l / 2, d3 = (m - 2) * d2 / l / 3;
@@ -179,6 +185,16 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
   }
   rows.set_curvature(shape.kappa0);
   return rows;
+}
+
+MovingRows::Series MovingBasis::positions_at(double s) const {
+  if (uniform_ || constant_weights_) return rows_at(Jet(s)).r;
+  const double u = curve_->parameter(segment_, s);
+  const Eigen::RowVector4d f = hermite_at(u, weight_at(curve_->segment(segment_), u), u_a_, length_);
+  MovingRows::Series r;
+  r.value = (f * data_[0]).transpose();
+  for (const int end : {0, 1}) r.first[end] = (f * data_[1 + end]).transpose();
+  return r;
 }
 
 MovingRows MovingBasis::rational_rows(const Jet& s) const {

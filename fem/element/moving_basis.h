@@ -34,6 +34,8 @@ class MovingBasis {
   ShapeFunctions<Jet> at(const Jet& s) const;
   /// The part of it that forces need, and with two derivatives wanted tangents.
   MovingRows rows_at(const Jet& s) const;
+  /// Of these, r at a place that stays, with first derivatives.
+  MovingRows::Series positions_at(double s) const;
 
  private:
   static constexpr int derivatives = 10;  // 1, a, b, aa, ab, bb, aaa, aab, abb, bbb

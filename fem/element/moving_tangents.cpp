@@ -421,7 +421,7 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
     const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);
     MassSum<D> sum(t.mass * properties_->mass_per_length, x.q);
     for_each_place(s_a.value(), s_b.value(),
-                   [&](double s, double weight) { sum.add(basis.rows_at(Jet(s)).r, weight); });
+                   [&](double s, double weight) { sum.add(basis.positions_at(s), weight); });
     return sum.total();
   }
   const MovingBasis basis(*curve_, chart_, s_a, s_b);

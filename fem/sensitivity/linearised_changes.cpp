@@ -20,11 +20,8 @@ namespace nurbeam {
 MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
   MotionTangents::Matrix changes(at.lambda.size(), tangents_.parameters());
   side_by_side(static_cast<int>(changes.cols()), [&](int k) {
-    State tangent = tangents_.of(k);
-    tangent.a.setZero();
-    tangent.lambda.setZero();
     const auto of = [&](bool more) -> Eigen::VectorXd {
-      const auto [system, state] = beside(static_cast<std::size_t>(k), at, tangent, more);
+      const auto [system, state] = beside(static_cast<std::size_t>(k), at, more);
       return system.constraint_product(state, at.a) + system.constraint_curvature(state);
     };
     const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
@@ -84,7 +81,7 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
     if (lagging[k])
       parameters_[k].lags = true;
     else
-      parameters_[k].catch_up(*before.system);
+      parameters_[k].catch_up(before);
   shift_lagging(before.state, -1);
   std::vector<TransferTangent::Neighbours> neighbours(parameters_.size());
   side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
@@ -118,7 +115,7 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
     return gained;
   };
   const TransferTangent tangent(
-      at.system, *path, std::move(neighbours),
+      before, at.system, *path, std::move(neighbours),
       {differences_->momenta(interpolated(*before.system, before.state, *at.system).v), energies},
       [&](const State& state, const MotionTangents::Matrix& q, const std::vector<int>& rows) {
         return residual_changes(state, q, rows);

@@ -34,11 +34,17 @@ std::vector<State> uneven_states(const SecondOrderSystem& system, const State& n
   return {bent, moving, driven};
 }
 
-// A state at a time that is `later`, with shifted coordinates, times `part`.
-State shifted(const State& at, double part, double later, const std::vector<ResidualDifferences::Shift>& by) {
-  State state = at;
+// Makes `state` the one at a time that is `later`, with shifted coordinates, times `part`.
+void shift(const State& at, double part, double later, const std::vector<ResidualDifferences::Shift>& shifts,
+           State& state) {
+  state = at;
   state.t += part * later;
-  for (const auto& [coordinate, shift] : by) state.q[coordinate] += part * shift;
+  for (const auto& [coordinate, by] : shifts) state.q[coordinate] += part * by;
+}
+
+State shifted(const State& at, double part, const std::vector<ResidualDifferences::Shift>& shifts) {
+  State state;
+  shift(at, part, 0, shifts, state);
   return state;
 }
 
@@ -102,7 +108,8 @@ struct ResidualDifferences::In final : Implementation {
   std::vector<Group> groups;
   Eigen::MatrixXd forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_constraints, less_constraints;
-  State general;  // to which what is not the same answers differently
+  State general;                 // to which what is not the same answers differently
+  State moved_more, moved_less;  // of find
 
   // What is there already of pairs that outlast a change of the mesh.
   struct Before {
@@ -239,8 +246,8 @@ struct ResidualDifferences::In final : Implementation {
     if (!pair.apart.empty() || pair.carries_point) return false;
     std::optional<bool>& known = pair.is_local[shifts.empty() ? 0 : 1];
     if (!known)
-      known = pair.more->differs_in_elements(*pair.less, shifted(general, pair.step, 0, shifts),
-                                             shifted(general, -pair.step, 0, shifts));
+      known = pair.more->differs_in_elements(*pair.less, shifted(general, pair.step, shifts),
+                                             shifted(general, -pair.step, shifts));
     return *known;
   }
 
@@ -329,9 +336,11 @@ struct ResidualDifferences::In final : Implementation {
         continue;
       }
       const bool moves = later[column] != 0 || !shifts[k].empty();
-      const State above = moves ? shifted(at, pair.step, later[column], shifts[k]) : State{},
-                  below = moves ? shifted(at, -pair.step, later[column], shifts[k]) : State{};
-      evaluate(pair, moves ? above : at, moves ? below : at, column);
+      if (moves) {
+        shift(at, pair.step, later[column], shifts[k], moved_more);
+        shift(at, -pair.step, later[column], shifts[k], moved_less);
+      }
+      evaluate(pair, moves ? moved_more : at, moves ? moved_less : at, column);
       constraints.col(column) = (more_constraints - less_constraints) / (2 * pair.step);
       dynamics.col(column) = (forces.col(2 * column) - forces.col(2 * column + 1)) / (2 * pair.step);
       forces.middleCols(2 * column, 2).setZero();

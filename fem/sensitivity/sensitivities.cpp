@@ -135,25 +135,37 @@ std::vector<ResidualDifferences::Pair> Sensitivities::pairs() const {
   return pairs;
 }
 
-void Sensitivities::Parameter::catch_up(const BeamSystem& system) {
+void Sensitivities::Parameter::catch_up(const MeshedState& at) {
   if (!std::exchange(lags, false)) return;
-  for (std::shared_ptr<const BeamSystem>* each : {&more, &less})
-    *each = (*each)->replanned(corresponding_plan(system, (*each)->model()), held_joints(system), &system);
+  for (std::shared_ptr<const BeamSystem>* each : {&more, &less}) {
+    MeshedState neighbour{(*each)->replanned(corresponding_plan(*at.system, (*each)->model()),
+                                             held_joints(*at.system), at.system.get()),
+                          at.state};
+    stand_on_like_spans(at, neighbour);
+    *each = std::move(neighbour.system);
+  }
 }
 
 // Before the run goes on otherwise than by steps.
 void Sensitivities::catch_up() {
-  side_by_side(
-      static_cast<int>(parameters_.size()),
-      [&](int k) { parameters_[static_cast<std::size_t>(k)].catch_up(*system_); });
+  const MeshedState at{system_, state_};
+  side_by_side(static_cast<int>(parameters_.size()),
+               [&](int k) { parameters_[static_cast<std::size_t>(k)].catch_up(at); });
 }
 
-Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, const State& tangent,
-                                            bool more) const {
+// Of a neighbour's state on the system it is one of, as far as places and velocities say it.
+Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, bool more) const {
   const Parameter& parameter = parameters_[k];
   const NeighbourPair& pair = parameter.pair;
+  const auto column = static_cast<Eigen::Index>(k);
   const double part = more ? pair.step : -pair.step;
-  State state = moved(at, tangent, part);
+  State state{.t = at.t + part * tangents_.t[column],
+              .q = at.q + part * tangents_.q.col(column),
+              .v = at.v + part * tangents_.v.col(column),
+              .a = at.a,
+              .lambda = {},
+              .load = at.load,
+              .memory = at.memory};
   if (!parameter.lags) return {more ? *parameter.more : *parameter.less, std::move(state)};
   for (const auto& [place, by] :
        shifts_of_places(*system_, at, *pair.more.model, *pair.less.model, pair.step))
@@ -269,7 +281,7 @@ Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) co
   Eigen::RowVectorXd changes(tangents_.parameters());
   for (Eigen::Index k = 0; k < changes.size(); ++k) {
     const auto limit_of = [&](bool more) {
-      const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, tangents_.of(k), more);
+      const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, more);
       return system.step_limit(state);
     };
     const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
@@ -318,11 +330,14 @@ void Sensitivities::steps(const FollowedStep& step) {
   if (step.beyond) {
     const Longer longer = by_length(step);
     for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
+      const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
       const auto beyond = [&](bool more) {
-        const auto [system, state] = beside(static_cast<std::size_t>(k), step.after, tangents_.of(k), more);
+        auto [system, state] = beside(static_cast<std::size_t>(k), step.after, more);
+        const double part = more ? p : -p;
+        state.a = step.after.a + part * tangents_.a.col(k);
+        state.lambda = step.after.lambda + part * tangents_.lambda.col(k);
         return step.beyond(system, state);
       };
-      const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
       const double late = -(beyond(true) - beyond(false)) / (2 * p) / longer.approach;
       tangents_.move(k, longer.tangent, late);
     }

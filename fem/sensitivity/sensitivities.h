@@ -116,7 +116,7 @@ class Sensitivities final : public RunFollower {
   std::vector<bool> outlasting(const MeshedState& before, const BeamSystem& behind);
   void shift_lagging(const State& at, double part);
   void catch_up();
-  Beside beside(std::size_t parameter, const State& at, const State& tangent, bool more) const;
+  Beside beside(std::size_t parameter, const State& at, bool more) const;
   void solve_at_rest(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
   void keep_for_adjoint(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness);
   std::vector<ResidualDifferences::Pair> pairs() const;

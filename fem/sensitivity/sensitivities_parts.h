@@ -15,8 +15,8 @@ struct Sensitivities::Parameter {
   /// changes since: all else is as in the run's own system, at the places that correspond.
   bool lags = false;
 
-  /// Gives them the mesh of the run's system.
-  void catch_up(const BeamSystem& system);
+  /// Gives them the mesh of the run.
+  void catch_up(const MeshedState& at);
   /// The tangent after what `change` makes of the neighbours of a state.
   State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change);
 };

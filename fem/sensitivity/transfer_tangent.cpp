@@ -22,6 +22,10 @@ using Matrix = MotionTangents::Matrix;
 // Beside accelerations as large as that forces are lost in round-off.
 const double vast = std::ldexp(1.0, 300);
 
+// Of a step, that over which the momentum of a neighbour is compared with that of the run: no stiffness asks
+// for more, and what is of second order is lost.
+constexpr double of_momentum = 0.01;
+
 State without_motion(const State& state) {
   State still = state;
   still.v.setZero();
@@ -51,18 +55,26 @@ std::vector<int> rows_that_change_with_shape(const BeamSystem& system) {
 
 }  // namespace
 
-TransferTangent::TransferTangent(std::shared_ptr<const BeamSystem> system, const TransferPath& path,
-                                 std::vector<Neighbours> neighbours, Kept kept,
+TransferTangent::TransferTangent(const MeshedState& before, std::shared_ptr<const BeamSystem> system,
+                                 const TransferPath& path, std::vector<Neighbours> neighbours, Kept kept,
                                  ResidualChanges residual_changes)
     : system_(std::move(system)),
       path_(path),
       neighbours_(std::move(neighbours)),
+      momentum_(*before.system, before.state, *system_),
       momenta_(neighbours_.size()),
       kept_(std::move(kept)),
       residual_changes_(std::move(residual_changes)),
       with_shape_(rows_that_change_with_shape(*system_)) {
   for_each_parameter([&](std::size_t k) {
     const Neighbours& of = neighbours_[k];
+    if (is_own(k)) {
+      State near = before.state;
+      near.q += of_momentum * (of.more_before.state.q - before.state.q);
+      near.v += of_momentum * (of.more_before.state.v - before.state.v);
+      momenta_[k].more.emplace(*before.system, near, *system_);
+      return;
+    }
     momenta_[k].more.emplace(*of.more_before.system, of.more_before.state, *of.more);
     momenta_[k].less.emplace(*of.less_before.system, of.less_before.state, *of.less);
   });
@@ -94,15 +106,36 @@ TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) 
   return rates;
 }
 
-// The state of a neighbour on the mesh behind, with the multipliers of `at`.
+// The places and velocities of a neighbour on the mesh behind.
 State TransferTangent::beside(const State& at, const MotionTangents& tangents, std::size_t parameter,
                               double part) const {
   const auto k = static_cast<Eigen::Index>(parameter);
-  State state = at;
-  state.t += part * tangents.t[k];
-  state.q += part * tangents.q.col(k);
-  state.v += part * tangents.v.col(k);
-  return state;
+  return {.t = at.t + part * tangents.t[k],
+          .q = at.q + part * tangents.q.col(k),
+          .v = at.v + part * tangents.v.col(k),
+          .a = at.a,
+          .lambda = {},
+          .load = at.load,
+          .memory = at.memory};
+}
+
+// (n, a column for each parameter) How the momentum that is carried over changes on the mesh behind.
+Matrix TransferTangent::momenta(const State& at, const MotionTangents& tangents) const {
+  Matrix momenta = kept_.momenta;
+  const Vector own = momentum_.on(at);
+  for_each_parameter([&](std::size_t k) {
+    const double step = neighbours_[k].step;
+    const auto on = [&](const CarriedMomentum& momentum, double part) -> Vector {
+      return momentum.on(beside(at, tangents, k, part));
+    };
+    const Momenta& of = momenta_[k];
+    if (is_own(k))
+      momenta.col(static_cast<Eigen::Index>(k)) +=
+          (on(*of.more, of_momentum * step) - own) / (of_momentum * step);
+    else
+      momenta.col(static_cast<Eigen::Index>(k)) += (on(*of.more, step) - on(*of.less, -step)) / (2 * step);
+  });
+  return momenta;
 }
 
 void TransferTangent::interpolate(MotionTangents& tangents) const {
@@ -141,19 +174,12 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
   State driven = without_motion(stage.state);
   driven.a = vast * stage.state.v;
   driven.lambda = vast * stage.impulse;
-  const auto part = [&](std::size_t k, bool more) {
-    return more ? neighbours_[k].step : -neighbours_[k].step;
-  };
   Matrix right(n + m, tangents.parameters()), left;
-  right.topRows(n) = rates(n, [&](std::size_t k, bool more) -> Vector {
-    const State at = beside(stage.state, tangents, k, part(k, more));
-    return (more ? momenta_[k].more : momenta_[k].less)->on(at);
-  });
-  right.topRows(n) += kept_.momenta;
+  right.topRows(n) = momenta(stage.state, tangents);
   right.topRows(n) -= residual_changes_(driven, tangents.q, with_shape_) / vast;
   right.bottomRows(m) = -rates(m, [&](std::size_t k, bool more) -> Vector {
     const BeamSystem& system = more ? *neighbours_[k].more : *neighbours_[k].less;
-    const State at = beside(stage.state, tangents, k, part(k, more));
+    const State at = beside(stage.state, tangents, k, more ? neighbours_[k].step : -neighbours_[k].step);
     return system.constraint_product(at, stage.state.v) + system.constraint_rate(at);
   });
   const ScaledKkt kkt(*system_, without_motion(stage.state));

@@ -22,7 +22,8 @@ class TransferTangent {
  public:
   using Matrix = MotionTangents::Matrix;
 
-  /// Of one parameter that is greater and less by `step`: on the mesh before, and the meshes behind.
+  /// Of one parameter that is greater and less by `step`: on the mesh before, and the meshes behind. They lie
+  /// beside the run's own systems where these are theirs.
   struct Neighbours {
     MeshedState more_before, less_before;
     std::shared_ptr<const BeamSystem> more, less;
@@ -41,8 +42,9 @@ class TransferTangent {
     std::function<Eigen::RowVectorXd(const State& behind)> energies;
   };
 
-  TransferTangent(std::shared_ptr<const BeamSystem> system, const TransferPath& path,
-                  std::vector<Neighbours> neighbours, Kept kept, ResidualChanges residual_changes);
+  TransferTangent(const MeshedState& before, std::shared_ptr<const BeamSystem> system,
+                  const TransferPath& path, std::vector<Neighbours> neighbours, Kept kept,
+                  ResidualChanges residual_changes);
 
   /// Puts q, v, a and lambda of tangents, which have t, to what they are behind it; false where an equation
   /// is singular.
@@ -50,14 +52,16 @@ class TransferTangent {
 
  private:
   struct Momenta {
-    std::optional<CarriedMomentum> more, less;
+    std::optional<CarriedMomentum> more, less;  ///< this one of neighbours alone
   };
 
   template <class Work>
   void for_each_parameter(const Work& work) const;
   template <class Of>
   Matrix rates(Eigen::Index rows, const Of& of) const;
+  bool is_own(std::size_t parameter) const { return neighbours_[parameter].more == system_; }
   State beside(const State& at, const MotionTangents& tangents, std::size_t parameter, double part) const;
+  Matrix momenta(const State& at, const MotionTangents& tangents) const;
   void interpolate(MotionTangents& tangents) const;
   void put_bodies(const State& at, MotionTangents& tangents) const;
   bool find_velocities(const Transferred& stage, MotionTangents& tangents) const;
@@ -66,6 +70,7 @@ class TransferTangent {
   std::shared_ptr<const BeamSystem> system_;
   const TransferPath& path_;
   std::vector<Neighbours> neighbours_;
+  CarriedMomentum momentum_;  // of the run
   std::vector<Momenta> momenta_;
   Kept kept_;
   ResidualChanges residual_changes_;

@@ -31,7 +31,7 @@ class ElementPositions {
       const Eigen::Matrix<double, D, 1> none = Eigen::Matrix<double, D, 1>::Zero();
       return {Eigen::Map<const Eigen::Vector4d>(values.data()), {none, none}};
     }
-    const MovingRows::Series r = moving_->rows_at(Jet(s)).r;
+    const MovingRows::Series r = moving_->positions_at(s);
     return {r.value, {nodes_ * r.first[0], nodes_ * r.first[1]}};
   }
 
