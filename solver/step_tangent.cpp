@@ -220,6 +220,7 @@ NURBEAM_WITHIN void StepTangent::subtract_products(const MotionTangents& end, Ei
     }
     for (int k = starts[row]; damped && k < starts[row + 1]; ++k) {
       const auto [column, value] = entries[k];
+      if (D[value] == 0) continue;  // most are: elements with fixed ends, without damping
       for (int c = 0; c < times; ++c)
         sum[c] += D[value] * side<Lanes>(v + column * stride + c * width<Lanes>);
     }

@@ -279,13 +279,25 @@ Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) co
   if (step.beyond) return Eigen::RowVectorXd::Zero(tangents_.parameters());
   if (step.asked <= limit) return -h / step.rest * tangents_.t;
   Eigen::RowVectorXd changes(tangents_.parameters());
+  State own = step.before;  // places alone say how long it may be, and their rates
+  const Shifts shifts = shifts_at(step.before);
   for (Eigen::Index k = 0; k < changes.size(); ++k) {
-    const auto limit_of = [&](bool more) {
-      const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, more);
-      return system.step_limit(state);
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    const double p = parameter.pair.step;
+    const auto limit_of = [&](double part) {
+      if (!parameter.lags) {
+        const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, part > 0);
+        return system.step_limit(state);
+      }
+      for (const MeshJoint& joint : system_->mesh().joints)
+        if (const int place = joint.place; place >= 0) {
+          own.q[place] = step.before.q[place] + part * tangents_.q(place, k);
+          own.v[place] = step.before.v[place] + part * tangents_.v(place, k);
+        }
+      for (const auto& [place, by] : shifts[static_cast<std::size_t>(k)]) own.q[place] -= part * by;
+      return system_->step_limit(own);
     };
-    const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
-    changes[k] = h / limit * (limit_of(true) - limit_of(false)) / (2 * p);
+    changes[k] = h / limit * (limit_of(p) - limit_of(-p)) / (2 * p);
   }
   return changes;
 }
@@ -406,11 +418,18 @@ std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std:
   const NeighbourPair& pair = parameters_[parameter].pair;
   const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(parameter))
                                     : still(of.state.q.size(), of.state.lambda.size());
-  const bool present = of.meshes == meshes_ && !parameters_[parameter].lags;
-  const auto snapshot = [&](const Neighbour& neighbour, const BeamSystem* now, const MeshPlan& plan,
-                            double part) {
-    std::optional<BeamSystem> then;
-    const BeamSystem& system = present ? *now : then.emplace(neighbour.model, plan, of.meshes->held);
+  const bool present = of.meshes == meshes_;
+  const Parameter& at_end = parameters_[parameter];
+  const auto system_of = [&](const Neighbour& neighbour, const std::shared_ptr<const BeamSystem>& now,
+                             const MeshPlan& plan) -> std::shared_ptr<const BeamSystem> {
+    if (!present) return std::make_shared<BeamSystem>(neighbour.model, plan, of.meshes->held);
+    if (at_end.lags) return now->replanned(plan, of.meshes->held, system_.get());
+    return now;
+  };
+  const auto snapshot = [&](const Neighbour& neighbour, const std::shared_ptr<const BeamSystem>& now,
+                            const MeshPlan& plan, double part) {
+    const std::shared_ptr<const BeamSystem> held = system_of(neighbour, now, plan);
+    const BeamSystem& system = *held;
     State state = moved(of.state, tangent, part);
     if (of.of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
@@ -419,9 +438,8 @@ std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std:
     return record_snapshot(system, state, probes, contents);
   };
   const auto& [plan_of_more, plan_of_less] = of.meshes->plans[parameter];
-  const Parameter& at_end = parameters_[parameter];
-  return {snapshot(pair.more, at_end.more.get(), plan_of_more, pair.step),
-          snapshot(pair.less, at_end.less.get(), plan_of_less, -pair.step)};
+  return {snapshot(pair.more, at_end.more, plan_of_more, pair.step),
+          snapshot(pair.less, at_end.less, plan_of_less, -pair.step)};
 }
 
 }  // namespace nurbeam

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fem/motion/carried_sections.h"
+#include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
@@ -53,12 +55,21 @@ std::vector<int> rows_that_change_with_shape(const BeamSystem& system) {
   return rows;
 }
 
+bool nodes_are_kept(const BeamSystem& from, const BeamSystem& to) {
+  const auto &old = from.mesh().nodes, &nodes = to.mesh().nodes;
+  for (std::size_t b = 0; b < nodes.size(); ++b)
+    for (const MeshNode& node : nodes[b])
+      if (same_node(old[b], node) < 0) return false;
+  return true;
+}
+
 }  // namespace
 
 TransferTangent::TransferTangent(const MeshedState& before, std::shared_ptr<const BeamSystem> system,
                                  const TransferPath& path, std::vector<Neighbours> neighbours, Kept kept,
                                  ResidualChanges residual_changes)
-    : system_(std::move(system)),
+    : before_(before.system),
+      system_(std::move(system)),
       path_(path),
       neighbours_(std::move(neighbours)),
       momentum_(*before.system, before.state, *system_),
@@ -138,17 +149,22 @@ Matrix TransferTangent::momenta(const State& at, const MotionTangents& tangents)
   return momenta;
 }
 
+// Where no node is new, what becomes of a motion beside the run's own is linear in it.
 void TransferTangent::interpolate(MotionTangents& tangents) const {
+  const bool is_linear = nodes_are_kept(*before_, *system_);
   for_each_parameter([&](std::size_t k) {
     const Neighbours& of = neighbours_[k];
-    const State more = interpolated(*of.more_before.system, of.more_before.state, *of.more),
-                less = interpolated(*of.less_before.system, of.less_before.state, *of.less);
+    State tangent;
+    if (is_linear && is_own(k))
+      tangent = interpolated(*before_, rate(of.more_before.state, of.less_before.state, of.step), *system_);
+    else
+      tangent = rate(interpolated(*of.more_before.system, of.more_before.state, *of.more),
+                     interpolated(*of.less_before.system, of.less_before.state, *of.less), of.step);
     const auto column = static_cast<Eigen::Index>(k);
-    const double per = 1 / (2 * of.step);
-    tangents.q.col(column) = per * (more.q - less.q);
-    tangents.v.col(column) = per * (more.v - less.v);
-    tangents.a.col(column) = per * (more.a - less.a);
-    tangents.lambda.col(column) = per * (more.lambda - less.lambda);
+    tangents.q.col(column) = tangent.q;
+    tangents.v.col(column) = tangent.v;
+    tangents.a.col(column) = tangent.a;
+    tangents.lambda.col(column) = tangent.lambda;
   });
 }
 

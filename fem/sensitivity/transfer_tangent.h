@@ -67,7 +67,7 @@ class TransferTangent {
   bool find_velocities(const Transferred& stage, MotionTangents& tangents) const;
   bool move(const Transferred& stage, const MadeMove& made, MotionTangents& tangents) const;
 
-  std::shared_ptr<const BeamSystem> system_;
+  std::shared_ptr<const BeamSystem> before_, system_;
   const TransferPath& path_;
   std::vector<Neighbours> neighbours_;
   CarriedMomentum momentum_;  // of the run
