@@ -31,11 +31,12 @@ void LinearStep::take(const State& before, const IntegratorHistory& history, con
   if (start == Start::moved) start_algorithmic += lag() * (h - last_step) * jerk;
   end_algorithmic =
       ((1 - alpha_f) * after.a + alpha_f * before.a - alpha_m * start_algorithmic) / (1 - alpha_m);
-  system->tangent(after, {.stiffness = 1}, stiffness);
   const auto values = [](auto& matrix) { return matrix.coeffs(); };
-  if (!has_constant_inertia_) {
+  if (has_constant_inertia_) {
+    system->tangent(after, {.stiffness = 1}, stiffness);
+  } else {
+    system->tangents(after, {TangentWeights{.stiffness = 1}, {.damping = 1}}, {&stiffness, &damping});
     system->tangent(after, {.mass = 1}, mass);
-    system->tangent(after, {.damping = 1}, damping);
     for (const int k : of_constraints_) damping.valuePtr()[k] = 0;
     damped = !values(damping).isZero(0);
     has_constant_inertia_ = system->has_constant_inertia();

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -45,7 +46,13 @@ class SecondOrderSystem {
   virtual void tangent(const State& state, const TangentWeights& w,
                        Eigen::SparseMatrix<double>& kkt) const = 0;
 
-  /// The same where an unknown is `near` (n+m), added to `values`, of the entries of tangent_pattern(): in
+  /// The same for two sets of weights.
+  virtual void tangents(const State& state, const std::array<TangentWeights, 2>& w,
+                        const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {
+    for (const std::size_t k : {0, 1}) tangent(state, w[k], *kkt[k]);
+  }
+
+  /// That where an unknown is `near` (n+m), added to `values`, of the entries of tangent_pattern(): in
   /// the columns of these unknowns and in those of all that is coupled with them, and right in their rows
   /// alone.
   virtual void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,

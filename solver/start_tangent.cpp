@@ -14,12 +14,6 @@ namespace {
 using Columns = MotionTangents::Matrix;
 using Tangent = Eigen::SparseMatrix<double>;
 
-Tangent tangent_at(const SecondOrderSystem& system, const State& state, const TangentWeights& weights) {
-  Tangent matrix = system.tangent_pattern().matrix();
-  system.tangent(state, weights, matrix);
-  return matrix;
-}
-
 // Both of one pattern.
 void add(double factor, const Tangent& part, Tangent& sum) {
   using Values = Eigen::ArrayXd;
@@ -59,9 +53,13 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
                            const State& state)
     : stiffness_(system.tangent_pattern().matrix()), damping_(stiffness_) {
   if (system.forces_depend_on_multipliers()) return;
-  for (auto& [each, factor] : parts_of_rho(system, h, state)) {
-    add(factor, tangent_at(system, each, {.damping = 1}), damping_);
-    Tangent stiffness = tangent_at(system, each, {.stiffness = 1});
+  Tangent damping = damping_;
+  std::vector<std::pair<State, double>> parts = parts_of_rho(system, h, state);
+  parts_.reserve(parts.size());
+  for (auto& [each, factor] : parts) {
+    Tangent stiffness = system.tangent_pattern().matrix();
+    system.tangents(each, {TangentWeights{.stiffness = 1}, {.damping = 1}}, {&stiffness, &damping});
+    add(factor, damping, damping_);
     add(factor, stiffness, stiffness_);
     parts_.push_back({std::move(each), factor, std::move(stiffness)});
   }

@@ -72,8 +72,24 @@ class BeamElement {
   /// d/dt(dT/dv) - dT/dq + dU/dq + damping - external potential; `load`: dead load per reference length
   /// [N/m], rho A g included.
   ElementVector<D> force(const ElementState<D>& x, const Vector& load) const;
+  /// What that of an element whose ends move is summed up from, for one place of each end.
+  struct Points {
+    struct Point {
+      MovingRows rows;
+      Jet s, weight;
+    };
+    std::array<double, 2> ends;
+    MovingBasis basis;
+    std::vector<Point> all;
+  };
+  Points points(const ElementVector<D>& q) const;
+  /// The same force, for ends that are there.
+  ElementVector<D> force(const ElementState<D>& x, const Vector& load, const Points& points) const;
   /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
   ElementMatrix<D> tangent(const ElementState<D>& x, const Vector& load, const TangentWeights& w) const;
+  /// The same for two sets of weights.
+  std::array<ElementMatrix<D>, 2> tangents(const ElementState<D>& x, const Vector& load,
+                                           const std::array<TangentWeights, 2>& w) const;
   ElementEnergy energy(const ElementState<D>& x, const Vector& load) const;
   /// int rho A S_k v ds [kg m/s] for the rates of the nodes, of an element whose ends are fixed. The columns
   /// of the positions add up to the momentum of the whole.

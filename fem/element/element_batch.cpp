@@ -505,8 +505,9 @@ void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, e
                           const Vector& slope_offset, std::ptrdiff_t forces_at) {
   const PointPack& pack = element.packs_.front();
   forces_at_[count_] = forces_at;
-  // The last element fills the lanes beyond it.
-  for (int i = count_; i < lanes; ++i) {
+  // The first element fills the lanes beyond it until others take them.
+  const int end = count_ == 0 ? lanes : count_ + 1;
+  for (int i = count_; i < end; ++i) {
     for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];
     for (int d = 0; d < D; ++d) slope_offset_[d].of[i] = slope_offset[d];
     for (int g = 0; g < points; ++g) {

@@ -145,6 +145,31 @@ ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& l
   return sum.total(assumes_strain(), basis);
 }
 
+template <int D>
+typename BeamElement<D>::Points BeamElement<D>::points(const ElementVector<D>& q) const {
+  using Layout = ElementLayout<D>;
+  const std::array<double, 2> ends{q[Layout::place(0)], q[Layout::place(1)]};
+  const Jet s_a = Jet::variable(ends[0], 0), s_b = Jet::variable(ends[1], 1);
+  Points points{ends, MovingBasis(*curve_, chart_, s_a, s_b, Derivatives::one), {}};
+  points.all.reserve(GaussRule::size);
+  for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) {
+    points.all.push_back({points.basis.rows_at(s), s, weight});
+  });
+  return points;
+}
+
+template <int D>
+ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load,
+                                       const Points& points) const {
+  ForceSum<D> sum(*properties_, x, load);
+  for (const auto& [rows, s, weight] : points.all) sum.add(rows, s, weight);
+  return sum.total(assumes_strain(), points.basis);
+}
+
+template BeamElement<2>::Points BeamElement<2>::points(const ElementVector<2>&) const;
+template BeamElement<3>::Points BeamElement<3>::points(const ElementVector<3>&) const;
+template ElementVector<2> BeamElement<2>::force(const ElementState<2>&, const Vector&, const Points&) const;
+template ElementVector<3> BeamElement<3>::force(const ElementState<3>&, const Vector&, const Points&) const;
 template ElementVector<2> BeamElement<2>::force(const ElementState<2>&, const Vector&) const;
 template ElementVector<3> BeamElement<3>::force(const ElementState<3>&, const Vector&) const;
 

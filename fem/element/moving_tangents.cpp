@@ -430,6 +430,26 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
   return sum.total(basis);
 }
 
+template <int D>
+std::array<ElementMatrix<D>, 2> BeamElement<D>::tangents(const ElementState<D>& x, const Vector& load,
+                                                         const std::array<TangentWeights, 2>& w) const {
+  if (fixed()) return {fixed_tangent(x, w[0]), fixed_tangent(x, w[1])};
+  using Layout = ElementLayout<D>;
+  const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
+  const MovingBasis basis(*curve_, chart_, s_a, s_b);
+  TangentSum<D> first(*properties_, x, load, w[0]), second(*properties_, x, load, w[1]);
+  for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) {
+    const MovingRows rows = basis.rows_at(s);
+    first.add(rows, s, weight);
+    second.add(rows, s, weight);
+  });
+  return {first.total(basis), second.total(basis)};
+}
+
+template std::array<ElementMatrix<2>, 2> BeamElement<2>::tangents(const ElementState<2>&, const Vector&,
+                                                                  const std::array<TangentWeights, 2>&) const;
+template std::array<ElementMatrix<3>, 2> BeamElement<3>::tangents(const ElementState<3>&, const Vector&,
+                                                                  const std::array<TangentWeights, 2>&) const;
 template ElementMatrix<2> BeamElement<2>::tangent(const ElementState<2>&, const Vector&,
                                                   const TangentWeights&) const;
 template ElementMatrix<3> BeamElement<3>::tangent(const ElementState<3>&, const Vector&,

@@ -138,7 +138,7 @@ std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
   if (!plan.section_charts.empty())
     throw std::runtime_error(
         "an equilibrium of beams with torsion has no derivative here where it follows from another one (of a "
-        "load step before it, or as bodies slide), or where sections turn far; leave load steps out, or "
+        "load step before it, or as bodies slide), or where sections turn far; leave load steps out, or take "
         "differences of runs");
   if (!plan.weights.empty())
     throw std::runtime_error(

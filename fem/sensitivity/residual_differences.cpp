@@ -80,12 +80,17 @@ struct ResidualDifferences::In final : Implementation {
     int index, now;
     std::array<int, element_size<D>> dofs = {};  // there
   };
+  // One that is in no batch: its index in the two systems, and where its ends were last, if they move.
+  struct Apart {
+    int index;
+    std::array<std::optional<typename BeamElement<D>::Points>, 2> points = {};
+  };
   struct Sides {
     const Assembly<D>*more = nullptr, *less = nullptr;
     double step = 0;
     double work = 0;
     std::vector<Different> batched = {};  // in a group's batches
-    std::vector<int> apart = {};          // the others, by their index
+    std::vector<Apart> apart = {};        // the others
     std::vector<int> groups = {};
     std::vector<int> coordinates = {};  // of the elements in batches
     bool outlasts = false;              // the last change of the mesh
@@ -169,7 +174,7 @@ struct ResidualDifferences::In final : Implementation {
       if (!unlike[i]) continue;
       const MeshElement<D>& e = pair.more->elements()[i];
       if (e.twist || !ElementBatch<D>::takes(e.element))
-        pair.apart.push_back(i);
+        pair.apart.push_back({i});
       else
         pair.batched.push_back({i, i});
     }
@@ -349,15 +354,37 @@ struct ResidualDifferences::In final : Implementation {
   }
 
   // Completes the forces of a pair, and finds its constraints.
-  void evaluate(const Sides& pair, const State& above, const State& below, Eigen::Index column) {
+  void evaluate(Sides& pair, const State& above, const State& below, Eigen::Index column) {
     auto more = forces.col(2 * column), less = forces.col(2 * column + 1);
     if (same_loads(pair, above, below)) {
-      pair.more->add_residual_of(pair.apart, above, more, more_constraints);
-      pair.less->add_residual_of(pair.apart, below, less, less_constraints);
+      add_apart(pair, *pair.more, above, 0, more, more_constraints);
+      add_apart(pair, *pair.less, below, 1, less, less_constraints);
     } else {
       pair.more->residual(above, more, more_constraints);
       pair.less->residual(below, less, less_constraints);
     }
+  }
+
+  // What is in no batch, on one side. Ends are often where they were.
+  static void add_apart(Sides& pair, const Assembly<D>& of, const State& state, std::size_t side,
+                        Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) {
+    using Layout = ElementLayout<D>;
+    std::vector<int> others;
+    for (Apart& apart : pair.apart) {
+      const MeshElement<D>& e = of.elements()[apart.index];
+      if (e.element.fixed() || e.twist || of.is_form_p(e)) {
+        others.push_back(apart.index);
+        continue;
+      }
+      const ElementState<D> x = gather<D>(e, state);
+      auto& points = apart.points[side];
+      if (!points || points->ends != std::array{x.q[Layout::place(0)], x.q[Layout::place(1)]})
+        points = e.element.points(x.q);
+      const ElementVector<D> f = e.element.force(x, of.line_load(e.beam, state), *points);
+      for (int k = 0; k < element_size<D>; ++k)
+        if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
+    }
+    of.add_residual_of(others, state, dynamics, constraints);
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -102,6 +103,8 @@ class Assembly final : public SecondOrderSystem {
   void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
   const SparsePattern& tangent_pattern() const override { return pattern_; }
   void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  void tangents(const State& state, const std::array<TangentWeights, 2>& w,
+                const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;
   /// Of elements whose ends move and of the places of joints, and what constraints tie to them.
@@ -151,6 +154,7 @@ class Assembly final : public SecondOrderSystem {
   struct Sink;
   struct All;
   struct Near;
+  struct AllButMoving;
 
   void batch_elements(const Assembly* like);
   bool has_batch(int beam, int k, const Assembly& like) const;

@@ -63,6 +63,13 @@ struct Assembly<D>::All {
   bool operator()(const ConstraintBlock&) const { return true; }
 };
 template <int D>
+struct Assembly<D>::AllButMoving : All {
+  const Assembly& of;
+
+  using All::operator();
+  bool operator()(int element) const { return of.elements_[element].element.fixed(); }
+};
+template <int D>
 struct Assembly<D>::Near {
   const Assembly& of;
   const std::vector<bool>& near;
@@ -373,6 +380,34 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w,
   add_tangents(state, w, All{}, values);
 }
 
+// Elements whose ends move are gone over once.
+template <int D>
+void Assembly<D>::tangents(const State& state, const std::array<TangentWeights, 2>& w,
+                           const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {
+  for (const std::size_t k : {0, 1}) {
+    std::fill(kkt[k]->valuePtr(), kkt[k]->valuePtr() + kkt[k]->nonZeros(), 0.0);
+    add_tangents(state, w[k], AllButMoving{{}, *this}, kkt[k]->valuePtr());
+  }
+  for (const int i : moving_spans_) {
+    const MeshElement<D>& e = elements_[i];
+    const Vector load = line_load(e.beam, state);
+    const ElementState<D> x = gather<D>(e, state);
+    std::array<ElementMatrix<D>, 2> both;
+    if (is_form_p(e))
+      both = {virtual_work::tangent<D>(e.element, x, load, w[0]),
+              virtual_work::tangent<D>(e.element, x, load, w[1])};
+    else
+      both = e.element.tangents(x, load, w);
+    for (const std::size_t k : {0, 1}) {
+      scatter(element_blocks_[i], both[k], kkt[k]->valuePtr());
+      if constexpr (D == 3)
+        if (e.twist)
+          scatter(twist_blocks_[i], e.twist->element.tangent(gather_twist(e, state), w[k]),
+                  kkt[k]->valuePtr());
+    }
+  }
+}
+
 template <int D>
 void Assembly<D>::tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                                double* values) const {
@@ -417,6 +452,10 @@ template void Assembly<2>::choose_moving_part();
 template void Assembly<3>::choose_moving_part();
 template void Assembly<2>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
 template void Assembly<3>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
+template void Assembly<2>::tangents(const State&, const std::array<TangentWeights, 2>&,
+                                    const std::array<Eigen::SparseMatrix<double>*, 2>&) const;
+template void Assembly<3>::tangents(const State&, const std::array<TangentWeights, 2>&,
+                                    const std::array<Eigen::SparseMatrix<double>*, 2>&) const;
 template void Assembly<2>::tangent_near(const State&, const TangentWeights&, const std::vector<bool>&,
                                         double*) const;
 template void Assembly<3>::tangent_near(const State&, const TangentWeights&, const std::vector<bool>&,

@@ -80,6 +80,10 @@ void BeamSystem::tangent(const State& state, const TangentWeights& w,
                          Eigen::SparseMatrix<double>& kkt) const {
   system_->tangent(state, w, kkt);
 }
+void BeamSystem::tangents(const State& state, const std::array<TangentWeights, 2>& w,
+                          const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {
+  system_->tangents(state, w, kkt);
+}
 void BeamSystem::tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                               double* values) const {
   system_->tangent_near(state, w, near, values);

@@ -96,6 +96,33 @@ TEST(Gradient, OfABodyOnSpansThatAreDrawnAlike) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
+// Control points of spans that the body has left, comes to and never sees: their models go without the
+// changes of the mesh that do not touch what they draw, have their meshes made where the body is with them,
+// and go without again. Breaks are passed as a point.
+TEST(Gradient, OfControlPointsThatABodyComesToAndLeaves) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3,
+                         "knots": [0, 0, 0, 0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1, 1, 1, 1],
+                         "control_points": [[0.0, 0, 1.0], [0.36, 0, 0.806], [0.72, 0, 0.625], [1.08, 0, 0.466], [1.44, 0, 0.34],
+                                            [1.8, 0, 0.25], [2.16, 0, 0.2], [2.52, 0, 0.186], [2.88, 0, 0.205], [3.24, 0, 0.246], [3.6, 0, 0.3]]}},
+      "section": {"radius": "14 mm"}, "material": {"density": 1900, "youngs_modulus": "6 GPa"},
+      "elements": {"count": 24}}],
+    "bodies": [{"name": "a", "mass": 0.7}],
+    "sliding_joints": [{"body": "a", "beam": "beam", "at": {"length": 0.6}, "speed": 4}],
+    "supports": [{"beam": "beam", "at": "start", "type": "pinned"}, {"beam": "beam", "at": "end", "type": "clamped"}],
+    "analysis": {"type": "dynamic", "end_time": 0.3, "step": "1 ms"}, "output": {"every": 0.1}})json",
+                 R"json("variables": [
+      {"name": "z1", "control_point": {"beam": "beam", "index": 1, "axis": "z"}, "range": [0.75, 0.85]},
+      {"name": "z3", "control_point": {"beam": "beam", "index": 3, "axis": "z"}, "range": [0.4, 0.5]},
+      {"name": "z5", "control_point": {"beam": "beam", "index": 5, "axis": "z"}, "range": [0.2, 0.3]},
+      {"name": "z8", "control_point": {"beam": "beam", "index": 8, "axis": "z"}, "range": [0.15, 0.25]}],
+    "quantities": [{"name": "s", "value": "at(end, a.s)"}, {"name": "v", "value": "at(end, a.speed)"},
+      {"name": "z", "value": "at(0.2, a.z)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 1e-4, 1e-4);
+}
+
 // A moving node comes to the one that its element ends with: the last step before it is shortened, by a
 // length that is another where the body comes sooner.
 TEST(Gradient, OfAStepThatTheElementLeftShortens) {

@@ -70,6 +70,11 @@ void compare(const ReferenceCurve& curve, const Chart& chart, double s_a, double
     for (const Derivatives wanted : {Derivatives::one, Derivatives::two})
       expect_rows(MovingBasis(curve, chart, a, b, wanted).rows_at(s), y, wanted);
   }
+  const double still = 0.4 * s_a + 0.6 * s_b;
+  MovingRows::Series r = fast.positions_at(still);
+  std::array<Jet, 4> row;
+  for (int k = 0; k < 4; ++k) row[k] = Jet(Jet::Coefficients{r.value[k], r.first[0][k], r.first[1][k]});
+  expect_same(row, series.at(Jet(still)).value, 1, "row of r at a place that stays ");
 }
 
 TEST(MovingBasis, IsTheSeriesOfTheElement) {

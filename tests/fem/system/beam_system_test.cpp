@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <numeric>
 
 #include "fem/system/material_points.h"
 #include "solver/consistent.h"
 #include "solver/generalized_alpha.h"
+#include "solver/tangent_rows.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {
@@ -111,6 +113,44 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithTorsion) {
   for (const int seed : {14, 15}) check_tangent<3>(seed, torsion_model);
   for (const int seed : {18, 19})
     check_tangent<3>(seed, [](std::mt19937& random, int) { return torsion_sliding_model(random, 0); });
+}
+
+TEST(BeamSystem, FindsTwoTangentsAtOnce) {
+  const std::array<TangentWeights, 2> weights{TangentWeights{.stiffness = 1},
+                                              {.mass = 0.3, .damping = 0.7, .stiffness = 0.1}};
+  for (const bool torsion : {false, true})
+    for (const int dimension : {2, 3}) {
+      std::mt19937 random(30 + dimension);
+      const BeamSystem system(torsion ? torsion_sliding_model(random, 0)
+                                      : model_with_everything(random, dimension));
+      const State state = disturbed_state(system, random);
+      std::array<Eigen::SparseMatrix<double>, 2> found{system.tangent_pattern().matrix(),
+                                                       system.tangent_pattern().matrix()};
+      system.tangents(state, weights, {&found[0], &found[1]});
+      for (const std::size_t k : {0, 1}) {
+        const Eigen::SparseMatrix<double> one = tangent(system, state, weights[k]);
+        EXPECT_LE((found[k] - one).norm(), 1e-14 * one.norm());
+      }
+    }
+}
+
+TEST(TangentRows, AreThoseOfTheWholeTangent) {
+  for (const int dimension : {2, 3}) {
+    std::mt19937 random(50 + dimension);
+    const BeamSystem system(model_with_everything(random, dimension));
+    const State state = disturbed_state(system, random);
+    const TangentWeights w{.mass = 0.9, .damping = 0.2, .stiffness = 0.05};
+    const Eigen::MatrixXd whole = tangent(system, state, w);
+    const int n = system.coordinate_count();
+    const std::vector<int> rows{3, 4, n / 2, n / 2 + 1, n - 1, n + 1};
+    const TangentRows found(system, state, w, rows);
+    std::vector<int> columns(static_cast<std::size_t>(whole.cols()));
+    std::iota(columns.begin(), columns.end(), 0);
+    const Eigen::MatrixXd expected = whole(rows, Eigen::all);
+    EXPECT_LE((found.entries(columns) - expected).norm(), 1e-13 * expected.norm());
+    const Eigen::MatrixXd x = Eigen::MatrixXd::Random(n, 3), product = expected.leftCols(n) * x;
+    EXPECT_LE((found.product(x) - product).norm(), 1e-13 * product.norm());
+  }
 }
 
 // Where places alone differ, whole tangents differ by that of the moving part, and nowhere else.
