@@ -72,6 +72,34 @@ bool same_times(const SimulationOptions& a, const SimulationOptions& b) {
   return a.end_time == b.end_time && a.step == b.step && a.output_times == b.output_times;
 }
 
+bool asks_for_von_mises(const StudyFile& study) {
+  return std::any_of(
+      study.quantities.begin(), study.quantities.end(),
+      [](const StudyQuantity& quantity) {
+        const std::vector<std::string> names = quantity.value.names();
+        return std::any_of(
+            names.begin(), names.end(),
+            [](const std::string& name) { return name.find(".von_mises") != std::string::npos; });
+      });
+}
+
+// Throws std::invalid_argument where the shear stress of a section does not change smoothly with a parameter.
+void check_stresses(const BeamModel& less, const BeamModel& model, const BeamModel& more) {
+  for (std::size_t b = 0; b < model.beams.size(); ++b) {
+    const auto of_torque = [&](const BeamModel& each) {
+      return each.beams[b].stresses ? each.beams[b].stresses->largest({.torque = 1}).von_mises : 0;
+    };
+    const double here = of_torque(model), slope = of_torque(more) - of_torque(less);
+    constexpr double round_off = 1e-9, bent = 0.01;
+    if (std::abs(slope) <= round_off * here) continue;
+    if (std::abs(of_torque(more) + of_torque(less) - 2 * here) > bent * std::abs(slope))
+      throw std::invalid_argument(
+          "the shear stress of the section of beam " + in_quotes(model.beams[b].name) +
+          " is found on a mesh that changes with it, so that its error is more than the "
+          "difference; leave \"von_mises\" out, or search without derivatives");
+  }
+}
+
 }  // namespace
 
 double derivative_step(const StudyVariable& variable, double value) {
@@ -143,6 +171,8 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     try {
       pairs_.push_back(
           {run_of(changed(study, values, k, step)), run_of(changed(study, values, k, -step)), step});
+      const auto& [more, less, by] = pairs_.back();
+      if (asks_for_von_mises(study)) check_stresses(less.built->model, model.model, more.built->model);
     } catch (const std::invalid_argument& problem) {
       throw std::invalid_argument("no derivative by " + in_quotes(variable.name) + ": " + problem.what());
     }

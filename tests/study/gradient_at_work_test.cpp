@@ -115,6 +115,35 @@ std::string told_of(const std::string& of_case, const std::string& variables, co
   return all + run_variant(of.study, &of.study_case, 0, all_values(of.study, of.nominal())).reason;
 }
 
+// The torque's shear stress comes from a mesh of the section, which is another one for another rectangle; its
+// stiffness in torsion does not, and a round section has its stress in closed form.
+TEST(Gradient, SaysThatStressesOfMeshedSectionsHaveNone) {
+  const auto of = [](const char* section, const char* path, const char* quantity) {
+    return told_of(
+        std::string(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1],
+        "control_points": [[0, 0, 0], [0.7, 0.1, 0], [1, 0.8, 0.1], [0.9, 1.5, 0.3]]}},
+      "orientation": {"up": [0, 0, 1]}, "section": )json") +
+            section +
+            R"json(, "material": {"density": 2700, "youngs_modulus": "7 GPa", "poissons_ratio": 0.3},
+      "elements": {"count": 4}}],
+      "supports": [{"beam": "beam", "at": "start", "type": "clamped"}],
+      "analysis": {"type": "static"}, "output": {"probes": [{"name": "P", "beam": "beam", "at": {"fraction": 0.1}}]}})json",
+        std::string(R"json("variables": [{"name": "h", "path": "beams[0].section.)json") + path +
+            R"json(", "range": [0.021, 0.029]}])json",
+        quantity);
+  };
+  const char *rectangle = R"json({"rectangle": [0.04, 0.025]})json", *round = R"json({"radius": 0.025})json";
+  const std::string told = of(rectangle, "rectangle[1]", "at(end, P.von_mises)");
+  EXPECT_NE(
+      told.find(
+          "no derivative by \"h\": the shear stress of the section of beam \"beam\" is found on a mesh"),
+      std::string::npos)
+      << told;
+  EXPECT_EQ(of(rectangle, "rectangle[1]", "at(end, P.z)"), "");
+  EXPECT_EQ(of(round, "radius", "at(end, P.von_mises)"), "");
+}
+
 TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {
   const std::string plane_case = test::spline_case(6, 4, R"json({"type": "static"})json");
   const std::string out_of_plane = told_of(
