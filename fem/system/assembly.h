@@ -154,7 +154,7 @@ class Assembly final : public SecondOrderSystem {
   struct Sink;
   struct All;
   struct Near;
-  struct AllButMoving;
+  enum class Moving { included, left_out };  // elements whose ends move
 
   void batch_elements(const Assembly* like);
   bool has_batch(int beam, int k, const Assembly& like) const;
@@ -177,7 +177,8 @@ class Assembly final : public SecondOrderSystem {
   void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
                            const Block& block, const Block& twist_block, double* values) const;
   template <class Wanted>
-  void add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted, double* values) const;
+  void add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted, double* values,
+                    Moving moving = Moving::included) const;
   template <class Wanted>
   void add_batch_tangents(int beam, const State& state, const TangentWeights& w, const Wanted& wanted,
                           double* values) const;

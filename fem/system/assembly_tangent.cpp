@@ -63,13 +63,6 @@ struct Assembly<D>::All {
   bool operator()(const ConstraintBlock&) const { return true; }
 };
 template <int D>
-struct Assembly<D>::AllButMoving : All {
-  const Assembly& of;
-
-  using All::operator();
-  bool operator()(int element) const { return of.elements_[element].element.fixed(); }
-};
-template <int D>
 struct Assembly<D>::Near {
   const Assembly& of;
   const std::vector<bool>& near;
@@ -343,12 +336,13 @@ void Assembly<D>::add_constraint_tangent(int i, const State& state, const Tangen
 template <int D>
 template <class Wanted>
 void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted,
-                               double* values) const {
+                               double* values, Moving moving) const {
   const MeshedBeams<D> at = beams();
   const bool constraints_only = w.mass == 0 && w.damping == 0 && w.stiffness == 0;
   for (int b = 0; b < static_cast<int>(model_->beams.size()) && !constraints_only; ++b) {
     const Vector load = line_load(b, state);
     const auto add_one = [&](int i) {
+      if (moving == Moving::left_out && !elements_[i].element.fixed()) return;
       if (wanted(i)) add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
     };
     if (model_->beams[b].properties.is_damped())
@@ -386,7 +380,7 @@ void Assembly<D>::tangents(const State& state, const std::array<TangentWeights, 
                            const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {
   for (const std::size_t k : {0, 1}) {
     std::fill(kkt[k]->valuePtr(), kkt[k]->valuePtr() + kkt[k]->nonZeros(), 0.0);
-    add_tangents(state, w[k], AllButMoving{{}, *this}, kkt[k]->valuePtr());
+    add_tangents(state, w[k], All{}, kkt[k]->valuePtr(), Moving::left_out);
   }
   for (const int i : moving_spans_) {
     const MeshElement<D>& e = elements_[i];
