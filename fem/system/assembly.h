@@ -156,8 +156,7 @@ class Assembly final : public SecondOrderSystem {
   struct Near;
   struct AllButMoving;
 
-  void batch_elements(const Assembly* like);
-  bool has_batch(int beam, int k, const Assembly& like) const;
+  void batch_elements();
   void bind_constraints(Binding<D>& binding);
   void bind_forces(const Binding<D>& binding);
   void list_blocks();
