@@ -130,7 +130,8 @@ std::ptrdiff_t append(std::vector<double>& numbers, int count) {
   return static_cast<std::ptrdiff_t>(begin);
 }
 
-// Numbers of four rows of U, or columns of L, from place k on: with what is taken out of the next block.
+// Numbers of four rows of U, or columns of L, from place k on: with what is taken out of the next block. Of L
+// those within the block stand where U has none.
 int rounded_length(int k, int end) { return std::max(2 * block, (end - k + block - 1) / block * block); }
 
 }  // namespace
@@ -144,7 +145,6 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   const auto padded = static_cast<std::size_t>(padded_);
   scale_.resize(order_->unknown.size());
   pivots_.resize(padded);
-  inverse_.resize(padded);
   blocks_.resize(padded / block);
   room_ = padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block);
   // As long as they are without exchanges, and an eighth for these.
@@ -152,7 +152,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   for (int k = 0, row = 0, longest = 0; k < padded_; k += block) {
     for (; row < std::min(k + block, n); ++row) longest = std::max(longest, order_->ends[row]);
     upper += static_cast<std::size_t>(block * rounded_length(k, longest));
-    lower += static_cast<std::size_t>(block * rounded_length(k, order_->below[row - 1] + 1));
+    lower += static_cast<std::size_t>(block * (rounded_length(k, order_->below[row - 1] + 1) - block));
   }
   upper_.clear();
   lower_.clear();
@@ -212,12 +212,13 @@ NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
   int end = 0;
   for (int r = 0; r < block; ++r) end = std::max(end, window.end(k + r));
   const int upper = own.upper_length = rounded_length(k, end),
-            lower = own.lower_length = rounded_length(k, own.reach + 1);
+            lower = own.lower_length = rounded_length(k, own.reach + 1) - block;
   own.upper_begin = append(upper_, block * upper);
   own.lower_begin = append(lower_, block * lower);
   for (int r = 0; r < block; ++r) {
     std::copy_n(window.diagonal(k + r) - r, upper, upper_.data() + own.upper_begin + r * upper);
-    std::copy_n(window.multipliers(r), lower, lower_.data() + own.lower_begin + r * lower);
+    for (int c = 0; c < r; ++c) upper_[own.upper_begin + r * upper + c] = window.multipliers(c)[r];
+    std::copy_n(window.multipliers(r) + block, lower, lower_.data() + own.lower_begin + r * lower);
   }
 }
 
@@ -227,11 +228,11 @@ NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
   Square &inverse = blocks_[k / block].upper, &next = blocks_[k / block].from_next;
   for (int j = 0; j < block; ++j) {
     inverse[j] = {};
-    inverse[j][j] = inverse_[k + j];
+    inverse[j][j] = 1 / u[j][j];
     for (int i = j - 1; i >= 0; --i) {
       double sum = 0;
       for (int l = i + 1; l <= j; ++l) sum += u[i][l] * inverse[j][l];
-      inverse[j][i] = -inverse_[k + i] * sum;
+      inverse[j][i] = -inverse[i][i] * sum;
     }
   }
   for (int j = 0; j < block; ++j) {
@@ -246,17 +247,15 @@ NURBEAM_WITHIN void BandedLu::invert_lower(int k) {
   own.exchanged = false;
   for (int c = 0; c < block; ++c) own.exchanged |= pivots_[k + c] != k + c;
   if (own.exchanged) return;
-  const std::array<const double*, block> m = multipliers(k);
   for (int j = 0; j < block; ++j) {
     own.lower[j] = {};
     own.lower[j][j] = 1;
     for (int i = j + 1; i < block; ++i)
-      for (int l = j; l < i; ++l) own.lower[j][i] -= m[l][i - l - 1] * own.lower[j][l];
+      for (int l = j; l < i; ++l) own.lower[j][i] -= multiplier(k + i, k + l) * own.lower[j][l];
   }
   if (k == 0 || blocks_[k / block - 1].exchanged) return;
-  const std::array<const double*, block> before = multipliers(k - block);
-  for (int j = 0; j < block; ++j)
-    four(own.from_previous[j].data()) = product(own.lower, four(before[j] + block - 1 - j));
+  const std::array<const double*, block> before = multipliers_below(k - block);
+  for (int j = 0; j < block; ++j) four(own.from_previous[j].data()) = product(own.lower, four(before[j]));
 }
 
 NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix) {
@@ -274,13 +273,12 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
     if (p != k) exchange(window, k, p);
     const double pivot = *window.diagonal(k);
     if (pivot == 0) return 0;
-    inverse_[k] = 1 / pivot;
     if (k < n) {
       smallest = std::min(smallest, std::abs(pivot));
       largest = std::max(largest, std::abs(pivot));
     }
     int& reach = blocks_[k / block].reach;
-    reach = std::max(reach, take_out_of_rows(window, k, last, inverse_[k]));
+    reach = std::max(reach, take_out_of_rows(window, k, last, 1 / pivot));
     if (k % block != block - 1) continue;
     const int begin = k - k % block;
     keep_block(begin, window);
@@ -296,6 +294,10 @@ double BandedLu::factorise(const Matrix& matrix) {
   return order_->unknown.empty() ? 1 : eliminate_rows(matrix);
 }
 
+NURBEAM_WITHIN double BandedLu::inverse_pivot(int k) const {
+  return blocks_[k / block].upper[k % block][k % block];
+}
+
 // From column 0 on, if it were so long.
 NURBEAM_WITHIN const double* BandedLu::upper_row(int k) const {
   const Block& own = blocks_[k / block];
@@ -303,20 +305,23 @@ NURBEAM_WITHIN const double* BandedLu::upper_row(int k) const {
   return upper_.data() + own.upper_begin + row * own.upper_length - (k - row);
 }
 
-// Of the rows below the diagonal of each column.
-NURBEAM_WITHIN std::array<const double*, block> BandedLu::multipliers(int k) const {
+// Within a block.
+NURBEAM_WITHIN double BandedLu::multiplier(int row, int column) const { return upper_row(row)[column]; }
+
+// Of the rows below a block, of each of its columns.
+NURBEAM_WITHIN std::array<const double*, block> BandedLu::multipliers_below(int k) const {
   const Block& own = blocks_[k / block];
   std::array<const double*, block> m;
-  for (int c = 0; c < block; ++c) m[c] = lower_.data() + own.lower_begin + c * own.lower_length + c + 1;
+  for (int c = 0; c < block; ++c) m[c] = lower_.data() + own.lower_begin + c * own.lower_length;
   return m;
 }
 
 // Takes a block of unknowns whose rows stay out of the right-hand sides below it, from the `first` one on.
 NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, int first, double* y) const {
-  const std::array<const double*, block> m = multipliers(k);
+  const std::array<const double*, block> m = multipliers_below(k);
   for (int i = first; k + block + i <= blocks_[k / block].reach; i += block)
-    four(y + block + i) -= four(m[0] + i + 3) * x[0] + four(m[1] + i + 2) * x[1] + four(m[2] + i + 1) * x[2] +
-                           four(m[3] + i) * x[3];
+    four(y + block + i) -=
+        four(m[0] + i) * x[0] + four(m[1] + i) * x[1] + four(m[2] + i) * x[2] + four(m[3] + i) * x[3];
 }
 
 // Finds a block of unknowns and takes it out of the right-hand sides below it.
@@ -327,10 +332,12 @@ NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
     four(y) = x;
     return take_out(k, x, 0, y);
   }
-  const std::array<const double*, block> m = multipliers(k);
+  const std::array<const double*, block> m = multipliers_below(k);
+  const int last = blocks_[k / block].reach - k;
   for (int c = 0; c < block; ++c) {
     std::swap(y[c], all[pivots_[k + c]]);
-    for (int i = 0; k + c + 1 + i <= blocks_[k / block].reach; ++i) y[c + 1 + i] -= m[c][i] * y[c];
+    for (int i = c + 1; i < std::min(block, last + 1); ++i) y[i] -= multiplier(k + i, k + c) * y[c];
+    for (int i = block; i <= last; ++i) y[i] -= m[c][i - block] * y[c];
   }
 }
 
@@ -349,8 +356,8 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& all) const {
     const Block& own = blocks_[k / block];
     if (own.exchanged) {
       if (is_waiting) {
-        const std::array<const double*, block> m = multipliers(k - block);
-        for (int c = 0; c < block; ++c) four(y) -= four(m[c] + block - 1 - c) * before[c];
+        const std::array<const double*, block> m = multipliers_below(k - block);
+        for (int c = 0; c < block; ++c) four(y) -= four(m[c]) * before[c];
       }
       eliminate(k, all.data());
     } else {
@@ -393,7 +400,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first, int& last) const {
   for (int k = first; k <= last; ++k) {
     if (y[k] == 0) continue;
-    y[k] *= inverse_[k];
+    y[k] *= inverse_pivot(k);
     const double* u = upper_row(k);
     const int end = std::min(k - k % block + blocks_[k / block].upper_length, padded_);
     for (int i = k + 1; i < end; ++i) y[i] -= u[i] * y[k];
@@ -412,19 +419,22 @@ NURBEAM_WITHIN void BandedLu::solve_beside(double* y) const {
     for (int c = 0; c < times; ++c) x[c] = pivot[c];
     if (own != pivot)
       for (int c = 0; c < times; ++c) std::swap(own[c], pivot[c]);
-    const double* m = multipliers(k - k % block)[k % block] - k - 1;
-    const int last = std::min(order_->below[k], blocks_[k / block].reach);
-    for (int i = k + 1; i <= last; ++i)
+    const int below = k - k % block + block, last = std::min(order_->below[k], blocks_[k / block].reach);
+    for (int i = k + 1; i < std::min(below, last + 1); ++i)
+      for (int c = 0; c < times; ++c) at(i)[c] -= multiplier(i, k) * x[c];
+    const double* m = multipliers_below(k)[k % block] - below;
+    for (int i = below; i <= last; ++i)
       for (int c = 0; c < times; ++c) at(i)[c] -= m[i] * x[c];
   }
   for (int k = n - 1; k >= 0; --k) {
     const double* upper = upper_row(k);
     Four* own = at(k);
+    const double inverse = inverse_pivot(k);
     for (int c = 0; c < times; ++c) x[c] = own[c];
     const int end = std::min(k - k % block + blocks_[k / block].upper_length, n);
     for (int j = k + 1; j < end; ++j)
       for (int c = 0; c < times; ++c) x[c] -= upper[j] * at(j)[c];
-    for (int c = 0; c < times; ++c) own[c] = inverse_[k] * x[c];
+    for (int c = 0; c < times; ++c) own[c] = inverse * x[c];
   }
 }
 

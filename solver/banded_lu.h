@@ -51,8 +51,10 @@ class BandedLu {
   void keep_block(int k, Window& window);
   void invert_upper(int k);
   void invert_lower(int k);
+  double inverse_pivot(int k) const;
   const double* upper_row(int k) const;
-  std::array<const double*, 4> multipliers(int k) const;
+  double multiplier(int row, int column) const;
+  std::array<const double*, 4> multipliers_below(int k) const;
   void take_out(int k, const Four& x, int first, double* y) const;
   void eliminate(int k, double* all) const;
   template <int times>
@@ -75,9 +77,9 @@ class BandedLu {
     bool exchanged;  ///< rows with others: then no from_previous, here and in the next one
   };
   std::vector<Block> blocks_;
-  std::vector<double> upper_;     ///< four rows of U at a time, from the first one's diagonal on
-  std::vector<double> lower_;     ///< four columns of multipliers at a time, as U's rows
-  std::vector<double> inverse_;   ///< of each pivot
+  std::vector<double> upper_;     ///< four rows of U at a time, from the first one's diagonal on, and those
+                                  ///< multipliers that stand left of the others' diagonals
+  std::vector<double> lower_;     ///< four columns of multipliers at a time, from below their block on
   std::vector<double> scale_;     ///< of each row of the matrix
   std::vector<int> pivots_;       ///< row that was brought to each place
   std::vector<double> window_;    ///< room for the rows that are being eliminated,

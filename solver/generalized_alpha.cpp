@@ -337,9 +337,14 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   unaccelerated_ = at;
   unaccelerated_.a.setZero();
   unaccelerated_.lambda.setZero();
-  force_.resize(n + m);
-  system_->residual(unaccelerated_, force_.head(n), force_.tail(m));
-  constraint_force_.setZero(n);
+  // In the room of the correction, which is not known yet: one kind of force after the other.
+  correction_.resize(n + m);
+  const auto largest_work = [&] {
+    return scale_.cwiseProduct(correction_.head(n).cwiseAbs()).lpNorm<Eigen::Infinity>();
+  };
+  system_->residual(unaccelerated_, correction_.head(n), correction_.tail(m));
+  const double of_forces = largest_work();
+  correction_.setZero();
   reference_.setConstant(std::numeric_limits<double>::min());
   double* reference = reference_.data();
   const double* values = kkt_.valuePtr();
@@ -355,11 +360,10 @@ void GeneralizedAlphaIntegrator::measure_reference() {
     const double rounding = floor * std::abs(multiplier) * scaling / mass_scale_;
     for (int k = starts[column]; k < starts[column + 1]; ++k) {
       reference[rows[k]] += rounding * std::abs(values[k]);
-      if (rows[k] < n) constraint_force_[rows[k]] += values[k] * multiplier;
+      if (rows[k] < n) correction_[rows[k]] += values[k] * multiplier;
     }
   }
-  const double work = scale_.cwiseProduct(force_.head(n).cwiseAbs().cwiseMax(constraint_force_.cwiseAbs()))
-                          .lpNorm<Eigen::Infinity>();
+  const double work = std::max(of_forces, largest_work());
   reference_.head(n) += scaling / mass_scale_ * work * inverse_scale_;
   reference_ = reference_.cwiseInverse();
 }

@@ -111,8 +111,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   State trial_;
   Eigen::VectorXd start_algorithmic_;  ///< algorithmic_acceleration_ moved to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
-  State unaccelerated_;  ///< of measure_reference, as are the next two
-  Eigen::VectorXd force_, constraint_force_;
+  State unaccelerated_;         ///< of measure_reference
   Eigen::VectorXd residual_;    ///< (n+m) scaled
   Eigen::VectorXd correction_;  ///< (n+m) scaled
   Eigen::VectorXd

@@ -39,7 +39,45 @@ Cut cut_of(const BandOrder& order) {
   return best;
 }
 
-// The indices of a matrix, the part that is eliminated last, with what is cut out between strands, and the
+// Where a matrix has entries, in rows that follow one another: of a chain in a tenth of the room of its
+// indices.
+class PatternInRuns {
+ public:
+  explicit PatternInRuns(const Matrix& matrix)
+      : column_ends_(matrix.outerIndexPtr() + 1, matrix.outerIndexPtr() + matrix.cols() + 1) {
+    const int* rows = matrix.innerIndexPtr();
+    for (int k = 0; const int end : column_ends_)
+      while (k < end) {
+        const int first = k++;
+        while (k < end && rows[k] == rows[k - 1] + 1) ++k;
+        runs_.push_back({rows[first], k - first});
+      }
+    runs_.shrink_to_fit();
+  }
+
+  bool is_of(const Matrix& matrix) const {
+    if (static_cast<std::size_t>(matrix.cols()) != column_ends_.size() ||
+        !std::equal(column_ends_.begin(), column_ends_.end(), matrix.outerIndexPtr() + 1))
+      return false;
+    // The rows of a column rise: those of a run are there where its first and its last one are.
+    const int* row = matrix.innerIndexPtr();
+    return std::all_of(runs_.begin(), runs_.end(), [&](const Run& run) {
+      const bool is_there = row[0] == run.first && row[run.count - 1] == run.first + run.count - 1;
+      row += run.count;
+      return is_there;
+    });
+  }
+
+ private:
+  struct Run {
+    int first, count;
+  };
+
+  std::vector<int> column_ends_;
+  std::vector<Run> runs_;
+};
+
+// Where a matrix has entries, the part that is eliminated last, with what is cut out between strands, and the
 // orders of these.
 struct AnalysedPattern {
   // An entry of S.
@@ -47,36 +85,31 @@ struct AnalysedPattern {
     int value, row, column;  // among the matrix's values; of S
   };
 
-  std::vector<int> column_starts, row_indices, last, part;
+  PatternInRuns entries;
+  std::vector<int> last, part;
   bool is_cut = false;
   std::vector<std::shared_ptr<const StrandOrder>> strands;
   std::vector<Entry> within;
 
   // `may_cut`: whether a long strand may become two.
   AnalysedPattern(const Matrix& matrix, const std::vector<int>& eliminated_last, bool may_cut)
-      : column_starts(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1),
-        row_indices(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()),
-        last(eliminated_last),
-        part(eliminated_last) {
+      : entries(matrix), last(eliminated_last), part(eliminated_last) {
     BandOrder whole(matrix, last);
     is_cut = may_cut && is_worth_two(whole);
     if (is_cut)
       cut(matrix, whole);
     else
-      add_strand(matrix, std::move(whole), places_in_part());
+      add_strand(matrix, std::move(whole), places_in_part(matrix));
     if (part.empty()) return;
-    const std::vector<int> in_part = places_in_part();
+    const std::vector<int> in_part = places_in_part(matrix);
+    const int *starts = matrix.outerIndexPtr(), *rows = matrix.innerIndexPtr();
     for (int column = 0; column < matrix.cols(); ++column)
-      for (int k = column_starts[column]; in_part[column] >= 0 && k < column_starts[column + 1]; ++k)
-        if (in_part[row_indices[k]] >= 0) within.push_back({k, in_part[row_indices[k]], in_part[column]});
+      for (int k = starts[column]; in_part[column] >= 0 && k < starts[column + 1]; ++k)
+        if (in_part[rows[k]] >= 0) within.push_back({k, in_part[rows[k]], in_part[column]});
   }
 
   bool is_of(const Matrix& matrix, const std::vector<int>& eliminated_last) const {
-    const auto columns = static_cast<std::size_t>(matrix.cols());
-    const auto entries = static_cast<std::size_t>(matrix.nonZeros());
-    return column_starts.size() == columns + 1 && row_indices.size() == entries && last == eliminated_last &&
-           std::equal(column_starts.begin(), column_starts.end(), matrix.outerIndexPtr()) &&
-           std::equal(row_indices.begin(), row_indices.end(), matrix.innerIndexPtr());
+    return last == eliminated_last && entries.is_of(matrix);
   }
 
  private:
@@ -89,8 +122,8 @@ struct AnalysedPattern {
     return middle.begin - middle.end <= widest_cut;
   }
 
-  std::vector<int> places_in_part() const {
-    std::vector<int> places(column_starts.size() - 1, -1);
+  std::vector<int> places_in_part(const Matrix& matrix) const {
+    std::vector<int> places(static_cast<std::size_t>(matrix.cols()), -1);
     for (std::size_t j = 0; j < part.size(); ++j) places[part[j]] = static_cast<int>(j);
     return places;
   }
@@ -103,7 +136,7 @@ struct AnalysedPattern {
     const auto [end, begin] = cut_of(whole);
     const auto start = whole.unknown.begin();
     part.insert(part.end(), start + end, start + begin);
-    const std::vector<int> in_part = places_in_part();
+    const std::vector<int> in_part = places_in_part(matrix);
     std::vector<int> rest(start + begin, whole.unknown.end());
     // What is cut out is coupled with the end of the first strand; with that of the other one too, where this
     // is turned round, up to where its component ends.

@@ -21,31 +21,40 @@ template <int D>
 BeamElement<D>::BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart,
                             double s_a, double s_b, Ends ends)
     : curve_(&curve), properties_(&properties), chart_(std::move(chart)), ends_(ends) {
-  mass_.setZero();
-  load_factor_.setZero();
-  stretch_.setZero();
-  strain0_.setZero();
   if (!fixed() && curve.metric() == Metric::label)
     throw std::invalid_argument("an element whose ends move needs the metric of the drawn curve");
   if (!fixed()) return;
+  const auto own = std::make_shared<Own>(Own{FixedSums::zero(), {}});
   int point = 0;
   for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double weight) {
-    add_point(point++ % PointPack::points, shape, weight, curve.strain(s));
+    add_point(point++ % PointPack::points, shape, weight, curve.strain(s), *own);
   });
-  length_ = s_b - s_a;
-  strain0_.tail<2>() << curve.strain(s_a), curve.strain(s_b, true);
+  own->sums.length = s_b - s_a;
+  own->sums.strain0.template tail<2>() << curve.strain(s_a), curve.strain(s_b, true);
+  own_ = own;
+}
+
+template <int D>
+void BeamElement<D>::stand_beside(std::shared_ptr<FixedLanes> others, int lane) {
+  with_sums([&](const FixedSums& sums) {
+    for_each_pack([&](const PointPack& pack) { others->put(lane, sums, pack); });
+  });
+  own_ = nullptr;
+  beside_ = std::move(others);
+  lane_ = lane;
 }
 
 // The next Gauss point of a fixed element, with its number in its part.
 template <int D>
-void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0) {
+void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0,
+                               Own& own) const {
   const Eigen::Vector4d S = row(shape.value), S1 = row(shape.d1);
-  mass_ += properties_->mass_per_length * weight * S * S.transpose();
-  load_factor_ += weight * S;
-  stretch_ += weight * S1 * S1.transpose();
-  strain0_[0] += weight * eps0;
-  if (point == 0) packs_.emplace_back();
-  PointPack& pack = packs_.back();
+  own.sums.mass += properties_->mass_per_length * weight * S * S.transpose();
+  own.sums.load_factor += weight * S;
+  own.sums.stretch += weight * S1 * S1.transpose();
+  own.sums.strain0[0] += weight * eps0;
+  if (point == 0) own.packs.emplace_back();
+  PointPack& pack = own.packs.back();
   // The last point fills the lanes beyond it.
   const int more = point + 1 == PointPack::points ? PointPack::lanes - point : 1;
   for (int k = 0; k < 4; ++k) {
@@ -65,7 +74,10 @@ bool BeamElement<D>::assumes_strain() const {
 
 template <int D>
 AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
-  if (fixed()) return fixed_sums({q, ElementVector<D>::Zero(), ElementVector<D>::Zero()});
+  if (fixed())
+    return with_sums([&](const FixedSums& sums) {
+      return fixed_sums(sums, {q, ElementVector<D>::Zero(), ElementVector<D>::Zero()});
+    });
   AxialSums<D> sums(q);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   for_each_point(q, [&](const ShapeFunctions<Jet>& shape, const Jet&, const Jet& weight) {
@@ -78,7 +90,7 @@ AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
 
 template <int D>
 Eigen::Matrix4d BeamElement<D>::stretch(const ElementVector<D>& q) const {
-  if (fixed()) return stretch_;
+  if (fixed()) return with_sums([](const FixedSums& sums) { return sums.stretch; });
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for_each_point(q[ElementLayout<D>::place(0)], q[ElementLayout<D>::place(1)],
                  [&](const ShapeFunctions<double>& shape, double, double weight) {
@@ -90,7 +102,8 @@ Eigen::Matrix4d BeamElement<D>::stretch(const ElementVector<D>& q) const {
 
 template <int D>
 double BeamElement<D>::strain_of_axis(const ElementVector<D>& q) const {
-  return (q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)]) / 2 + strain0_[0];
+  const double strain0 = fixed() ? with_sums([](const FixedSums& sums) { return sums.strain0[0]; }) : 0;
+  return (q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)]) / 2 + strain0;
 }
 
 template <int D>
@@ -107,12 +120,13 @@ double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
   const AssumedStrain assumed(y[0], y[1], y[2], y[3]);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   double largest = 0;
-  if (packs_.size() == 1) {
-    const PointPack& p = packs_.front();
-    const VectorLanes<D> rs = combination<D>(e, p.S1);
-    const Lanes pointwise = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
-    for (int g = 0; g < PointPack::points; ++g)
-      largest = std::max(largest, std::abs(pointwise[g] - assumed.at(GaussRule::points[g])));
+  if (is_one_part()) {
+    for_each_pack([&](const PointPack& p) {
+      const VectorLanes<D> rs = combination<D>(e, p.S1);
+      const Lanes pointwise = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
+      for (int g = 0; g < PointPack::points; ++g)
+        largest = std::max(largest, std::abs(pointwise[g] - assumed.at(GaussRule::points[g])));
+    });
     return largest;
   }
   const double s_a = q[ElementLayout<D>::place(0)], s_b = q[ElementLayout<D>::place(1)];
@@ -145,7 +159,7 @@ std::optional<AssumedStrain> BeamElement<D>::assumed_strain(const ElementVector<
 
 template <int D>
 ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& load) const {
-  if (fixed()) return fixed_energy(x, load);
+  if (fixed()) return with_sums([&](const FixedSums& sums) { return fixed_energy(sums, x, load); });
   using Layout = ElementLayout<D>;
   ElementEnergy sum;
   const auto motion = MovingPoint<D>::motion(x);
@@ -197,11 +211,13 @@ double BeamElement<D>::length(const ElementVector<D>& q) const {
   using Layout = ElementLayout<D>;
   const ElementNodes<D> e = Layout::nodes(q);
   double sum = 0;
-  for (const PointPack& p : packs_) {
-    const VectorLanes<D> rs = combination<D>(e, p.S1);
-    sum += (p.weight * dot<D>(rs, rs).sqrt()).sum();
+  if (fixed()) {
+    for_each_pack([&](const PointPack& p) {
+      const VectorLanes<D> rs = combination<D>(e, p.S1);
+      sum += (p.weight * dot<D>(rs, rs).sqrt()).sum();
+    });
+    return sum;
   }
-  if (fixed()) return sum;
   for_each_point(q, [&](const ShapeFunctions<Jet>& shape, const Jet&, const Jet& weight) {
     sum += weight.value() * PointField<D>(shape.d1, e).value.norm();
   });

@@ -1,11 +1,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
 #include "fem/element/axial_sums.h"
+#include "fem/element/fixed_lanes.h"
 #include "fem/element/layout.h"
 #include "fem/element/moving_basis.h"
 #include "fem/element/point_pack.h"
@@ -68,6 +70,14 @@ class BeamElement {
   const BeamProperties& properties() const { return *properties_; }
   const Chart& chart() const { return chart_; }
   bool fixed() const { return ends_ == Ends::fixed; }
+  /// Whether its ends are fixed and it is on one part of the drawing: then others can stand beside it.
+  bool is_one_part() const { return beside_ || (own_ && own_->packs.size() == 1); }
+  /// Moves its numbers into a lane, which must be the first that is free. Precondition: is_one_part().
+  void stand_beside(std::shared_ptr<FixedLanes> others, int lane);
+  /// Whether its numbers stand in that lane of those in whose first one those of `first` stand.
+  bool stands_beside(const BeamElement& first, int lane) const {
+    return beside_ && beside_ == first.beside_ && lane_ == lane && first.lane_ == 0;
+  }
 
   /// d/dt(dT/dv) - dT/dq + dU/dq + damping - external potential; `load`: dead load per reference length
   /// [N/m], rho A g included.
@@ -93,7 +103,9 @@ class BeamElement {
   ElementEnergy energy(const ElementState<D>& x, const Vector& load) const;
   /// int rho A S_k v ds [kg m/s] for the rates of the nodes, of an element whose ends are fixed. The columns
   /// of the positions add up to the momentum of the whole.
-  ElementNodes<D> nodal_momentum(const ElementNodes<D>& rates) const { return rates * mass_; }
+  ElementNodes<D> nodal_momentum(const ElementNodes<D>& rates) const {
+    return with_sums([&](const FixedSums& sums) { return ElementNodes<D>(rates * sums.mass); });
+  }
   /// Deformed [m].
   double length(const ElementVector<D>& q) const;
   /// What the assumed strain is made of, with its gradient in q.
@@ -137,22 +149,41 @@ class BeamElement {
   }
 
  private:
-  friend class ElementBatch<D>;  // has the same numbers side by side
+  friend class ElementBatch<D>;  // takes the numbers side by side
+  // Those of an element with fixed ends by itself.
+  struct Own {
+    FixedSums sums;
+    std::vector<PointPack> packs;  // one of each part
+  };
+  // Calls use(sums), visit(pack) for those of each part, of an element with fixed ends.
+  template <class Use>
+  auto with_sums(const Use& use) const {
+    return own_ ? use(own_->sums) : use(beside_->sums(lane_));
+  }
+  template <class Visit>
+  void for_each_pack(const Visit& visit) const {
+    if (own_)
+      for (const PointPack& pack : own_->packs) visit(pack);
+    else
+      visit(beside_->pack(lane_));
+  }
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
-  void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0);
+  void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0, Own& own) const;
   void add_point_forces(const ElementState<D>& x, ElementNodes<D>& force) const;
   void add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const;
-  ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
-  ElementEnergy fixed_energy(const ElementState<D>& x, const Vector& load) const;
-  ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
-  void add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w, ElementMatrix<D>& K) const;
+  ElementVector<D> fixed_force(const FixedSums& sums, const ElementState<D>& x, const Vector& load) const;
+  ElementEnergy fixed_energy(const FixedSums& sums, const ElementState<D>& x, const Vector& load) const;
+  ElementMatrix<D> fixed_tangent(const FixedSums& sums, const ElementState<D>& x,
+                                 const TangentWeights& w) const;
+  void add_fixed_axial_tangent(const FixedSums& sums, const ElementState<D>& x, const TangentWeights& w,
+                               ElementMatrix<D>& K) const;
   struct FixedStretch {
     Eigen::Vector4d y;    ///< as AxialSums has it, without the strain that carries no force
     ElementNodes<D> I_e;  ///< dI/de
   };
-  FixedStretch fixed_stretch(const ElementState<D>& x) const;
-  AxialSums<D> fixed_sums(const ElementState<D>& x) const;
+  static FixedStretch fixed_stretch(const FixedSums& sums, const ElementState<D>& x);
+  static AxialSums<D> fixed_sums(const FixedSums& sums, const ElementState<D>& x);
   bool assumes_strain() const;
   double axial_viscosity() const { return properties_->damping * properties_->axial_stiffness; }
   double mass_viscosity() const { return properties_->mass_damping * properties_->mass_per_length; }
@@ -162,12 +193,10 @@ class BeamElement {
   const BeamProperties* properties_;
   Chart chart_;
   Ends ends_;
-  std::vector<PointPack> packs_;  // fixed elements only: one of each part
-  Eigen::Matrix4d mass_;          // fixed elements only: rho A int S_k S_l ds
-  Eigen::Vector4d load_factor_;   // fixed elements only: int S_k ds
-  Eigen::Matrix4d stretch_;       // fixed elements only: int S'_k S'_l ds, G of AxialSums
-  Eigen::Vector3d strain0_;       // fixed elements only: int eps_0 ds and eps_0 at both ends
-  double length_ = 0;             // fixed elements only: s_b - s_a [m]
+  int lane_ = 0;  // in beside_
+  // Fixed elements only: one of these.
+  std::shared_ptr<const Own> own_;
+  std::shared_ptr<FixedLanes> beside_;
 };
 
 template <int D>

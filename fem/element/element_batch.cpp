@@ -149,6 +149,7 @@ NURBEAM_WITHIN PairMatrix<D> bending_hessian(const LaneVector<D>& rs, const Lane
 template <int D>
 struct ElementBatch<D>::Kernel {
   const ElementBatch& batch;
+  const FixedLanes& numbers;
   const BeamProperties& beam;
 
   // sum_k e_k S_k.
@@ -180,7 +181,7 @@ struct ElementBatch<D>::Kernel {
     const double EA = beam.pointwise_axial_stiffness(), EI = beam.axis_bending_stiffness();
     const double c = beam.damping;
     const bool material = beam.curvature == CurvatureMeasure::material;
-    for (const Point& p : batch.points_) {
+    for (const FixedLanes::Point& p : numbers.at) {
       const LaneVector<D> rs = combination(e, p.S1), rss = combination(e, p.S2);
       const Curvature<D> K(rs, rss, material);
       Lanes8 moment = EI * (K.value - p.kappa0), stretching = {};
@@ -209,10 +210,10 @@ struct ElementBatch<D>::Kernel {
       from_start[0][d] = Lanes8{};
       from_start[2][d] -= e[0][d];
     }
-    Stretch stretch{product(from_start, batch.stretch_), {}};
+    Stretch stretch{product(from_start, numbers.stretch), {}};
     for (int k = 1; k < 4; ++k) stretch.integral += dot<D>(from_start[k], stretch.by_e[k]);
-    const Lanes8 l = batch.length_;
-    stretch.integral = (stretch.integral - l) / 2 - batch.strain0_[0] - free_strain * l;
+    const Lanes8 l = numbers.length;
+    stretch.integral = (stretch.integral - l) / 2 - numbers.strain0[0] - free_strain * l;
     return stretch;
   }
 
@@ -221,9 +222,9 @@ struct ElementBatch<D>::Kernel {
     Lanes8 c0, c1, c2;
   };
   NURBEAM_WITHIN Assumed assumed_strain(const Nodes& e, const Lanes8& I, double free_strain) const {
-    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - batch.strain0_[1] - free_strain;
-    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - batch.strain0_[2] - free_strain;
-    const Lanes8 c0 = I / batch.length_;
+    const Lanes8 at_a = (dot<D>(e[1], e[1]) - 1) / 2 - numbers.strain0[1] - free_strain;
+    const Lanes8 at_b = (dot<D>(e[3], e[3]) - 1) / 2 - numbers.strain0[2] - free_strain;
+    const Lanes8 c0 = I / numbers.length;
     return {c0, (at_b - at_a) / 2, (at_a + at_b) / 2 - c0};
   }
 
@@ -233,7 +234,7 @@ struct ElementBatch<D>::Kernel {
   };
   NURBEAM_WITHIN AxialStress axial_stress(const Nodes& e, const Lanes8& I, double EA,
                                           double free_strain) const {
-    const Lanes8 l = batch.length_;
+    const Lanes8 l = numbers.length;
     const auto [c0, c1, c2] = assumed_strain(e, I, free_strain);
     return {EA * (c0 - c2 / 5), EA * l * (c2 / 10 - c1 / 6), EA * l * (c2 / 10 + c1 / 6)};
   }
@@ -244,7 +245,7 @@ struct ElementBatch<D>::Kernel {
   };
   NURBEAM_WITHIN AxialDamping axial_damping(const Nodes& e, const Nodes& e_rate, const Nodes& I_e,
                                             double viscosity) const {
-    const Lanes8 l = batch.length_, I = sum_of_products(I_e, e_rate);
+    const Lanes8 l = numbers.length, I = sum_of_products(I_e, e_rate);
     const Lanes8 a = dot<D>(e[1], e_rate[1]), b = dot<D>(e[3], e_rate[3]);
     return {viscosity * (1.2 / l * I - 0.1 * (a + b)),
             viscosity * (l * (2. / 15 * a - b / 30) - 0.1 * I),
@@ -260,11 +261,11 @@ struct ElementBatch<D>::Kernel {
     const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
     if (!assumed && !(beam.tension_damping > 0)) return;
     const auto [I_e, I] = stretch(e, free_strain);
-    const Lanes8 l = batch.length_;
+    const Lanes8 l = numbers.length;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
       const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
-      add(eta, product(e_rate, batch.stretch_), force);
+      add(eta, product(e_rate, numbers.stretch), force);
     }
     if (!assumed) return;
     const double EA = beam.axial_stiffness, viscosity = beam.damping * EA;
@@ -297,14 +298,14 @@ struct ElementBatch<D>::Kernel {
     Nodes e = gathered(state.q.data()), e_rate;  // which nobody asks for without damping
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
     if (beam.is_damped()) e_rate = gathered(state.v.data());
-    Nodes force = product(gathered(state.a.data()), batch.mass_);
+    Nodes force = product(gathered(state.a.data()), numbers.mass);
     if (beam.mass_damping > 0) {
-      const Nodes momentum = product(e_rate, batch.mass_);
+      const Nodes momentum = product(e_rate, numbers.mass);
       for (int k = 0; k < 4; ++k)
         for (int d = 0; d < D; ++d) force[k][d] += beam.mass_damping * momentum[k][d];
     }
     for (int k = 0; k < 4; ++k)
-      for (int d = 0; d < D; ++d) force[k][d] -= load[d] * batch.load_factor_[k];
+      for (int d = 0; d < D; ++d) force[k][d] -= load[d] * numbers.load_factor[k];
     add_point_forces(e, e_rate, force);
     add_axial_forces(e, e_rate, free_strain, force);
     for (int i = 0; i < batch.count_; ++i)
@@ -319,7 +320,7 @@ struct ElementBatch<D>::Kernel {
     const double EA = beam.pointwise_axial_stiffness(), EI = beam.axis_bending_stiffness();
     const double c = beam.damping;
     const bool material = beam.curvature == CurvatureMeasure::material;
-    for (const Point& p : batch.points_) {
+    for (const FixedLanes::Point& p : numbers.at) {
       const LaneVector<D> rs = combination(e, p.S1), rss = combination(e, p.S2);
       const Curvature<D> K(rs, rss, material);
       const Lanes8 bent = K.value - p.kappa0, stretched = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
@@ -342,11 +343,11 @@ struct ElementBatch<D>::Kernel {
     const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
     if (!assumed && !(beam.tension_damping > 0)) return;
     const auto [I_e, I] = stretch(e, free_strain);
-    const Lanes8 l = batch.length_;
+    const Lanes8 l = numbers.length;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
       const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
-      sum.dissipation += eta * sum_of_products(e_rate, product(e_rate, batch.stretch_));
+      sum.dissipation += eta * sum_of_products(e_rate, product(e_rate, numbers.stretch));
     }
     if (!assumed) return;
     const double EA = beam.axial_stiffness, viscosity = beam.damping * EA;
@@ -364,8 +365,8 @@ struct ElementBatch<D>::Kernel {
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
     Energies sum;
     for (int k = 0; k < 4; ++k)
-      for (int d = 0; d < D; ++d) sum.external -= load[d] * (e[k][d] * batch.load_factor_[k]);
-    sum.kinetic = sum_of_products(e_rate, product(e_rate, batch.mass_)) / 2;
+      for (int d = 0; d < D; ++d) sum.external -= load[d] * (e[k][d] * numbers.load_factor[k]);
+    sum.kinetic = sum_of_products(e_rate, product(e_rate, numbers.mass)) / 2;
     sum.dissipation = 2 * beam.mass_damping * sum.kinetic;
     add_point_energies(e, e_rate, sum);
     add_axial_energies(e, e_rate, free_strain, sum);
@@ -385,7 +386,7 @@ struct ElementBatch<D>::Kernel {
     const double EA = stiffness * beam.pointwise_axial_stiffness(),
                  EI = stiffness * beam.axis_bending_stiffness();
     const bool material = beam.curvature == CurvatureMeasure::material;
-    for (const Point& p : batch.points_) {
+    for (const FixedLanes::Point& p : numbers.at) {
       const LaneVector<D> rs = combination(e, p.S1), rss = combination(e, p.S2);
       PairMatrix<D> H = bending_hessian<D>(rs, rss, material, EI, p.kappa0, p.weight);
       if (EA > 0) {
@@ -409,12 +410,12 @@ struct ElementBatch<D>::Kernel {
   NURBEAM_WITHIN void add_axial_tangents(const Nodes& e, double free_strain, double stiffness,
                                          Tangents& K) const {
     const auto [I_e, I] = stretch(e, free_strain);
-    const Lanes8 l = batch.length_;
+    const Lanes8 l = numbers.length;
     const double EA = stiffness * beam.axial_stiffness;
     const auto [on_I, on_a, on_b] = axial_stress(e, I, EA, free_strain);
     for (int k = 0; k < 4; ++k)
       for (int m = 0; m <= k; ++m)
-        for (int d = 0; d < D; ++d) K[k * D + d][m * D + d] += on_I * batch.stretch_[k][m];
+        for (int d = 0; d < D; ++d) K[k * D + d][m * D + d] += on_I * numbers.stretch[k][m];
     for (int d = 0; d < D; ++d) {
       K[D + d][D + d] += on_a;
       K[3 * D + d][3 * D + d] += on_b;
@@ -446,7 +447,7 @@ struct ElementBatch<D>::Kernel {
       for (int m = 0; m <= k; ++m)
         for (int b = 0; b < D; ++b)
           for (int a = 0; a < D; ++a)
-            K[k * D + b][m * D + a] = a == b ? w.mass * batch.mass_[k][m] : Lanes8{};
+            K[k * D + b][m * D + a] = a == b ? w.mass * numbers.mass[k][m] : Lanes8{};
     if (w.stiffness != 0) {
       add_point_tangents(e, w.stiffness, K);
       if (beam.axial_strain == AxialStrain::ends_and_mean) add_axial_tangents(e, free_strain, w.stiffness, K);
@@ -459,75 +460,64 @@ struct ElementBatch<D>::Kernel {
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces) const {
-  Kernel{*this, *properties_}.add_forces(state, load, free_strain, forces);
+  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces) const {
-  Kernel{*this, *properties_}.add_forces(state, load, free_strain, forces);
+  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<2>::lanes> ElementBatch<2>::energies(
     const State& state, const Vector& load, double free_strain) const {
-  return Kernel{*this, *properties_}.energies(state, load, free_strain);
+  return Kernel{*this, *numbers_, *properties_}.energies(state, load, free_strain);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<3>::lanes> ElementBatch<3>::energies(
     const State& state, const Vector& load, double free_strain) const {
-  return Kernel{*this, *properties_}.energies(state, load, free_strain);
+  return Kernel{*this, *numbers_, *properties_}.energies(state, load, free_strain);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
-  Kernel{*this, *properties_}.tangents(state, free_strain, w, K);
+  Kernel{*this, *numbers_, *properties_}.tangents(state, free_strain, w, K);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
-  Kernel{*this, *properties_}.tangents(state, free_strain, w, K);
-}
-
-template <int D>
-bool ElementBatch<D>::takes(const BeamElement<D>& element) {
-  return element.fixed() && element.packs_.size() == 1;
+  Kernel{*this, *numbers_, *properties_}.tangents(state, free_strain, w, K);
 }
 
 template <int D>
 ElementBatch<D>::ElementBatch(const BeamProperties& properties) : properties_(&properties) {}
 
+// Numbers that stand side by side already are not copied; what others look at is not changed.
+template <int D>
+void ElementBatch<D>::take_numbers(const BeamElement<D>& element) {
+  if (element.beside_ && element.lane_ == count_ && (count_ == 0 || element.beside_ == numbers_)) {
+    numbers_ = element.beside_;
+    return;
+  }
+  if (numbers_.use_count() != 1)
+    numbers_ = numbers_ ? std::make_shared<FixedLanes>(*numbers_) : std::make_shared<FixedLanes>();
+  BeamElement<D>(element).stand_beside(numbers_, count_);
+}
+
 template <int D>
 void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
                           const Vector& slope_offset, std::ptrdiff_t forces_at) {
-  const PointPack& pack = element.packs_.front();
+  take_numbers(element);
   forces_at_[count_] = forces_at;
   // The first element fills the lanes beyond it until others take them.
   const int end = count_ == 0 ? lanes : count_ + 1;
   for (int i = count_; i < end; ++i) {
     for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];
     for (int d = 0; d < D; ++d) slope_offset_[d].of[i] = slope_offset[d];
-    for (int g = 0; g < points; ++g) {
-      for (int k = 0; k < 4; ++k) {
-        points_[g].S1[k].of[i] = pack.S1[k][g];
-        points_[g].S2[k].of[i] = pack.S2[k][g];
-      }
-      points_[g].weight.of[i] = pack.weight[g];
-      points_[g].kappa0.of[i] = pack.kappa0[g];
-      points_[g].eps0.of[i] = pack.eps0[g];
-    }
-    for (int k = 0; k < 4; ++k) {
-      for (int l = 0; l < 4; ++l) {
-        mass_[k][l].of[i] = element.mass_(k, l);
-        stretch_[k][l].of[i] = element.stretch_(k, l);
-      }
-      load_factor_[k].of[i] = element.load_factor_[k];
-    }
-    for (int k = 0; k < 3; ++k) strain0_[k].of[i] = element.strain0_[k];
-    length_.of[i] = element.length_;
   }
   ++count_;
 }

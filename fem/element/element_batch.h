@@ -1,16 +1,11 @@
 #pragma once
 #include <array>
+#include <memory>
 
 #include "fem/element/beam_element.h"
 #include "solver/state.h"
 
 namespace nurbeam {
-
-/// One number of each of eight elements, side by side; no number until it is given one. Aligned for the
-/// widest registers, which the type of its numbers is not where the processor is not known to have them.
-struct alignas(8 * sizeof(double)) ElementLanes {
-  double __attribute__((vector_size(8 * sizeof(double)))) of;
-};
 
 /// Up to eight elements of one beam whose ends are fixed, each on one part of the drawing, and their forces
 /// and tangents all at once: those of BeamElement, added up in another order. Compiled for several
@@ -20,10 +15,10 @@ template <int D>
 class ElementBatch {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
-  static constexpr int lanes = 8, points = GaussRule::size, nodal = ElementLayout<D>::nodal;
+  static constexpr int lanes = FixedLanes::lanes, nodal = ElementLayout<D>::nodal;
 
   /// Whether it can take an element: one with fixed ends, on one part.
-  static bool takes(const BeamElement<D>& element);
+  static bool takes(const BeamElement<D>& element) { return element.is_one_part(); }
 
   /// Without elements; `properties` must outlive it.
   explicit ElementBatch(const BeamProperties& properties);
@@ -50,22 +45,16 @@ class ElementBatch {
  private:
   /// Numbers of the nodes, by column of ElementNodes and direction.
   using Nodes = std::array<std::array<ElementLanes, D>, 4>;
-  struct Point {
-    std::array<ElementLanes, 4> S1, S2;
-    ElementLanes weight, kappa0, eps0;
-  };
   struct Kernel;
 
+  void take_numbers(const BeamElement<D>& element);
+
   const BeamProperties* properties_;
+  std::shared_ptr<FixedLanes> numbers_;  ///< of the elements, where these have them, or put together
   int count_ = 0;
   std::array<std::array<int, lanes>, nodal> dofs_ = {};
   std::array<std::ptrdiff_t, lanes> forces_at_ = {};
   std::array<ElementLanes, D> slope_offset_ = {};
-  std::array<Point, points> points_ = {};
-  std::array<std::array<ElementLanes, 4>, 4> mass_ = {}, stretch_ = {};  ///< of BeamElement
-  std::array<ElementLanes, 4> load_factor_ = {};
-  std::array<ElementLanes, 3> strain0_ = {};
-  ElementLanes length_ = {};
 };
 
 }  // namespace nurbeam

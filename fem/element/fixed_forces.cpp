@@ -36,24 +36,25 @@ void add_point_tangent(const Eigen::Matrix<double, 2 * D, 2 * D>& H, const Eigen
 // start, which G does not see: far from the origin they would leave their round-off; and the strains at the
 // ends.
 template <int D>
-typename BeamElement<D>::FixedStretch BeamElement<D>::fixed_stretch(const ElementState<D>& x) const {
+typename BeamElement<D>::FixedStretch BeamElement<D>::fixed_stretch(const FixedSums& of,
+                                                                    const ElementState<D>& x) {
   ElementNodes<D> e = x.nodes();
   const Vector start = e.col(0);
   e.col(0).setZero();
   e.col(2) -= start;
-  FixedStretch sums{{}, e * stretch_};
-  sums.y << (e.cwiseProduct(sums.I_e).sum() - length_) / 2, (e.col(1).squaredNorm() - 1) / 2,
-      (e.col(3).squaredNorm() - 1) / 2, length_;
-  sums.y.template head<3>() -= strain0_;
-  sums.y[0] -= x.free_strain * length_;
+  FixedStretch sums{{}, e * of.stretch};
+  sums.y << (e.cwiseProduct(sums.I_e).sum() - of.length) / 2, (e.col(1).squaredNorm() - 1) / 2,
+      (e.col(3).squaredNorm() - 1) / 2, of.length;
+  sums.y.template head<3>() -= of.strain0;
+  sums.y[0] -= x.free_strain * of.length;
   sums.y.template segment<2>(1).array() -= x.free_strain;
   return sums;
 }
 
 // The same as sums of any element.
 template <int D>
-AxialSums<D> BeamElement<D>::fixed_sums(const ElementState<D>& x) const {
-  const FixedStretch stretch = fixed_stretch(x);
+AxialSums<D> BeamElement<D>::fixed_sums(const FixedSums& of, const ElementState<D>& x) {
+  const FixedStretch stretch = fixed_stretch(of, x);
   AxialSums<D> sums(x.q);
   sums.y = stretch.y;
   sums.y_q.template block<1, 4 * D>(0, 0) =
@@ -69,7 +70,7 @@ void BeamElement<D>::add_point_forces(const ElementState<D>& x, ElementNodes<D>&
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   const double EA = properties_->pointwise_axial_stiffness(), EI = properties_->axis_bending_stiffness();
   const double c = properties_->damping;
-  for (const PointPack& p : packs_) {
+  for_each_pack([&](const PointPack& p) {
     const VectorLanes<D> rs = combination<D>(e, p.S1), rss = combination<D>(e, p.S2);
     const CurvatureLanes<D> K(rs, rss, properties_->curvature);
     Lanes moment = EI * (K.value - p.kappa0), stretching = EA * ((dot<D>(rs, rs) - 1) / 2 - p.eps0);
@@ -84,28 +85,29 @@ void BeamElement<D>::add_point_forces(const ElementState<D>& x, ElementNodes<D>&
       const Lanes on_rs = moment * K.by_rs[d] + stretching * rs[d], on_rss = moment * K.by_rss[d];
       for (int k = 0; k < 4; ++k) force(d, k) += (on_rs * p.S1[k] + on_rss * p.S2[k]).sum();
     }
-  }
+  });
 }
 
 template <int D>
-ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vector& load) const {
+ElementVector<D> BeamElement<D>::fixed_force(const FixedSums& sums, const ElementState<D>& x,
+                                             const Vector& load) const {
   const ElementNodes<D> e = x.nodes();
   ElementVector<D> f = ElementVector<D>::Zero();
-  ElementNodes<D> force = ElementLayout<D>::nodes(x.a) * mass_ - load * load_factor_.transpose();
-  if (properties_->mass_damping > 0) force += properties_->mass_damping * x.node_rates() * mass_;
-  if (const double eta = taut_viscosity(x).value; eta > 0) force += eta * x.node_rates() * stretch_;
+  ElementNodes<D> force = ElementLayout<D>::nodes(x.a) * sums.mass - load * sums.load_factor.transpose();
+  if (properties_->mass_damping > 0) force += properties_->mass_damping * x.node_rates() * sums.mass;
+  if (const double eta = taut_viscosity(x).value; eta > 0) force += eta * x.node_rates() * sums.stretch;
   if (strains_at_points(*properties_)) add_point_forces(x, force);
   f.template head<4 * D>() = force.reshaped();
   if (!assumes_strain()) return f;
   if (properties_->damping > 0) {
-    const AxialSums<D> axial = fixed_sums(x);
+    const AxialSums<D> axial = fixed_sums(sums, x);
     const auto x_q = axial.y_q.template topRows<3>();
     f += x_q.transpose() *
          (AssumedAxialEnergy(properties_->axial_stiffness, axial.y).gradient.template head<3>() +
-          AssumedAxialDamping(axial_viscosity(), length_, x_q * x.v).stress);
+          AssumedAxialDamping(axial_viscosity(), sums.length, x_q * x.v).stress);
     return f;
   }
-  const FixedStretch axial = fixed_stretch(x);
+  const FixedStretch axial = fixed_stretch(sums, x);
   const Eigen::Vector4d stress = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).gradient;
   f.template head<4 * D>() += stress[0] * axial.I_e.reshaped();
   for (const int end : {0, 1})
@@ -114,12 +116,12 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
 }
 
 template <int D>
-ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const {
+ElementMatrix<D> BeamElement<D>::fixed_tangent(const FixedSums& sums, const ElementState<D>& x,
+                                               const TangentWeights& w) const {
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   ElementMatrix<D> K = ElementMatrix<D>::Zero();
   const bool mass_alone = w.stiffness == 0 && (w.damping == 0 || !properties_->is_damped());
-  for (const PointPack& pack : packs_) {
-    if (mass_alone || !strains_at_points(*properties_)) break;
+  const auto add_points = [&](const PointPack& pack) {
     for (int g = 0; g < PointPack::points; ++g) {
       const auto [S1, S2] = pack.derivatives(g);
       const Vector rs = e * S1, rss = e * S2;
@@ -133,15 +135,16 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
       }
       add_point_tangent<D>(pack.weight[g] * H, S1, S2, K);
     }
-  }
-  if (assumes_strain() && !mass_alone) add_fixed_axial_tangent(x, w, K);
+  };
+  if (!mass_alone && strains_at_points(*properties_)) for_each_pack(add_points);
+  if (assumes_strain() && !mass_alone) add_fixed_axial_tangent(sums, x, w, K);
   const TautViscosity<D> eta = mass_alone ? TautViscosity<D>{} : taut_viscosity(x);
   const Eigen::Matrix4d nodal =
-      (w.mass + w.damping * properties_->mass_damping) * mass_ + w.damping * eta.value * stretch_;
+      (w.mass + w.damping * properties_->mass_damping) * sums.mass + w.damping * eta.value * sums.stretch;
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l) K.template block<D, D>(k * D, l * D).diagonal().array() += nodal(k, l);
   if (eta.value > 0) {
-    const ElementNodes<D> by_eta = w.stiffness * e_rate * stretch_;
+    const ElementNodes<D> by_eta = w.stiffness * e_rate * sums.stretch;
     K.template topRows<4 * D>() += by_eta.reshaped() * eta.gradient.transpose();
   }
   return K;
@@ -149,20 +152,20 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
 
 // With x = (I, eps_A, eps_B) and its rate x' = x_q v: x_qq and d(x')/dq are G and ones.
 template <int D>
-void BeamElement<D>::add_fixed_axial_tangent(const ElementState<D>& x, const TangentWeights& w,
-                                             ElementMatrix<D>& K) const {
+void BeamElement<D>::add_fixed_axial_tangent(const FixedSums& sums, const ElementState<D>& x,
+                                             const TangentWeights& w, ElementMatrix<D>& K) const {
   using Layout = ElementLayout<D>;
-  const AxialSums<D> axial = fixed_sums(x);
+  const AxialSums<D> axial = fixed_sums(sums, x);
   const AssumedAxialEnergy U(properties_->axial_stiffness, axial.y);
   const auto x_q = axial.y_q.template topRows<3>();
   Eigen::Matrix3d by_x = w.stiffness * U.hessian().template topLeftCorner<3, 3>();
   Eigen::Vector3d stress = w.stiffness * U.gradient.template head<3>();
   if (properties_->damping > 0) {
-    const AssumedAxialDamping damping(axial_viscosity(), length_, x_q * x.v);
+    const AssumedAxialDamping damping(axial_viscosity(), sums.length, x_q * x.v);
     by_x += w.damping * damping.by_rate;
     stress += w.stiffness * damping.stress;
     Eigen::Matrix<double, 3, Layout::size> rate_q = Eigen::Matrix<double, 3, Layout::size>::Zero();
-    const ElementNodes<D> I_e_rate = x.node_rates() * stretch_;
+    const ElementNodes<D> I_e_rate = x.node_rates() * sums.stretch;
     rate_q.template block<1, 4 * D>(0, 0) =
         Eigen::Map<const Eigen::Matrix<double, 1, 4 * D>>(I_e_rate.data());
     for (const int end : {0, 1})
@@ -173,7 +176,7 @@ void BeamElement<D>::add_fixed_axial_tangent(const ElementState<D>& x, const Tan
   add_product(x_q, by_x, x_q, K);
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l)
-      K.template block<D, D>(k * D, l * D).diagonal().array() += stress[0] * stretch_(k, l);
+      K.template block<D, D>(k * D, l * D).diagonal().array() += stress[0] * sums.stretch(k, l);
   for (const int end : {0, 1})
     K.diagonal().template segment<D>(Layout::slope(end)).array() += stress[1 + end];
 }
@@ -182,7 +185,7 @@ template <int D>
 void BeamElement<D>::add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const {
   const ElementNodes<D> e = x.nodes(), e_rate = x.node_rates();
   const double EA = properties_->pointwise_axial_stiffness(), EI = properties_->axis_bending_stiffness();
-  for (const PointPack& p : packs_) {
+  for_each_pack([&](const PointPack& p) {
     const VectorLanes<D> rs = combination<D>(e, p.S1), rss = combination<D>(e, p.S2);
     const CurvatureLanes<D> K(rs, rss, properties_->curvature);
     const Lanes stretch = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
@@ -191,50 +194,57 @@ void BeamElement<D>::add_point_energies(const ElementState<D>& x, ElementEnergy&
       bend -= (p.kappa0 == 0).template cast<double>() * (curvature_rounding * curvature_rounding);
     sum.axial += EA / 2 * (p.weight * stretch.square()).sum();
     sum.bending += EI / 2 * (p.weight * bend).sum();
-    if (!(properties_->damping > 0)) continue;
+    if (!(properties_->damping > 0)) return;
     const VectorLanes<D> rs_rate = combination<D>(e_rate, p.S1), rss_rate = combination<D>(e_rate, p.S2);
     sum.dissipation +=
         properties_->damping *
         (p.weight * (EI * K.rate(rs_rate, rss_rate).square() + EA * dot<D>(rs, rs_rate).square())).sum();
-  }
+  });
 }
 
 template <int D>
-ElementEnergy BeamElement<D>::fixed_energy(const ElementState<D>& x, const Vector& load) const {
+ElementEnergy BeamElement<D>::fixed_energy(const FixedSums& sums, const ElementState<D>& x,
+                                           const Vector& load) const {
   ElementEnergy sum;
   const ElementNodes<D> e_rate = x.node_rates();
-  sum.kinetic = e_rate.cwiseProduct(e_rate * mass_).sum() / 2;
+  sum.kinetic = e_rate.cwiseProduct(e_rate * sums.mass).sum() / 2;
   sum.dissipation = 2 * properties_->mass_damping * sum.kinetic;
   if (const double eta = taut_viscosity(x).value; eta > 0)
-    sum.dissipation += eta * e_rate.cwiseProduct(e_rate * stretch_).sum();
-  sum.external = -load.dot(x.nodes() * load_factor_);
+    sum.dissipation += eta * e_rate.cwiseProduct(e_rate * sums.stretch).sum();
+  sum.external = -load.dot(x.nodes() * sums.load_factor);
   if (strains_at_points(*properties_)) add_point_energies(x, sum);
   if (!assumes_strain()) return sum;
-  const AxialSums<D> axial = fixed_sums(x);
+  const AxialSums<D> axial = fixed_sums(sums, x);
   sum.axial = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).value;
   if (!(properties_->damping > 0)) return sum;
   const Eigen::Vector3d rate = axial.y_q.template topRows<3>() * x.v;
-  sum.dissipation += AssumedAxialDamping(axial_viscosity(), length_, rate).stress.dot(rate);
+  sum.dissipation += AssumedAxialDamping(axial_viscosity(), sums.length, rate).stress.dot(rate);
   return sum;
 }
 
-template AxialSums<2> BeamElement<2>::fixed_sums(const ElementState<2>&) const;
-template AxialSums<3> BeamElement<3>::fixed_sums(const ElementState<3>&) const;
-template BeamElement<2>::FixedStretch BeamElement<2>::fixed_stretch(const ElementState<2>&) const;
-template BeamElement<3>::FixedStretch BeamElement<3>::fixed_stretch(const ElementState<3>&) const;
+template AxialSums<2> BeamElement<2>::fixed_sums(const FixedSums&, const ElementState<2>&);
+template AxialSums<3> BeamElement<3>::fixed_sums(const FixedSums&, const ElementState<3>&);
+template BeamElement<2>::FixedStretch BeamElement<2>::fixed_stretch(const FixedSums&, const ElementState<2>&);
+template BeamElement<3>::FixedStretch BeamElement<3>::fixed_stretch(const FixedSums&, const ElementState<3>&);
 template void BeamElement<2>::add_point_forces(const ElementState<2>&, ElementNodes<2>&) const;
 template void BeamElement<3>::add_point_forces(const ElementState<3>&, ElementNodes<3>&) const;
 template void BeamElement<2>::add_point_energies(const ElementState<2>&, ElementEnergy&) const;
 template void BeamElement<3>::add_point_energies(const ElementState<3>&, ElementEnergy&) const;
-template ElementEnergy BeamElement<2>::fixed_energy(const ElementState<2>&, const Vector&) const;
-template ElementEnergy BeamElement<3>::fixed_energy(const ElementState<3>&, const Vector&) const;
-template ElementVector<2> BeamElement<2>::fixed_force(const ElementState<2>&, const Vector&) const;
-template ElementVector<3> BeamElement<3>::fixed_force(const ElementState<3>&, const Vector&) const;
-template void BeamElement<2>::add_fixed_axial_tangent(const ElementState<2>&, const TangentWeights&,
-                                                      ElementMatrix<2>&) const;
-template void BeamElement<3>::add_fixed_axial_tangent(const ElementState<3>&, const TangentWeights&,
-                                                      ElementMatrix<3>&) const;
-template ElementMatrix<2> BeamElement<2>::fixed_tangent(const ElementState<2>&, const TangentWeights&) const;
-template ElementMatrix<3> BeamElement<3>::fixed_tangent(const ElementState<3>&, const TangentWeights&) const;
+template ElementEnergy BeamElement<2>::fixed_energy(const FixedSums&, const ElementState<2>&,
+                                                    const Vector&) const;
+template ElementEnergy BeamElement<3>::fixed_energy(const FixedSums&, const ElementState<3>&,
+                                                    const Vector&) const;
+template ElementVector<2> BeamElement<2>::fixed_force(const FixedSums&, const ElementState<2>&,
+                                                      const Vector&) const;
+template ElementVector<3> BeamElement<3>::fixed_force(const FixedSums&, const ElementState<3>&,
+                                                      const Vector&) const;
+template void BeamElement<2>::add_fixed_axial_tangent(const FixedSums&, const ElementState<2>&,
+                                                      const TangentWeights&, ElementMatrix<2>&) const;
+template void BeamElement<3>::add_fixed_axial_tangent(const FixedSums&, const ElementState<3>&,
+                                                      const TangentWeights&, ElementMatrix<3>&) const;
+template ElementMatrix<2> BeamElement<2>::fixed_tangent(const FixedSums&, const ElementState<2>&,
+                                                        const TangentWeights&) const;
+template ElementMatrix<3> BeamElement<3>::fixed_tangent(const FixedSums&, const ElementState<3>&,
+                                                        const TangentWeights&) const;
 
 }  // namespace nurbeam

@@ -136,7 +136,7 @@ class ForceSum {
 
 template <int D>
 ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load) const {
-  if (fixed()) return fixed_force(x, load);
+  if (fixed()) return with_sums([&](const FixedSums& sums) { return fixed_force(sums, x, load); });
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);

@@ -414,7 +414,7 @@ class TangentSum {
 template <int D>
 ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector& load,
                                          const TangentWeights& t) const {
-  if (fixed()) return fixed_tangent(x, t);
+  if (fixed()) return with_sums([&](const FixedSums& sums) { return fixed_tangent(sums, x, t); });
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   if (t.stiffness == 0 && t.damping == 0) {
@@ -433,7 +433,10 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
 template <int D>
 std::array<ElementMatrix<D>, 2> BeamElement<D>::tangents(const ElementState<D>& x, const Vector& load,
                                                          const std::array<TangentWeights, 2>& w) const {
-  if (fixed()) return {fixed_tangent(x, w[0]), fixed_tangent(x, w[1])};
+  if (fixed())
+    return with_sums([&](const FixedSums& sums) {
+      return std::array{fixed_tangent(sums, x, w[0]), fixed_tangent(sums, x, w[1])};
+    });
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   const MovingBasis basis(*curve_, chart_, s_a, s_b);

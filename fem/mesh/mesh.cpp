@@ -14,6 +14,9 @@ class Numbering {
     mesh_.dimension = structure.dimension;
     mesh_.joints.assign(structure.joints.size(), {-1, -1});
     mesh_.bodies.assign(structure.bodies.size(), -1);
+    std::size_t most = structure.joints.size();
+    for (const Beam& beam : structure.beams) most += beam.home.size();
+    mesh_.spans.reserve(most);
   }
 
   void add_beam(int b) {

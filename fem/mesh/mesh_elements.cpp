@@ -145,6 +145,32 @@ class SameElements {
   std::size_t next_ = 0;
 };
 
+// Puts the numbers of elements side by side, eight of a beam at a time as they follow one another, in the
+// order of their batch. Where they are so in another mesh they stay there.
+template <int D>
+class ByEights {
+ public:
+  /// The elements must stay where they are until close().
+  void add(MeshElement<D>& e) {
+    if (e.twist || !e.element.is_one_part()) return;
+    if (!group_.empty() && (group_.size() == FixedLanes::lanes || group_.front()->beam != e.beam)) close();
+    group_.push_back(&e);
+  }
+
+  void close() {
+    const int count = static_cast<int>(group_.size());
+    bool stand_so = true;
+    for (int i = 0; i < count; ++i)
+      stand_so = stand_so && group_[i]->element.stands_beside(group_[0]->element, i);
+    const auto numbers = stand_so ? nullptr : std::make_shared<FixedLanes>();
+    for (int i = 0; i < count && numbers; ++i) group_[i]->element.stand_beside(numbers, i);
+    group_.clear();
+  }
+
+ private:
+  std::vector<MeshElement<D>*> group_;
+};
+
 }  // namespace
 
 template <int D>
@@ -153,6 +179,7 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
   SameElements<D> others(structure, like);
   std::vector<MeshElement<D>> elements;
   elements.reserve(mesh.spans.size());
+  ByEights<D> by_eights;
   for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
     const MeshSpan& span = mesh.spans[i];
     const Beam& beam = structure.beams[span.beam];
@@ -174,7 +201,9 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
     if constexpr (D == 3)
       elements.back().twist =
           make_twist(mesh, elements.back(), beam, others.mesh(), of_model ? same : nullptr);
+    by_eights.add(elements.back());
   }
+  by_eights.close();
   return elements;
 }
 

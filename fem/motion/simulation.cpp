@@ -83,8 +83,19 @@ struct Simulation::Implementation {
     return report;
   }
 
+  // Right after a restart with the accelerations and multipliers of the moment, of which an integrator may
+  // have taken means over its first step.
   Snapshot present() const {
-    Snapshot snapshot = record_snapshot(*run_.at.system, recorded_state(), probes_);
+    if (run_.restarted) {
+      State state = run_.at.state;
+      if (make_accelerations_consistent(*run_.at.system, state) == ConsistencyStatus::done)
+        return snapshot_of(state);
+    }
+    return snapshot_of(run_.at.state);
+  }
+
+  Snapshot snapshot_of(const State& state) const {
+    Snapshot snapshot = record_snapshot(*run_.at.system, state, probes_);
     snapshot.steps = run_.steps;
     run_.account.enter(snapshot);
     snapshot.step = run_.last_step;
@@ -297,15 +308,6 @@ struct Simulation::Implementation {
       take_snapshot();
       ++next_output_;
     }
-  }
-
-  // The present state; right after a restart with the accelerations and multipliers of the moment, of which
-  // an integrator may have taken means over its first step.
-  State recorded_state() const {
-    State state = run_.at.state;
-    if (run_.restarted && make_accelerations_consistent(*run_.at.system, state) == ConsistencyStatus::done)
-      return state;
-    return run_.at.state;
   }
 
   void take_snapshot() {

@@ -77,6 +77,8 @@ BeamRecord record_beam(const BeamSystem& system, const State& state,
     element.twist.array() += twisted;
     twisted = element.twist[3];
   }
+  for (auto* each : {&record.node_positions, &record.node_slopes}) each->reserve(mesh.nodes[b].size());
+  record.node_s.reserve(mesh.nodes[b].size());
   for (const MeshNode& node : mesh.nodes[b]) {
     record.node_positions.push_back(vector_at(system, state.q, node.r));
     record.node_slopes.push_back(vector_at(system, state.q, node.slope_left));

@@ -36,7 +36,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   for (int i = 0; i < static_cast<int>(mesh_.spans.size()); ++i)
     if (mesh_.spans[i].place_a >= 0 || mesh_.spans[i].place_b >= 0) moving_spans_.push_back(i);
   const Eigen::VectorXd drawn = planned_places(mesh_);
-  batch_elements(like);
+  batch_elements();
   Binding<D> binding{beams(), drawn, held};
   bind_constraints(binding);
   bind_forces(binding);
@@ -50,10 +50,8 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   choose_moving_part();
 }
 
-// A batch of another mesh of the same model is taken over where it has the same elements with the same
-// coordinates.
 template <int D>
-void Assembly<D>::batch_elements(const Assembly* like) {
+void Assembly<D>::batch_elements() {
   walks_.resize(model_->beams.size());
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
@@ -66,11 +64,6 @@ void Assembly<D>::batch_elements(const Assembly* like) {
     const int count = static_cast<int>(batched.size());
     batches.reserve(static_cast<std::size_t>((count + lanes - 1) / lanes));
     for (int first = 0; first < count; first += lanes) {
-      const int k = first / lanes;
-      if (like && like->model_ == model_ && has_batch(b, k, *like)) {
-        batches.push_back(like->walks_[b].batches[k]);
-        continue;
-      }
       batches.emplace_back(model_->beams[b].properties);
       for (int i = first; i < std::min(first + lanes, count); ++i) {
         const MeshElement<D>& e = elements_[batched[i]];
@@ -78,22 +71,6 @@ void Assembly<D>::batch_elements(const Assembly* like) {
       }
     }
   }
-}
-
-// Whether the other system's batch k of a beam is that of this one.
-template <int D>
-bool Assembly<D>::has_batch(int beam, int k, const Assembly& like) const {
-  constexpr int lanes = ElementBatch<D>::lanes;
-  const std::vector<int>&own = walks_[beam].batched, &others = like.walks_[beam].batched;
-  const int first = k * lanes, end = std::min(first + lanes, static_cast<int>(own.size()));
-  if (end != std::min(first + lanes, static_cast<int>(others.size()))) return false;
-  for (int i = first; i < end; ++i) {
-    const MeshElement<D>&e = elements_[own[i]], &other = like.elements_[others[i]];
-    if (e.s_a != other.s_a || e.s_b != other.s_b || e.dofs != other.dofs ||
-        !(e.element.chart() == other.element.chart()))
-      return false;
-  }
-  return true;
 }
 
 template <int D>

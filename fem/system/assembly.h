@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -127,10 +128,18 @@ class Assembly final : public SecondOrderSystem {
     int value;
     std::uint8_t column, row, count;
   };
+  using Runs = std::span<const Run>;
   // Coordinates of one contribution, -1 where there is none, and where its entries are.
   struct Block {
     std::vector<int> dofs;
     std::vector<Run> runs;
+  };
+  // Where the entries of the elements are, of one after the other.
+  struct ElementRuns {
+    std::vector<Run> runs;
+    std::vector<int> starts = {0};  // of each element, and the end
+
+    Runs operator[](int i) const { return {runs.data() + starts[i], runs.data() + starts[i + 1]}; }
   };
   struct ConstraintBlock {
     int row, rows;
@@ -141,8 +150,8 @@ class Assembly final : public SecondOrderSystem {
   struct MovingPart {
     std::vector<int> unknowns;
     std::vector<int> elements, constraints;
-    std::vector<Block> element_blocks, twist_blocks;  // of these elements
-    std::vector<ConstraintBlock> constraint_blocks;   // of these constraints
+    ElementRuns element_runs, twist_runs;            // of these elements
+    std::vector<ConstraintBlock> constraint_blocks;  // of these constraints
   };
   // The elements of one beam: those whose forces are found side by side, with their indices in the order of
   // the batches, and the indices of the others.
@@ -156,8 +165,7 @@ class Assembly final : public SecondOrderSystem {
   struct Near;
   enum class Moving { included, left_out };  // elements whose ends move
 
-  void batch_elements(const Assembly* like);
-  bool has_batch(int beam, int k, const Assembly& like) const;
+  void batch_elements();
   void bind_constraints(Binding<D>& binding);
   void bind_forces(const Binding<D>& binding);
   void list_blocks();
@@ -167,15 +175,19 @@ class Assembly final : public SecondOrderSystem {
   void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
   template <class Matrix>
-  static void scatter(const Block& block, const Matrix& matrix, double* values);
+  static void scatter(Runs runs, const Matrix& matrix, double* values);
+  std::span<const int> twist_dofs(int element) const;
   template <class IndexOf>
-  void locate(Block& block, const IndexOf& index_of) const;
+  static void locate(std::span<const int> dofs, const IndexOf& index_of, std::vector<Run>& runs);
+  template <class IndexOf>
+  void locate_elements(const std::vector<int>& elements, const IndexOf& index_of, ElementRuns& element_runs,
+                       ElementRuns& twist_runs) const;
   template <class IndexOf>
   void locate(ConstraintBlock& block, const IndexOf& index_of) const;
   template <class Work>
   static void for_each_batch(const Walk& walk, const Work& work);
-  void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
-                           const Block& block, const Block& twist_block, double* values) const;
+  void add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w, Runs runs,
+                           Runs twist_runs, double* values) const;
   template <class Wanted>
   void add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted, double* values,
                     Moving moving = Moving::included) const;
@@ -203,8 +215,9 @@ class Assembly final : public SecondOrderSystem {
 
   int constraint_count_ = 0;
   std::vector<Rows> constraint_rows_;  // of the model's
-  std::vector<Block> element_blocks_, force_blocks_;
-  std::vector<Block> twist_blocks_;  // of the elements of beams with torsion, empty for others
+  ElementRuns element_runs_;
+  ElementRuns twist_runs_;  // of the elements of beams with torsion, none of others
+  std::vector<Block> force_blocks_;
   std::vector<ConstraintBlock> constraint_blocks_;
   std::vector<int> over_mesh_;  // constraints that move over the mesh
   MovingPart moving_;

@@ -1,6 +1,7 @@
 // The tangents of an assembly and where their entries are.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fem/comparison/virtual_work.h"
@@ -47,11 +48,11 @@ std::vector<int> own_dofs(const Force& force) {
 
 }  // namespace
 
-// Adds a matrix in a block's coordinates.
+// Adds a matrix in the coordinates of a contribution.
 template <int D>
 template <class Matrix>
-void Assembly<D>::scatter(const Block& block, const Matrix& matrix, double* values) {
-  for (const Run& run : block.runs)
+void Assembly<D>::scatter(Runs runs, const Matrix& matrix, double* values) {
+  for (const Run& run : runs)
     for (int i = 0; i < run.count; ++i) values[run.value + i] += matrix(run.row + i, run.column);
 }
 
@@ -67,12 +68,13 @@ struct Assembly<D>::Near {
   const Assembly& of;
   const std::vector<bool>& near;
 
-  bool operator()(const Block& block) const {
+  bool any(std::span<const int> dofs) const {
     return std::any_of(
-        block.dofs.begin(), block.dofs.end(), [&](int dof) { return dof >= 0 && near[dof]; });
+        dofs.begin(), dofs.end(), [&](int dof) { return dof >= 0 && near[dof]; });
   }
+  bool operator()(const Block& block) const { return any(block.dofs); }
   bool operator()(int element) const {
-    return (*this)(of.element_blocks_[element]) || (*this)(of.twist_blocks_[element]);
+    return any(of.elements_[element].dofs) || any(of.twist_dofs(element));
   }
   bool operator()(const ConstraintBlock& constraint) const {
     const auto first = near.begin() + of.mesh_.coordinate_count + constraint.row;
@@ -85,33 +87,33 @@ struct Assembly<D>::Near {
 template <int D>
 template <class Wanted>
 struct Assembly<D>::Sink {
-  const std::vector<Block>&element_blocks, &twist_blocks;
+  const ElementRuns &element_runs, &twist_runs;
   const Block& own_block;
   const Wanted& wanted;
   double* values;
 
   void element(int index, const ElementMatrix<D>& K) const {
-    if (wanted(index)) scatter(element_blocks[index], K, values);
+    if (wanted(index)) scatter(element_runs[index], K, values);
   }
   /// In the coordinates of an element with its sections.
   void twist(int index, const TwistLayout::Matrix& K) const {
-    if (wanted(index)) scatter(twist_blocks[index], K, values);
+    if (wanted(index)) scatter(twist_runs[index], K, values);
   }
   template <class Matrix>
   void own(const Matrix& K) const {
-    if (wanted(own_block)) scatter(own_block, K, values);
+    if (wanted(own_block)) scatter(own_block.runs, K, values);
   }
 };
 
+// None without torsion.
+template <int D>
+std::span<const int> Assembly<D>::twist_dofs(int element) const {
+  if (!elements_[element].twist) return {};
+  return elements_[element].twist->dofs;
+}
+
 template <int D>
 void Assembly<D>::list_blocks() {
-  element_blocks_.reserve(elements_.size());
-  twist_blocks_.reserve(elements_.size());
-  for (const MeshElement<D>& e : elements_) {
-    element_blocks_.push_back({{e.dofs.begin(), e.dofs.end()}, {}});
-    twist_blocks_.emplace_back();
-    if (e.twist) twist_blocks_.back().dofs.assign(e.twist->dofs.begin(), e.twist->dofs.end());
-  }
   for (const BoundForce<D>& force : forces_)
     force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
 }
@@ -124,8 +126,12 @@ bool Assembly<D>::couples_as(const Assembly& other) const {
         blocks.begin(), blocks.end(), others.begin(), others.end(),
         [](const Block& a, const Block& b) { return a.dofs == b.dofs; });
   };
+  const auto same_elements = [](const MeshElement<D>& a, const MeshElement<D>& b) {
+    return a.dofs == b.dofs && !a.twist == !b.twist && (!a.twist || a.twist->dofs == b.twist->dofs);
+  };
   return mesh_.coordinate_count == other.mesh_.coordinate_count &&
-         same_dofs(element_blocks_, other.element_blocks_) && same_dofs(twist_blocks_, other.twist_blocks_) &&
+         std::equal(elements_.begin(), elements_.end(), other.elements_.begin(), other.elements_.end(),
+                    same_elements) &&
          same_dofs(force_blocks_, other.force_blocks_) && over_mesh_ == other.over_mesh_ &&
          std::equal(constraint_blocks_.begin(), constraint_blocks_.end(), other.constraint_blocks_.begin(),
                     other.constraint_blocks_.end(),
@@ -138,8 +144,8 @@ bool Assembly<D>::couples_as(const Assembly& other) const {
 
 template <int D>
 void Assembly<D>::take_pattern(const Assembly& other) {
-  element_blocks_ = other.element_blocks_;
-  twist_blocks_ = other.twist_blocks_;
+  element_runs_ = other.element_runs_;
+  twist_runs_ = other.twist_runs_;
   force_blocks_ = other.force_blocks_;
   constraint_blocks_ = other.constraint_blocks_;
   moving_ = other.moving_;
@@ -150,12 +156,12 @@ template <int D>
 void Assembly<D>::build_pattern() {
   const int n = mesh_.coordinate_count;
   Coupling coupling(n + constraint_count_);
-  const auto couple = [&](const std::vector<int>& dofs) {
+  const auto couple = [&](std::span<const int> dofs) {
     coupling.add(dofs);
     coupling.close();
   };
-  for (std::size_t i = 0; i < elements_.size(); ++i)
-    couple(elements_[i].twist ? twist_blocks_[i].dofs : element_blocks_[i].dofs);
+  for (const MeshElement<D>& e : elements_)
+    couple(e.twist ? std::span<const int>(e.twist->dofs) : std::span<const int>(e.dofs));
   for (const Block& force : force_blocks_) couple(force.dofs);
   for (const ConstraintBlock& constraint : constraint_blocks_) {
     coupling.add(constraint.block.dofs);
@@ -165,27 +171,22 @@ void Assembly<D>::build_pattern() {
   pattern_ = coupling.pattern();
 
   const SparsePlaces index_of{pattern_};
-  for (Block& block : element_blocks_) locate(block, index_of);
-  for (Block& block : twist_blocks_) locate(block, index_of);
-  for (Block& block : force_blocks_) locate(block, index_of);
+  std::vector<int> all(elements_.size());
+  std::iota(all.begin(), all.end(), 0);
+  locate_elements(all, index_of, element_runs_, twist_runs_);
+  for (Block& block : force_blocks_) locate(block.dofs, index_of, block.runs);
   for (ConstraintBlock& block : constraint_blocks_) locate(block, index_of);
 }
 
-// Puts down where the entries of a block are; `index_of` gives that of a row and a column. Rows that follow
+// Adds where the entries of a contribution are; `index_of` gives that of a row and a column. Rows that follow
 // one another do so among all entries, which hold each of them. In the columns of one node they are as far
 // from the start.
 template <int D>
 template <class IndexOf>
-void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
-  const std::vector<int>& dofs = block.dofs;
+void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std::vector<Run>& runs) {
   const std::size_t size = dofs.size();
-  std::size_t runs = 0, columns = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    columns += dofs[i] >= 0;
-    runs += dofs[i] >= 0 && (i == 0 || dofs[i] != dofs[i - 1] + 1);
-  }
-  block.runs.clear();
-  block.runs.reserve(columns * runs);
+  std::size_t in_column = 0;
+  for (std::size_t i = 0; i < size; ++i) in_column += dofs[i] >= 0 && (i == 0 || dofs[i] != dofs[i - 1] + 1);
   int previous = -1;  // start of the column before
   for (std::size_t j = 0; j < size; ++j) {
     if (dofs[j] < 0) continue;
@@ -193,11 +194,28 @@ void Assembly<D>::locate(Block& block, const IndexOf& index_of) const {
       const std::size_t first = i++;
       if (dofs[first] < 0) continue;
       while (i < size && dofs[i] == dofs[i - 1] + 1) ++i;
-      const int guess = previous < 0 ? 0 : block.runs[block.runs.size() - runs].value - previous;
-      block.runs.push_back({index_of(dofs[first], dofs[j], guess), static_cast<std::uint8_t>(j),
-                            static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(i - first)});
+      const int guess = previous < 0 ? 0 : runs[runs.size() - in_column].value - previous;
+      runs.push_back({index_of(dofs[first], dofs[j], guess), static_cast<std::uint8_t>(j),
+                      static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(i - first)});
     }
     previous = index_of.start(dofs[j]);
+  }
+}
+
+// Of these elements, one after the other.
+template <int D>
+template <class IndexOf>
+void Assembly<D>::locate_elements(const std::vector<int>& elements, const IndexOf& index_of,
+                                  ElementRuns& element_runs, ElementRuns& twist_runs) const {
+  element_runs.runs.reserve(elements.size() * ElementLayout<D>::nodal);
+  for (ElementRuns* each : {&element_runs, &twist_runs}) each->starts.reserve(elements.size() + 1);
+  const auto add = [&](std::span<const int> dofs, ElementRuns& to) {
+    locate(dofs, index_of, to.runs);
+    to.starts.push_back(static_cast<int>(to.runs.size()));
+  };
+  for (const int i : elements) {
+    add(elements_[i].dofs, element_runs);
+    add(twist_dofs(i), twist_runs);
   }
 }
 
@@ -205,7 +223,8 @@ template <int D>
 template <class IndexOf>
 void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const {
   const int n = mesh_.coordinate_count;
-  locate(block.block, index_of);
+  block.block.runs.clear();
+  locate(block.block.dofs, index_of, block.block.runs);
   block.gradient_values.clear();
   block.transposed_values.clear();
   for (int dof : block.block.dofs)
@@ -237,17 +256,15 @@ void Assembly<D>::mark_constrained(std::vector<bool>& marked) const {
 template <int D>
 void Assembly<D>::choose_moving_part() {
   std::vector<bool> marked(static_cast<std::size_t>(mesh_.coordinate_count + constraint_count_), false);
-  const auto mark = [&](const std::vector<int>& dofs) {
+  const auto mark = [&](std::span<const int> dofs) {
     for (const int dof : dofs)
       if (dof >= 0) marked[dof] = true;
   };
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     if (elements_[i].element.fixed()) continue;
     moving_.elements.push_back(i);
-    moving_.element_blocks.push_back(element_blocks_[i]);
-    moving_.twist_blocks.push_back(twist_blocks_[i]);
-    mark(element_blocks_[i].dofs);
-    mark(twist_blocks_[i].dofs);
+    mark(elements_[i].dofs);
+    mark(twist_dofs(i));
   }
   for (const int i : over_mesh_) {
     if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
@@ -269,21 +286,20 @@ void Assembly<D>::choose_moving_part() {
     return;
   }
   const DensePlaces index_of{unknowns};
-  for (Block& block : moving_.element_blocks) locate(block, index_of);
-  for (Block& block : moving_.twist_blocks) locate(block, index_of);
+  locate_elements(moving_.elements, index_of, moving_.element_runs, moving_.twist_runs);
   for (ConstraintBlock& block : moving_.constraint_blocks) locate(block, index_of);
 }
 
 template <int D>
 void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
-                                      const Block& block, const Block& twist_block, double* values) const {
+                                      Runs runs, Runs twist_runs, double* values) const {
   const MeshElement<D>& e = elements_[i];
   const ElementState<D> x = gather<D>(e, state);
-  scatter(block,
+  scatter(runs,
           is_form_p(e) ? virtual_work::tangent<D>(e.element, x, load, w) : e.element.tangent(x, load, w),
           values);
   if constexpr (D == 3)
-    if (e.twist) scatter(twist_block, e.twist->element.tangent(gather_twist(e, state), w), values);
+    if (e.twist) scatter(twist_runs, e.twist->element.tangent(gather_twist(e, state), w), values);
 }
 
 // Of all batches of a beam that hold a wanted element.
@@ -304,7 +320,7 @@ void Assembly<D>::add_batch_tangents(int beam, const State& state, const Tangent
     batches[i].tangents(state, strain, w, K);
     for (int lane = 0; lane < count; ++lane) {
       if (!wanted(begin[lane])) continue;
-      for (const Run& run : element_blocks_[begin[lane]].runs)
+      for (const Run& run : element_runs_[begin[lane]])
         for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of[lane];
     }
   });
@@ -320,7 +336,7 @@ void Assembly<D>::add_constraint_tangent(int i, const State& state, const Tangen
         y.head(c.rows) = state.lambda.segment(block.row, c.rows);
         const ConstraintTerms<D> terms = c.terms(at, state, &y);
         if constexpr (!is_linear<std::decay_t<decltype(c)>>())
-          if (w.stiffness != 0) scatter(block.block, w.stiffness * terms.hessian, values);
+          if (w.stiffness != 0) scatter(block.block.runs, w.stiffness * terms.hessian, values);
         for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
           for (int r = 0; r < c.rows; ++r, ++v)
             if (block.gradient_values[v] >= 0) {
@@ -343,7 +359,7 @@ void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, cons
     const Vector load = line_load(b, state);
     const auto add_one = [&](int i) {
       if (moving == Moving::left_out && !elements_[i].element.fixed()) return;
-      if (wanted(i)) add_element_tangent(i, state, load, w, element_blocks_[i], twist_blocks_[i], values);
+      if (wanted(i)) add_element_tangent(i, state, load, w, element_runs_[i], twist_runs_[i], values);
     };
     if (model_->beams[b].properties.is_damped())
       std::for_each(walks_[b].batched.begin(), walks_[b].batched.end(), add_one);
@@ -352,7 +368,7 @@ void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, cons
     std::for_each(walks_[b].others.begin(), walks_[b].others.end(), add_one);
   }
   for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
-    const Sink<Wanted> sink{element_blocks_, twist_blocks_, force_blocks_[i], wanted, values};
+    const Sink<Wanted> sink{element_runs_, twist_runs_, force_blocks_[i], wanted, values};
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
@@ -393,11 +409,10 @@ void Assembly<D>::tangents(const State& state, const std::array<TangentWeights, 
     else
       both = e.element.tangents(x, load, w);
     for (const std::size_t k : {0, 1}) {
-      scatter(element_blocks_[i], both[k], kkt[k]->valuePtr());
+      scatter(element_runs_[i], both[k], kkt[k]->valuePtr());
       if constexpr (D == 3)
         if (e.twist)
-          scatter(twist_blocks_[i], e.twist->element.tangent(gather_twist(e, state), w[k]),
-                  kkt[k]->valuePtr());
+          scatter(twist_runs_[i], e.twist->element.tangent(gather_twist(e, state), w[k]), kkt[k]->valuePtr());
     }
   }
 }
@@ -412,9 +427,9 @@ template <int D>
 void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {
   const auto size = static_cast<Eigen::Index>(moving_.unknowns.size());
   part.setZero(size, size);
-  for (std::size_t k = 0; k < moving_.elements.size(); ++k)
+  for (int k = 0; k < static_cast<int>(moving_.elements.size()); ++k)
     add_element_tangent(moving_.elements[k], state, line_load(elements_[moving_.elements[k]].beam, state), w,
-                        moving_.element_blocks[k], moving_.twist_blocks[k], part.data());
+                        moving_.element_runs[k], moving_.twist_runs[k], part.data());
   for (std::size_t k = 0; k < moving_.constraints.size(); ++k)
     add_constraint_tangent(moving_.constraints[k], state, w, moving_.constraint_blocks[k], part.data());
 }

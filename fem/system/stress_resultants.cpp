@@ -127,6 +127,7 @@ std::vector<SpanResultants> of_all(const Assembly<D>& a, const State& state) {
     if (from_node > at_node * (s_b - s_a)) inside[action.element].push_back(action);
   }
   std::vector<SpanResultants> spans;
+  spans.reserve(elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i)
     spans.push_back(of_span<D>(a, elements[i], state, forces[i], inside[i]));
   return spans;

@@ -373,17 +373,24 @@ void FrameStore::write_elements(std::span<const Snapshot> frames) {
 }
 
 void FrameStore::write_nodes(std::span<const Snapshot> frames) {
-  Doubles position, slope, s;
+  std::size_t count = 0;
+  for (const Snapshot& frame : frames) count += rows_of(frame).nodes;
+  if (count == 0) return;
+  const auto put = [&](const char* name, std::vector<Eigen::Vector3d> BeamRecord::*vectors) {
+    Doubles values;
+    values.reserve(3 * count);
+    for (const Snapshot& frame : frames)
+      for (const BeamRecord& beam : frame.beams)
+        for (const Eigen::Vector3d& vector : beam.*vectors) append(values, vector);
+    file_.put(name, {written_.nodes, 0}, {count, 3}, values.data());
+  };
+  put("node_position", &BeamRecord::node_positions);
+  put("node_slope", &BeamRecord::node_slopes);
+  Doubles s;
+  s.reserve(count);
   for (const Snapshot& frame : frames)
-    for (const BeamRecord& beam : frame.beams) {
-      for (const Eigen::Vector3d& r : beam.node_positions) append(position, r);
-      for (const Eigen::Vector3d& r_s : beam.node_slopes) append(slope, r_s);
-      s.insert(s.end(), beam.node_s.begin(), beam.node_s.end());
-    }
-  if (s.empty()) return;
-  file_.put("node_position", {written_.nodes, 0}, {s.size(), 3}, position.data());
-  file_.put("node_slope", {written_.nodes, 0}, {s.size(), 3}, slope.data());
-  file_.put("node_s", {written_.nodes}, {s.size()}, s.data());
+    for (const BeamRecord& beam : frame.beams) s.insert(s.end(), beam.node_s.begin(), beam.node_s.end());
+  file_.put("node_s", {written_.nodes}, {count}, s.data());
 }
 
 void FrameStore::write_steps(std::span<const Snapshot> frames) {

@@ -19,6 +19,23 @@ void expect_same(const ElementEnergy& a, const ElementEnergy& b) {
   for (const double part : {b.kinetic, b.axial, b.bending, std::abs(b.external)}) EXPECT_GT(part, 1e-3);
 }
 
+// Its numbers stand beside those of others: it must be what it is by itself, to the last bit.
+template <int D>
+void expect_as_by_itself(const MeshElement<D>& e, const State& state,
+                         const Eigen::Matrix<double, D, 1>& load) {
+  const BeamElement<D> alone(e.element.curve(), e.element.properties(), e.element.chart(), e.s_a, e.s_b,
+                             Ends::fixed);
+  const ElementState<D> x = gather<D>(e, state);
+  const TangentWeights w{.mass = 0.3, .damping = 0.2, .stiffness = 0.7};
+  EXPECT_EQ(e.element.force(x, load), alone.force(x, load));
+  EXPECT_EQ(e.element.tangent(x, load, w), alone.tangent(x, load, w));
+  EXPECT_EQ(e.element.energy(x, load).bending, alone.energy(x, load).bending);
+  EXPECT_EQ(e.element.stretch(x.q), alone.stretch(x.q));
+  EXPECT_EQ(e.element.strain_of_axis(x.q), alone.strain_of_axis(x.q));
+  EXPECT_EQ(e.element.axial_mismatch(x.q), alone.axial_mismatch(x.q));
+  EXPECT_EQ(e.element.length(x.q), alone.length(x.q));
+}
+
 template <int D>
 void check_batches(const BeamProperties& properties, int seed) {
   std::mt19937 random(seed);
@@ -33,6 +50,7 @@ void check_batches(const BeamProperties& properties, int seed) {
   std::vector<ElementBatch<D>> batches;
   for (const MeshElement<D>& e : elements) {
     ASSERT_TRUE(ElementBatch<D>::takes(e.element));
+    expect_as_by_itself<D>(e, state, load);
     const ElementVector<D> force = e.element.force(gather<D>(e, state), load);
     for (int k = 0; k < ElementLayout<D>::nodal; ++k) one_by_one[e.dofs[k]] += force[k];
     energy += e.element.energy(gather<D>(e, state), load);

@@ -1,0 +1,70 @@
+#include "fem/element/fixed_lanes.h"
+
+#include <algorithm>
+
+namespace nurbeam {
+
+FixedSums FixedSums::zero() {
+  return {Eigen::Matrix4d::Zero(), Eigen::Vector4d::Zero(), Eigen::Matrix4d::Zero(), Eigen::Vector3d::Zero(),
+          0};
+}
+
+// The first element fills all lanes.
+void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
+  const auto set = [&](ElementLanes& numbers, double number) {
+    if (lane == 0)
+      numbers.of = ElementLanes{}.of + number;
+    else
+      numbers.of[lane] = number;
+  };
+  for (int g = 0; g < points; ++g) {
+    for (int k = 0; k < 4; ++k) {
+      set(at[g].S1[k], pack.S1[k][g]);
+      set(at[g].S2[k], pack.S2[k][g]);
+    }
+    set(at[g].weight, pack.weight[g]);
+    set(at[g].kappa0, pack.kappa0[g]);
+    set(at[g].eps0, pack.eps0[g]);
+  }
+  for (int k = 0; k < 4; ++k) {
+    for (int l = 0; l < 4; ++l) {
+      set(mass[k][l], sums.mass(k, l));
+      set(stretch[k][l], sums.stretch(k, l));
+    }
+    set(load_factor[k], sums.load_factor[k]);
+  }
+  for (int k = 0; k < 3; ++k) set(strain0[k], sums.strain0[k]);
+  set(length, sums.length);
+}
+
+FixedSums FixedLanes::sums(int lane) const {
+  FixedSums sums;
+  for (int k = 0; k < 4; ++k) {
+    for (int l = 0; l < 4; ++l) {
+      sums.mass(k, l) = mass[k][l].of[lane];
+      sums.stretch(k, l) = stretch[k][l].of[lane];
+    }
+    sums.load_factor[k] = load_factor[k].of[lane];
+  }
+  for (int k = 0; k < 3; ++k) sums.strain0[k] = strain0[k].of[lane];
+  sums.length = length.of[lane];
+  return sums;
+}
+
+// Lanes beyond the points repeat the last one without weight.
+PointPack FixedLanes::pack(int lane) const {
+  PointPack pack;
+  for (int i = 0; i < PointPack::lanes; ++i) {
+    const Point& point = at[std::min(i, points - 1)];
+    for (int k = 0; k < 4; ++k) {
+      pack.S1[k][i] = point.S1[k].of[lane];
+      pack.S2[k][i] = point.S2[k].of[lane];
+    }
+    pack.weight[i] = i < points ? point.weight.of[lane] : 0;
+    pack.kappa0[i] = point.kappa0.of[lane];
+    pack.eps0[i] = point.eps0.of[lane];
+  }
+  return pack;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,50 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "fem/element/point_pack.h"
+#include "fem/element/quadrature.h"
+
+namespace nurbeam {
+
+/// Integrals over an element whose ends are fixed.
+struct FixedSums {
+  Eigen::Matrix4d mass;         ///< rho A int S_k S_l ds
+  Eigen::Vector4d load_factor;  ///< int S_k ds
+  Eigen::Matrix4d stretch;      ///< int S'_k S'_l ds, G of AxialSums
+  Eigen::Vector3d strain0;      ///< int eps_0 ds and eps_0 at both ends
+  double length;                ///< s_b - s_a [m]
+
+  static FixedSums zero();
+};
+
+/// One number of each of eight elements, side by side; no number until it is given one. Aligned for the
+/// widest registers, which the type of its numbers is not where the processor is not known to have them.
+struct alignas(8 * sizeof(double)) ElementLanes {
+  double __attribute__((vector_size(8 * sizeof(double)))) of;
+};
+
+/// What is computed once in up to eight elements with fixed ends, each on one part of the drawing, side by
+/// side: the only place of these numbers.
+struct FixedLanes {
+  static constexpr int lanes = 8, points = GaussRule::size;
+
+  /// As PointPack has it.
+  struct Point {
+    std::array<ElementLanes, 4> S1, S2;
+    ElementLanes weight, kappa0, eps0;
+  };
+  std::array<Point, points> at = {};
+  std::array<std::array<ElementLanes, 4>, 4> mass = {}, stretch = {};  ///< of FixedSums
+  std::array<ElementLanes, 4> load_factor = {};
+  std::array<ElementLanes, 3> strain0 = {};
+  ElementLanes length = {};
+
+  /// Takes those of one element into a lane; of the first one into all, until others take them.
+  void put(int lane, const FixedSums& sums, const PointPack& pack);
+  /// Those in a lane.
+  FixedSums sums(int lane) const;
+  PointPack pack(int lane) const;
+};
+
+}  // namespace nurbeam
