@@ -49,40 +49,10 @@ MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const Mo
   return changes;
 }
 
-// Lets the neighbours lag in which nothing differs where the mesh changes.
-std::vector<bool> Sensitivities::outlasting(const MeshedState& before, const BeamSystem& behind) {
-  const auto is_drawn = [](const BeamSystem& system) {
-    return system.mesh().plan.section_charts.empty() && system.mesh().plan.weights.empty();
-  };
-  if (!is_drawn(*before.system) || !is_drawn(behind)) return std::vector<bool>(parameters_.size(), false);
-  return differences_->outlast(before.state, shifts_at(before.state), kept_elements(*before.system, behind));
-}
-
-// The places of tangents of neighbours that lag, away from those that correspond, or back to these.
-void Sensitivities::shift_lagging(const State& at, double part) {
-  const Shifts shifts = shifts_at(at);
-  for (std::size_t k = 0; k < shifts.size(); ++k)
-    for (const auto& [place, by] : shifts[k])
-      if (parameters_[k].lags) tangents_.q(place, static_cast<Eigen::Index>(k)) += part * by;
-}
-
-void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& transfer,
-                              const std::function<bool(MeshedState&)>& change) {
+// On both meshes, all neighbours a step away from the run: those that lag on its own.
+std::vector<TransferTangent::Neighbours> Sensitivities::go_over(const MeshedState& at,
+                                                                const FollowedTransfer& transfer) {
   const MeshedState& before = transfer.before;
-  const bool is_plain = at.system->mesh().plan.section_charts.empty() &&  // without torsion
-                        !at.system->forces_depend_on_multipliers();
-  const std::optional<TransferPath> path =
-      is_plain ? path_of(*before.system, before.state, *at.system, transfer.moves) : std::nullopt;
-  if (!path) return changes(at, change);
-  carry();
-  const std::vector<bool> lagging = outlasting(before, *at.system);
-  const Eigen::RowVectorXd energies_before = differences_->energies(before.state);
-  for (std::size_t k = 0; k < parameters_.size(); ++k)
-    if (lagging[k])
-      parameters_[k].lags = true;
-    else
-      parameters_[k].catch_up(before);
-  shift_lagging(before.state, -1);
   std::vector<TransferTangent::Neighbours> neighbours(parameters_.size());
   side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
     Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
@@ -101,22 +71,33 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
     of.less = parameter.less = transfer.replanned(of.less_before);
     if (!same_mesh(*at.system, *parameter.more)) not_alike("what happens at an event changes");
   });
+  return neighbours;
+}
+
+void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& transfer,
+                              const std::function<bool(MeshedState&)>& change) {
+  const MeshedState& before = transfer.before;
+  const bool is_plain = at.system->mesh().plan.section_charts.empty() &&  // without torsion
+                        !at.system->forces_depend_on_multipliers();
+  const std::optional<TransferPath> path =
+      is_plain ? path_of(*before.system, before.state, *at.system, transfer.moves) : std::nullopt;
+  if (!path) return changes(at, change);
+  carry();
+  const std::vector<int> kept = kept_elements(*before.system, *at.system);
+  const Eigen::RowVectorXd energies_before = differences_->energies(before.state);
+  const std::vector<bool> lagging = let_lag(before, *at.system, kept);
+  shift_lagging(before.state, -1);
+  std::vector<TransferTangent::Neighbours> neighbours = go_over(at, transfer);
   const Eigen::RowVectorXd t = tangents_.t;
   tangents_ = MotionTangents::zero(at.state.q.size(), at.state.lambda.size(), t.size());
   tangents_.t = t;
   dynamics_ = tangents_.q;
   constraints_ = tangents_.lambda;
-  go_on_from(at, ResidualDifferences(pairs(), at.state, *differences_, lagging, *at.system,
-                                     kept_elements(*before.system, *at.system)));
-  const auto energies = [&](const State& behind) -> Eigen::RowVectorXd {
-    Eigen::RowVectorXd gained = differences_->energies(behind) - energies_before;
-    for (std::size_t k = 0; k < lagging.size(); ++k)
-      if (!lagging[k]) gained[static_cast<Eigen::Index>(k)] = 0;
-    return gained;
-  };
+  go_on_from(at, ResidualDifferences(pairs(), at.state, *differences_, lagging, *at.system, kept));
   const TransferTangent tangent(
       before, at.system, *path, std::move(neighbours),
-      {differences_->momenta(interpolated(*before.system, before.state, *at.system).v), energies},
+      {differences_->momenta(interpolated(*before.system, before.state, *at.system).v),
+       [&](const State& behind) { return energies_of_lagging(behind, energies_before); }},
       [&](const State& state, const MotionTangents::Matrix& q, const std::vector<int>& rows) {
         return residual_changes(state, q, rows);
       });

@@ -135,44 +135,6 @@ std::vector<ResidualDifferences::Pair> Sensitivities::pairs() const {
   return pairs;
 }
 
-void Sensitivities::Parameter::catch_up(const MeshedState& at) {
-  if (!std::exchange(lags, false)) return;
-  for (std::shared_ptr<const BeamSystem>* each : {&more, &less}) {
-    MeshedState neighbour{(*each)->replanned(corresponding_plan(*at.system, (*each)->model()),
-                                             held_joints(*at.system), at.system.get()),
-                          at.state};
-    stand_on_like_spans(at, neighbour);
-    *each = std::move(neighbour.system);
-  }
-}
-
-// Before the run goes on otherwise than by steps.
-void Sensitivities::catch_up() {
-  const MeshedState at{system_, state_};
-  side_by_side(static_cast<int>(parameters_.size()),
-               [&](int k) { parameters_[static_cast<std::size_t>(k)].catch_up(at); });
-}
-
-// Of a neighbour's state on the system it is one of, as far as places and velocities say it.
-Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, bool more) const {
-  const Parameter& parameter = parameters_[k];
-  const NeighbourPair& pair = parameter.pair;
-  const auto column = static_cast<Eigen::Index>(k);
-  const double part = more ? pair.step : -pair.step;
-  State state{.t = at.t + part * tangents_.t[column],
-              .q = at.q + part * tangents_.q.col(column),
-              .v = at.v + part * tangents_.v.col(column),
-              .a = at.a,
-              .lambda = {},
-              .load = at.load,
-              .memory = at.memory};
-  if (!parameter.lags) return {more ? *parameter.more : *parameter.less, std::move(state)};
-  for (const auto& [place, by] :
-       shifts_of_places(*system_, at, *pair.more.model, *pair.less.model, pair.step))
-    state.q[place] -= part * by;
-  return {*system_, std::move(state)};
-}
-
 Sensitivities::Shifts Sensitivities::shifts_at(const State& at) const {
   Shifts shifts;
   for (const Parameter& parameter : parameters_) {

@@ -8,6 +8,7 @@
 #include "fem/motion/run_follower.h"
 #include "fem/motion/simulation.h"
 #include "fem/sensitivity/residual_differences.h"
+#include "fem/sensitivity/transfer_tangent.h"
 #include "solver/kept_steps.h"
 #include "solver/step_tangent.h"
 
@@ -113,7 +114,10 @@ class Sensitivities final : public RunFollower {
 
   void start_afresh(const MeshedState& at, const std::vector<State>& tangents);
   void go_on_from(const MeshedState& at, ResidualDifferences differences);
-  std::vector<bool> outlasting(const MeshedState& before, const BeamSystem& behind);
+  std::vector<bool> let_lag(const MeshedState& before, const BeamSystem& behind,
+                            const std::vector<int>& kept);
+  std::vector<TransferTangent::Neighbours> go_over(const MeshedState& at, const FollowedTransfer& transfer);
+  Eigen::RowVectorXd energies_of_lagging(const State& at, const Eigen::RowVectorXd& before) const;
   void shift_lagging(const State& at, double part);
   void catch_up();
   Beside beside(std::size_t parameter, const State& at, bool more) const;

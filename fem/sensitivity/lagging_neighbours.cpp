@@ -1,0 +1,84 @@
+// Sensitivities by neighbours whose meshes are of before.
+#include <utility>
+#include <vector>
+
+#include "fem/sensitivity/neighbouring_mesh.h"
+#include "fem/sensitivity/sensitivities_parts.h"
+#include "solver/side_by_side.h"
+
+namespace nurbeam {
+
+void Sensitivities::Parameter::catch_up(const MeshedState& at) {
+  if (!std::exchange(lags, false)) return;
+  for (std::shared_ptr<const BeamSystem>* each : {&more, &less}) {
+    MeshedState neighbour{(*each)->replanned(corresponding_plan(*at.system, (*each)->model()),
+                                             held_joints(*at.system), at.system.get()),
+                          at.state};
+    stand_on_like_spans(at, neighbour);
+    *each = std::move(neighbour.system);
+  }
+}
+
+// Before the run goes on otherwise than by steps.
+void Sensitivities::catch_up() {
+  const MeshedState at{system_, state_};
+  side_by_side(static_cast<int>(parameters_.size()),
+               [&](int k) { parameters_[static_cast<std::size_t>(k)].catch_up(at); });
+}
+
+// Lets those lag in which nothing differs where the mesh changes, and returns which. `kept`: by the index of
+// an element the same one behind the change, -1 where there is none.
+std::vector<bool> Sensitivities::let_lag(const MeshedState& before, const BeamSystem& behind,
+                                         const std::vector<int>& kept) {
+  const auto is_drawn = [](const BeamSystem& system) {
+    return system.mesh().plan.section_charts.empty() && system.mesh().plan.weights.empty();
+  };
+  std::vector<bool> lagging(parameters_.size(), false);
+  if (is_drawn(*before.system) && is_drawn(behind))
+    lagging = differences_->outlast(before.state, shifts_at(before.state), kept);
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    if (lagging[k])
+      parameters_[k].lags = true;
+    else
+      parameters_[k].catch_up(before);
+  return lagging;
+}
+
+// Moves the places of their tangents away from those that correspond (-1), or back to these (1).
+void Sensitivities::shift_lagging(const State& at, double part) {
+  const Shifts shifts = shifts_at(at);
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    for (const auto& [place, by] : shifts[k])
+      if (parameters_[k].lags) tangents_.q(place, static_cast<Eigen::Index>(k)) += part * by;
+}
+
+// How the energy that a state has more than before changes by their elements; zero of the others.
+Eigen::RowVectorXd Sensitivities::energies_of_lagging(const State& at,
+                                                      const Eigen::RowVectorXd& before) const {
+  Eigen::RowVectorXd gained = differences_->energies(at) - before;
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    if (!parameters_[k].lags) gained[static_cast<Eigen::Index>(k)] = 0;
+  return gained;
+}
+
+// Of a neighbour's state on the system it is one of, as far as places and velocities say it.
+Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, bool more) const {
+  const Parameter& parameter = parameters_[k];
+  const NeighbourPair& pair = parameter.pair;
+  const auto column = static_cast<Eigen::Index>(k);
+  const double part = more ? pair.step : -pair.step;
+  State state{.t = at.t + part * tangents_.t[column],
+              .q = at.q + part * tangents_.q.col(column),
+              .v = at.v + part * tangents_.v.col(column),
+              .a = at.a,
+              .lambda = {},
+              .load = at.load,
+              .memory = at.memory};
+  if (!parameter.lags) return {more ? *parameter.more : *parameter.less, std::move(state)};
+  for (const auto& [place, by] :
+       shifts_of_places(*system_, at, *pair.more.model, *pair.less.model, pair.step))
+    state.q[place] -= part * by;
+  return {*system_, std::move(state)};
+}
+
+}  // namespace nurbeam
