@@ -82,12 +82,13 @@ void match_axial_strain(const BeamSystem& from, const State& state, const BeamSy
                         State& next) {
   const Mesh &old = from.mesh(), &mesh = to.mesh();
   const MeshNode& added = mesh.nodes[beam][node];
-  const int span = find_span(from.model(), old, state.q, beam, added.s);
+  const double place = added.place >= 0 ? next.q[added.place] : added.s;
+  const int span = find_span(from.model(), old, state.q, beam, place);
   const std::optional<AssumedStrain> strain = assumed_strain(from, state, span);
   if (!strain) return;
   const ReferenceCurve& curve = to.model().beams[beam].curve;
   const double start = old.spans[span].start(state.q), end = old.spans[span].end(state.q);
-  const double s = curve.unrolled(added.s, (start + end) / 2);
+  const double s = curve.unrolled(place, (start + end) / 2);
   int left = -1, right = -1;
   for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i) {
     if (mesh.spans[i].node_b == node) left = i;
