@@ -95,7 +95,7 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
   constraints_ = tangents_.lambda;
   go_on_from(at, ResidualDifferences(pairs(), at.state, *differences_, lagging, *at.system, kept));
   const TransferTangent tangent(
-      before, at.system, *path, std::move(neighbours),
+      before.system, at.system, *path, std::move(neighbours),
       {differences_->momenta(interpolated(*before.system, before.state, *at.system).v),
        [&](const State& behind) { return energies_of_lagging(behind, energies_before); }},
       [&](const State& state, const MotionTangents::Matrix& q, const std::vector<int>& rows) {

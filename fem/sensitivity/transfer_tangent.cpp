@@ -24,10 +24,6 @@ using Matrix = MotionTangents::Matrix;
 // Beside accelerations as large as that forces are lost in round-off.
 const double vast = std::ldexp(1.0, 300);
 
-// Of a step, that over which the momentum of a neighbour is compared with that of the run: no stiffness asks
-// for more, and what is of second order is lost.
-constexpr double of_momentum = 0.01;
-
 State without_motion(const State& state) {
   State still = state;
   still.v.setZero();
@@ -65,27 +61,20 @@ bool nodes_are_kept(const BeamSystem& from, const BeamSystem& to) {
 
 }  // namespace
 
-TransferTangent::TransferTangent(const MeshedState& before, std::shared_ptr<const BeamSystem> system,
-                                 const TransferPath& path, std::vector<Neighbours> neighbours, Kept kept,
+TransferTangent::TransferTangent(std::shared_ptr<const BeamSystem> before,
+                                 std::shared_ptr<const BeamSystem> system, const TransferPath& path,
+                                 std::vector<Neighbours> neighbours, Kept kept,
                                  ResidualChanges residual_changes)
-    : before_(before.system),
+    : before_(std::move(before)),
       system_(std::move(system)),
       path_(path),
       neighbours_(std::move(neighbours)),
-      momentum_(*before.system, before.state, *system_),
       momenta_(neighbours_.size()),
       kept_(std::move(kept)),
       residual_changes_(std::move(residual_changes)),
       with_shape_(rows_that_change_with_shape(*system_)) {
   for_each_parameter([&](std::size_t k) {
     const Neighbours& of = neighbours_[k];
-    if (is_own(k)) {
-      State near = before.state;
-      near.q += of_momentum * (of.more_before.state.q - before.state.q);
-      near.v += of_momentum * (of.more_before.state.v - before.state.v);
-      momenta_[k].more.emplace(*before.system, near, *system_);
-      return;
-    }
     momenta_[k].more.emplace(*of.more_before.system, of.more_before.state, *of.more);
     momenta_[k].less.emplace(*of.less_before.system, of.less_before.state, *of.less);
   });
@@ -130,25 +119,6 @@ State TransferTangent::beside(const State& at, const MotionTangents& tangents, s
           .memory = at.memory};
 }
 
-// (n, a column for each parameter) How the momentum that is carried over changes on the mesh behind.
-Matrix TransferTangent::momenta(const State& at, const MotionTangents& tangents) const {
-  Matrix momenta = kept_.momenta;
-  const Vector own = momentum_.on(at);
-  for_each_parameter([&](std::size_t k) {
-    const double step = neighbours_[k].step;
-    const auto on = [&](const CarriedMomentum& momentum, double part) -> Vector {
-      return momentum.on(beside(at, tangents, k, part));
-    };
-    const Momenta& of = momenta_[k];
-    if (is_own(k))
-      momenta.col(static_cast<Eigen::Index>(k)) +=
-          (on(*of.more, of_momentum * step) - own) / (of_momentum * step);
-    else
-      momenta.col(static_cast<Eigen::Index>(k)) += (on(*of.more, step) - on(*of.less, -step)) / (2 * step);
-  });
-  return momenta;
-}
-
 // Where no node is new, what becomes of a motion beside the run's own is linear in it.
 void TransferTangent::interpolate(MotionTangents& tangents) const {
   const bool is_linear = nodes_are_kept(*before_, *system_);
@@ -191,11 +161,17 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
   driven.a = vast * stage.state.v;
   driven.lambda = vast * stage.impulse;
   Matrix right(n + m, tangents.parameters()), left;
-  right.topRows(n) = momenta(stage.state, tangents);
+  const auto part = [&](std::size_t k, bool more) {
+    return more ? neighbours_[k].step : -neighbours_[k].step;
+  };
+  right.topRows(n) = kept_.momenta + rates(n, [&](std::size_t k, bool more) -> Vector {
+                       const State at = beside(stage.state, tangents, k, part(k, more));
+                       return (more ? momenta_[k].more : momenta_[k].less)->on(at);
+                     });
   right.topRows(n) -= residual_changes_(driven, tangents.q, with_shape_) / vast;
   right.bottomRows(m) = -rates(m, [&](std::size_t k, bool more) -> Vector {
     const BeamSystem& system = more ? *neighbours_[k].more : *neighbours_[k].less;
-    const State at = beside(stage.state, tangents, k, more ? neighbours_[k].step : -neighbours_[k].step);
+    const State at = beside(stage.state, tangents, k, part(k, more));
     return system.constraint_product(at, stage.state.v) + system.constraint_rate(at);
   });
   const ScaledKkt kkt(*system_, without_motion(stage.state));

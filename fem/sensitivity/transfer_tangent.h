@@ -42,7 +42,7 @@ class TransferTangent {
     std::function<Eigen::RowVectorXd(const State& behind)> energies;
   };
 
-  TransferTangent(const MeshedState& before, std::shared_ptr<const BeamSystem> system,
+  TransferTangent(std::shared_ptr<const BeamSystem> before, std::shared_ptr<const BeamSystem> system,
                   const TransferPath& path, std::vector<Neighbours> neighbours, Kept kept,
                   ResidualChanges residual_changes);
 
@@ -52,7 +52,7 @@ class TransferTangent {
 
  private:
   struct Momenta {
-    std::optional<CarriedMomentum> more, less;  ///< this one of neighbours alone
+    std::optional<CarriedMomentum> more, less;
   };
 
   template <class Work>
@@ -61,7 +61,6 @@ class TransferTangent {
   Matrix rates(Eigen::Index rows, const Of& of) const;
   bool is_own(std::size_t parameter) const { return neighbours_[parameter].more == system_; }
   State beside(const State& at, const MotionTangents& tangents, std::size_t parameter, double part) const;
-  Matrix momenta(const State& at, const MotionTangents& tangents) const;
   void interpolate(MotionTangents& tangents) const;
   void put_bodies(const State& at, MotionTangents& tangents) const;
   bool find_velocities(const Transferred& stage, MotionTangents& tangents) const;
@@ -70,7 +69,6 @@ class TransferTangent {
   std::shared_ptr<const BeamSystem> before_, system_;
   const TransferPath& path_;
   std::vector<Neighbours> neighbours_;
-  CarriedMomentum momentum_;  // of the run
   std::vector<Momenta> momenta_;
   Kept kept_;
   ResidualChanges residual_changes_;
