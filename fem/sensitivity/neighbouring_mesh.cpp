@@ -101,9 +101,13 @@ std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, c
     const int place = system.mesh().joints[j].place, b = model.joints[j].beam;
     if (place < 0) continue;
     const double s = state.q[place];
-    const double by = (corresponding_place(model.beams[b], s, more.beams[b]) -
-                       corresponding_place(model.beams[b], s, less.beams[b])) /
-                      (2 * step);
+    const int h = model.beams[b].home_interval(s);
+    const double from = model.beams[b].home_place(h), to = model.beams[b].home_place(h + 1);
+    const auto apart = [&](int node) {
+      return more.beams[b].home_place(node) - less.beams[b].home_place(node);
+    };
+    const double part = (s - from) / (to - from);
+    const double by = ((1 - part) * apart(h) + part * apart(h + 1)) / (2 * step);
     if (by != 0) shifts.emplace_back(place, by);
   }
   return shifts;
