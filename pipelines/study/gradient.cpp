@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/variant.h"
+#include "solver/side_by_side.h"
 
 namespace nurbeam {
 
@@ -164,19 +168,27 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
                            std::make_unique<const BuiltModel>(std::move(*report.value)));
   };
   const std::vector<std::size_t> free = study.free_variables();
+  std::vector<std::optional<Pair>> pairs(free.size());
+  std::vector<std::string> problems(free.size());
+  side_by_side(static_cast<int>(free.size()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double step = derivative_step(study.variables[free[k]], values[free[k]]);
+    try {
+      pairs[k].emplace(
+          Pair{run_of(changed(study, values, k, step)), run_of(changed(study, values, k, -step)), step});
+      if (asks_for_von_mises(study))
+        check_stresses(pairs[k]->less.built->model, model.model, pairs[k]->more.built->model);
+    } catch (const std::invalid_argument& problem) {
+      problems[k] = problem.what();
+    }
+  });
   std::vector<NeighbourPair> neighbours;
   for (std::size_t k = 0; k < free.size(); ++k) {
-    const StudyVariable& variable = study.variables[free[k]];
-    const double step = derivative_step(variable, values[free[k]]);
-    try {
-      pairs_.push_back(
-          {run_of(changed(study, values, k, step)), run_of(changed(study, values, k, -step)), step});
-      const auto& [more, less, by] = pairs_.back();
-      if (asks_for_von_mises(study)) check_stresses(less.built->model, model.model, more.built->model);
-    } catch (const std::invalid_argument& problem) {
-      throw std::invalid_argument("no derivative by " + in_quotes(variable.name) + ": " + problem.what());
-    }
-    neighbours.push_back({pairs_.back().more.neighbour(), pairs_.back().less.neighbour(), step});
+    if (!problems[k].empty())
+      throw std::invalid_argument("no derivative by " + in_quotes(study.variables[free[k]].name) + ": " +
+                                  problems[k]);
+    const Pair& pair = pairs_.emplace_back(std::move(*pairs[k]));
+    neighbours.push_back({pair.more.neighbour(), pair.less.neighbour(), pair.step});
   }
   is_by_adjoint_ = pays_by_adjoint();
   sensitivities_ =
