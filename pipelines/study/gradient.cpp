@@ -112,8 +112,13 @@ double derivative_step(const StudyVariable& variable, double value) {
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
-  // Not too small beside the value, as far as the range allows: that is lost in round-off.
-  const double size = std::max(std::clamp(std::abs(value), 0.1 * width, width), 0.1 * std::abs(value));
+  // Not too small beside the value, as far as the range allows: that is lost in round-off. Places by no more
+  // than that: slender beams are stiff against what is of second order in them.
+  const bool is_place =
+      variable.target && (std::holds_alternative<ControlPointCoordinate>(*variable.target) ||
+                          std::holds_alternative<CurveTransform>(*variable.target));
+  const double least = std::max(0.1 * width, 0.1 * std::abs(value));
+  const double size = is_place ? least : std::max(std::min(std::abs(value), width), least);
   return std::min(part * size, 0.1 * width);
 }
 
