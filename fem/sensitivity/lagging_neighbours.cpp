@@ -65,15 +65,8 @@ Eigen::RowVectorXd Sensitivities::energies_of_lagging(const State& at,
 Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, bool more) const {
   const Parameter& parameter = parameters_[k];
   const NeighbourPair& pair = parameter.pair;
-  const auto column = static_cast<Eigen::Index>(k);
   const double part = more ? pair.step : -pair.step;
-  State state{.t = at.t + part * tangents_.t[column],
-              .q = at.q + part * tangents_.q.col(column),
-              .v = at.v + part * tangents_.v.col(column),
-              .a = at.a,
-              .lambda = {},
-              .load = at.load,
-              .memory = at.memory};
+  State state = moved_along(at, tangents_, k, part);
   if (!parameter.lags) return {more ? *parameter.more : *parameter.less, std::move(state)};
   for (const auto& [place, by] :
        shifts_of_places(*system_, at, *pair.more.model, *pair.less.model, pair.step))

@@ -47,6 +47,17 @@ State moved(const State& from, const State& tangent, double part) {
   return state;
 }
 
+State moved_along(const State& at, const MotionTangents& tangents, std::size_t parameter, double part) {
+  const auto k = static_cast<Eigen::Index>(parameter);
+  return {.t = at.t + part * tangents.t[k],
+          .q = at.q + part * tangents.q.col(k),
+          .v = at.v + part * tangents.v.col(k),
+          .a = at.a,
+          .lambda = {},
+          .load = at.load,
+          .memory = at.memory};
+}
+
 State rate(const State& more, const State& less, double step) {
   const double per = 1 / (2 * step);
   return {.t = per * (more.t - less.t),

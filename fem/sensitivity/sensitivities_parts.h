@@ -64,6 +64,8 @@ struct Sensitivities::Beside {
   State state;
 };
 
+/// The places and velocities `part` of the tangents by a parameter away.
+State moved_along(const State& at, const MotionTangents& tangents, std::size_t parameter, double part);
 /// The state `part` of a tangent away.
 State moved(const State& from, const State& tangent, double part);
 /// Half the difference over `step`.

@@ -106,19 +106,6 @@ TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) 
   return rates;
 }
 
-// The places and velocities of a neighbour on the mesh behind.
-State TransferTangent::beside(const State& at, const MotionTangents& tangents, std::size_t parameter,
-                              double part) const {
-  const auto k = static_cast<Eigen::Index>(parameter);
-  return {.t = at.t + part * tangents.t[k],
-          .q = at.q + part * tangents.q.col(k),
-          .v = at.v + part * tangents.v.col(k),
-          .a = at.a,
-          .lambda = {},
-          .load = at.load,
-          .memory = at.memory};
-}
-
 // Where no node is new, what becomes of a motion beside the run's own is linear in it.
 void TransferTangent::interpolate(MotionTangents& tangents) const {
   const bool is_linear = nodes_are_kept(*before_, *system_);
@@ -147,7 +134,7 @@ void TransferTangent::put_bodies(const State& at, MotionTangents& tangents) cons
     const SlidingJoint& joint = system_->model().joints[j];
     const Matrix places = rates(D, [&](std::size_t k, bool more) -> Vector {
       const Neighbours& of = neighbours_[k];
-      const State state = beside(at, tangents, k, more ? of.step : -of.step);
+      const State state = moved_along(at, tangents, k, more ? of.step : -of.step);
       return material_point(more ? *of.more : *of.less, state, joint.beam, state.q[mesh.joints[j].place])
           .r.head(D);
     });
@@ -165,13 +152,13 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
     return more ? neighbours_[k].step : -neighbours_[k].step;
   };
   right.topRows(n) = kept_.momenta + rates(n, [&](std::size_t k, bool more) -> Vector {
-                       const State at = beside(stage.state, tangents, k, part(k, more));
+                       const State at = moved_along(stage.state, tangents, k, part(k, more));
                        return (more ? momenta_[k].more : momenta_[k].less)->on(at);
                      });
   right.topRows(n) -= residual_changes_(driven, tangents.q, with_shape_) / vast;
   right.bottomRows(m) = -rates(m, [&](std::size_t k, bool more) -> Vector {
     const BeamSystem& system = more ? *neighbours_[k].more : *neighbours_[k].less;
-    const State at = beside(stage.state, tangents, k, part(k, more));
+    const State at = moved_along(stage.state, tangents, k, part(k, more));
     return system.constraint_product(at, stage.state.v) + system.constraint_rate(at);
   });
   const ScaledKkt kkt(*system_, without_motion(stage.state));
@@ -218,7 +205,7 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
   };
   const Matrix across = rates(m, [&](std::size_t k, bool more) -> Vector {
     const BeamSystem& of = more ? *neighbours_[k].more : *neighbours_[k].less;
-    return of.constraint_product(beside(still, tangents, k, part(k, more)), whole);
+    return of.constraint_product(moved_along(still, tangents, k, part(k, more)), whole);
   });
   // Of the energy that is to be brought: nothing where the move does not.
   Matrix energy = Matrix::Zero(1, tangents.parameters());
@@ -228,7 +215,7 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
       const MeshedState& before = more ? of.more_before : of.less_before;
       return Eigen::Matrix<double, 1, 1>(energy_change(*before.system, before.state,
                                                        more ? *of.more : *of.less,
-                                                       beside(stage.state, tangents, k, part(k, more))));
+                                                       moved_along(stage.state, tangents, k, part(k, more))));
     });
     energy += kept_.energies(stage.state);
     energy += made.d.transpose() * (dg + dKd / 2);

@@ -60,7 +60,6 @@ class TransferTangent {
   template <class Of>
   Matrix rates(Eigen::Index rows, const Of& of) const;
   bool is_own(std::size_t parameter) const { return neighbours_[parameter].more == system_; }
-  State beside(const State& at, const MotionTangents& tangents, std::size_t parameter, double part) const;
   void interpolate(MotionTangents& tangents) const;
   void put_bodies(const State& at, MotionTangents& tangents) const;
   bool find_velocities(const Transferred& stage, MotionTangents& tangents) const;
