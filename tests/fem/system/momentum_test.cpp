@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "fem/motion/transfer.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {
@@ -33,6 +36,29 @@ TEST(CarriedMomentum, OntoItsOwnMeshIsTheMassMatrixTimesTheVelocity) {
     const Eigen::VectorXd expected = block_of_coordinates(system, state, {.mass = 1}) * state.v;
     const Eigen::VectorXd p = CarriedMomentum(system, state, again).on(state);
     EXPECT_LT((p - expected).norm(), 1e-13 * expected.norm()) << dimension;
+  }
+}
+
+// A body that becomes a node does so where it is, wherever the mesh was planned for it.
+TEST(BecomingANode, IsThatOfTheMeshPlannedForThePlace) {
+  for (const int dimension : {2, 3}) {
+    std::mt19937 random(70 + dimension);
+    BeamModel model = clamped_beam_of_twelve(random, dimension);
+    const double L = model.beams[0].curve.length(), s = 0.41 * L;
+    testing::add_slider(model, 0.8, s);
+    const auto shared = std::make_shared<const BeamModel>(model);
+    MeshPlan as_point = initial_plan(model), planned = as_point, planned_elsewhere = as_point;
+    as_point.beams[0].present.assign(as_point.beams[0].present.size(), true);
+    as_point.modes[0] = JointMode::point;
+    planned_elsewhere.places[0] = s - 0.004 * L;
+    const BeamSystem from(shared, as_point), to(shared, planned), elsewhere(shared, planned_elsewhere);
+    const State state = disturbed_state(from, random, 0.001);
+    const State expected = interpolated(from, state, to), found = interpolated(from, state, elsewhere);
+    EXPECT_LT((found.q - expected.q).norm(), 1e-12 * expected.q.norm()) << dimension;
+    EXPECT_LT((found.v - expected.v).norm(), 1e-12 * expected.v.norm()) << dimension;
+    const Eigen::VectorXd p = CarriedMomentum(from, state, to).on(expected);
+    EXPECT_LT((CarriedMomentum(from, state, elsewhere).on(expected) - p).norm(), 1e-12 * p.norm())
+        << dimension;
   }
 }
 
