@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "solver/every_processor.h"
@@ -39,7 +40,7 @@ class BandedLu::Window {
         scale_(of.scale_),
         size_(static_cast<int>(order_.unknown.size())) {
     const int band = order_.half_bandwidth;
-    before_ = std::max(band, block);
+    before_ = band + block;
     width_ = before_ + 2 * band + 4 * block;
     height_ = (band + 3 * block - 1) / block * block;
     const int open_at_once = 3 * band + 2 * block;
@@ -49,11 +50,12 @@ class BandedLu::Window {
     of.window_ends_.resize(static_cast<std::size_t>(capacity_));
     rows_ = of.window_.data();
     ends_ = of.window_ends_.data();
-    std::fill(scale_.begin(), scale_.end(), 0);
     multipliers_ = rows_ + rows;
   }
 
   NURBEAM_WITHIN double* diagonal(int row) { return rows_ + (row - begin_) * width_ + before_; }
+  /// From a place in a row to the same column of the next one.
+  NURBEAM_WITHIN std::ptrdiff_t to_next_row() const { return width_ - 1; }
   /// One past the last column of a row.
   NURBEAM_WITHIN int& end(int row) { return ends_[row - begin_]; }
   /// Of column c of the present block, from the block's first row on.
@@ -95,19 +97,22 @@ class BandedLu::Window {
     open(order_.below[column]);
     double* entries = diagonal(0) + column;  // of that column, by the rows' distances
     for (int k = first; k < end; ++k)
-      if (const int row = order_.place[matrix_.innerIndexPtr()[k]]; row >= 0) {
-        const double value = matrix_.valuePtr()[k];
-        entries[row * (width_ - 1)] = value;
-        scale_[row] = std::max(scale_[row], std::abs(value));
-      }
+      if (const int row = order_.place[matrix_.innerIndexPtr()[k]]; row >= 0)
+        entries[row * to_next_row()] = matrix_.valuePtr()[k];
   }
 
-  // So that its largest number becomes one.
+  // So that its largest number becomes one; before and behind its numbers are zeros.
   NURBEAM_WITHIN void scale(int row) {
     double* entries = diagonal(row) - before_;
     const int count = before_ + order_.ends[row] - row;
-    const double scale = scale_[row] = scale_[row] > 0 ? 1 / scale_[row] : 1;
-    for (int i = 0; i < count; ++i) entries[i] *= scale;
+    Four greatest = {};
+    for (int i = 0; i < count; i += block) {
+      const Four x = four(entries + i), size = x < 0 ? -x : x;
+      greatest = size > greatest ? size : greatest;
+    }
+    const double largest = std::max(std::max(greatest[0], greatest[1]), std::max(greatest[2], greatest[3]));
+    const double scale = scale_[row] = largest > 0 ? 1 / largest : 1;
+    for (int i = 0; i < count; i += block) four(entries + i) *= scale;
   }
 
   const BandOrder& order_;
@@ -122,12 +127,9 @@ class BandedLu::Window {
 
 namespace {
 
-// Room for so many more numbers.
-std::ptrdiff_t append(std::vector<double>& numbers, int count) {
-  const std::size_t begin = numbers.size(), end = begin + static_cast<std::size_t>(count);
-  if (end > numbers.capacity()) numbers.reserve(end + end / 8);
-  numbers.resize(end);
-  return static_cast<std::ptrdiff_t>(begin);
+// Copies so many numbers, which are whole blocks.
+NURBEAM_WITHIN void copy(const double* from, int count, double* to) {
+  for (int j = 0; j < count; j += block) four(to + j) = four(from + j);
 }
 
 // Numbers of four rows of U, or columns of L, from place k on: with what is taken out of the next block. Of L
@@ -154,10 +156,8 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
     upper += static_cast<std::size_t>(block * rounded_length(k, longest));
     lower += static_cast<std::size_t>(block * (rounded_length(k, order_->below[row - 1] + 1) - block));
   }
-  upper_.clear();
-  lower_.clear();
-  upper_.reserve(upper + upper / 8);
-  lower_.reserve(lower + lower / 8);
+  upper_.resize(upper + upper / 8);
+  lower_.resize(lower + lower / 8);
 }
 
 namespace {
@@ -178,33 +178,74 @@ NURBEAM_WITHIN int pivot_of(Window& window, int column, int last) {
   return pivot;
 }
 
-// Exchanges two rows from the first one's diagonal on.
+// Exchanges two rows from the first column of a block on.
 template <class Window>
 NURBEAM_WITHIN void exchange(Window& window, int k, int p) {
-  const int end = std::max(window.end(k), window.end(p));
-  std::swap_ranges(window.diagonal(k), window.diagonal(k) + end - k, window.diagonal(p) + k - p);
+  const int begin = k - k % block, end = std::max(window.end(k), window.end(p));
+  double* row = window.diagonal(k) - k;
+  std::swap_ranges(row + begin, row + end, window.diagonal(p) - p + begin);
   std::swap(window.end(k), window.end(p));
 }
 
-// Takes the unknown of a column out of the rows below, down to `last`; returns the last one that changes.
+// Takes the unknown of a column out of the rows below, down to `last`, within the columns of its block: where
+// it was stands what it is multiplied with in the others. Returns the last row that changes.
 template <class Window>
-NURBEAM_WITHIN int take_out_of_rows(Window& window, int k, int last, double inverse) {
-  const int length = window.end(k) - k, begin = k - k % block;
-  const double* upper = window.diagonal(k);
-  double* multipliers = window.multipliers(k % block) - begin;
+NURBEAM_WITHIN int take_out_of_block(Window& window, int k, int last, double inverse) {
+  const int column = k % block, begin = k - column, end = window.end(k);
+  Four upper = four(window.diagonal(k) - column);
+  for (int c = 0; c <= column; ++c) upper[c] = 0;
+  double *multipliers = window.multipliers(column) - begin, *below = window.diagonal(k) - column;
   int reach = 0;
   for (int i = k + 1; i <= last; ++i) {
-    double* below = window.diagonal(i) + k - i;
-    const double factor = multipliers[i] = below[0] * inverse;
+    below += window.to_next_row();
+    const double factor = multipliers[i] = below[column] * inverse;
     if (factor == 0) continue;
     reach = i;
-    window.end(i) = std::max(window.end(i), window.end(k));
-    for (int j = 1; j < length; j += block) four(below + j) -= factor * four(upper + j);
+    window.end(i) = std::max(window.end(i), end);
+    four(below) -= factor * upper;
+    below[column] = factor;
   }
   return reach;
 }
 
+// Takes the unknowns of a block out of the columns beyond it: of its own rows, then of those below, down to
+// `last`.
+template <class Window>
+NURBEAM_WITHIN void take_out_beyond(Window& window, int k, int last) {
+  std::array<double*, block> u;
+  int end = 0;
+  for (int r = 0; r < block; ++r) {
+    u[r] = window.diagonal(k + r) - r;
+    end = std::max(end, window.end(k + r));
+  }
+  const int length = end - k;
+  for (int j = block; j < length; j += block)
+    for (int r = 1; r < block; ++r) {
+      Four rest = four(u[r] + j);
+      for (int c = 0; c < r; ++c) rest -= u[r][c] * four(u[c] + j);
+      four(u[r] + j) = rest;
+    }
+  double* row = u[block - 1];
+  for (int i = k + block; i <= last; ++i) {
+    row += window.to_next_row();
+    const Four m = four(row);
+    for (int j = block; j < length; j += block) {
+      Four rest = four(row + j);
+      for (int c = 0; c < block; ++c) rest -= m[c] * four(u[c] + j);
+      four(row + j) = rest;
+    }
+  }
+}
+
 }  // namespace
+
+// Room for so many more numbers behind `end`, which moves.
+std::ptrdiff_t BandedLu::append(int count, std::size_t& end, std::vector<double>& numbers) {
+  const std::size_t begin = end;
+  end += static_cast<std::size_t>(count);
+  if (end > numbers.size()) numbers.resize(end + end / 8);
+  return static_cast<std::ptrdiff_t>(begin);
+}
 
 // Puts the block's rows of U and columns of L away.
 NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
@@ -213,12 +254,13 @@ NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
   for (int r = 0; r < block; ++r) end = std::max(end, window.end(k + r));
   const int upper = own.upper_length = rounded_length(k, end),
             lower = own.lower_length = rounded_length(k, own.reach + 1) - block;
-  own.upper_begin = append(upper_, block * upper);
-  own.lower_begin = append(lower_, block * lower);
-  for (int r = 0; r < block; ++r) {
-    std::copy_n(window.diagonal(k + r) - r, upper, upper_.data() + own.upper_begin + r * upper);
-    for (int c = 0; c < r; ++c) upper_[own.upper_begin + r * upper + c] = window.multipliers(c)[r];
-    std::copy_n(window.multipliers(r) + block, lower, lower_.data() + own.lower_begin + r * lower);
+  own.upper_begin = append(block * upper, upper_end_, upper_);
+  own.lower_begin = append(block * lower, lower_end_, lower_);
+  double *of_upper = upper_.data() + own.upper_begin, *of_lower = lower_.data() + own.lower_begin;
+  for (int r = 0; r < block; ++r, of_upper += upper, of_lower += lower) {
+    copy(window.diagonal(k + r) - r, upper, of_upper);
+    for (int c = 0; c < r; ++c) of_upper[c] = window.multipliers(c)[r];
+    copy(window.multipliers(r) + block, lower, of_lower);
   }
 }
 
@@ -262,25 +304,23 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
   const int n = static_cast<int>(order_->unknown.size());
   Window window(*this, matrix);
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (int k = 0; k < padded_; ++k) {
-    const int last = k < n ? order_->below[k] : k;
-    if (k % block == 0) {
-      window.begin_block(k);
-      blocks_[k / block].reach = 0;
+  for (int begin = 0; begin < padded_; begin += block) {
+    window.begin_block(begin);
+    int& reach = blocks_[begin / block].reach = 0;
+    for (int k = begin; k < begin + block; ++k) {
+      const int last = k < n ? order_->below[k] : k;
+      window.reach(last);
+      const int p = pivots_[k] = pivot_of(window, k, last);
+      if (p != k) exchange(window, k, p);
+      const double pivot = *window.diagonal(k);
+      if (pivot == 0) return 0;
+      if (k < n) {
+        smallest = std::min(smallest, std::abs(pivot));
+        largest = std::max(largest, std::abs(pivot));
+      }
+      reach = std::max(reach, take_out_of_block(window, k, last, 1 / pivot));
     }
-    window.reach(last);
-    const int p = pivots_[k] = pivot_of(window, k, last);
-    if (p != k) exchange(window, k, p);
-    const double pivot = *window.diagonal(k);
-    if (pivot == 0) return 0;
-    if (k < n) {
-      smallest = std::min(smallest, std::abs(pivot));
-      largest = std::max(largest, std::abs(pivot));
-    }
-    int& reach = blocks_[k / block].reach;
-    reach = std::max(reach, take_out_of_rows(window, k, last, 1 / pivot));
-    if (k % block != block - 1) continue;
-    const int begin = k - k % block;
+    take_out_beyond(window, begin, reach);
     keep_block(begin, window);
     invert_upper(begin);
     invert_lower(begin);
@@ -289,8 +329,7 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
 }
 
 double BandedLu::factorise(const Matrix& matrix) {
-  upper_.clear();
-  lower_.clear();
+  upper_end_ = lower_end_ = 0;
   return order_->unknown.empty() ? 1 : eliminate_rows(matrix);
 }
 
@@ -412,55 +451,78 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first
 template <int times>
 NURBEAM_WITHIN void BandedLu::solve_beside(double* y) const {
   const auto at = [&](int place) { return reinterpret_cast<Four*>(y) + place * times; };
-  const int n = static_cast<int>(order_->unknown.size());
-  Four x[times];
-  for (int k = 0; k < n; ++k) {
-    Four *own = at(k), *pivot = at(pivots_[k]);
-    for (int c = 0; c < times; ++c) x[c] = pivot[c];
-    if (own != pivot)
-      for (int c = 0; c < times; ++c) std::swap(own[c], pivot[c]);
-    const int below = k - k % block + block, last = std::min(order_->below[k], blocks_[k / block].reach);
-    for (int i = k + 1; i < std::min(below, last + 1); ++i)
-      for (int c = 0; c < times; ++c) at(i)[c] -= multiplier(i, k) * x[c];
-    const double* m = multipliers_below(k)[k % block] - below;
-    for (int i = below; i <= last; ++i)
-      for (int c = 0; c < times; ++c) at(i)[c] -= m[i] * x[c];
+  const auto take_off = [&](Four* from, double factor, const Four* x) {
+    for (int c = 0; c < times; ++c) from[c] -= factor * x[c];
+  };
+  for (int begin = 0; begin < padded_; begin += block) {
+    const std::array<const double*, block> m = multipliers_below(begin);
+    const int below = begin + block, reach = blocks_[begin / block].reach;
+    const bool exchanged = blocks_[begin / block].exchanged;
+    for (int k = begin; k < below; ++k) {
+      if (pivots_[k] != k) std::swap_ranges(at(k), at(k + 1), at(pivots_[k]));
+      for (int i = k + 1; i < std::min(below, reach + 1); ++i) take_off(at(i), multiplier(i, k), at(k));
+      if (exchanged)  // rows that stay wait for all four
+        for (int i = below; i <= reach; ++i) take_off(at(i), m[k - begin][i - below], at(k));
+    }
+    if (exchanged) continue;
+    for (int i = below; i <= reach; ++i) {
+      Four* row = at(i);
+      const Four* x = at(begin);
+      for (int c = 0; c < times; ++c) {
+        Four rest = row[c];
+        for (int r = 0; r < block; ++r) rest -= m[r][i - below] * x[r * times + c];
+        row[c] = rest;
+      }
+    }
   }
-  for (int k = n - 1; k >= 0; --k) {
+  for (int k = padded_ - 1; k >= 0; --k) {
     const double* upper = upper_row(k);
     Four* own = at(k);
     const double inverse = inverse_pivot(k);
+    Four x[times];
     for (int c = 0; c < times; ++c) x[c] = own[c];
-    const int end = std::min(k - k % block + blocks_[k / block].upper_length, n);
+    const int end = std::min(k - k % block + blocks_[k / block].upper_length, padded_);
     for (int j = k + 1; j < end; ++j)
       for (int c = 0; c < times; ++c) x[c] -= upper[j] * at(j)[c];
     for (int c = 0; c < times; ++c) own[c] = inverse * x[c];
   }
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_sixteen(double* y) const { solve_beside<4>(y); }
-NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_four(double* y) const { solve_beside<1>(y); }
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_fours(int times, double* y) const {
+  switch (times) {
+    case 1:
+      return solve_beside<1>(y);
+    case 2:
+      return solve_beside<2>(y);
+    case 3:
+      return solve_beside<3>(y);
+    case 4:
+      return solve_beside<4>(y);
+    default:
+      return solve_beside<5>(y);
+  }
+}
 
 void BandedLu::solve(const Columns& rhs, Columns& x) const {
+  constexpr Eigen::Index most = 5 * block;
   const auto n = static_cast<Eigen::Index>(order_->unknown.size());
   const Eigen::Index columns = rhs.cols();
+  const auto room = padded_ * std::min(most, (columns + block - 1) / block * block);
+  const auto y = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(room));
   x.resize(rhs.rows(), columns);
-  Eigen::VectorXd y(n * 16);
-  for (Eigen::Index first = 0; first < columns;) {
-    const Eigen::Index width = columns - first >= 16 ? 16 : 4, count = std::min(width, columns - first);
+  for (Eigen::Index first = 0; first < columns; first += most) {
+    const Eigen::Index count = std::min(most, columns - first), times = (count + block - 1) / block,
+                       width = times * block;
     for (Eigen::Index k = 0; k < n; ++k) {
       const double* from = rhs.data() + order_->unknown[k] * columns + first;
-      double* to = y.data() + k * width;
+      double* to = y.get() + k * width;
       for (Eigen::Index c = 0; c < count; ++c) to[c] = scale_[k] * from[c];
-      for (Eigen::Index c = count; c < width; ++c) to[c] = 0;
+      std::fill(to + count, to + width, 0.0);
     }
-    width == 16 ? solve_sixteen(y.data()) : solve_four(y.data());
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double* from = y.data() + k * width;
-      double* to = x.data() + order_->unknown[k] * columns + first;
-      for (Eigen::Index c = 0; c < count; ++c) to[c] = from[c];
-    }
-    first += count;
+    std::fill_n(y.get() + n * width, (padded_ - n) * width, 0.0);
+    solve_fours(static_cast<int>(times), y.get());
+    for (Eigen::Index k = 0; k < n; ++k)
+      std::copy_n(y.get() + k * width, count, x.data() + order_->unknown[k] * columns + first);
   }
 }
 

@@ -38,8 +38,7 @@ class BandedLu {
 
   /// Right-hand sides or solutions, a column each.
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// A^-1 of many right-hand sides, by unknowns; sixteen or four at a time. Precondition: the order leaves
-  /// none out.
+  /// A^-1 of many right-hand sides, by unknowns; twenty at a time. Precondition: the order leaves none out.
   void solve(const Columns& rhs, Columns& x) const;
 
  private:
@@ -48,6 +47,7 @@ class BandedLu {
   class Window;
 
   double eliminate_rows(const Eigen::SparseMatrix<double>& matrix);
+  static std::ptrdiff_t append(int count, std::size_t& end, std::vector<double>& numbers);
   void keep_block(int k, Window& window);
   void invert_upper(int k);
   void invert_lower(int k);
@@ -59,8 +59,7 @@ class BandedLu {
   void eliminate(int k, double* all) const;
   template <int times>
   void solve_beside(double* y) const;
-  void solve_sixteen(double* y) const;
-  void solve_four(double* y) const;
+  void solve_fours(int times, double* y) const;
 
   std::shared_ptr<const BandOrder> order_;
   int half_bandwidth_ = 0;
@@ -77,13 +76,14 @@ class BandedLu {
     bool exchanged;  ///< rows with others: then no from_previous, here and in the next one
   };
   std::vector<Block> blocks_;
-  std::vector<double> upper_;     ///< four rows of U at a time, from the first one's diagonal on, and those
-                                  ///< multipliers that stand left of the others' diagonals
-  std::vector<double> lower_;     ///< four columns of multipliers at a time, from below their block on
-  std::vector<double> scale_;     ///< of each row of the matrix
-  std::vector<int> pivots_;       ///< row that was brought to each place
-  std::vector<double> window_;    ///< room for the rows that are being eliminated,
-  std::vector<int> window_ends_;  ///< and for their ends
+  std::vector<double> upper_;  ///< four rows of U at a time, from the first one's diagonal on, and those
+                               ///< multipliers that stand left of the others' diagonals
+  std::vector<double> lower_;  ///< four columns of multipliers at a time, from below their block on
+  std::size_t upper_end_ = 0, lower_end_ = 0;  ///< of the numbers of these two
+  std::vector<double> scale_;                  ///< of each row of the matrix
+  std::vector<int> pivots_;                    ///< row that was brought to each place
+  std::vector<double> window_;                 ///< room for the rows that are being eliminated,
+  std::vector<int> window_ends_;               ///< and for their ends
   std::size_t room_ = 0;
 };
 

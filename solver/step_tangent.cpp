@@ -138,7 +138,7 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
   Matrix moved;
   if (step_.start == Start::moved) {
     moved = start.algorithmic_acceleration + step_.lag() * (h - step_.last_step) * start.jerk;
-    moved.noalias() += step_.lag() * step_.jerk * (step - start.last_step);
+    if (step != start.last_step) moved.noalias() += step_.lag() * step_.jerk * (step - start.last_step);
   }
   const Matrix& alg = step_.start == Start::moved    ? moved
                       : step_.start == Start::afresh ? start.a
@@ -157,8 +157,7 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
 
   // The correction of q for which the residual stays zero, and what follows it.
   Matrix rhs(n + m, start.parameters()), x;
-  rhs << -dynamics, -constraints;
-  subtract_residual(end, rhs);
+  find_rhs(end, dynamics, constraints, rhs);
   solver_.solve(rhs, x);
   correct(x, alg, end);
   end.lambda = x.bottomRows(m) / step_.scale();
@@ -178,7 +177,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::predict(const MotionTangents& star
                       .q_of_end = h * h * beta,
                       .v_of_start = h * (1 - gamma),
                       .v_of_end = h * gamma};
-  const Eigen::Index size = start.q.size(), even = size / 4 * 4;
+  const Eigen::Index size = end.q.size(), even = size / 4 * 4;
   of.find<Four>(start, algorithmic, end, 0, even);
   of.find<One>(start, algorithmic, end, even, size);
 }
@@ -197,48 +196,63 @@ NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::correct(const Matrix& x, const Mat
   of.make<One>(x, algorithmic, end, even, size);
 }
 
-// D v + K q with the rows of constraints, G q, of so many times as many parameters as there are lanes; those
-// of the dynamics are scaled as the matrix is.
+// -(change + D v + K q) with the rows of constraints, G q, of so many times as many parameters as there are
+// lanes, from the `first` one on; the rows of the dynamics are scaled as the matrix is.
 template <class Lanes, int times>
-NURBEAM_WITHIN void StepTangent::subtract_products(const MotionTangents& end, Eigen::Index first,
-                                                   Matrix& rhs) const {
-  const Eigen::Index stride = rhs.cols();
+NURBEAM_WITHIN void StepTangent::find_rhs_of(const MotionTangents& end, const Matrix& dynamics,
+                                             const Matrix& constraints, Eigen::Index first,
+                                             Matrix& rhs) const {
+  const Eigen::Index stride = rhs.cols(), n = dynamics.rows();
   const double *q = end.q.data() + first, *v = end.v.data() + first;
   const double *K = step_.stiffness.valuePtr(), *D = step_.damping.valuePtr();
-  const Entry* entries = entries_.data();
   const int* starts = row_starts_.data();
-  const auto rows = static_cast<Eigen::Index>(row_starts_.size()) - 1;
-  const double of_dynamics = step_.scale();
-  double* result = rhs.data() + first;
-  const bool damped = step_.damped;
-  for (Eigen::Index row = 0; row < rows; ++row, result += stride) {
-    typename Lanes::Side sum[times] = {};
-    for (int k = starts[row]; k < starts[row + 1]; ++k) {
-      const auto [column, value] = entries[k];
-      for (int c = 0; c < times; ++c)
-        sum[c] += K[value] * side<Lanes>(q + column * stride + c * width<Lanes>);
+  const auto find_row = [&](Eigen::Index row, const double* change, double factor) {
+    typename Lanes::Side sum[times];
+    for (int c = 0; c < times; ++c) sum[c] = side<Lanes>(change + c * width<Lanes>);
+    for (const Entry *k = entries_.data() + starts[row], *last = entries_.data() + starts[row + 1]; k < last;
+         ++k) {
+      const double value = K[k->value];
+      const double* of = q + k->column * stride;
+      for (int c = 0; c < times; ++c) sum[c] += value * side<Lanes>(of + c * width<Lanes>);
     }
-    for (int k = starts[row]; damped && k < starts[row + 1]; ++k) {
-      const auto [column, value] = entries[k];
+    for (int k = starts[row]; step_.damped && k < starts[row + 1]; ++k) {
+      const auto [column, value] = entries_[k];
       if (D[value] == 0) continue;  // most are: elements with fixed ends, without damping
       for (int c = 0; c < times; ++c)
         sum[c] += D[value] * side<Lanes>(v + column * stride + c * width<Lanes>);
     }
-    const double factor = row < end.q.rows() ? of_dynamics : 1;
-    for (int c = 0; c < times; ++c) {
-      auto& of_row = side<Lanes>(result + c * width<Lanes>);
-      of_row = factor * (of_row - sum[c]);
-    }
-  }
+    double* result = rhs.data() + row * stride + first;
+    for (int c = 0; c < times; ++c) side<Lanes>(result + c * width<Lanes>) = -factor * sum[c];
+  };
+  const double scale = step_.scale();
+  for (Eigen::Index row = 0; row < n; ++row) find_row(row, dynamics.data() + row * stride + first, scale);
+  for (Eigen::Index row = n; row < rhs.rows(); ++row)
+    find_row(row, constraints.data() + (row - n) * stride + first, 1);
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::subtract_residual(const MotionTangents& end,
-                                                                Matrix& rhs) const {
+NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::find_rhs(const MotionTangents& end, const Matrix& dynamics,
+                                                       const Matrix& constraints, Matrix& rhs) const {
   const Eigen::Index parameters = rhs.cols();
   Eigen::Index first = 0;
-  for (; first + 16 <= parameters; first += 16) subtract_products<Four, 4>(end, first, rhs);
-  for (; first + 4 <= parameters; first += 4) subtract_products<Four, 1>(end, first, rhs);
-  for (; first < parameters; ++first) subtract_products<One, 1>(end, first, rhs);
+  for (; first + 20 <= parameters; first += 20) find_rhs_of<Four, 5>(end, dynamics, constraints, first, rhs);
+  switch ((parameters - first) / 4) {
+    case 4:
+      find_rhs_of<Four, 4>(end, dynamics, constraints, first, rhs);
+      break;
+    case 3:
+      find_rhs_of<Four, 3>(end, dynamics, constraints, first, rhs);
+      break;
+    case 2:
+      find_rhs_of<Four, 2>(end, dynamics, constraints, first, rhs);
+      break;
+    case 1:
+      find_rhs_of<Four, 1>(end, dynamics, constraints, first, rhs);
+      break;
+    default:
+      break;
+  }
+  for (first = parameters / 4 * 4; first < parameters; ++first)
+    find_rhs_of<One, 1>(end, dynamics, constraints, first, rhs);
 }
 
 }  // namespace nurbeam

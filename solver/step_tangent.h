@@ -57,8 +57,10 @@ class StepTangent {
   void predict(const MotionTangents& start, const Matrix& algorithmic, MotionTangents& end) const;
   void correct(const Matrix& x, const Matrix& algorithmic, MotionTangents& end) const;
   template <class Lanes, int times>
-  void subtract_products(const MotionTangents& end, Eigen::Index first, Matrix& rhs) const;
-  void subtract_residual(const MotionTangents& end, Matrix& rhs) const;
+  void find_rhs_of(const MotionTangents& end, const Matrix& dynamics, const Matrix& constraints,
+                   Eigen::Index first, Matrix& rhs) const;
+  void find_rhs(const MotionTangents& end, const Matrix& dynamics, const Matrix& constraints,
+                Matrix& rhs) const;
 
   LinearStep step_;
   std::vector<Entry> entries_;   // of the columns of coordinates, row by row
