@@ -53,13 +53,18 @@ TEST(KktSolver, SolvesForManyRightHandSidesAtOnce) {
       full(i, j) = number(random);
       if (std::abs(i - j) <= 3 && i != j) band(i, j) = number(random);
     }
+  // Rows are exchanged everywhere, nowhere and here and there.
+  const Eigen::MatrixXd dominant = band + 40 * Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd mixed = dominant;
+  for (int i = 5; i < n; i += 11) mixed(i, i) = 0;
   for (const auto& [dense, part] :
-       {std::pair(band, std::vector<int>{}), std::pair(band, std::vector<int>{7, 8, 30}),
+       {std::pair(band, std::vector<int>{}), std::pair(dominant, std::vector<int>{}),
+        std::pair(mixed, std::vector<int>{}), std::pair(band, std::vector<int>{7, 8, 30}),
         std::pair(full, std::vector<int>{})}) {
     const Eigen::SparseMatrix<double> matrix = dense.sparseView();
     KktSolver solver;
     ASSERT_TRUE(solver.factorise(matrix, part));
-    for (const int count : {1, 3, 8, 20}) {
+    for (const int count : {1, 3, 8, 11, 13, 20, 23, 45}) {
       const KktSolver::Columns expected =
           KktSolver::Columns::NullaryExpr(n, count, [&] { return number(random); });
       KktSolver::Columns x;
