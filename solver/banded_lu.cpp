@@ -307,11 +307,13 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
   for (int begin = 0; begin < padded_; begin += block) {
     window.begin_block(begin);
     int& reach = blocks_[begin / block].reach = 0;
+    int brought = 0;  // the last row that one with multipliers may have gone to
     for (int k = begin; k < begin + block; ++k) {
       const int last = k < n ? order_->below[k] : k;
       window.reach(last);
       const int p = pivots_[k] = pivot_of(window, k, last);
       if (p != k) exchange(window, k, p);
+      brought = std::max(brought, p);
       const double pivot = *window.diagonal(k);
       if (pivot == 0) return 0;
       if (k < n) {
@@ -320,7 +322,7 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
       }
       reach = std::max(reach, take_out_of_block(window, k, last, 1 / pivot));
     }
-    take_out_beyond(window, begin, reach);
+    take_out_beyond(window, begin, std::max(reach, brought));
     keep_block(begin, window);
     invert_upper(begin);
     invert_lower(begin);

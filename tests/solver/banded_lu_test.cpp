@@ -63,6 +63,48 @@ TEST(BandedLu, SolvesShuffledChainsAndRingsToRoundOff) {
     }
 }
 
+// Numbers of several sizes and zeros, so that rows are exchanged again and again, also those that others have
+// been taken out of already.
+TEST(BandedLu, SolvesSmallMatricesOfAllKindsAsFullPivotingDoes) {
+  std::mt19937 random(19);
+  std::normal_distribution<double> number;
+  std::uniform_real_distribution<double> part(0, 1);
+  int solved = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const int n = 2 + static_cast<int>(random() % 30), band = static_cast<int>(random() % 9);
+    const double filled = part(random), zeros = part(random) / 2;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto set = [&](int row, int column) {
+      const double value =
+          part(random) < zeros ? 0 : number(random) * std::pow(10, static_cast<int>(random() % 5) - 2);
+      dense(row, column) = value;
+      entries.emplace_back(row, column, value);
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = std::max(0, i - band); j <= i; ++j) {
+        if (i != j && part(random) > filled) continue;
+        set(i, j);
+        if (i != j) set(j, i);
+      }
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const auto order = std::make_shared<BandOrder>(matrix);
+    BandedLu lu;
+    lu.take(order);
+    const Eigen::FullPivLU<Eigen::MatrixXd> full(dense);
+    if (!(lu.factorise(matrix) > 1e-8) || !full.isInvertible()) continue;
+    ++solved;
+    const Eigen::VectorXd rhs = Eigen::VectorXd::NullaryExpr(n, [&] { return number(random); });
+    const Eigen::VectorXd expected = full.solve(rhs);
+    EXPECT_LT((solve(lu, *order, rhs) - expected).norm(), 1e-6 * expected.norm()) << trial;
+    BandedLu::Columns x;
+    lu.solve(rhs, x);
+    EXPECT_LT((x.col(0) - expected).norm(), 1e-6 * expected.norm()) << trial;
+  }
+  EXPECT_GT(solved, 1000);
+}
+
 TEST(BandedLu, FactorisesAgainWithOtherValuesOfThePattern) {
   std::mt19937 random(5);
   const Eigen::MatrixXd dense = shuffled_chain(9, false, random);
