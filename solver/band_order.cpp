@@ -124,15 +124,33 @@ BandOrder BandOrder::of(const Matrix& pattern, std::vector<int> unknowns) {
   return order;
 }
 
+BandOrder BandOrder::aligned(const Matrix& pattern, int block) const {
+  std::vector<int> spaced;
+  for (auto first = ends.begin(); first != ends.end();) {
+    const auto last = std::find_if(first, ends.end(), [&](int end) { return end != *first; });
+    if ((last - first) % block == 0)
+      while (static_cast<int>(spaced.size()) % block != 0) spaced.push_back(-1);
+    spaced.insert(spaced.end(), unknown.begin() + (first - ends.begin()),
+                  unknown.begin() + (last - ends.begin()));
+    first = last;
+  }
+  return of(pattern, std::move(spaced));
+}
+
 // All that follows from `unknown`.
 void BandOrder::place_unknowns(const Matrix& pattern) {
   place.assign(static_cast<std::size_t>(pattern.cols()), -1);
   const int held = static_cast<int>(unknown.size());
-  for (int k = 0; k < held; ++k) place[unknown[k]] = k;
+  for (int k = 0; k < held; ++k)
+    if (unknown[k] >= 0) place[unknown[k]] = k;
   ends.resize(unknown.size());
   std::iota(ends.begin(), ends.end(), 1);
   below.assign(unknown.size(), 0);
   for (int column = 0; column < held; ++column) {
+    if (unknown[column] < 0) {
+      below[column] = column > 0 ? std::max(column, below[column - 1]) : 0;
+      continue;
+    }
     const int first = pattern.outerIndexPtr()[unknown[column]],
               end = pattern.outerIndexPtr()[unknown[column] + 1];
     for (int k = first; k < end; ++k) {

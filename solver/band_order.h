@@ -13,8 +13,11 @@ struct BandOrder {
   explicit BandOrder(const Eigen::SparseMatrix<double>& pattern, const std::vector<int>& left_out = {});
   /// Of these unknowns alone, in the order in which they come.
   static BandOrder of(const Eigen::SparseMatrix<double>& pattern, std::vector<int> unknowns);
+  /// The same with places left free before unknowns that reach equally far, as those of a node, where they
+  /// are a multiple of `block`: they then begin at such a multiple too.
+  BandOrder aligned(const Eigen::SparseMatrix<double>& pattern, int block) const;
 
-  std::vector<int> unknown;  ///< at each place of the order
+  std::vector<int> unknown;  ///< at each place of the order, -1 where that is free
   std::vector<int> place;    ///< of each unknown, -1 where it is left out
   std::vector<int> ends;     ///< one past the last column of each row, by places
   std::vector<int> below;    ///< last row that has an entry in a column, or in one before it

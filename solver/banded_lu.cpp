@@ -14,7 +14,7 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr int block = 4;
+constexpr int block = BandedLu::block;
 
 using Four = BandedLu::Four;
 NURBEAM_WITHIN Four& four(double* at) { return *reinterpret_cast<Four*>(at); }
@@ -61,6 +61,9 @@ class BandedLu::Window {
   /// Of column c of the present block, from the block's first row on.
   NURBEAM_WITHIN double* multipliers(int c) { return multipliers_ + c * height_; }
 
+  /// Whether no unknown has that place.
+  NURBEAM_WITHIN bool is_free(int place) const { return place >= size_ || order_.unknown[place] < 0; }
+
   /// Makes room for a block: nothing before its first row is asked for any more.
   NURBEAM_WITHIN void begin_block(int k) {
     std::fill_n(multipliers_, block * height_, 0.0);
@@ -81,7 +84,7 @@ class BandedLu::Window {
       if (opened_ - begin_ == capacity_) move_to_beginning();
       std::fill_n(diagonal(opened_) - before_, width_, 0.0);
       end(opened_) = opened_ < size_ ? order_.ends[opened_] : opened_ + 1;
-      if (opened_ >= size_) *diagonal(opened_) = 1;
+      if (is_free(opened_)) *diagonal(opened_) = 1;
     }
   }
 
@@ -92,6 +95,7 @@ class BandedLu::Window {
   }
 
   NURBEAM_WITHIN void fill_column(int column) {
+    if (order_.unknown[column] < 0) return;
     const int first = matrix_.outerIndexPtr()[order_.unknown[column]],
               end = matrix_.outerIndexPtr()[order_.unknown[column] + 1];
     open(order_.below[column]);
@@ -316,7 +320,7 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
       brought = std::max(brought, p);
       const double pivot = *window.diagonal(k);
       if (pivot == 0) return 0;
-      if (k < n) {
+      if (!window.is_free(k)) {
         smallest = std::min(smallest, std::abs(pivot));
         largest = std::max(largest, std::abs(pivot));
       }
@@ -384,7 +388,10 @@ NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
 
 void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
   const std::size_t n = order_->unknown.size();
-  for (std::size_t k = 0; k < n; ++k) y[k] = scale_[k] * rhs[order_->unknown[k]];
+  for (std::size_t k = 0; k < n; ++k) {
+    const int unknown = order_->unknown[k];
+    y[k] = unknown < 0 ? 0 : scale_[k] * rhs[unknown];
+  }
   std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
 }
 
@@ -516,15 +523,18 @@ void BandedLu::solve(const Columns& rhs, Columns& x) const {
     const Eigen::Index count = std::min(most, columns - first), times = (count + block - 1) / block,
                        width = times * block;
     for (Eigen::Index k = 0; k < n; ++k) {
-      const double* from = rhs.data() + order_->unknown[k] * columns + first;
+      const int unknown = order_->unknown[k];
+      const Eigen::Index held = unknown < 0 ? 0 : count;
+      const double* from = rhs.data() + std::max(unknown, 0) * columns + first;
       double* to = y.get() + k * width;
-      for (Eigen::Index c = 0; c < count; ++c) to[c] = scale_[k] * from[c];
-      std::fill(to + count, to + width, 0.0);
+      for (Eigen::Index c = 0; c < held; ++c) to[c] = scale_[k] * from[c];
+      std::fill(to + held, to + width, 0.0);
     }
     std::fill_n(y.get() + n * width, (padded_ - n) * width, 0.0);
     solve_fours(static_cast<int>(times), y.get());
     for (Eigen::Index k = 0; k < n; ++k)
-      std::copy_n(y.get() + k * width, count, x.data() + order_->unknown[k] * columns + first);
+      if (const int unknown = order_->unknown[k]; unknown >= 0)
+        std::copy_n(y.get() + k * width, count, x.data() + unknown * columns + first);
   }
 }
 

@@ -12,6 +12,7 @@ namespace nurbeam {
 /// of elements are: they are put into such an order and eliminated within the band.
 class BandedLu {
  public:
+  static constexpr int block = 4;  ///< unknowns that are eliminated together
   /// Four numbers that follow one another, anywhere.
   using Four = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 

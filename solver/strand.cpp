@@ -14,9 +14,12 @@ using Matrix = Eigen::SparseMatrix<double>;
 /// Widest band that is eliminated as one: chains of elements, rings and a few branches have less.
 constexpr int widest_band = 40;
 
-// As they come, where a band would be wide.
-BandOrder in_best_order(BandOrder order) {
-  if (order.half_bandwidth <= widest_band) return order;
+// By blocks; as they come, where a band would be wide.
+BandOrder in_best_order(const Matrix& matrix, BandOrder order) {
+  if (order.half_bandwidth <= widest_band) {
+    BandOrder aligned = order.aligned(matrix, BandedLu::block);
+    return aligned.half_bandwidth <= widest_band ? aligned : order;
+  }
   std::sort(order.unknown.begin(), order.unknown.end());
   for (std::size_t k = 0; k < order.unknown.size(); ++k) order.place[order.unknown[k]] = static_cast<int>(k);
   return order;
@@ -34,7 +37,7 @@ class Strand::Klu : public Eigen::KLU<Matrix> {
 };
 
 StrandOrder::StrandOrder(const Matrix& matrix, BandOrder of, const std::vector<int>& in_part)
-    : band(std::make_shared<const BandOrder>(in_best_order(std::move(of)))) {
+    : band(std::make_shared<const BandOrder>(in_best_order(matrix, std::move(of)))) {
   const auto for_each_row = [&](int column, const auto& visit) {
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k)
       visit(matrix.innerIndexPtr()[k], k);
@@ -181,7 +184,8 @@ void Strand::upper(const Eigen::VectorXd& part, Eigen::VectorXd& x) {
     for (std::size_t k = 0; k < piece.values.size(); ++k) y_[piece.first + k] -= part[j] * piece.values[k];
   }
   if (is_banded_) lu_.upper(y_);
-  for (std::size_t k = 0; k < band().unknown.size(); ++k) x[band().unknown[k]] = y_[k];
+  for (std::size_t k = 0; k < band().unknown.size(); ++k)
+    if (const int unknown = band().unknown[k]; unknown >= 0) x[unknown] = y_[k];
 }
 
 }  // namespace nurbeam

@@ -42,7 +42,8 @@ Eigen::VectorXd solve(const BandedLu& lu, const BandOrder& order, const Eigen::V
   lu.lower(y);
   lu.upper(y);
   Eigen::VectorXd x(rhs.size());
-  for (std::size_t k = 0; k < order.unknown.size(); ++k) x[order.unknown[k]] = y[k];
+  for (std::size_t k = 0; k < order.unknown.size(); ++k)
+    if (order.unknown[k] >= 0) x[order.unknown[k]] = y[k];
   return x;
 }
 
@@ -89,7 +90,8 @@ TEST(BandedLu, SolvesSmallMatricesOfAllKindsAsFullPivotingDoes) {
       }
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const auto order = std::make_shared<BandOrder>(matrix);
+    auto order = std::make_shared<BandOrder>(matrix);
+    if (trial % 2 == 1) *order = order->aligned(matrix, BandedLu::block);
     BandedLu lu;
     lu.take(order);
     const Eigen::FullPivLU<Eigen::MatrixXd> full(dense);
@@ -103,6 +105,41 @@ TEST(BandedLu, SolvesSmallMatricesOfAllKindsAsFullPivotingDoes) {
     EXPECT_LT((x.col(0) - expected).norm(), 1e-6 * expected.norm()) << trial;
   }
   EXPECT_GT(solved, 1000);
+}
+
+TEST(BandedLu, SolvesWithBlocksThatBeginWhereNodesDo) {
+  std::mt19937 random(17);
+  std::normal_distribution<double> number;
+  constexpr int nodes = 30, before = 3;  // unknowns before them, coupled with the first node
+  const int n = before + 4 * nodes;
+  for (const double diagonal : {0.0, 20.0}) {
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const int a = i < before ? 0 : (i - before) / 4, b = j < before ? 0 : (j - before) / 4;
+        if (std::abs(a - b) <= 1) dense(i, j) = number(random);
+      }
+    dense.topRightCorner(before, n - before - 4).setZero();
+    dense.bottomLeftCorner(n - before - 4, before).setZero();
+    dense.diagonal().array() += diagonal;
+    const Eigen::SparseMatrix<double> matrix = dense.sparseView();
+    std::vector<int> unknowns(static_cast<std::size_t>(n));
+    std::iota(unknowns.begin(), unknowns.end(), 0);
+    const auto order =
+        std::make_shared<BandOrder>(BandOrder::of(matrix, unknowns).aligned(matrix, BandedLu::block));
+    EXPECT_EQ(order->unknown.size(), static_cast<std::size_t>(n + 1));
+    EXPECT_EQ(order->unknown[before], -1);
+    for (int i = before; i < n; ++i) EXPECT_EQ(order->place[i], i + 1);
+    BandedLu lu;
+    lu.take(order);
+    EXPECT_GT(lu.factorise(matrix), 1e-10);
+    const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(n, -1, 2);
+    EXPECT_LT((solve(lu, *order, dense * expected) - expected).norm(), 1e-9 * expected.norm()) << diagonal;
+    BandedLu::Columns many(n, 3), x;
+    many << dense * expected, 2 * dense * expected, -dense * expected;
+    lu.solve(many, x);
+    EXPECT_LT((x.col(1) - 2 * expected).norm(), 1e-9 * expected.norm());
+  }
 }
 
 TEST(BandedLu, FactorisesAgainWithOtherValuesOfThePattern) {
