@@ -124,33 +124,44 @@ BandOrder BandOrder::of(const Matrix& pattern, std::vector<int> unknowns) {
   return order;
 }
 
-BandOrder BandOrder::aligned(const Matrix& pattern, int block) const {
-  std::vector<int> spaced;
-  for (auto first = ends.begin(); first != ends.end();) {
-    const auto last = std::find_if(first, ends.end(), [&](int end) { return end != *first; });
-    if ((last - first) % block == 0)
-      while (static_cast<int>(spaced.size()) % block != 0) spaced.push_back(-1);
-    spaced.insert(spaced.end(), unknown.begin() + (first - ends.begin()),
-                  unknown.begin() + (last - ends.begin()));
-    first = last;
+BandOrder BandOrder::aligned(int block) const {
+  const int held = static_cast<int>(unknown.size());
+  std::vector<int> moved(unknown.size());  // places
+  int next = 0;
+  for (int first = 0, last = 0; first < held; first = last) {
+    while (last < held && ends[last] == ends[first]) ++last;
+    if ((last - first) % block == 0) next = (next + block - 1) / block * block;
+    for (int k = first; k < last; ++k) moved[k] = next++;
   }
-  return of(pattern, std::move(spaced));
+  if (next == held) return *this;
+  BandOrder order;
+  order.unknown.assign(static_cast<std::size_t>(next), -1);
+  order.place.assign(place.size(), -1);
+  order.ends.resize(static_cast<std::size_t>(next));
+  std::iota(order.ends.begin(), order.ends.end(), 1);
+  order.below.assign(static_cast<std::size_t>(next), 0);
+  for (int k = 0; k < held; ++k) {
+    order.unknown[moved[k]] = unknown[k];
+    order.place[unknown[k]] = moved[k];
+    order.ends[moved[k]] = moved[ends[k] - 1] + 1;
+    order.below[moved[k]] = moved[below[k]];
+  }
+  for (int k = 0; k < next; ++k) {
+    if (order.unknown[k] < 0) order.below[k] = std::max(k, k > 0 ? order.below[k - 1] : 0);
+    order.half_bandwidth = std::max({order.half_bandwidth, order.ends[k] - 1 - k, order.below[k] - k});
+  }
+  return order;
 }
 
 // All that follows from `unknown`.
 void BandOrder::place_unknowns(const Matrix& pattern) {
   place.assign(static_cast<std::size_t>(pattern.cols()), -1);
   const int held = static_cast<int>(unknown.size());
-  for (int k = 0; k < held; ++k)
-    if (unknown[k] >= 0) place[unknown[k]] = k;
+  for (int k = 0; k < held; ++k) place[unknown[k]] = k;
   ends.resize(unknown.size());
   std::iota(ends.begin(), ends.end(), 1);
   below.assign(unknown.size(), 0);
   for (int column = 0; column < held; ++column) {
-    if (unknown[column] < 0) {
-      below[column] = column > 0 ? std::max(column, below[column - 1]) : 0;
-      continue;
-    }
     const int first = pattern.outerIndexPtr()[unknown[column]],
               end = pattern.outerIndexPtr()[unknown[column] + 1];
     for (int k = first; k < end; ++k) {

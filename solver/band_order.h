@@ -15,7 +15,7 @@ struct BandOrder {
   static BandOrder of(const Eigen::SparseMatrix<double>& pattern, std::vector<int> unknowns);
   /// The same with places left free before unknowns that reach equally far, as those of a node, where they
   /// are a multiple of `block`: they then begin at such a multiple too.
-  BandOrder aligned(const Eigen::SparseMatrix<double>& pattern, int block) const;
+  BandOrder aligned(int block) const;
 
   std::vector<int> unknown;  ///< at each place of the order, -1 where that is free
   std::vector<int> place;    ///< of each unknown, -1 where it is left out

@@ -15,9 +15,9 @@ using Matrix = Eigen::SparseMatrix<double>;
 constexpr int widest_band = 40;
 
 // By blocks; as they come, where a band would be wide.
-BandOrder in_best_order(const Matrix& matrix, BandOrder order) {
+BandOrder in_best_order(BandOrder order) {
   if (order.half_bandwidth <= widest_band) {
-    BandOrder aligned = order.aligned(matrix, BandedLu::block);
+    BandOrder aligned = order.aligned(BandedLu::block);
     return aligned.half_bandwidth <= widest_band ? aligned : order;
   }
   std::sort(order.unknown.begin(), order.unknown.end());
@@ -37,7 +37,7 @@ class Strand::Klu : public Eigen::KLU<Matrix> {
 };
 
 StrandOrder::StrandOrder(const Matrix& matrix, BandOrder of, const std::vector<int>& in_part)
-    : band(std::make_shared<const BandOrder>(in_best_order(matrix, std::move(of)))) {
+    : band(std::make_shared<const BandOrder>(in_best_order(std::move(of)))) {
   const auto for_each_row = [&](int column, const auto& visit) {
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k)
       visit(matrix.innerIndexPtr()[k], k);

@@ -91,7 +91,7 @@ TEST(BandedLu, SolvesSmallMatricesOfAllKindsAsFullPivotingDoes) {
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
     auto order = std::make_shared<BandOrder>(matrix);
-    if (trial % 2 == 1) *order = order->aligned(matrix, BandedLu::block);
+    if (trial % 2 == 1) *order = order->aligned(BandedLu::block);
     BandedLu lu;
     lu.take(order);
     const Eigen::FullPivLU<Eigen::MatrixXd> full(dense);
@@ -125,8 +125,7 @@ TEST(BandedLu, SolvesWithBlocksThatBeginWhereNodesDo) {
     const Eigen::SparseMatrix<double> matrix = dense.sparseView();
     std::vector<int> unknowns(static_cast<std::size_t>(n));
     std::iota(unknowns.begin(), unknowns.end(), 0);
-    const auto order =
-        std::make_shared<BandOrder>(BandOrder::of(matrix, unknowns).aligned(matrix, BandedLu::block));
+    const auto order = std::make_shared<BandOrder>(BandOrder::of(matrix, unknowns).aligned(BandedLu::block));
     EXPECT_EQ(order->unknown.size(), static_cast<std::size_t>(n + 1));
     EXPECT_EQ(order->unknown[before], -1);
     for (int i = before; i < n; ++i) EXPECT_EQ(order->place[i], i + 1);
