@@ -9,19 +9,27 @@ namespace {
 
 using Lanes8 = ElementLanes;
 
-NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, const Lanes8& b) { return {a.of + b.of}; }
-NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, const Lanes8& b) { return {a.of - b.of}; }
-NURBEAM_WITHIN Lanes8 operator*(const Lanes8& a, const Lanes8& b) { return {a.of * b.of}; }
-NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, const Lanes8& b) { return {a.of / b.of}; }
-NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, double b) { return {a.of + b}; }
-NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, double b) { return {a.of - b}; }
-NURBEAM_WITHIN Lanes8 operator*(double a, const Lanes8& b) { return {a * b.of}; }
-NURBEAM_WITHIN Lanes8 operator/(double a, const Lanes8& b) { return {a / b.of}; }
-NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, double b) { return {a.of / b}; }
-NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a) { return {-a.of}; }
-NURBEAM_WITHIN void operator+=(Lanes8& a, const Lanes8& b) { a.of += b.of; }
-NURBEAM_WITHIN void operator-=(Lanes8& a, const Lanes8& b) { a.of -= b.of; }
-NURBEAM_WITHIN void operator*=(Lanes8& a, const Lanes8& b) { a.of *= b.of; }
+NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] + b.half[0], a.half[1] + b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] - b.half[0], a.half[1] - b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator*(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] * b.half[0], a.half[1] * b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] / b.half[0], a.half[1] / b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, double b) { return {{a.half[0] + b, a.half[1] + b}}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, double b) { return {{a.half[0] - b, a.half[1] - b}}; }
+NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, double b) { return {{a.half[0] / b, a.half[1] / b}}; }
+NURBEAM_WITHIN Lanes8 operator*(double a, const Lanes8& b) { return {{a * b.half[0], a * b.half[1]}}; }
+NURBEAM_WITHIN Lanes8 operator/(double a, const Lanes8& b) { return {{a / b.half[0], a / b.half[1]}}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a) { return {{-a.half[0], -a.half[1]}}; }
+NURBEAM_WITHIN void operator+=(Lanes8& a, const Lanes8& b) { a = a + b; }
+NURBEAM_WITHIN void operator-=(Lanes8& a, const Lanes8& b) { a = a - b; }
+NURBEAM_WITHIN void operator*=(Lanes8& a, const Lanes8& b) { a = a * b; }
 
 template <int D>
 using LaneVector = std::array<Lanes8, D>;
@@ -35,8 +43,24 @@ NURBEAM_WITHIN Lanes8 dot(const LaneVector<D>& a, const LaneVector<D>& b) {
 
 NURBEAM_WITHIN Lanes8 square_root(const Lanes8& a) {
   Lanes8 root = a;
-  for (int i = 0; i < static_cast<int>(sizeof(a) / sizeof(double)); ++i) root.of[i] = __builtin_sqrt(a.of[i]);
+  for (auto& half : root.half)
+    for (int i = 0; i < 4; ++i) half[i] = __builtin_sqrt(half[i]);
   return root;
+}
+
+// 0 where they are not.
+NURBEAM_WITHIN Lanes8 positive(const Lanes8& a) {
+  Lanes8 part;
+  for (int i = 0; i < 2; ++i) part.half[i] = a.half[i] > 0 ? a.half[i] : ElementLanes::Half{};
+  return part;
+}
+
+// 1 where they are zero, else 0.
+NURBEAM_WITHIN Lanes8 is_zero(const Lanes8& a) {
+  Lanes8 part;
+  for (int i = 0; i < 2; ++i)
+    part.half[i] = a.half[i] == 0 ? ElementLanes::Half{} + 1. : ElementLanes::Half{};
+  return part;
 }
 
 // As CurvatureLanes has it.
@@ -264,7 +288,7 @@ struct ElementBatch<D>::Kernel {
     const Lanes8 l = numbers.length;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
-      const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
+      const Lanes8 eta = factor / l * positive(I);
       add(eta, product(e_rate, numbers.stretch), force);
     }
     if (!assumed) return;
@@ -287,8 +311,8 @@ struct ElementBatch<D>::Kernel {
     Nodes nodes;
     for (int k = 0; k < nodal; ++k) {
       const std::array<int, lanes>& at = batch.dofs_[k];
-      nodes[k / D][k % D] = Lanes8{{values[at[0]], values[at[1]], values[at[2]], values[at[3]], values[at[4]],
-                                    values[at[5]], values[at[6]], values[at[7]]}};
+      nodes[k / D][k % D] = Lanes8{{{values[at[0]], values[at[1]], values[at[2]], values[at[3]]},
+                                    {values[at[4]], values[at[5]], values[at[6]], values[at[7]]}}};
     }
     return nodes;
   }
@@ -310,7 +334,7 @@ struct ElementBatch<D>::Kernel {
     add_axial_forces(e, e_rate, free_strain, force);
     for (int i = 0; i < batch.count_; ++i)
       for (int k = 0; k < nodal; ++k)
-        forces[batch.forces_at_[i] + batch.dofs_[k][i]] += force[k / D][k % D].of[i];
+        forces[batch.forces_at_[i] + batch.dofs_[k][i]] += force[k / D][k % D].of(i);
   }
 
   struct Energies {
@@ -325,9 +349,7 @@ struct ElementBatch<D>::Kernel {
       const Curvature<D> K(rs, rss, material);
       const Lanes8 bent = K.value - p.kappa0, stretched = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
       Lanes8 bend = bent * bent;
-      if constexpr (D == 3)
-        bend -=
-            Lanes8{p.kappa0.of == 0 ? (Lanes8{} + curvature_rounding * curvature_rounding).of : Lanes8{}.of};
+      if constexpr (D == 3) bend -= curvature_rounding * curvature_rounding * is_zero(p.kappa0);
       sum.axial += EA / 2 * (p.weight * stretched * stretched);
       sum.bending += EI / 2 * (p.weight * bend);
       if (!(c > 0)) continue;
@@ -346,7 +368,7 @@ struct ElementBatch<D>::Kernel {
     const Lanes8 l = numbers.length;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
-      const Lanes8 eta = factor / l * Lanes8{I.of > 0 ? I.of : Lanes8{}.of};
+      const Lanes8 eta = factor / l * positive(I);
       sum.dissipation += eta * sum_of_products(e_rate, product(e_rate, numbers.stretch));
     }
     if (!assumed) return;
@@ -372,11 +394,11 @@ struct ElementBatch<D>::Kernel {
     add_axial_energies(e, e_rate, free_strain, sum);
     std::array<ElementEnergy, lanes> each;
     for (int i = 0; i < batch.count_; ++i) {
-      each[i].kinetic = sum.kinetic.of[i];
-      each[i].axial = sum.axial.of[i];
-      each[i].bending = sum.bending.of[i];
-      each[i].external = sum.external.of[i];
-      each[i].dissipation = sum.dissipation.of[i];
+      each[i].kinetic = sum.kinetic.of(i);
+      each[i].axial = sum.axial.of(i);
+      each[i].bending = sum.bending.of(i);
+      each[i].external = sum.external.of(i);
+      each[i].dissipation = sum.dissipation.of(i);
     }
     return each;
   }
@@ -517,7 +539,7 @@ void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, e
   const int end = count_ == 0 ? lanes : count_ + 1;
   for (int i = count_; i < end; ++i) {
     for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];
-    for (int d = 0; d < D; ++d) slope_offset_[d].of[i] = slope_offset[d];
+    for (int d = 0; d < D; ++d) slope_offset_[d].set(i, slope_offset[d]);
   }
   ++count_;
 }

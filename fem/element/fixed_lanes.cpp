@@ -12,10 +12,7 @@ FixedSums FixedSums::zero() {
 // The first element fills all lanes.
 void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
   const auto set = [&](ElementLanes& numbers, double number) {
-    if (lane == 0)
-      numbers.of = ElementLanes{}.of + number;
-    else
-      numbers.of[lane] = number;
+    for (int i = lane; i < (lane == 0 ? lanes : lane + 1); ++i) numbers.set(i, number);
   };
   for (int g = 0; g < points; ++g) {
     for (int k = 0; k < 4; ++k) {
@@ -41,13 +38,13 @@ FixedSums FixedLanes::sums(int lane) const {
   FixedSums sums;
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l < 4; ++l) {
-      sums.mass(k, l) = mass[k][l].of[lane];
-      sums.stretch(k, l) = stretch[k][l].of[lane];
+      sums.mass(k, l) = mass[k][l].of(lane);
+      sums.stretch(k, l) = stretch[k][l].of(lane);
     }
-    sums.load_factor[k] = load_factor[k].of[lane];
+    sums.load_factor[k] = load_factor[k].of(lane);
   }
-  for (int k = 0; k < 3; ++k) sums.strain0[k] = strain0[k].of[lane];
-  sums.length = length.of[lane];
+  for (int k = 0; k < 3; ++k) sums.strain0[k] = strain0[k].of(lane);
+  sums.length = length.of(lane);
   return sums;
 }
 
@@ -57,12 +54,12 @@ PointPack FixedLanes::pack(int lane) const {
   for (int i = 0; i < PointPack::lanes; ++i) {
     const Point& point = at[std::min(i, points - 1)];
     for (int k = 0; k < 4; ++k) {
-      pack.S1[k][i] = point.S1[k].of[lane];
-      pack.S2[k][i] = point.S2[k].of[lane];
+      pack.S1[k][i] = point.S1[k].of(lane);
+      pack.S2[k][i] = point.S2[k].of(lane);
     }
-    pack.weight[i] = i < points ? point.weight.of[lane] : 0;
-    pack.kappa0[i] = point.kappa0.of[lane];
-    pack.eps0[i] = point.eps0.of[lane];
+    pack.weight[i] = i < points ? point.weight.of(lane) : 0;
+    pack.kappa0[i] = point.kappa0.of(lane);
+    pack.eps0[i] = point.eps0.of(lane);
   }
   return pack;
 }

@@ -18,10 +18,14 @@ struct FixedSums {
   static FixedSums zero();
 };
 
-/// One number of each of eight elements, side by side; no number until it is given one. Aligned for the
-/// widest registers, which the type of its numbers is not where the processor is not known to have them.
+/// One number of each of eight elements, side by side; no number until it is given one. In two halves:
+/// numbers that are wider than the registers of a processor go through memory where compilers copy them.
 struct alignas(8 * sizeof(double)) ElementLanes {
-  double __attribute__((vector_size(8 * sizeof(double)))) of;
+  using Half = double __attribute__((vector_size(4 * sizeof(double))));
+  Half half[2];
+
+  double of(int lane) const { return half[lane / 4][lane % 4]; }
+  void set(int lane, double number) { half[lane / 4][lane % 4] = number; }
 };
 
 /// What is computed once in up to eight elements with fixed ends, each on one part of the drawing, side by

@@ -321,7 +321,7 @@ void Assembly<D>::add_batch_tangents(int beam, const State& state, const Tangent
     for (int lane = 0; lane < count; ++lane) {
       if (!wanted(begin[lane])) continue;
       for (const Run& run : element_runs_[begin[lane]])
-        for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of[lane];
+        for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of(lane);
     }
   });
 }

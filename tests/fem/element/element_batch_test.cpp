@@ -77,7 +77,7 @@ void check_batches(const BeamProperties& properties, int seed) {
       double difference = 0;
       for (int j = 0; j < nodal; ++j)
         for (int i = 0; i < nodal; ++i)
-          difference = std::max(difference, std::abs(side_by_side[j][i].of[k % 8] - K(i, j)));
+          difference = std::max(difference, std::abs(side_by_side[j][i].of(k % 8) - K(i, j)));
       const double size = K.template topLeftCorner<nodal, nodal>().norm();
       EXPECT_LT(difference, 1e-12 * size);
       EXPECT_GT(K.norm(), 0.01);
