@@ -1,11 +1,19 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "solver/kkt_solver.h"
 
 namespace nurbeam {
+
+/// Corrects x until A x = b but for `tolerance` of its largest number, with factors of a matrix near A.
+/// `open`: finds b - A x. Returns false where corrections do not become smaller fast, and x means nothing.
+[[nodiscard]] bool correct_solution(
+    const KktSolver& factors,
+    const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& open)>& open, double tolerance,
+    Eigen::VectorXd& x);
 
 /// Solves with matrices of which one lies close to the next, as those of neighbouring systems: the factors of
 /// one serve the others, by corrections of the solution before to round-off, as long as these converge fast.
@@ -17,8 +25,6 @@ class NearSolver {
                            const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
  private:
-  bool correct(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b);
-
   KktSolver solver_;
   Eigen::Index rows_ = 0, entries_ = 0;  // of the matrix that has been factorised, 0: none
   Eigen::VectorXd x_;                    // the last solution

@@ -1,6 +1,9 @@
 #include "solver/step_adjoint.h"
 
 #include <numeric>
+#include <utility>
+
+#include "solver/near_solver.h"
 
 namespace nurbeam {
 
@@ -27,6 +30,10 @@ void subtract_some(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to
 }
 
 void subtract_transposed(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Adjoints& from) {
+  if (from.cols() == 1) {
+    from.col(0).noalias() -= matrix.leftCols(from.rows()).transpose() * to.col(0);
+    return;
+  }
   Eigen::Index first = 0;
   for (; first + 4 <= from.cols(); first += 4) subtract_some<4>(matrix, to, first, from);
   const Eigen::Index left = from.cols() - first;
@@ -45,29 +52,65 @@ StepAdjoint::StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSyst
   values_.assign(transposed_.valuePtr(), transposed_.valuePtr() + transposed_.nonZeros());
 }
 
-bool StepAdjoint::take(const State& before, const IntegratorHistory& history, const State& after,
+void StepAdjoint::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
   step_.take(before, history, after, repeated);
-  for (std::size_t k = 0; k < values_.size(); ++k)
-    transposed_.valuePtr()[k] = step_.kkt.valuePtr()[values_[k]];
-  return solver_.factorise(transposed_);
 }
 
-StepAdjoint::Matrix StepAdjoint::multipliers(const MotionTangents& end) const {
+bool StepAdjoint::find_multipliers(const MotionTangents& end, Matrix& mu) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
   const Eigen::Index n = end.q.rows(), m = end.lambda.rows();
   const double h = step_.h, acceleration = 1 / (beta * h * h);
-  Matrix by_correction(n + m, end.parameters()), mu;
+  Matrix by_correction(n + m, end.parameters());
   by_correction.topRows(n) = end.q + gamma * h * acceleration * end.v +
                              (1 - alpha_m) / (1 - alpha_f) * acceleration * end.a +
                              acceleration * (end.algorithmic_acceleration + end.jerk / h);
   by_correction.bottomRows(m) = end.lambda / step_.scale();
-  if (by_correction.cols() == 1)
-    mu = solver_.solve(Eigen::VectorXd(by_correction));
-  else
-    solver_.solve(by_correction, mu);
+  if (!solve(by_correction, mu)) return false;
   mu.topRows(n) *= step_.scale();
-  return mu;
+  return true;
+}
+
+bool StepAdjoint::factorise() {
+  for (std::size_t k = 0; k < values_.size(); ++k)
+    transposed_.valuePtr()[k] = step_.kkt.valuePtr()[values_[k]];
+  return has_factors_ = solver_.factorise(transposed_);
+}
+
+// Factors take as long as some ten solutions.
+bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
+  constexpr Eigen::Index few = 3;
+  if (rhs.cols() > few) {
+    if (!factorise()) return false;
+    solver_.solve(rhs, x);
+    return true;
+  }
+  x.resizeLike(rhs);
+  solved_.resize(static_cast<std::size_t>(rhs.cols()));
+  for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
+    auto& [last, before] = solved_[static_cast<std::size_t>(k)];
+    if (!solve_from_last(rhs.col(k), last, before)) return false;
+    x.col(k) = last;
+  }
+  return true;
+}
+
+// Takes what a straight line through the last two solutions leads to, and corrects it.
+bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Eigen::VectorXd& last,
+                                  Eigen::VectorXd& before) {
+  constexpr double tolerance = 1e-12;
+  if (before.size() == 0) before = last;
+  before = 2 * last - before;
+  std::swap(last, before);
+  const auto open = [&](const Eigen::VectorXd& x, Eigen::VectorXd& left) {
+    left = rhs;
+    left.noalias() -= step_.kkt.transpose() * x;
+  };
+  if (has_factors_ && last.size() == rhs.size() && correct_solution(solver_, open, tolerance, last))
+    return true;
+  if (!factorise()) return false;
+  solver_.solve(rhs, last);
+  return true;
 }
 
 MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multipliers, double by_time,

@@ -1,4 +1,7 @@
 #pragma once
+#include <utility>
+#include <vector>
+
 #include "solver/step_tangent.h"
 
 namespace nurbeam {
@@ -13,17 +16,16 @@ class StepAdjoint {
   /// `system` must outlive it.
   StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSystem& system);
 
-  /// As StepTangent::take.
-  [[nodiscard]] bool take(const State& before, const IntegratorHistory& history, const State& after,
-                          bool repeated);
-  /// How the residual at `after` changes with q, constraints below (n + m). Precondition here and below: take
-  /// returned true.
+  /// Takes a step as StepTangent does.
+  void take(const State& before, const IntegratorHistory& history, const State& after, bool repeated);
+  /// How the residual at `after` changes with q, constraints below (n + m).
   const Eigen::SparseMatrix<double>& stiffness() const { return step_.stiffness; }
 
-  /// (n + m) x quantities mu of a step: the quantities change by -mu . dR where the residual at its end does
-  /// by dR while q, v, a and lambda stay. `end`: their derivatives by what the step ends with, a column for
-  /// each.
-  Matrix multipliers(const MotionTangents& end) const;
+  /// Finds (n + m) x quantities `mu` of the step: the quantities change by -mu . dR where the residual at its
+  /// end does by dR while q, v, a and lambda stay. `end`: their derivatives by what the step ends with, a
+  /// column for each. Where these are few, by the factors of a step that has been solved before, as long as
+  /// they serve. Returns false where the step's matrix is not regular.
+  [[nodiscard]] bool find_multipliers(const MotionTangents& end, Matrix& mu);
   /// The derivatives by what the step begins with. Its length changes by `by_time` of what t does at its
   /// start, and the residual at `after` by `later` (n + m) with t; where that is empty
   /// nothing changes times, and what they would do is left out.
@@ -31,10 +33,17 @@ class StepAdjoint {
                        const Eigen::VectorXd& later) const;
 
  private:
+  bool factorise();
+  bool solve(const Matrix& rhs, Matrix& x);
+  bool solve_from_last(const Eigen::VectorXd& rhs, Eigen::VectorXd& last, Eigen::VectorXd& before);
+
   LinearStep step_;
   Eigen::SparseMatrix<double> transposed_;
   std::vector<int> values_;  // of each value in transposed_, that of the matrix
   KktSolver solver_;
+  bool has_factors_ = false;  // of this step or of one gone over before
+  // Of each quantity, where they are few: what has been solved for it, last and before that.
+  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> solved_;
 };
 
 }  // namespace nurbeam

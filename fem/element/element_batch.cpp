@@ -311,14 +311,18 @@ struct ElementBatch<D>::Kernel {
     Nodes nodes;
     for (int k = 0; k < nodal; ++k) {
       const std::array<int, lanes>& at = batch.dofs_[k];
+      if (batch.same_dofs_) {
+        nodes[k / D][k % D] = Lanes8{} + values[at[0]];
+        continue;
+      }
       nodes[k / D][k % D] = Lanes8{{{values[at[0]], values[at[1]], values[at[2]], values[at[3]]},
                                     {values[at[4]], values[at[5]], values[at[6]], values[at[7]]}}};
     }
     return nodes;
   }
 
-  NURBEAM_WITHIN void add_forces(const State& state, const Vector& load, double free_strain,
-                                 double* forces) const {
+  NURBEAM_WITHIN void add_forces(const State& state, const Vector& load, double free_strain, double* forces,
+                                 std::ptrdiff_t stride) const {
     Nodes e = gathered(state.q.data()), e_rate;  // which nobody asks for without damping
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
     if (beam.is_damped()) e_rate = gathered(state.v.data());
@@ -332,9 +336,21 @@ struct ElementBatch<D>::Kernel {
       for (int d = 0; d < D; ++d) force[k][d] -= load[d] * numbers.load_factor[k];
     add_point_forces(e, e_rate, force);
     add_axial_forces(e, e_rate, free_strain, force);
+    scatter(force, forces, stride);
+  }
+
+  NURBEAM_WITHIN void scatter(const Nodes& force, double* forces, std::ptrdiff_t stride) const {
+    using Half = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+    if (batch.forces_stand_beside_) {
+      for (int k = 0; k < nodal; ++k) {
+        auto* sum = reinterpret_cast<Half*>(forces + batch.forces_at_[0] + batch.dofs_[k][0] * stride);
+        for (int i = 0; i < 2; ++i) sum[i] += force[k / D][k % D].half[i];
+      }
+      return;
+    }
     for (int i = 0; i < batch.count_; ++i)
       for (int k = 0; k < nodal; ++k)
-        forces[batch.forces_at_[i] + batch.dofs_[k][i]] += force[k / D][k % D].of(i);
+        forces[batch.forces_at_[i] + batch.dofs_[k][i] * stride] += force[k / D][k % D].of(i);
   }
 
   struct Energies {
@@ -481,14 +497,16 @@ struct ElementBatch<D>::Kernel {
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::add_forces(const State& state, const Vector& load,
-                                                             double free_strain, double* forces) const {
-  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces);
+                                                             double free_strain, double* forces,
+                                                             std::ptrdiff_t stride) const {
+  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces, stride);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
-                                                             double free_strain, double* forces) const {
-  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces);
+                                                             double free_strain, double* forces,
+                                                             std::ptrdiff_t stride) const {
+  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces, stride);
 }
 
 template <>
@@ -541,7 +559,11 @@ void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, e
     for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];
     for (int d = 0; d < D; ++d) slope_offset_[d].set(i, slope_offset[d]);
   }
+  for (int k = 0; k < nodal; ++k) same_dofs_ = same_dofs_ && dofs_[k][count_] == dofs_[k][0];
   ++count_;
+  forces_stand_beside_ = is_full() && same_dofs_;
+  for (int i = 0; i < count_; ++i)
+    forces_stand_beside_ = forces_stand_beside_ && forces_at_[i] == forces_at_[0] + i;
 }
 
 template class ElementBatch<2>;

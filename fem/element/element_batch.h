@@ -30,9 +30,11 @@ class ElementBatch {
   void add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
            const Vector& slope_offset, std::ptrdiff_t forces_at = 0);
 
-  /// Adds the forces of the elements to those of all coordinates. `load`: as BeamElement::force has it;
-  /// `free_strain`: as ElementState has it.
-  void add_forces(const State& state, const Vector& load, double free_strain, double* forces) const;
+  /// Adds the forces of the elements to those of all coordinates, which are `stride` apart. `load`: as
+  /// BeamElement::force has it; `free_strain`: as ElementState has it. Takes least where a full batch is of
+  /// elements with the same coordinates, whose forces begin one beside the other.
+  void add_forces(const State& state, const Vector& load, double free_strain, double* forces,
+                  std::ptrdiff_t stride = 1) const;
 
   /// Their energies, of the first count(); `load`: the dead load of which they have the potential [N/m].
   std::array<ElementEnergy, lanes> energies(const State& state, const Vector& load, double free_strain) const;
@@ -54,6 +56,8 @@ class ElementBatch {
   int count_ = 0;
   std::array<std::array<int, lanes>, nodal> dofs_ = {};
   std::array<std::ptrdiff_t, lanes> forces_at_ = {};
+  bool same_dofs_ = true;             ///< in all elements
+  bool forces_stand_beside_ = false;  ///< of a full batch with the same dofs
   std::array<ElementLanes, D> slope_offset_ = {};
 };
 

@@ -12,7 +12,10 @@ FixedSums FixedSums::zero() {
 // The first element fills all lanes.
 void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
   const auto set = [&](ElementLanes& numbers, double number) {
-    for (int i = lane; i < (lane == 0 ? lanes : lane + 1); ++i) numbers.set(i, number);
+    if (lane == 0)
+      numbers.set_all(number);
+    else
+      numbers.set(lane, number);
   };
   for (int g = 0; g < points; ++g) {
     for (int k = 0; k < 4; ++k) {

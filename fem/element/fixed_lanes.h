@@ -24,8 +24,9 @@ struct alignas(8 * sizeof(double)) ElementLanes {
   using Half = double __attribute__((vector_size(4 * sizeof(double))));
   Half half[2];
 
-  double of(int lane) const { return half[lane / 4][lane % 4]; }
-  void set(int lane, double number) { half[lane / 4][lane % 4] = number; }
+  double of(int lane) const { return reinterpret_cast<const double*>(half)[lane]; }
+  void set(int lane, double number) { reinterpret_cast<double*>(half)[lane] = number; }
+  void set_all(double number) { half[0] = half[1] = Half{} + number; }
 };
 
 /// What is computed once in up to eight elements with fixed ends, each on one part of the drawing, side by

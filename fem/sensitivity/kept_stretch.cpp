@@ -154,6 +154,7 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
   const Eigen::RowVectorXd same_time = Eigen::RowVectorXd::Zero(tangents_.parameters());
   StepAdjoint adjoint(settings_, *system_);
   MotionTangents adjoints = MotionTangents::zero(n, m, sum.rows());
+  MotionTangents::Matrix mu;
   auto record = records.rbegin();
   stretch_->steps.back([&](std::size_t i, const KeptSteps::Step& step) {
     for (; record != records.rend() && records_[*record].position == i + 1; ++record)
@@ -162,10 +163,13 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
     ++work_.tangents;
     bool regular = false;
     Shifts shifts;
-    both([&] { regular = adjoint.take(step.before, step.history, step.after, step.repeated); },
-         [&] { shifts = find_residual_changes(step.after, same_time); });
+    both(
+        [&] {
+          adjoint.take(step.before, step.history, step.after, step.repeated);
+          regular = adjoint.find_multipliers(adjoints, mu);
+        },
+        [&] { shifts = find_residual_changes(step.after, same_time); });
     if (!regular) singular_step();
-    const MotionTangents::Matrix mu = adjoint.multipliers(adjoints);
     work_.solves += mu.cols();
     take_off(shifts, adjoint.stiffness());
     sum.noalias() -= mu.topRows(n).transpose() * dynamics_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "fem/element/element_batch.h"
 #include "fem/system/with_assembly.h"
@@ -111,8 +113,8 @@ struct ResidualDifferences::In final : Implementation {
 
   std::vector<Sides> pairs;
   std::vector<Group> groups;
-  Eigen::MatrixXd forces;  // more and less of each pair, a column each; zero between calls of find
-  Eigen::VectorXd more_constraints, less_constraints;
+  Columns forces;  // more and less of each pair, a column each; zero between calls of find
+  Eigen::VectorXd more_dynamics, less_dynamics, more_constraints, less_constraints;  // of a whole pair
   State general;                 // to which what is not the same answers differently
   State moved_more, moved_less;  // of find
 
@@ -145,9 +147,9 @@ struct ResidualDifferences::In final : Implementation {
     for (std::size_t k = 0; k < of.size(); ++k) {
       pairs.push_back(outlasts(k) ? outlasting(before->of->pairs[k], *before->elements)
                                   : different(of[k], unlike[k], near));
-      list(pairs.back(), static_cast<Eigen::Index>(k), before ? *before->system : *pairs.back().more);
       work += pairs.back().work;
     }
+    list(before ? *before->system : *pairs.front().more);
   }
 
   // A pair behind a change that it outlasts.
@@ -196,8 +198,46 @@ struct ResidualDifferences::In final : Implementation {
     return false;
   }
 
-  // Puts elements into batches, with the coordinates that they have in the present mesh.
-  void list(Sides& pair, Eigen::Index k, const Assembly<D>& present) {
+  // An element of one side of a pair, in a group.
+  struct Listed {
+    int group, now;
+    Eigen::Index column;
+    const MeshElement<D>* element;
+  };
+
+  // Puts elements into batches, with the coordinates that they have in the present mesh: of each group those
+  // that are one element there beside one another.
+  void list(const Assembly<D>& present) {
+    std::vector<Listed> all;
+    for (std::size_t k = 0; k < pairs.size(); ++k) list(pairs[k], static_cast<Eigen::Index>(k), present, all);
+    std::sort(all.begin(), all.end(), [](const Listed& a, const Listed& b) {
+      return std::tie(a.group, a.now, a.column) < std::tie(b.group, b.now, b.column);
+    });
+    for (auto each = all.begin(); each != all.end();) {
+      const auto end = std::find_if(each, all.end(), [&](const Listed& other) {
+        return other.group != each->group || other.now != each->now;
+      });
+      put(each, end, present.elements()[each->now].dofs);
+      each = end;
+    }
+  }
+
+  // Into the batches of their group, a new one where they do not fit into the last.
+  void put(typename std::vector<Listed>::const_iterator begin,
+           typename std::vector<Listed>::const_iterator end, const std::array<int, element_size<D>>& dofs) {
+    Group& group = groups[begin->group];
+    std::vector<ElementBatch<D>>& batches = group.batches;
+    bool fit = !batches.empty() && end - begin <= ElementBatch<D>::lanes - batches.back().count();
+    for (auto each = begin; each != end; ++each) {
+      if (!std::exchange(fit, true) || batches.back().is_full())
+        batches.emplace_back(each->element->element.properties());
+      batches.back().add(each->element->element, dofs, each->element->slope_offset, each->column);
+      group.columns.push_back(each->column);
+    }
+  }
+
+  // Adds the elements of a pair, and finds its coordinates and groups.
+  void list(Sides& pair, Eigen::Index k, const Assembly<D>& present, std::vector<Listed>& all) {
     for (auto& [index, now, dofs] : pair.batched) {
       dofs = present.elements()[now].dofs;
       std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(pair.coordinates),
@@ -206,11 +246,7 @@ struct ResidualDifferences::In final : Implementation {
         const MeshElement<D>& e = side->elements()[index];
         const int g = group_of(*side, e);
         if (pair.groups.empty() || pair.groups.back() != g) pair.groups.push_back(g);
-        std::vector<ElementBatch<D>>& batches = groups[g].batches;
-        if (batches.empty() || batches.back().is_full()) batches.emplace_back(e.element.properties());
-        const Eigen::Index column = 2 * k + (side == pair.less ? 1 : 0);
-        groups[g].columns.push_back(column);
-        batches.back().add(e.element, dofs, e.slope_offset, column * forces.rows());
+        all.push_back({g, now, 2 * k + (side == pair.less ? 1 : 0), &e});
       }
     }
     std::sort(pair.coordinates.begin(), pair.coordinates.end());
@@ -323,7 +359,7 @@ struct ResidualDifferences::In final : Implementation {
     set_loads(at);
     for (const Group& group : groups)
       for (const ElementBatch<D>& batch : group.batches)
-        batch.add_forces(at, group.load, group.free_strain, forces.data());
+        batch.add_forces(at, group.load, group.free_strain, forces.data(), forces.cols());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       Sides& pair = pairs[k];
@@ -334,9 +370,11 @@ struct ResidualDifferences::In final : Implementation {
           constraints.col(column).setZero();
         }
         pair.was_whole = !shifts[k].empty();  // what is due to these is taken off
+        const double over = 2 * pair.step;
         for (const int i : pair.coordinates) {
-          dynamics(i, column) = (forces(i, 2 * column) - forces(i, 2 * column + 1)) / (2 * pair.step);
-          forces(i, 2 * column) = forces(i, 2 * column + 1) = 0;
+          double* const both = &forces(i, 2 * column);
+          dynamics(i, column) = (both[0] - both[1]) / over;
+          both[0] = both[1] = 0;
         }
         continue;
       }
@@ -347,7 +385,7 @@ struct ResidualDifferences::In final : Implementation {
       }
       evaluate(pair, moves ? moved_more : at, moves ? moved_less : at, column);
       constraints.col(column) = (more_constraints - less_constraints) / (2 * pair.step);
-      dynamics.col(column) = (forces.col(2 * column) - forces.col(2 * column + 1)) / (2 * pair.step);
+      dynamics.col(column) = (more_dynamics - less_dynamics) / (2 * pair.step);
       forces.middleCols(2 * column, 2).setZero();
       pair.was_whole = true;
     }
@@ -355,13 +393,14 @@ struct ResidualDifferences::In final : Implementation {
 
   // Completes the forces of a pair, and finds its constraints.
   void evaluate(Sides& pair, const State& above, const State& below, Eigen::Index column) {
-    auto more = forces.col(2 * column), less = forces.col(2 * column + 1);
+    more_dynamics = forces.col(2 * column);
+    less_dynamics = forces.col(2 * column + 1);
     if (same_loads(pair, above, below)) {
-      add_apart(pair, *pair.more, above, 0, more, more_constraints);
-      add_apart(pair, *pair.less, below, 1, less, less_constraints);
+      add_apart(pair, *pair.more, above, 0, more_dynamics, more_constraints);
+      add_apart(pair, *pair.less, below, 1, less_dynamics, less_constraints);
     } else {
-      pair.more->residual(above, more, more_constraints);
-      pair.less->residual(below, less, less_constraints);
+      pair.more->residual(above, more_dynamics, more_constraints);
+      pair.less->residual(below, less_dynamics, less_constraints);
     }
   }
 
