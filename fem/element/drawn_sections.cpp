@@ -21,14 +21,19 @@ constexpr double smallest_angle = pi / 180;  ///< between the tangent and `up`
 // A parameter, or one that varies: value, first and second derivative.
 using Varying = Dual<1, Dual<1>>;
 
-// Derivative k of the segment by its parameter, at u.
-Vector3d column(const Eigen::Matrix<double, 3, 6>& r, int k, double) { return r.col(k); }
-Vector3<Varying> column(const Eigen::Matrix<double, 3, 6>& r, int k, const Varying& u) {
-  Vector3<Varying> x;
+// The first three derivatives of the segment by its parameter, at u.
+std::array<Vector3d, 3> rates(const RationalCubic& segment, double u) {
+  const std::array<Vector3d, 4> r = segment.weighted_derivatives(u).r;
+  return {r[0], r[1], r[2]};
+}
+std::array<Vector3<Varying>, 3> rates(const RationalCubic& segment, const Varying& u) {
+  const Eigen::Matrix<double, 3, 6> r = segment.derivatives(plain(u));
   const Varying step = u - plain(u);
-  for (int d = 0; d < 3; ++d)
-    x[d] = Varying(r(d, k)) + r(d, k + 1) * step + (r(d, k + 2) / 2) * (step * step);
-  return x;
+  std::array<Vector3<Varying>, 3> rates;
+  for (int k = 1; k <= 3; ++k)
+    for (int d = 0; d < 3; ++d)
+      rates[k - 1][d] = Varying(r(d, k)) + r(d, k + 1) * step + (r(d, k + 2) / 2) * (step * step);
+  return rates;
 }
 
 // Speed, tangent and curvature vector at a parameter.
@@ -40,24 +45,49 @@ struct Bend {
 
   Bend(const RationalCubic& segment, const T& u) {
     using std::sqrt;
-    const Eigen::Matrix<double, 3, 6> r = segment.derivatives(plain(u));
-    const Vector3<T> r1 = column(r, 1, u), across = r1.cross(column(r, 2, u));
+    const auto [r1, r2, r3] = rates(segment, u);
+    const Vector3<T> across = r1.cross(r2);
     speed = sqrt(r1.dot(r1));
     const T cubed = speed * speed * speed;
     t = r1 / speed;
     K = across / cubed;
-    torsion_numerator = across.dot(column(r, 3, u)) / (cubed * cubed);
+    torsion_numerator = across.dot(r3) / (cubed * cubed);
   }
 };
 
-// d(angle)/du of parallel transport against the smallest rotation from t_a.
-double transport_rate_by_parameter(const RationalCubic& segment, double u, const Vector3d& t_a) {
-  const Bend<double> bend(segment, u);
-  return transport_rate<double>(bend.K, bend.t, t_a) * bend.speed;
-}
+// d(angle)/du of parallel transport along a segment against the smallest rotation from t_a: transport_rate
+// times |r'|. Asked for at many places: r' and r'' come from the powers of u in (W r, W), with r from the
+// first control point.
+class TransportRate {
+ public:
+  TransportRate(const RationalCubic& segment, const Vector3d& t_a) : t_a_(t_a), weight_(segment.weight(0)) {
+    const Vector3d origin = segment.control_point(0);
+    std::array<Eigen::Vector4d, 4> b;
+    for (int i = 0; i < 4; ++i)
+      b[i] << segment.weight(i) * (segment.control_point(i) - origin), segment.weight(i);
+    c1_ = 3 * (b[1] - b[0]);
+    c2_ = 3 * (b[2] - 2 * b[1] + b[0]);
+    c3_ = b[3] - b[0] - 3 * (b[2] - b[1]);
+  }
+
+  double operator()(double u) const {
+    const Eigen::Vector4d H = u * (c1_ + u * (c2_ + u * c3_)), H1 = c1_ + u * (2 * c2_ + (3 * u) * c3_),
+                          H2 = 2 * c2_ + (6 * u) * c3_;
+    const double W = weight_ + H[3];
+    const Vector3d r = H.head<3>() / W, r1 = (H1.head<3>() - H1[3] * r) / W,
+                   r2 = (H2.head<3>() - 2 * H1[3] * r1 - H2[3] * r) / W;
+    const double speed = r1.norm();
+    return r1.cross(r2).dot(t_a_) / (speed * (speed + r1.dot(t_a_)));
+  }
+
+ private:
+  Vector3d t_a_;
+  double weight_;
+  Eigen::Vector4d c1_, c2_, c3_;
+};
 
 double transport_angle(const RationalCubic& segment, double from, double to, const Vector3d& t_a) {
-  return gauss([&](double u) { return transport_rate_by_parameter(segment, u, t_a); }, from, to);
+  return gauss(TransportRate(segment, t_a), from, to);
 }
 
 // Whether one Gauss rule from u_0 to u_1 transports to round-off.
@@ -170,7 +200,7 @@ DrawnSection DrawnSections::at(const RationalCubic& segment, int j, double u, do
 }
 
 double DrawnSections::twist_by_parameter(const RationalCubic& segment, double u) const {
-  return rule_twist(segment, u) * segment.derivatives(u).col(1).norm();
+  return rule_twist(segment, u) * rates(segment, u)[0].norm();
 }
 
 double DrawnSections::rule_turn(const RationalCubic& segment, int j, double u_0, double u_1) const {

@@ -133,7 +133,7 @@ Eigen::Vector3d ReferenceCurve::position(double s) const {
 
 Eigen::Vector3d ReferenceCurve::tangent(double s, bool from_left) const {
   const int j = segment_at(s, from_left);
-  const Eigen::Vector3d r_u = segments_[j].derivatives(parameter(j, s)).col(1);
+  const Eigen::Vector3d r_u = segments_[j].weighted_derivatives(parameter(j, s)).r[0];
   return metric_ == Metric::label ? Eigen::Vector3d(r_u / segment_length(j)) : r_u.normalized();
 }
 

@@ -230,6 +230,8 @@ AnyPoint<P> DrawnElement<P>::point(double place) const {
 }
 
 template struct QuadraturePlaces<double>;
+template DrawnElement<double>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
+template AnyPoint<double> DrawnElement<double>::point(double) const;
 template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
 template class DrawnElement<PlaceSeries>;
 

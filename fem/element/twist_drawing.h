@@ -83,8 +83,8 @@ struct QuadraturePlaces {
   const Part& part(std::size_t g) const { return parts[g / GaussRule::size]; }
 };
 
-/// What the drawing says of an element between two places, as series P in both: Dual<2>, of values and
-/// gradients, or PlaceSeries. Transport goes on from part to part.
+/// What the drawing says of an element between two places, as series P in both: double, of values alone,
+/// Dual<2>, of these and gradients, or PlaceSeries. Transport goes on from part to part.
 template <class P>
 class DrawnElement {
  public:
@@ -126,6 +126,8 @@ class DrawnElement {
 };
 
 extern template struct QuadraturePlaces<double>;
+extern template DrawnElement<double>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
+extern template AnyPoint<double> DrawnElement<double>::point(double) const;
 extern template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
 extern template class DrawnElement<PlaceSeries>;
 

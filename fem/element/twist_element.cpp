@@ -81,6 +81,14 @@ void TwistElement::set_fixed(const twist::DrawnElement<Dual<2>>& drawn) {
   }
 }
 
+// What is found of the drawing depends on neither.
+TwistElement TwistElement::in_charts(const std::array<SectionChart, 2>& charts, double turn) const {
+  TwistElement element = *this;
+  element.charts_ = charts;
+  element.turn_ = turn;
+  return element;
+}
+
 TwistElement::FixedPoint TwistElement::fixed_point(const twist::AnyPoint<double>& p) {
   return {p.xi, p.S1, p.S2, p.transport, p.angle, p.k1, p.k2};
 }

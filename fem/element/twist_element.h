@@ -71,6 +71,9 @@ class TwistElement {
   TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
                double s_b, Ends ends = Ends::fixed);
 
+  /// The same element in other charts, with that turn. Precondition: fixed().
+  TwistElement in_charts(const std::array<SectionChart, 2>& charts, double turn) const;
+
   const SectionChart& chart(int end) const { return charts_[end]; }
 
   bool fixed() const { return ends_ == Ends::fixed; }

@@ -1,4 +1,6 @@
 // The section at a place of an element with torsion, and moments on it.
+#include <type_traits>
+
 #include "fem/element/twist_element.h"
 #include "fem/element/twist_rows.h"
 
@@ -16,6 +18,9 @@ TwistElement::At<T> TwistElement::at_place(const Eigen::Matrix<T, n, 1>& x, doub
   };
   if constexpr (n == fixed_rows) {
     return at(drawing_, fixed_point(s));
+  } else if constexpr (std::is_same_v<T, double>) {
+    const twist::DrawnElement<double> drawn(*curve_, chart_, x[twist::place_a], x[twist::place_a + 1]);
+    return at(drawn.drawing(), drawn.point(s));
   } else {
     const T &a = x[twist::place_a], &b = x[twist::place_a + 1];
     const twist::DrawnElement<twist::PlaceSeries> drawn(*curve_, chart_, plain(a), plain(b));

@@ -64,15 +64,19 @@ bool same_charts(const MeshPlan::SectionCharts* a, const MeshPlan::SectionCharts
   return a->charts == b->charts && a->turn == b->turn;
 }
 
-TwistElement new_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam) {
+// `same`: the element in another mesh, if it was there.
+TwistElement twist_of(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam, const Mesh* other,
+                      const MeshElement<3>* same) {
+  const MeshPlan::SectionCharts* now = charts_in(mesh.plan, e);
+  if (same && same_charts(now, charts_in(other->plan, *same))) return same->twist->element;
+  if (same && now) return same->twist->element.in_charts(now->charts, now->turn);
   const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
   const Chart& chart = e.element.chart();
-  if (const MeshPlan::SectionCharts* now = charts_in(mesh.plan, e))
-    return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now->charts, now->turn};
+  if (now) return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now->charts, now->turn};
   return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends};
 }
 
-// `same`: the element in another mesh, if it was there.
+// `same`: as twist_of has it.
 std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam,
                                             const Mesh* other, const MeshElement<3>* same) {
   if (!beam.has_torsion()) return nullptr;
@@ -83,9 +87,7 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
   dofs[TwistLayout::angle(0)] = mesh.node_a(e).angle_right;
   dofs[TwistLayout::angle(1)] = mesh.node_b(e).angle_left;
   dofs[TwistLayout::bubble] = e.bubble;
-  const bool is_kept = same && same_charts(charts_in(mesh.plan, e), charts_in(other->plan, *same));
-  return std::make_unique<const MeshTwist>(
-      MeshTwist{dofs, is_kept ? same->twist->element : new_twist(mesh, e, beam)});
+  return std::make_unique<const MeshTwist>(MeshTwist{dofs, twist_of(mesh, e, beam, other, same)});
 }
 
 // Whether both are on one segment that is drawn alike, and made of the same.

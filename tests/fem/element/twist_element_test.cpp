@@ -174,6 +174,24 @@ TEST(TwistElement, DoesNotKnowItsCharts) {
   EXPECT_LT((f - g).tail<3>().norm(), 1e-12 * f.norm());
 }
 
+TEST(TwistElement, IsTheSameInOtherChartsAsOneThatIsMadeInThem) {
+  const Deformed d(14);
+  std::array<TwistElement::SectionChart, 2> charts;
+  for (const int end : {0, 1}) charts[end] = d.element.end_section(d.x.q, end).matrix();
+  const double turn = d.element.turn(d.x.q);
+  const TwistElement moved = d.element.in_charts(charts, turn);
+  const TwistElement made(d.curve, d.beam, Chart{.segment = 0, .constant_weights = {}}, d.s_a, d.s_b,
+                          Ends::fixed, charts, turn);
+  TwistState x = d.x;
+  for (const int end : {0, 1}) x.q[Layout::angle(end)] = 0;  // as it is seen there
+  const Coordinates force = made.force(x);
+  EXPECT_EQ(moved.force(x), force);
+  EXPECT_EQ(moved.tangent(x, {.mass = 1, .damping = 1, .stiffness = 1}),
+            made.tangent(x, {.mass = 1, .damping = 1, .stiffness = 1}));
+  EXPECT_EQ(moved.turn(x.q), made.turn(x.q));
+  EXPECT_GT((d.element.force(x) - force).norm(), 0.1 * force.norm());
+}
+
 TEST(TwistElement, TellsTheSpinOfItsEnds) {
   const Deformed d(15);
   for (const int end : {0, 1}) {
