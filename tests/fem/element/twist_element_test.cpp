@@ -189,7 +189,7 @@ TEST(TwistElement, IsTheSameInOtherChartsAsOneThatIsMadeInThem) {
   EXPECT_EQ(moved.tangent(x, {.mass = 1, .damping = 1, .stiffness = 1}),
             made.tangent(x, {.mass = 1, .damping = 1, .stiffness = 1}));
   EXPECT_EQ(moved.turn(x.q), made.turn(x.q));
-  EXPECT_GT((d.element.force(x) - force).norm(), 0.1 * force.norm());
+  EXPECT_GT((d.element.force(x) - force).norm(), 0.01 * force.norm());
 }
 
 TEST(TwistElement, TellsTheSpinOfItsEnds) {
