@@ -84,6 +84,33 @@ void check_batches(const BeamProperties& properties, int seed) {
     }
 }
 
+// Elements that are drawn otherwise, all at the coordinates of the first one: each force in a column of its
+// own.
+template <int D>
+void check_at_one_place(const BeamProperties& properties, int seed) {
+  std::mt19937 random(seed);
+  const BeamModel model = testing::one_beam(testing::uneven_axis(random, D), D, properties, 8, {});
+  const BeamSystem system(model);
+  const State state = testing::disturbed_state(system, random);
+  const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::LinSpaced(0.7, -1.3);
+  const auto& elements = system.assembly<D>()->elements();
+  const MeshElement<D>& place = elements[0];
+  for (const int count : {8, 5})
+    for (const int apart : {1, 2}) {  // columns beside one another, and with others between
+      using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Columns expected = Columns::Constant(system.coordinate_count(), 16, 0.25), found = expected;
+      ElementBatch<D> batch(properties);
+      for (int i = 0; i < count; ++i) {
+        batch.add(elements[i].element, place.dofs, place.slope_offset, i * apart);
+        const ElementVector<D> force = elements[i].element.force(gather<D>(place, state), load);
+        for (int k = 0; k < ElementLayout<D>::nodal; ++k) expected(place.dofs[k], i * apart) += force[k];
+      }
+      batch.add_forces(state, load, free_strain(place, state), found.data(), found.cols());
+      EXPECT_LT((found - expected).norm(), 1e-13 * expected.norm()) << count << " " << apart;
+      EXPECT_GT((expected.array() - 0.25).matrix().norm(), 1);
+    }
+}
+
 template <int D>
 void check_all_kinds() {
   int seed = 40;
@@ -99,6 +126,7 @@ void check_all_kinds() {
         }
         if (strain == AxialStrain::ends_and_mean) properties.free_strain.constant = 0.01;
         check_batches<D>(properties, ++seed);
+        check_at_one_place<D>(properties, seed);
       }
 }
 
