@@ -29,11 +29,11 @@ std::array<Vector3d, 3> rates(const RationalCubic& segment, double u) {
 std::array<Vector3<Varying>, 3> rates(const RationalCubic& segment, const Varying& u) {
   const Eigen::Matrix<double, 3, 6> r = segment.derivatives(plain(u));
   const Varying step = u - plain(u);
-  std::array<Vector3<Varying>, 3> rates;
+  std::array<Vector3<Varying>, 3> along;
   for (int k = 1; k <= 3; ++k)
     for (int d = 0; d < 3; ++d)
-      rates[k - 1][d] = Varying(r(d, k)) + r(d, k + 1) * step + (r(d, k + 2) / 2) * (step * step);
-  return rates;
+      along[k - 1][d] = Varying(r(d, k)) + r(d, k + 1) * step + (r(d, k + 2) / 2) * (step * step);
+  return along;
 }
 
 // Speed, tangent and curvature vector at a parameter.

@@ -59,17 +59,12 @@ const MeshPlan::SectionCharts* charts_in(const MeshPlan& plan, const MeshSpan& s
   return nullptr;
 }
 
-bool same_charts(const MeshPlan::SectionCharts* a, const MeshPlan::SectionCharts* b) {
-  if (!a || !b) return a == b;
-  return a->charts == b->charts && a->turn == b->turn;
-}
-
 // `same`: the element in another mesh, if it was there.
 TwistElement twist_of(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam, const Mesh* other,
                       const MeshElement<3>* same) {
   const MeshPlan::SectionCharts* now = charts_in(mesh.plan, e);
-  if (same && same_charts(now, charts_in(other->plan, *same))) return same->twist->element;
   if (same && now) return same->twist->element.in_charts(now->charts, now->turn);
+  if (same && !charts_in(other->plan, *same)) return same->twist->element;
   const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
   const Chart& chart = e.element.chart();
   if (now) return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now->charts, now->turn};

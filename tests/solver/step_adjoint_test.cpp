@@ -63,10 +63,13 @@ Eigen::MatrixXd product(const MotionTangents& adjoints, const MotionTangents& ta
 
 // What quantities do at the end of a step is the same through tangents to there as through adjoints from
 // there, whatever both are: of steps like the one before, longer, shorter, five times as long, repeated.
-TEST(StepAdjoint, IsTheTransposeOfTheTangent) {
+class StepAdjointOf : public ::testing::TestWithParam<int> {};
+
+TEST_P(StepAdjointOf, IsTheTransposeOfTheTangent) {
   const UnevenPendulum pendulum;
   constexpr GeneralizedAlpha exact{.newton_tolerance = 1e-14};
-  constexpr int quantities = 3, parameters = 5;
+  const int quantities = GetParam();
+  constexpr int parameters = 5;
   GeneralizedAlphaIntegrator integrator(exact, pendulum, pendulum.at_angle(0, 0.7, 0.5));
   StepTangent tangent(exact, pendulum);
   StepAdjoint adjoint(exact, pendulum);
@@ -96,6 +99,9 @@ TEST(StepAdjoint, IsTheTransposeOfTheTangent) {
     EXPECT_GT(forward.norm(), 1);
   }
 }
+
+// One and few by factors of other steps, many by those of each.
+INSTANTIATE_TEST_SUITE_P(Quantities, StepAdjointOf, ::testing::Values(1, 3, 4, 7));
 
 }  // namespace
 }  // namespace nurbeam

@@ -1,0 +1,66 @@
+#pragma once
+#include <array>
+
+#include "fem/element/fixed_lanes.h"
+#include "solver/every_processor.h"
+
+/// Arithmetic of the numbers of eight elements, for sources that are compiled for every processor.
+namespace nurbeam {
+
+using Lanes8 = ElementLanes;
+
+NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] + b.half[0], a.half[1] + b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] - b.half[0], a.half[1] - b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator*(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] * b.half[0], a.half[1] * b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, const Lanes8& b) {
+  return {{a.half[0] / b.half[0], a.half[1] / b.half[1]}};
+}
+NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, double b) { return {{a.half[0] + b, a.half[1] + b}}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, double b) { return {{a.half[0] - b, a.half[1] - b}}; }
+NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, double b) { return {{a.half[0] / b, a.half[1] / b}}; }
+NURBEAM_WITHIN Lanes8 operator*(double a, const Lanes8& b) { return {{a * b.half[0], a * b.half[1]}}; }
+NURBEAM_WITHIN Lanes8 operator/(double a, const Lanes8& b) { return {{a / b.half[0], a / b.half[1]}}; }
+NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a) { return {{-a.half[0], -a.half[1]}}; }
+NURBEAM_WITHIN void operator+=(Lanes8& a, const Lanes8& b) { a = a + b; }
+NURBEAM_WITHIN void operator-=(Lanes8& a, const Lanes8& b) { a = a - b; }
+NURBEAM_WITHIN void operator*=(Lanes8& a, const Lanes8& b) { a = a * b; }
+
+template <int D>
+using LaneVector = std::array<Lanes8, D>;
+
+template <int D>
+NURBEAM_WITHIN Lanes8 dot(const LaneVector<D>& a, const LaneVector<D>& b) {
+  Lanes8 sum = a[0] * b[0];
+  for (int d = 1; d < D; ++d) sum += a[d] * b[d];
+  return sum;
+}
+
+NURBEAM_WITHIN Lanes8 square_root(const Lanes8& a) {
+  Lanes8 root = a;
+  for (auto& half : root.half)
+    for (int i = 0; i < 4; ++i) half[i] = __builtin_sqrt(half[i]);
+  return root;
+}
+
+// 0 where they are not.
+NURBEAM_WITHIN Lanes8 positive(const Lanes8& a) {
+  Lanes8 part;
+  for (int i = 0; i < 2; ++i) part.half[i] = a.half[i] > 0 ? a.half[i] : ElementLanes::Half{};
+  return part;
+}
+
+// 1 where they are zero, else 0.
+NURBEAM_WITHIN Lanes8 is_zero(const Lanes8& a) {
+  Lanes8 part;
+  for (int i = 0; i < 2; ++i)
+    part.half[i] = a.half[i] == 0 ? ElementLanes::Half{} + 1. : ElementLanes::Half{};
+  return part;
+}
+
+}  // namespace nurbeam
