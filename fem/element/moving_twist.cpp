@@ -235,7 +235,21 @@ TwistElement::Coordinates TwistElement::moving_force(const TwistState& x) const 
   return twist::spread_out<rows>(motion.force());
 }
 
+// Of the kinetic energy sum mass w^2/2, each w a row of velocities.
+TwistElement::Matrix TwistElement::moving_mass(const Coordinates& q) const {
+  const MaterialSpinRows rows(*this, q);
+  const twist::QuadraturePlaces<double> places(*curve_, chart_, q[TwistLayout::place(0)],
+                                               q[TwistLayout::place(1)]);
+  Matrix sum = Matrix::Zero();
+  for (std::size_t g = 0; g < places.size(); ++g) {
+    const Coordinates row = rows.at(places.place(g));
+    sum += properties_->sections->spin_inertia * places.weight(g) * row * row.transpose();
+  }
+  return sum;
+}
+
 TwistElement::Matrix TwistElement::moving_tangent(const TwistState& x, const TangentWeights& w) const {
+  if (w.stiffness == 0 && w.damping == 0) return w.mass * moving_mass(x.q);
   using T = Dual<rows>;
   const Vector<T> q = twist::variables<rows, double>(twist::reduced_of<rows>(x.q), w.stiffness),
                   v = twist::variables<rows, double>(twist::reduced_of<rows>(x.v), w.damping),

@@ -80,6 +80,14 @@ struct SectionTurn {
   }
 };
 
+/// The angle of a section, a triad of columns, in a chart [rad]: the inverse of section_at_node.
+inline double angle_in(const Eigen::Matrix3d& chart, const Eigen::Matrix3d& section) {
+  const auto triad = [](const Eigen::Matrix3d& columns) -> SectionTriad<double> {
+    return {columns.col(0), columns.col(1), columns.col(2)};
+  };
+  return SectionTurn<double>(triad(chart), triad(section), 0).angle;
+}
+
 /// Section `a` carried to the tangent t by the smallest rotation and turned about it by `angle`.
 template <class T>
 SectionTriad<T> carried_section(const SectionTriad<T>& a, const Vector3<T>& t, const T& angle) {

@@ -103,9 +103,19 @@ class TwistElement {
   SectionPoint section(const Coordinates& q, double s) const;
   /// The turn of the section at material point s against that at A [rad].
   double turn_to(const Coordinates& q, double s) const;
-  /// Spin of the material section at s about its tangent [rad/s], and its derivative in the velocities.
+  /// Spin of the material section at s about its tangent [rad/s].
   double material_spin(const TwistState& x, double s) const;
-  Coordinates material_spin_row(const Coordinates& q, double s) const;
+  /// Its derivatives in the velocities, at places of one shape.
+  class MaterialSpinRows {
+   public:
+    MaterialSpinRows(const TwistElement& element, const Coordinates& q);
+    Coordinates at(double s) const;
+
+   private:
+    double s_a_, h_;
+    std::array<Coordinates, 2> ends_;  // of the nodes, less what they turn by as they move over the drawing
+    std::array<double, 2> strain_ = {0, 0};  // of twist, at both ends, if they move
+  };
   /// A vector that turns with the section at s from where it is drawn, and its derivative in q.
   struct TurnedWithSection {
     Eigen::Vector3d value;
@@ -175,6 +185,7 @@ class TwistElement {
 
   Coordinates moving_force(const TwistState& x) const;
   Matrix moving_tangent(const TwistState& x, const TangentWeights& w) const;
+  Matrix moving_mass(const Coordinates& q) const;
   TwistEnergy moving_energy(const TwistState& x) const;
 
   const ReferenceCurve* curve_;

@@ -43,25 +43,38 @@ double TwistElement::turn_to(const Coordinates& q, double s) const { return at_p
 
 // With xi = (s - s_A)/h the section there moves over the material with s' = (1 - xi) s_A' + xi s_B': what it
 // turns by on the way is taken out of its spin, at the nodes the drawn part of it.
-TwistElement::Coordinates TwistElement::material_spin_row(const Coordinates& q, double s) const {
-  const double s_a = q[TwistLayout::place(0)], xi = (s - s_a) / (q[TwistLayout::place(1)] - s_a);
-  const std::array<double, 2> share{1 - xi, xi};
-  const double gamma = fixed() ? 0 : at_place(q, s).strain.twist;
-  Coordinates row = Coordinates::Zero();
+TwistElement::MaterialSpinRows::MaterialSpinRows(const TwistElement& element, const Coordinates& q)
+    : s_a_(q[TwistLayout::place(0)]), h_(q[TwistLayout::place(1)] - s_a_) {
   for (const int end : {0, 1}) {
     const Eigen::Vector3d rs = q.segment<3>(TwistLayout::slope(end));
-    row.segment<3>(TwistLayout::slope(end)) = share[end] * spin_row<double>(charts_[end], rs);
-    row[TwistLayout::angle(end)] = share[end];
-    if (fixed()) continue;
-    const double drawn = curve_->section(q[TwistLayout::place(end)], end == 1).twist;
-    row[TwistLayout::place(end)] = -share[end] * (drawn + gamma);
+    ends_[end].setZero();
+    ends_[end].segment<3>(TwistLayout::slope(end)) = spin_row<double>(element.charts_[end], rs);
+    ends_[end][TwistLayout::angle(end)] = 1;
+    if (!element.fixed())
+      ends_[end][TwistLayout::place(end)] =
+          -element.curve_->section(q[TwistLayout::place(end)], end == 1).twist;
   }
+  if (element.fixed()) return;
+  const twist::DrawnElement<double> drawn(*element.curve_, element.chart_, s_a_, s_a_ + h_);
+  const double turned = twist::fields_of<double>(drawn.drawing(), element.charts_, element.turn_,
+                                                 twist::reduced_of<fixed_rows>(q))
+                            .twist;
+  for (const int end : {0, 1})
+    strain_[end] = (turned + q[TwistLayout::bubble] * twist::bubble_slope(static_cast<double>(end))) / h_;
+}
+
+TwistElement::Coordinates TwistElement::MaterialSpinRows::at(double s) const {
+  const double xi = (s - s_a_) / h_;
+  const std::array<double, 2> share{1 - xi, xi};
+  Coordinates row = share[0] * ends_[0] + share[1] * ends_[1];
+  const double strain = share[0] * strain_[0] + share[1] * strain_[1];
+  for (const int end : {0, 1}) row[TwistLayout::place(end)] -= share[end] * strain;
   row[TwistLayout::bubble] = twist::bubble_shape(xi);
   return row;
 }
 
 double TwistElement::material_spin(const TwistState& x, double s) const {
-  return material_spin_row(x.q, s).dot(x.v);
+  return MaterialSpinRows(*this, x.q).at(s).dot(x.v);
 }
 
 // The section's spin is (r_s x dr_s)/|r_s|^2 + t dw, dw = d(alpha) + [(t_A x dt_A + t_A dw_A) . (t_A + t)

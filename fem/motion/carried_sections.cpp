@@ -1,8 +1,12 @@
 #include "fem/motion/carried_sections.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "fem/element/quadrature.h"
+#include "fem/element/section_frame.h"
 #include "fem/system/assembly.h"
 #include "fem/system/material_points.h"
 
@@ -16,16 +20,46 @@ class PresentSections {
   PresentSections(const BeamSystem& system, const State& state)
       : system_(system), state_(state), elements_(system.assembly<3>()->elements()) {}
 
-  MeshPlan::SectionCharts of(const Mesh& fresh, const MeshSpan& span) const {
-    const std::vector<MeshNode>& old = system_.mesh().nodes[span.beam];
-    const int a = same_node(old, fresh.node_a(span)), b = same_node(old, fresh.node_b(span));
-    const MeshElement<3>* const kept = element_between(span.beam, a, b);
+  // `turned`: of the nodes of the beam, empty without `like`, the charts of a neighbouring model.
+  MeshPlan::SectionCharts of(const Mesh& fresh, const MeshSpan& span, const MeshPlan::SectionCharts* like,
+                             const std::vector<double>& turned) const {
+    const int a = kept(fresh, span, 0), b = kept(fresh, span, 1);
+    const auto chart = [&](int end, int node) -> Eigen::Matrix3d {
+      const int present = end == 0 ? a : b;
+      if (present >= 0) return section_chart(system_, span.beam, present, end);
+      if (like) return like->charts[end] * Eigen::AngleAxisd(turned[node], Eigen::Vector3d::UnitZ());
+      return section_point(system_, state_, span.beam, fresh.nodes[span.beam][node].s).triad.matrix();
+    };
+    const MeshElement<3>* const same = element_between(span.beam, a, b);
     return {span.beam,
             span.s_a,
             span.s_b,
-            {chart(span.beam, fresh.node_a(span), a, 0), chart(span.beam, fresh.node_b(span), b, 1)},
-            kept ? kept->twist->element.turn(gather_twist(*kept, state_.q))
+            {chart(0, span.node_a), chart(1, span.node_b)},
+            same ? same->twist->element.turn(gather_twist(*same, state_.q))
                  : turn(span.beam, span.s_a, span.s_b)};
+  }
+
+  // By how much more the charts of kept nodes are turned than those of a neighbouring model, and new nodes as
+  // kept ones before them.
+  std::vector<double> turned(const Mesh& fresh, int beam,
+                             std::span<const MeshPlan::SectionCharts> like) const {
+    std::vector<std::optional<double>> known(fresh.nodes[beam].size());
+    for (std::size_t i = 0; i < like.size(); ++i) {
+      const MeshSpan& span = fresh.spans[fresh.first_span[beam] + i];
+      for (const int end : {0, 1})
+        if (const int present = kept(fresh, span, end); present >= 0)
+          known[end == 0 ? span.node_a : span.node_b] =
+              angle_in(like[i].charts[end], section_chart(system_, beam, present, end));
+    }
+    // Before the first kept node of a ring is its last.
+    const auto is_known = [](const std::optional<double>& each) { return each.has_value(); };
+    const bool is_ring = system_.model().beams[beam].is_ring();
+    const auto last = std::find_if(known.rbegin(), known.rend(), is_known);
+    const auto first = std::find_if(known.begin(), known.end(), is_known);
+    double before = first == known.end() ? 0 : is_ring ? **last : **first;
+    std::vector<double> all;
+    for (const std::optional<double>& each : known) all.push_back(before = each.value_or(before));
+    return all;
   }
 
   // The present element between two present nodes, if there is one.
@@ -53,15 +87,9 @@ class PresentSections {
   }
 
  private:
-  Eigen::Matrix3d chart(int beam, const MeshNode& node, int kept, int end) const {
-    if (kept < 0) return section_point(system_, state_, beam, node.s).triad.matrix();
-    const auto at_end = [&](const MeshElement<3>& e, int side) {
-      return e.beam == beam && (side == 0 ? e.node_a : e.node_b) == kept;
-    };
-    for (const int side : {end, 1 - end})
-      for (const MeshElement<3>& e : elements_)
-        if (at_end(e, side)) return e.twist->element.chart(side);
-    return section_point(system_, state_, beam, node.s).triad.matrix();
+  // The node of the present mesh at an end of a new span, -1 where there is none.
+  int kept(const Mesh& fresh, const MeshSpan& span, int end) const {
+    return same_node(system_.mesh().nodes[span.beam], end == 0 ? fresh.node_a(span) : fresh.node_b(span));
   }
 
   double turn(int beam, double s_a, double s_b) const {
@@ -93,15 +121,33 @@ int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted) {
   return found == nodes.end() ? -1 : static_cast<int>(found - nodes.begin());
 }
 
-void carry_sections(const BeamSystem& system, const State& state, MeshPlan& plan) {
+const Eigen::Matrix3d& section_chart(const BeamSystem& system, int beam, int node, int end) {
+  const Mesh& mesh = system.mesh();
+  const int first = mesh.first_span[beam], count = mesh.first_span[beam + 1] - first;
+  const bool is_ring = system.model().beams[beam].is_ring();
+  if (!is_ring && (end == 0 ? node == count : node == 0)) end = 1 - end;
+  const int span = end == 0 ? node : (node + count - 1) % count;
+  return system.assembly<3>()->elements()[first + span].twist->element.chart(end);
+}
+
+void carry_sections(const BeamSystem& system, const State& state, MeshPlan& plan, const MeshPlan* like) {
   plan.section_charts.clear();
   const BeamModel& model = system.model();
   if (std::none_of(model.beams.begin(), model.beams.end(), [](const Beam& b) { return b.has_torsion(); }))
     return;
   const PresentSections present(system, state);
   const Mesh fresh = make_mesh(model, plan);
-  for (const MeshSpan& span : fresh.spans)
-    if (model.beams[span.beam].has_torsion()) plan.section_charts.push_back(present.of(fresh, span));
+  for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) {
+    if (!model.beams[b].has_torsion()) continue;
+    const int first = fresh.first_span[b], end = fresh.first_span[b + 1];
+    const MeshPlan::SectionCharts* of_like =
+        like ? like->section_charts.data() + plan.section_charts.size() : nullptr;
+    std::vector<double> turned;
+    if (of_like) turned = present.turned(fresh, b, {of_like, static_cast<std::size_t>(end - first)});
+    for (int i = first; i < end; ++i)
+      plan.section_charts.push_back(
+          present.of(fresh, fresh.spans[i], of_like ? of_like + (i - first) : nullptr, turned));
+  }
 }
 
 CarriedTwist carried_twist(const BeamSystem& system, const State& state, const MeshSpan& span,

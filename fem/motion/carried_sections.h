@@ -4,9 +4,16 @@
 namespace nurbeam {
 
 /// Gives a new plan the charts of the sections of all beams with torsion: nodes that the present mesh has
-/// keep theirs, so that their angles stay; those of new nodes are the present sections, angles zero. Nothing
-/// without torsion.
-void carry_sections(const BeamSystem& system, const State& state, MeshPlan& plan);
+/// keep theirs, so that their angles stay; those of new nodes are the present sections. Nothing without
+/// torsion. With `like`, the plan of a neighbouring model that has the same spans, those of new nodes are its
+/// charts, turned about the tangent as those of nodes that both keep beside them: where both models are drawn
+/// alike their sections have the same angles then.
+void carry_sections(const BeamSystem& system, const State& state, MeshPlan& plan,
+                    const MeshPlan* like = nullptr);
+
+/// The chart of the sections at a node of a beam with torsion: of the element before it (end 1) or behind it
+/// (end 0) where there are both.
+const Eigen::Matrix3d& section_chart(const BeamSystem& system, int beam, int node, int end);
 
 /// The twist of the present mesh, as an element of a new one has it.
 struct CarriedTwist {

@@ -250,7 +250,7 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
   plan.held = like.held;
   plan.closed = like.closed;
   carry_weights(system, state, plan);
-  carry_sections(system, state, plan);
+  carry_sections(system, state, plan, &like);
   return plan;
 }
 

@@ -310,22 +310,32 @@ void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, i
   if (node.place >= 0) copy(node.place, kept.place, 1);
 }
 
-void place_node(const BeamSystem& from, const State& state, int beam, const MeshNode& node, State& next) {
+// `i`: of the nodes of the beam in the new mesh.
+void place_node(const BeamSystem& from, const State& state, const BeamSystem& to, int beam, int i,
+                State& next) {
   const int D = from.dimension();
+  const MeshNode& node = to.mesh().nodes[beam][i];
   const double s = node.joint >= 0 ? state.q[from.mesh().joints[node.joint].place] : node.s;
   const MaterialPoint<3> p = material_point(from, state, beam, s);
   const double rate = node.joint >= 0 ? place_rate(from, state, node.joint) : 0;
   next.q.segment(node.r, D) = p.r.head(D);
   next.v.segment(node.r, D) = (p.velocity + rate * p.rs).head(D);
+  const Eigen::Vector3d slope_rate = p.velocity_s + rate * p.rss;
   for (int slope : {node.slope_left, node.slope_right}) {
     next.q.segment(slope, D) = p.rs.head(D);
-    next.v.segment(slope, D) = (p.velocity_s + rate * p.rss).head(D);
+    next.v.segment(slope, D) = slope_rate.head(D);
   }
-  // In the chart of the section there (carry_sections): what the node sees is the spin of the material and,
-  // as it moves over it, the twist.
-  if (node.angle_left >= 0)
-    for (const int angle : {node.angle_left, node.angle_right})
-      next.v[angle] = material_spin(from, state, beam, s) + rate * section_twist(from, state, beam, s);
+  // What the node sees is the spin of the material and, as it moves over it, the twist.
+  if (node.angle_left >= 0) {
+    const Eigen::Matrix3d section = section_point(from, state, beam, s).triad.matrix();
+    const double spin = material_spin(from, state, beam, s) + rate * section_twist(from, state, beam, s);
+    for (const int end : {0, 1}) {
+      const Eigen::Matrix3d& chart = section_chart(to, beam, i, end);
+      const int angle = end == 0 ? node.angle_right : node.angle_left;
+      next.q[angle] = angle_in(chart, section);
+      next.v[angle] = spin - spin_row<double>(chart, p.rs).dot(slope_rate);
+    }
+  }
   if (node.place < 0) return;
   next.q[node.place] = s;
   next.v[node.place] = rate;
@@ -372,7 +382,7 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
       if (kept >= 0) {
         keep_node(old.nodes[b][kept], state, node, D, next);
       } else {
-        place_node(from, state, b, node, next);
+        place_node(from, state, to, b, i, next);
         added.emplace_back(b, i);
       }
     }

@@ -330,8 +330,7 @@ std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other,
     if constexpr (D == 3)
       if (e.twist)
         unlike.back() =
-            unlike.back() || !e.element.fixed() ||
-            std::any_of(states.begin(), states.end(), [&](const State& state) {
+            unlike.back() || std::any_of(states.begin(), states.end(), [&](const State& state) {
               const TwistLayout::Coordinates own = e.twist->element.force(gather_twist(e, state));
               return !((own - of_other.twist->element.force(gather_twist(of_other, state))).norm() <=
                        rounding * own.norm());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "fem/mesh/widened.h"
 #include "fem/system/material_points.h"
@@ -41,32 +42,52 @@ class ElementPositions {
   std::optional<MovingBasis> moving_;
 };
 
-// Material velocities of a motion, at places of which those in one element follow one another.
+// Material velocities and spins of a motion, at places of which those in one element follow one another.
 template <int D>
 class VelocityField {
  public:
   VelocityField(const Assembly<D>& assembly, const State& state) : assembly_(&assembly), state_(&state) {}
 
-  Eigen::Matrix<double, D, 1> at(int beam, double s) {
+  Eigen::Matrix<double, D, 1> velocity(int beam, double s) {
     using Layout = ElementLayout<D>;
-    const int span = find_span(*assembly_->model(), assembly_->mesh(), state_->q, beam, s);
-    const MeshElement<D>& e = assembly_->elements()[span];
-    if (span != span_) {
-      span_ = span;
-      x_ = gather<D>(e, *state_);
-      positions_.emplace(e, x_.q);
-    }
+    const MeshElement<D>& e = element_at(beam, s);
+    if (!positions_) positions_.emplace(e, x_.q);
     const auto at = positions_->at(e.local(x_.q, s));
     return x_.node_rates() * at.by_nodes + x_.v[Layout::place(0)] * at.by_ends[0] +
            x_.v[Layout::place(1)] * at.by_ends[1];
   }
 
+  double spin(int beam, double s) requires(D == 3) {
+    const MeshElement<D>& e = element_at(beam, s);
+    if (!spins_) {
+      const TwistState x = gather_twist(e, *state_);
+      spins_.emplace(Spins{{e.twist->element, x.q}, x.v});
+    }
+    return spins_->rows.at(e.local(x_.q, s)).dot(spins_->rates);
+  }
+
  private:
+  const MeshElement<D>& element_at(int beam, double s) {
+    const int span = find_span(*assembly_->model(), assembly_->mesh(), state_->q, beam, s);
+    const MeshElement<D>& e = assembly_->elements()[span];
+    if (std::exchange(span_, span) == span) return e;
+    x_ = gather<D>(e, *state_);
+    positions_.reset();
+    spins_.reset();
+    return e;
+  }
+
   const Assembly<D>* assembly_;
   const State* state_;
+  // Of the element that was last asked for.
+  struct Spins {
+    TwistElement::MaterialSpinRows rows;
+    TwistLayout::Coordinates rates;
+  };
   int span_ = -1;
   ElementState<D> x_;
   std::optional<ElementPositions<D>> positions_;
+  std::optional<Spins> spins_;
 };
 
 // The places between which an element of a mesh is integrated in parts: it ends at joints where these are.
@@ -86,12 +107,14 @@ std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& mesh, const Me
   return parts;
 }
 
-// The momentum of a section's spin, times the length [rad m/s] that has it.
-void add_spin(const MeshElement<3>& e, const State& state, double s, double spin, Eigen::VectorXd& p) {
-  const double inertia = e.element.properties().sections->spin_inertia;
-  const TwistLayout::Coordinates row = e.twist->element.material_spin_row(gather_twist(e, state.q), s);
-  for (int k = 0; k < TwistLayout::size; ++k)
-    if (e.twist->dofs[k] >= 0) p[e.twist->dofs[k]] += inertia * spin * row[k];
+// Calls visit(s, length) for the quadrature points of all parts.
+template <class Visit>
+void for_each_point(const std::vector<double>& parts, Visit&& visit) {
+  for (std::size_t part = 0; part + 1 < parts.size(); ++part) {
+    const double length = parts[part + 1] - parts[part];
+    for (int g = 0; g < GaussRule::size; ++g)
+      visit(parts[part] + length * GaussRule::points[g], length * GaussRule::weights[g]);
+  }
 }
 
 // Calls visit(roll, at) for the inertia of each body that rolls with a section.
@@ -137,20 +160,26 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
   VelocityField<D> velocities(old, state);
   for (std::size_t i = 0; i < same.size(); ++i) {
     const MeshElement<D>& e = own.elements()[i];
-    if (same[i] && e.element.fixed() && !e.twist) {
+    const bool is_kept = same[i] && e.element.fixed();
+    if (is_kept) {
       const ElementNodes<D> momentum = e.element.nodal_momentum(gather<D>(*same[i], state).node_rates());
       for (int k = 0; k < ElementLayout<D>::nodal; ++k) kept_[e.dofs[k]] += momentum.reshaped()[k];
-      continue;
+      if (!e.twist) continue;
     }
-    Element& carried = elements_.emplace_back(Element{i, {}});
     const std::vector<double> parts = parts_of(e, own.mesh(), old.mesh(), state);
-    for (std::size_t part = 0; part + 1 < parts.size(); ++part)
-      for (int g = 0; g < GaussRule::size; ++g) {
-        const double length = parts[part + 1] - parts[part];
-        const double s = parts[part] + length * GaussRule::points[g];
-        carried.points.push_back({s, length * GaussRule::weights[g], widened<D>(velocities.at(e.beam, s)),
-                                  material_spin(from, state, e.beam, s)});
-      }
+    if (!is_kept) {
+      Element<Eigen::Vector3d>& axis = axes_.emplace_back(Element<Eigen::Vector3d>{i});
+      for_each_point(parts, [&](double s, double length) {
+        axis.points.push_back({s, length, widened<D>(velocities.velocity(e.beam, s))});
+      });
+    }
+    if constexpr (D == 3) {
+      if (!e.twist) continue;
+      Element<double>& sections = sections_.emplace_back(Element<double>{i});
+      for_each_point(parts, [&](double s, double length) {
+        sections.points.push_back({s, length, velocities.spin(e.beam, s)});
+      });
+    }
   }
   for (std::size_t body = 0; body < bodies_.velocities.size(); ++body)
     kept_.segment<D>(to_->mesh().bodies[body]) +=
@@ -170,10 +199,10 @@ Eigen::VectorXd CarriedMomentum::on(const State& state) const {
       *to_,
       [&]<int D>(const Assembly<D>& assembly) {
         using Layout = ElementLayout<D>;
-        for (const auto& [index, points] : elements_) {
+        for (const auto& [index, points] : axes_) {
           const MeshElement<D>& e = assembly.elements()[index];
           const ElementPositions<D> positions(e, gather<D>(e, state.q));
-          for (const auto& [s, length, v, spin] : points) {
+          for (const auto& [s, length, v] : points) {
             const auto at = positions.at(s);
             const Eigen::Matrix<double, D, 1> momentum =
                 e.element.properties().mass_per_length * length * v.template head<D>();
@@ -181,10 +210,18 @@ Eigen::VectorXd CarriedMomentum::on(const State& state) const {
             for (const int end : {0, 1})
               if (const int place = e.dofs[Layout::place(end)]; place >= 0)
                 p[place] += at.by_ends[end].dot(momentum);
-            if constexpr (D == 3)
-              if (e.twist) add_spin(e, state, s, length * spin, p);
           }
         }
+        if constexpr (D == 3)
+          for (const auto& [index, points] : sections_) {
+            const MeshElement<3>& e = assembly.elements()[index];
+            const TwistElement::MaterialSpinRows rows(e.twist->element, gather_twist(e, state.q));
+            TwistLayout::Coordinates momentum = TwistLayout::Coordinates::Zero();
+            for (const auto& [s, length, spin] : points) momentum += length * spin * rows.at(s);
+            momentum *= e.element.properties().sections->spin_inertia;
+            for (int k = 0; k < TwistLayout::size; ++k)
+              if (e.twist->dofs[k] >= 0) p[e.twist->dofs[k]] += momentum[k];
+          }
       });
   for_each_roll(*to_, [&](const auto& roll, const MeshedBeams<3>& at) {
     roll.add_momentum(at, state, bodies_.spins[roll.joint()], p);

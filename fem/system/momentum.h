@@ -18,7 +18,7 @@ BodyMotions body_motions(const BeamSystem& system, const State& state);
 ///   p = int (rho A N'v + rho I_p W'w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
 /// material, plus the bodies' momenta, with the material velocity v and the spin w of sections that the
 /// motion has. Elements are integrated in parts, between all nodes of both meshes and breaks of the drawing;
-/// those that both meshes have, with fixed ends and without torsion, have the momentum that they have.
+/// the axes of those that both meshes have, with fixed ends, have the momentum that they have.
 class CarriedMomentum {
  public:
   /// The motion `state` of `from`; `to` must outlive it.
@@ -28,22 +28,25 @@ class CarriedMomentum {
   Eigen::VectorXd on(const State& state) const;
 
  private:
+  template <class Of>
   struct Point {
     double s, length;  // [m]: its weight in the integral
-    Eigen::Vector3d velocity;
-    double spin;
+    Of motion;
   };
+  // Of an element of the other mesh, by its index.
+  template <class Of>
   struct Element {
     std::size_t index;
-    std::vector<Point> points;
+    std::vector<Point<Of>> points = {};
   };
   template <int D>
   void carry(const BeamSystem& from, const State& state);
 
   const BeamSystem* to_;
   BodyMotions bodies_;
-  Eigen::VectorXd kept_;           // (n) what does not depend on the state
-  std::vector<Element> elements_;  // those that do
+  Eigen::VectorXd kept_;                        // (n) what does not depend on the state
+  std::vector<Element<Eigen::Vector3d>> axes_;  // what does: velocities
+  std::vector<Element<double>> sections_;       // and spins
 };
 
 }  // namespace nurbeam
