@@ -101,6 +101,8 @@ class TwistElement {
 
   /// The section at material point s.
   SectionPoint section(const Coordinates& q, double s) const;
+  /// The strain of twist at both ends, between which it is linear [rad/m].
+  std::array<double, 2> twist_strain(const Coordinates& q) const;
   /// The turn of the section at material point s against that at A [rad].
   double turn_to(const Coordinates& q, double s) const;
   /// Spin of the material section at s about its tangent [rad/s].
@@ -114,7 +116,7 @@ class TwistElement {
    private:
     double s_a_, h_;
     std::array<Coordinates, 2> ends_;  // of the nodes, less what they turn by as they move over the drawing
-    std::array<double, 2> strain_ = {0, 0};  // of twist, at both ends, if they move
+    std::array<double, 2> strain_ = {0, 0};  // of twist, at ends that move
   };
   /// A vector that turns with the section at s from where it is drawn, and its derivative in q.
   struct TurnedWithSection {

@@ -41,6 +41,20 @@ SectionPoint TwistElement::section(const Coordinates& q, double s) const {
 
 double TwistElement::turn_to(const Coordinates& q, double s) const { return at_place(q, s).point.alpha; }
 
+std::array<double, 2> TwistElement::twist_strain(const Coordinates& q) const {
+  const Reduced<double> x = twist::reduced_of<fixed_rows>(q);
+  const double s_a = q[TwistLayout::place(0)], s_b = q[TwistLayout::place(1)];
+  const auto turned = [&](const auto& drawing) {
+    return twist::fields_of<double>(drawing, charts_, turn_, x).twist;
+  };
+  const double twist =
+      fixed() ? turned(drawing_) : turned(twist::DrawnElement<double>(*curve_, chart_, s_a, s_b).drawing());
+  const auto at = [&](double xi) {
+    return (twist + x[twist::bubble] * twist::bubble_slope(xi)) / (s_b - s_a);
+  };
+  return {at(0), at(1)};
+}
+
 // With xi = (s - s_A)/h the section there moves over the material with s' = (1 - xi) s_A' + xi s_B': what it
 // turns by on the way is taken out of its spin, at the nodes the drawn part of it.
 TwistElement::MaterialSpinRows::MaterialSpinRows(const TwistElement& element, const Coordinates& q)
@@ -54,13 +68,7 @@ TwistElement::MaterialSpinRows::MaterialSpinRows(const TwistElement& element, co
       ends_[end][TwistLayout::place(end)] =
           -element.curve_->section(q[TwistLayout::place(end)], end == 1).twist;
   }
-  if (element.fixed()) return;
-  const twist::DrawnElement<double> drawn(*element.curve_, element.chart_, s_a_, s_a_ + h_);
-  const double turned = twist::fields_of<double>(drawn.drawing(), element.charts_, element.turn_,
-                                                 twist::reduced_of<fixed_rows>(q))
-                            .twist;
-  for (const int end : {0, 1})
-    strain_[end] = (turned + q[TwistLayout::bubble] * twist::bubble_slope(static_cast<double>(end))) / h_;
+  if (!element.fixed()) strain_ = element.twist_strain(q);
 }
 
 TwistElement::Coordinates TwistElement::MaterialSpinRows::at(double s) const {

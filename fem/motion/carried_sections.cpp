@@ -30,13 +30,11 @@ class PresentSections {
       if (like) return like->charts[end] * Eigen::AngleAxisd(turned[node], Eigen::Vector3d::UnitZ());
       return section_point(system_, state_, span.beam, fresh.nodes[span.beam][node].s).triad.matrix();
     };
-    const MeshElement<3>* const same = element_between(span.beam, a, b);
     return {span.beam,
             span.s_a,
             span.s_b,
             {chart(0, span.node_a), chart(1, span.node_b)},
-            same ? same->twist->element.turn(gather_twist(*same, state_.q))
-                 : turn(span.beam, span.s_a, span.s_b)};
+            like ? like->turn : turn(span, a, b)};
   }
 
   // By how much more the charts of kept nodes are turned than those of a neighbouring model, and new nodes as
@@ -92,9 +90,12 @@ class PresentSections {
     return same_node(system_.mesh().nodes[span.beam], end == 0 ? fresh.node_a(span) : fresh.node_b(span));
   }
 
-  double turn(int beam, double s_a, double s_b) const {
+  // Of a new span, between the present nodes a and b where these are its ends.
+  double turn(const MeshSpan& span, int a, int b) const {
+    if (const MeshElement<3>* const same = element_between(span.beam, a, b))
+      return same->twist->element.turn(gather_twist(*same, state_.q));
     double sum = 0;
-    for_each_part(beam, s_a, s_b, [&](const MeshElement<3>& e, double s_0, double s_1) {
+    for_each_part(span.beam, span.s_a, span.s_b, [&](const MeshElement<3>& e, double s_0, double s_1) {
       const TwistLayout::Coordinates q = gather_twist(e, state_.q);
       sum += e.twist->element.turn_to(q, s_1) - e.twist->element.turn_to(q, s_0);
     });
@@ -160,9 +161,11 @@ CarriedTwist carried_twist(const BeamSystem& system, const State& state, const M
   present.for_each_part(span.beam, s_a, s_a + h, [&](const MeshElement<3>& e, double s_0, double s_1) {
     const TwistState x = gather_twist(e, state);
     const double l = x.q[TwistLayout::place(1)] - x.q[TwistLayout::place(0)];
+    const auto [strain_a, strain_b] = e.twist->element.twist_strain(x.q);
     for (int g = 0; g < GaussRule::size; ++g) {
       const double along = (s_1 - s_0) * GaussRule::points[g], weight = (s_1 - s_0) * GaussRule::weights[g];
-      const double strain = e.twist->element.section(x.q, s_0 + along).strain.twist;
+      const double xi = (s_0 + along - x.q[TwistLayout::place(0)]) / l;
+      const double strain = (1 - xi) * strain_a + xi * strain_b;
       carried.bubble += 0.75 * weight * strain * (1 - 2 * (before + along) / h);
     }
     // beta X^2 with X = h/l.

@@ -77,10 +77,10 @@ std::vector<TransferTangent::Neighbours> Sensitivities::go_over(const MeshedStat
 void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& transfer,
                               const std::function<bool(MeshedState&)>& change) {
   const MeshedState& before = transfer.before;
-  const bool is_plain = at.system->mesh().plan.section_charts.empty() &&  // without torsion
-                        !at.system->forces_depend_on_multipliers();
   const std::optional<TransferPath> path =
-      is_plain ? path_of(*before.system, before.state, *at.system, transfer.moves) : std::nullopt;
+      at.system->forces_depend_on_multipliers()
+          ? std::nullopt
+          : path_of(*before.system, before.state, *at.system, transfer.moves);
   if (!path) return changes(at, change);
   carry();
   const std::vector<int> kept = kept_elements(*before.system, *at.system);

@@ -141,8 +141,12 @@ struct ResidualDifferences::In final : Implementation {
     side_by_side(static_cast<int>(of.size()), [&](int k) {
       const auto& [more, less, step] = of[static_cast<std::size_t>(k)];
       if (outlasts(static_cast<std::size_t>(k))) return;
-      unlike[static_cast<std::size_t>(k)] =
-          more->template assembly<D>()->elements_unlike(*less->template assembly<D>(), states);
+      const Assembly<D>&own = *more->template assembly<D>(), &other = *less->template assembly<D>();
+      std::vector<std::optional<bool>> known;
+      if (before)
+        known = known_unlike(before->of->pairs[static_cast<std::size_t>(k)], *before->elements,
+                             own.elements().size());
+      unlike[static_cast<std::size_t>(k)] = own.elements_unlike(other, states, known);
     });
     for (std::size_t k = 0; k < of.size(); ++k) {
       pairs.push_back(outlasts(k) ? outlasting(before->of->pairs[k], *before->elements)
@@ -150,6 +154,20 @@ struct ResidualDifferences::In final : Implementation {
       work += pairs.back().work;
     }
     list(before ? *before->system : *pairs.front().more);
+  }
+
+  // Of each element behind a change, of which there are so many, whether it is unlike in a pair: what it has
+  // been before, if it was there.
+  static std::vector<std::optional<bool>> known_unlike(const Sides& before, const std::vector<int>& elements,
+                                                       std::size_t count) {
+    std::vector<std::optional<bool>> known(count);
+    const auto set = [&](int old, bool is_unlike) {
+      if (elements[old] >= 0) known[elements[old]] = is_unlike;
+    };
+    for (int old = 0; old < static_cast<int>(elements.size()); ++old) set(old, false);
+    for (const Different& each : before.batched) set(each.now, true);
+    for (const Apart& each : before.apart) set(each.index, true);
+    return known;
   }
 
   // A pair behind a change that it outlasts.

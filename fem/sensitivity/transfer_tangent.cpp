@@ -39,11 +39,17 @@ std::vector<int> rows_that_change_with_shape(const BeamSystem& system) {
   std::vector<bool> wanted(static_cast<std::size_t>(pattern.size()), false);
   for (int k = pattern.column_starts()[n]; k < pattern.column_starts()[pattern.size()]; ++k)
     wanted[pattern.rows()[k]] = true;
+  const auto want = [&](const auto& dofs) {
+    for (const int dof : dofs)
+      if (dof >= 0) wanted[dof] = true;
+  };
   with_assembly(system, [&]<int D>(const Assembly<D>& assembly) {
-    for (const MeshElement<D>& e : assembly.elements())
-      if (e.twist || !e.element.fixed())
-        for (const int dof : e.dofs)
-          if (dof >= 0) wanted[dof] = true;
+    for (const MeshElement<D>& e : assembly.elements()) {
+      if (e.twist)
+        want(e.twist->dofs);
+      else if (!e.element.fixed())
+        want(e.dofs);
+    }
   });
   std::vector<int> rows;
   for (int i = 0; i < n; ++i)

@@ -320,21 +320,27 @@ void Assembly<D>::residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynam
 }
 
 template <int D>
-std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other,
-                                               const std::vector<State>& states) const {
+std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other, const std::vector<State>& states,
+                                               const std::vector<std::optional<bool>>& known) const {
   constexpr double rounding = 1e-12;
+  const auto has_unlike_sections = [&](const MeshElement<D>& e, const MeshElement<D>& of_other) {
+    if constexpr (D == 3)
+      if (e.twist)
+        return std::any_of(states.begin(), states.end(), [&](const State& state) {
+          const TwistLayout::Coordinates own = e.twist->element.force(gather_twist(e, state));
+          return !((own - of_other.twist->element.force(gather_twist(of_other, state))).norm() <=
+                   rounding * own.norm());
+        });
+    return false;
+  };
   std::vector<bool> unlike;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const MeshElement<D>&e = elements_[i], &of_other = other.elements_[i];
-    unlike.push_back(!same_axis(e, of_other, model_->beams[e.beam], other.model_->beams[e.beam]));
-    if constexpr (D == 3)
-      if (e.twist)
-        unlike.back() =
-            unlike.back() || std::any_of(states.begin(), states.end(), [&](const State& state) {
-              const TwistLayout::Coordinates own = e.twist->element.force(gather_twist(e, state));
-              return !((own - of_other.twist->element.force(gather_twist(of_other, state))).norm() <=
-                       rounding * own.norm());
-            });
+    if (!known.empty() && known[i])
+      unlike.push_back(*known[i]);
+    else
+      unlike.push_back(!same_axis(e, of_other, model_->beams[e.beam], other.model_->beams[e.beam]) ||
+                       has_unlike_sections(e, of_other));
   }
   return unlike;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -77,8 +78,9 @@ class Assembly final : public SecondOrderSystem {
   }
   /// Which elements answer otherwise than those of `other`, a system of one mesh of a neighbouring model,
   /// apart from loads and free strains: to round-off, sections at these states; ends that move at
-  /// corresponding places.
-  std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states) const;
+  /// corresponding places. `known`: by element what is known of it; may be empty.
+  std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states,
+                                    const std::vector<std::optional<bool>>& known) const;
   /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces but inertia
   /// and weight of bodies, no motions, and what there is the same to round-off at these states, which must be
   /// general ones that correspond.

@@ -114,5 +114,12 @@ TEST(GradientBeside, IsWhatNeighboursDoInSpace) {
   expect_what_neighbours_do(of, 2, 1e-5);
 }
 
+TEST(GradientBeside, IsWhatNeighboursDoOnARailWithTorsion) {
+  for (const char* section : {R"json({"radius": "16 mm"})json",
+                              R"json({"area": 6.4e-4, "second_moments": [8.5e-8, 1.4e-8],
+                                      "torsion_constant": 4.2e-8})json"})
+    expect_what_neighbours_do(StudyOfCase(test::rail_case(section), test::rail_study), 3, 1e-5);
+}
+
 }  // namespace
 }  // namespace nurbeam

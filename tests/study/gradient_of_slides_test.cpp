@@ -118,44 +118,16 @@ TEST(Gradient, OfControlPointsThatABodyComesToAndLeaves) {
   expect_gradient(of, 1e-4, 1e-4);
 }
 
-// A rail in space with torsion, of seven spans with two elements in each, over which a body slides through
-// changes of the mesh.
-std::string rail_case(const char* section) {
-  return R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
-    "beams": [{"name": "rail",
-      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.14, 0.28, 0.42, 0.56, 0.7, 0.84, 1, 1, 1, 1],
-                         "control_points": [[0, 0, 1], [0.35, 0.1, 0.8], [0.7, 0.25, 0.6], [1.1, 0.3, 0.45], [1.5, 0.2, 0.35],
-                                            [1.9, 0, 0.25], [2.3, -0.15, 0.2], [2.7, -0.2, 0.2], [3.1, -0.1, 0.25], [3.5, 0.1, 0.3]]}},
-      "section": )json" +
-         std::string(section) + R"json(,
-      "material": {"density": 2700, "youngs_modulus": "30 GPa", "shear_modulus": "12 GPa"},
-      "torsion": true, "elements": {"count": 14}}],
-    "bodies": [{"name": "a", "mass": 1.3}],
-    "sliding_joints": [{"body": "a", "beam": "rail", "at": {"length": 0.7}, "speed": 3}],
-    "supports": [{"beam": "rail", "at": "start", "type": "clamped"}, {"beam": "rail", "at": "end", "type": "clamped"}],
-    "analysis": {"type": "dynamic", "end_time": 0.3, "step": "1 ms"}, "output": {"every": 0.05}})json";
-}
-
-// Control points that the body leaves, comes to and never sees.
-const std::string rail_study = R"json("variables": [
-      {"name": "z1", "control_point": {"beam": "rail", "index": 1, "axis": "z"}, "range": [0.75, 0.85]},
-      {"name": "y3", "control_point": {"beam": "rail", "index": 3, "axis": "y"}, "range": [0.25, 0.35]},
-      {"name": "z5", "control_point": {"beam": "rail", "index": 5, "axis": "z"}, "range": [0.2, 0.3]},
-      {"name": "y8", "control_point": {"beam": "rail", "index": 8, "axis": "y"}, "range": [-0.15, -0.05]}],
-    "quantities": [{"name": "s", "value": "at(end, a.s)"}, {"name": "v", "value": "at(end, a.speed)"},
-      {"name": "y", "value": "at(0.2, a.y)"}],
-    "plan": {"grid": 2})json";
-
 TEST(Gradient, OfABodyOnARailWithTorsion) {
-  StudyOfCase of(rail_case(R"json({"radius": "16 mm"})json"), rail_study);
+  StudyOfCase of(test::rail_case(R"json({"radius": "16 mm"})json"), test::rail_study);
   expect_gradient(of, 1e-4, 1e-4);
 }
 
 // Sections that differ by how they are turned about the tangent.
 TEST(Gradient, OfABodyOnARailWithTorsionWhoseSectionIsFlat) {
-  StudyOfCase of(rail_case(R"json({"area": 6.4e-4, "second_moments": [8.5e-8, 1.4e-8],
+  StudyOfCase of(test::rail_case(R"json({"area": 6.4e-4, "second_moments": [8.5e-8, 1.4e-8],
       "torsion_constant": 4.2e-8})json"),
-                 rail_study);
+                 test::rail_study);
   expect_gradient(of, 1e-4, 1e-4);
 }
 

@@ -116,7 +116,9 @@ TEST(TorsionSliding, GoesOnFromACheckpointBitByBit) {
   EXPECT_EQ(resumed.state.v, end.state.v);
 }
 
-TEST(TorsionSliding, HasTheSameSectionsAfterASplit) {
+/// A rail before and behind a split beside its body and one between fixed ends. `like`: makes the plan behind
+/// it that of a neighbour.
+void expect_the_same_sections_after_a_split(const std::function<void(MeshPlan&)>& like) {
   std::mt19937 random(8);
   BeamModel model = rail(0.3, 1, {0, 0, 0}, 0, false);
   model.beams[0].properties.axial_strain = AxialStrain::pointwise;
@@ -131,6 +133,11 @@ TEST(TorsionSliding, HasTheSameSectionsAfterASplit) {
   MeshedState at = recentred(from, before);
   full.places = at.system->mesh().plan.places;
   carry_sections(*at.system, at.state, full);
+  if (like) {
+    MeshPlan of_neighbour = full;
+    like(of_neighbour);
+    carry_sections(*at.system, at.state, full, &of_neighbour);
+  }
   const BeamSystem to(model, full);
   const State after = interpolated(*at.system, at.state, to);
   for (int i = 0; i < 50; ++i) {
@@ -144,6 +151,37 @@ TEST(TorsionSliding, HasTheSameSectionsAfterASplit) {
   EXPECT_NEAR(b.torsion, a.torsion, 1e-4 * a.torsion);
   EXPECT_NEAR(b.kinetic, a.kinetic, 1e-4 * a.kinetic);
   EXPECT_GT(a.torsion, 1e-3);
+}
+
+TEST(TorsionSliding, HasTheSameSectionsAfterASplit) { expect_the_same_sections_after_a_split(nullptr); }
+
+TEST(TorsionSliding, HasTheSameSectionsInChartsOfANeighbour) {
+  const Eigen::Matrix3d swing(Eigen::AngleAxisd(0.3, Vector3d(0.2, -1, 0.4).normalized()));
+  expect_the_same_sections_after_a_split([&](MeshPlan& plan) {
+    for (MeshPlan::SectionCharts& each : plan.section_charts)
+      for (Eigen::Matrix3d& chart : each.charts)
+        chart = swing * chart * Eigen::AngleAxisd(0.5, Vector3d::UnitZ());
+  });
+}
+
+// Where all sections of a neighbour are turned alike, those of new nodes are too.
+TEST(TorsionSliding, TurnsChartsOfANeighbourAsThoseBesideThem) {
+  std::mt19937 random(9);
+  const BeamModel model = rail(0.3, 1, {0, 0, 0}, 0, false);
+  MeshPlan coarse = initial_plan(model), full = coarse;
+  full.beams[0].present.assign(full.beams[0].present.size(), true);
+  coarse = full;
+  coarse.beams[0].present[3] = coarse.beams[0].present[7] = false;
+  const BeamSystem from(model, coarse);
+  const State state = disturbed_state(from, random, 0.04);
+  carry_sections(from, state, full);
+  MeshPlan turned = full, carried = full;
+  for (MeshPlan::SectionCharts& each : turned.section_charts)
+    for (Eigen::Matrix3d& chart : each.charts) chart = chart * Eigen::AngleAxisd(-0.5, Vector3d::UnitZ());
+  carry_sections(from, state, carried, &turned);
+  for (std::size_t i = 0; i < full.section_charts.size(); ++i)
+    for (const int end : {0, 1})
+      EXPECT_LT((carried.section_charts[i].charts[end] - full.section_charts[i].charts[end]).norm(), 1e-14);
 }
 
 }  // namespace
