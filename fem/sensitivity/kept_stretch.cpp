@@ -96,21 +96,17 @@ void Sensitivities::carry() {
   });
 }
 
-void Sensitivities::choose(const std::vector<std::size_t>& records, const SnapshotContents& contents,
-                           std::size_t quantities) {
+void Sensitivities::choose(const std::vector<std::size_t>& records, std::size_t quantities) {
   if (!stretch_) return;
   // In what a parameter takes over a step: a quantity back over one, which is the smaller part of as many
-  // that go side by side; the derivatives of quantities by one state, and of energies by each of its
-  // unknowns.
-  constexpr double of_a_quantity = 5, of_a_record = 50, of_energies = 12;
+  // that go side by side; the derivatives of quantities by one state.
+  constexpr double of_a_quantity = 5, of_a_record = 50;
   std::size_t last = 0, count = 0;
   for (const std::size_t record : records)
     if (!records_[record].tangents) last = records_[record].position, ++count;
-  const double by_state =
-      of_a_record + (contents.energy ? of_energies * static_cast<double>(state_.q.size()) : 0);
   const double forward = static_cast<double>(parameters_.size() * stretch_->steps.size());
   const double back =
-      of_a_quantity * static_cast<double>(quantities * last) + by_state * static_cast<double>(count);
+      of_a_quantity * static_cast<double>(quantities * last) + of_a_record * static_cast<double>(count);
   if (back >= forward) carry();
 }
 

@@ -75,10 +75,9 @@ class Sensitivities final : public RunFollower {
   };
   const Work& work() const { return work_; }
 
-  /// After the run, before what follows, where this many quantities of these records, with such contents, are
-  /// asked for: takes tangents over what steps are left where that is less work than to go back.
-  void choose(const std::vector<std::size_t>& records, const SnapshotContents& contents,
-              std::size_t quantities);
+  /// After the run, before what follows, where this many quantities of these records are asked for: takes
+  /// tangents over what steps are left where that is less work than to go back.
+  void choose(const std::vector<std::size_t>& records, std::size_t quantities);
   /// At the time of snapshot `record` of the run, counted from 0, those of the models in which a parameter is
   /// greater and less, of states step dq/dp away, with these contents. Throws std::runtime_error where these
   /// have no accelerations.

@@ -195,19 +195,17 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const Pair& pair = pairs_.emplace_back(std::move(*pairs[k]));
     neighbours.push_back({pair.more.neighbour(), pair.less.neighbour(), pair.step});
   }
-  is_by_adjoint_ = pays_by_adjoint(options.statics);
+  is_by_adjoint_ = pays_by_adjoint();
   sensitivities_ =
       std::make_unique<Sensitivities>(options, probe_places(model), std::move(neighbours), is_by_adjoint_);
 }
 
 VariantGradient::~VariantGradient() = default;
 
-// What states do to quantities is found by each unknown: of all beams it takes as long as a rest, of their
-// energies as some steps.
-bool VariantGradient::pays_by_adjoint(bool is_static) const {
+bool VariantGradient::pays_by_adjoint() const {
   const SnapshotContents contents = Histories(study_, model_).contents();
   return pairs_.size() > study_.quantities.size() && !contents.beams && !contents.sections &&
-         !(contents.energy && is_static);
+         !contents.energy;
 }
 
 // (quantities x parameters) What states at these times, which change with the parameters, do to the
@@ -232,7 +230,7 @@ Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
 StudyGradient VariantGradient::of_quantities(const Histories& histories,
                                              const std::vector<RunEvent>& events) {
   const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model_.model, events);
-  sensitivities_->choose(times, histories.contents(), study_.quantities.size());
+  sensitivities_->choose(times, study_.quantities.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     pairs_[k].more.histories.begin_as(histories);
     pairs_[k].less.histories.begin_as(histories);
