@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,25 @@ class ThreadLimit {
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Work that goes on beside its thread, where a second one is free.
+class Alongside {
+ public:
+  Alongside();
+  /// Waits for it.
+  ~Alongside();
+  Alongside(const Alongside&) = delete;
+  Alongside& operator=(const Alongside&) = delete;
+
+  /// Precondition: none is under way.
+  void begin(std::function<void()> work);
+  /// Until it is done; throws on what it has thrown.
+  void finish();
 
  private:
   struct Implementation;

@@ -123,11 +123,12 @@ StepTangent::StepTangent(const GeneralizedAlpha& settings, const SecondOrderSyst
     for (int k = starts[column]; k < starts[column + 1]; ++k) entries_[next[rows[k]]++] = {column, k};
 }
 
-bool StepTangent::take(const State& before, const IntegratorHistory& history, const State& after,
+void StepTangent::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
   step_.take(before, history, after, repeated);
-  return solver_.factorise(step_.kkt);
 }
+
+bool StepTangent::factorise() { return solver_.factorise(step_.kkt); }
 
 MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVectorXd& step,
                                 const Matrix& dynamics, const Matrix& constraints) const {

@@ -35,14 +35,14 @@ class StepTangent {
   /// `system` must outlive it.
   StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system);
 
-  /// Takes a step from `before`, with that history, to `after`, which must be converged; whether its matrix
-  /// is regular. `repeated`: as by Integrator::repeat.
-  [[nodiscard]] bool take(const State& before, const IntegratorHistory& history, const State& after,
-                          bool repeated);
-  /// How the residual at `after` changes with q, constraints below (n + m). Precondition here and below: take
-  /// returned true.
+  /// Takes a step from `before`, with that history, to `after`, which must be converged. `repeated`: as by
+  /// Integrator::repeat.
+  void take(const State& before, const IntegratorHistory& history, const State& after, bool repeated);
+  /// How the residual at `after` changes with q, constraints below (n + m).
   const Eigen::SparseMatrix<double>& stiffness() const { return step_.stiffness; }
-  /// The tangents at the end of that step, whose length changes by `step`, of each parameter. `dynamics` (n),
+  /// Whether the matrix of that step is regular.
+  [[nodiscard]] bool factorise();
+  /// Precondition: it is. The tangents at the end of that step, whose length changes by `step`, of each parameter. `dynamics` (n),
   /// `constraints` (m), a column for each: how the residual at `after` changes with the parameter itself, by
   /// the system and by t, while q, v, a and lambda stay.
   MotionTangents end(const MotionTangents& start, const Eigen::RowVectorXd& step, const Matrix& dynamics,

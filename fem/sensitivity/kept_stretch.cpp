@@ -84,19 +84,21 @@ void Sensitivities::keep(const FollowedStep& step) {
   stretch_->by_time.push_back(-(step.after.t - step.before.t) / step.rest);
 }
 
-// The tangents over the steps that have been kept, and to the records on the way.
+// The tangents over all steps, kept ones too, and to the records on the way.
 void Sensitivities::carry() {
-  if (!stretch_) return;
-  const std::unique_ptr<const Stretch> stretch = std::move(stretch_);
-  auto record = stretch->records.begin();
-  stretch->steps.forward([&](std::size_t i, const KeptSteps::Step& step) {
-    carry_over(step, stretch->by_time[i] * tangents_.t);
-    for (; record != stretch->records.end() && records_[*record].position == i + 1; ++record)
-      records_[*record].tangents = of_states(tangents_);
-  });
+  if (const std::unique_ptr<const Stretch> stretch = std::move(stretch_)) {
+    auto record = stretch->records.begin();
+    stretch->steps.forward([&](std::size_t i, const KeptSteps::Step& step) {
+      carry_over(step, stretch->by_time[i] * times());
+      for (; record != stretch->records.end() && records_[*record].position == i + 1; ++record)
+        ahead_->records.push_back(*record);
+    });
+  }
+  arrive();
 }
 
 void Sensitivities::choose(const std::vector<std::size_t>& records, std::size_t quantities) {
+  arrive();
   if (!stretch_) return;
   // In what a parameter takes over a step: a quantity back over one, which is the smaller part of as many
   // that go side by side; the derivatives of quantities by one state.

@@ -136,6 +136,7 @@ void Sensitivities::go_on_from(const MeshedState& at, ResidualDifferences differ
   state_ = at.state;
   meshes_ = nullptr;
   step_.reset();
+  next_step_.reset();
   differences_ = std::move(differences);
 }
 
@@ -204,12 +205,13 @@ void Sensitivities::rests(const MeshedState& at) {
   Eigen::SparseMatrix<double> stiffness = at.system->tangent_pattern().matrix();
   at.system->tangent(at.state, {.stiffness = 1}, stiffness);
   ++work_.tangents;
-  for (Parameter& parameter : parameters_) {
+  side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
+    Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
     parameter.more = at_rest_like(at, parameter.pair.more.model);
     parameter.less = at_rest_like(at, parameter.pair.less.model);
     for (const BeamSystem* each : {parameter.more.get(), parameter.less.get()})
       if (!same_mesh(*at.system, *each)) not_alike("where bodies rest changes");
-  }
+  });
   start_afresh(at, std::vector<State>(parameters_.size(), still(n, m)));
   if (by_adjoint_ && is_static_)
     keep_for_adjoint(at, stiffness);
@@ -250,7 +252,7 @@ void Sensitivities::keep_for_adjoint(const MeshedState& at, const Eigen::SparseM
 Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
   const double h = step.after.t - step.before.t, limit = system_->step_limit(step.before);
   if (step.beyond) return Eigen::RowVectorXd::Zero(tangents_.parameters());
-  if (step.asked <= limit) return -h / step.rest * tangents_.t;
+  if (step.asked <= limit) return -h / step.rest * times();
   Eigen::RowVectorXd changes(tangents_.parameters());
   State own = step.before;  // places alone say how long it may be, and their rates
   const Shifts shifts = shifts_at(step.before);
@@ -309,10 +311,12 @@ void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
   state_ = step.after;
   if (h == 0) return;  // what a body that starts at the end of its beam does there
-  if (by_adjoint_ && !has_own_length(step)) return keep(step);
-  carry();
+  const bool own_length = has_own_length(step);
+  if (by_adjoint_ && !own_length) return keep(step);
+  if (own_length) carry();
   carry_over({step.before, step.history, step.after, step.repeated}, changes_of_length(step));
   if (step.beyond) {
+    arrive();
     const Longer longer = by_length(step);
     for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
       const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
@@ -329,18 +333,37 @@ void Sensitivities::steps(const FollowedStep& step) {
   }
 }
 
-// The tangents from the start of a step to its end.
+// Derivatives of the time at the end of the step ahead.
+Eigen::RowVectorXd Sensitivities::times() const {
+  return ahead_ ? tangents_.t + ahead_->change : tangents_.t;
+}
+
+// Linearises a step, to whose start the tangents come meanwhile, and lets them go to its end.
 void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change) {
-  if (!step_) step_.emplace(settings_, *system_);
+  if (!next_step_) next_step_ = std::make_unique<StepTangent>(settings_, *system_);
   ++work_.tangents;
-  bool regular = false;
   Shifts shifts;
-  both([&] { regular = step_->take(step.before, step.history, step.after, step.repeated); },
-       [&] { shifts = find_residual_changes(step.after, tangents_.t + change); });
-  if (!regular) singular_step();
-  take_off(shifts, step_->stiffness());
-  tangents_ = step_->end(tangents_, change, dynamics_, constraints_);
+  const Eigen::RowVectorXd at_end = times() + change;
+  both([&] { next_step_->take(step.before, step.history, step.after, step.repeated); },
+       [&] { shifts = find_residual_changes(step.after, at_end); });
+  take_off(shifts, next_step_->stiffness());
+  arrive();
+  std::swap(step_, next_step_);
+  ahead_.reset(new Ahead{.change = change, .dynamics = dynamics_, .constraints = constraints_});
+  ahead_->going.begin([&start = tangents_, &step = *step_, &ahead = *ahead_] {
+    if (step.factorise()) ahead.end = step.end(start, ahead.change, ahead.dynamics, ahead.constraints);
+  });
+}
+
+// The tangents to the end of the step ahead.
+void Sensitivities::arrive() {
+  if (!ahead_) return;
+  const std::unique_ptr<Ahead> ahead = std::move(ahead_);
+  ahead->going.finish();
+  if (!ahead->end) singular_step();
+  tangents_ = std::move(*ahead->end);
   work_.solves += tangents_.parameters();
+  for (const std::size_t record : ahead->records) records_[record].tangents = of_states(tangents_);
 }
 
 void Sensitivities::changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) {
@@ -379,6 +402,8 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
   if (stretch_) {
     record.position = stretch_->steps.size();
     stretch_->records.push_back(records_.size());
+  } else if (ahead_) {
+    ahead_->records.push_back(records_.size());
   } else {
     record.tangents = of_states(tangents_);
   }

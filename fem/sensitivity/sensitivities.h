@@ -109,6 +109,7 @@ class Sensitivities final : public RunFollower {
   struct Longer;
   struct Rest;
   struct Stretch;
+  struct Ahead;
   struct Beside;
   using Shifts = std::vector<std::vector<ResidualDifferences::Shift>>;
 
@@ -136,6 +137,8 @@ class Sensitivities final : public RunFollower {
   Eigen::VectorXd rates_with_time(const State& at, double h) const;
   void keep(const FollowedStep& step);
   void carry();
+  void arrive();
+  Eigen::RowVectorXd times() const;
   void carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change);
   void add_through_steps(const std::vector<std::size_t>& records,
                          const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
@@ -146,12 +149,13 @@ class Sensitivities final : public RunFollower {
   std::vector<ProbePlace> probes_;
   std::vector<Parameter> parameters_;
   std::optional<ResidualDifferences> differences_;  // of their present systems
-  std::optional<StepTangent> step_;                 // with the present system
+  std::unique_ptr<StepTangent> step_, next_step_;   // with the present system
   MotionTangents tangents_;
   MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
   std::shared_ptr<const BeamSystem> system_;
   State state_;                       // of the run
   std::unique_ptr<Stretch> stretch_;  // that tangents_ have not been taken over
+  std::unique_ptr<Ahead> ahead_;      // the step that they are at the start of
   Work work_;
   std::vector<std::vector<double>> event_times_;
   std::vector<Record> records_;

@@ -4,6 +4,7 @@
 #include "fem/mesh/mesh_plan.h"
 #include "fem/sensitivity/sensitivities.h"
 #include "solver/rest_adjoint.h"
+#include "solver/side_by_side.h"
 
 /// What Sensitivities are made of, for their own source files.
 namespace nurbeam {
@@ -50,6 +51,15 @@ struct Sensitivities::Stretch {
   KeptSteps steps;
   std::vector<double> by_time = {};       ///< of each, how its length changes with t at its start
   std::vector<std::size_t> records = {};  ///< behind its steps
+};
+
+/// A step that has been linearised, over which tangents go while the run takes the next one.
+struct Sensitivities::Ahead {
+  Eigen::RowVectorXd change;                      ///< of its length
+  MotionTangents::Matrix dynamics, constraints;   ///< how its residual changes
+  std::vector<std::size_t> records = {};          ///< at its end
+  std::optional<MotionTangents> end = {};         ///< what they are there; empty where it is singular
+  Alongside going = {};                           ///< to the end
 };
 
 /// By the length of a step that lands on an event: the tangent, and of the distance to it.
