@@ -1,0 +1,49 @@
+#include "solver/side_by_side.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+
+namespace nurbeam {
+namespace {
+
+TEST(Alongside, HasDoneItsWorkWhereItIsFinished) {
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    Alongside alongside;
+    int sum = 0;
+    for (int i = 1; i <= 100; ++i) {
+      int next = 0;
+      alongside.begin([&next, &sum, i] { next = sum + i; });
+      alongside.finish();
+      sum = next;
+    }
+    EXPECT_EQ(sum, 5050) << threads;
+  }
+}
+
+TEST(Alongside, ThrowsOnWhatItsWorkThrows) {
+  Alongside alongside;
+  alongside.begin([] { throw std::runtime_error("a reason"); });
+  EXPECT_THROW(alongside.finish(), std::runtime_error);
+  std::atomic<bool> done = false;
+  alongside.begin([&] { done = true; });
+  alongside.finish();
+  EXPECT_TRUE(done);
+}
+
+TEST(Alongside, LeavesNothingUnderWay) {
+  std::atomic<bool> is_there = true, was_gone = false;
+  {
+    Alongside alongside;
+    alongside.begin([&] {
+      for (int i = 0; i < 1000; ++i) was_gone = was_gone || !is_there;
+    });
+  }
+  is_there = false;
+  EXPECT_FALSE(was_gone);
+}
+
+}  // namespace
+}  // namespace nurbeam
