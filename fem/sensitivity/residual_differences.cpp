@@ -5,10 +5,9 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <tuple>
 #include <utility>
 
-#include "fem/element/element_batch.h"
+#include "fem/sensitivity/column_batches.h"
 #include "fem/system/with_assembly.h"
 #include "solver/side_by_side.h"
 
@@ -91,28 +90,18 @@ struct ResidualDifferences::In final : Implementation {
     const Assembly<D>*more = nullptr, *less = nullptr;
     double step = 0;
     double work = 0;
-    std::vector<Different> batched = {};  // in a group's batches
+    std::vector<Different> batched = {};  // in batches
     std::vector<Apart> apart = {};        // the others
-    std::vector<int> groups = {};
-    std::vector<int> coordinates = {};  // of the elements in batches
-    bool outlasts = false;              // the last change of the mesh
-    bool carries_point = false;         // a body moves over an element that differs
-    bool was_whole = true;              // the last columns that were found may not be zero elsewhere
+    std::vector<int> loads = {};          // of those in batches
+    std::vector<int> coordinates = {};    // of the elements in batches
+    bool outlasts = false;                // the last change of the mesh
+    bool carries_point = false;           // a body moves over an element that differs
+    bool was_whole = true;                // the last columns that were found may not be zero elsewhere
     // Whether no more differs than these: at the same coordinates, and at shifted ones.
     std::array<std::optional<bool>, 2> is_local = {};
   };
-  // Elements of all pairs that are made of the same, under one load: that of the beam in one of the systems.
-  struct Group {
-    const Assembly<D>* of;
-    int beam;
-    std::vector<ElementBatch<D>> batches = {};
-    std::vector<Eigen::Index> columns = {};  // of forces, of the elements in batches
-    Vector load = Vector::Zero();            // at present
-    double free_strain = 0;
-  };
-
   std::vector<Sides> pairs;
-  std::vector<Group> groups;
+  ColumnBatches<D> batches;
   Columns forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_dynamics, less_dynamics, more_constraints, less_constraints;  // of a whole pair
   State general;                 // to which what is not the same answers differently
@@ -153,7 +142,9 @@ struct ResidualDifferences::In final : Implementation {
                                   : different(of[k], unlike[k], near));
       work += pairs.back().work;
     }
-    list(before ? *before->system : *pairs.front().more);
+    const Assembly<D>& present = before ? *before->system : *pairs.front().more;
+    for (std::size_t k = 0; k < pairs.size(); ++k) add(pairs[k], static_cast<Eigen::Index>(k), present);
+    batches.close(present);
   }
 
   // Of each element behind a change, of which there are so many, whether it is unlike in a pair: what it has
@@ -216,55 +207,16 @@ struct ResidualDifferences::In final : Implementation {
     return false;
   }
 
-  // An element of one side of a pair, in a group.
-  struct Listed {
-    int group, now;
-    Eigen::Index column;
-    const MeshElement<D>* element;
-  };
-
-  // Puts elements into batches, with the coordinates that they have in the present mesh: of each group those
-  // that are one element there beside one another.
-  void list(const Assembly<D>& present) {
-    std::vector<Listed> all;
-    for (std::size_t k = 0; k < pairs.size(); ++k) list(pairs[k], static_cast<Eigen::Index>(k), present, all);
-    std::sort(all.begin(), all.end(), [](const Listed& a, const Listed& b) {
-      return std::tie(a.group, a.now, a.column) < std::tie(b.group, b.now, b.column);
-    });
-    for (auto each = all.begin(); each != all.end();) {
-      const auto end = std::find_if(each, all.end(), [&](const Listed& other) {
-        return other.group != each->group || other.now != each->now;
-      });
-      put(each, end, present.elements()[each->now].dofs);
-      each = end;
-    }
-  }
-
-  // Into the batches of their group, a new one where they do not fit into the last.
-  void put(typename std::vector<Listed>::const_iterator begin,
-           typename std::vector<Listed>::const_iterator end, const std::array<int, element_size<D>>& dofs) {
-    Group& group = groups[begin->group];
-    std::vector<ElementBatch<D>>& batches = group.batches;
-    bool fit = !batches.empty() && end - begin <= ElementBatch<D>::lanes - batches.back().count();
-    for (auto each = begin; each != end; ++each) {
-      if (!std::exchange(fit, true) || batches.back().is_full())
-        batches.emplace_back(each->element->element.properties());
-      batches.back().add(each->element->element, dofs, each->element->slope_offset, each->column);
-      group.columns.push_back(each->column);
-    }
-  }
-
-  // Adds the elements of a pair, and finds its coordinates and groups.
-  void list(Sides& pair, Eigen::Index k, const Assembly<D>& present, std::vector<Listed>& all) {
+  // Adds the elements of a pair to the batches, and finds its coordinates and loads.
+  void add(Sides& pair, Eigen::Index k, const Assembly<D>& present) {
     for (auto& [index, now, dofs] : pair.batched) {
       dofs = present.elements()[now].dofs;
       std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(pair.coordinates),
                    [](int dof) { return dof >= 0; });
       for (const Assembly<D>* side : {pair.more, pair.less}) {
-        const MeshElement<D>& e = side->elements()[index];
-        const int g = group_of(*side, e);
-        if (pair.groups.empty() || pair.groups.back() != g) pair.groups.push_back(g);
-        all.push_back({g, now, 2 * k + (side == pair.less ? 1 : 0), &e});
+        const int load =
+            batches.add(*side, side->elements()[index], now, 2 * k + (side == pair.less ? 1 : 0));
+        if (pair.loads.empty() || pair.loads.back() != load) pair.loads.push_back(load);
       }
     }
     std::sort(pair.coordinates.begin(), pair.coordinates.end());
@@ -272,18 +224,8 @@ struct ResidualDifferences::In final : Implementation {
                            pair.coordinates.end());
   }
 
-  int group_of(const Assembly<D>& assembly, const MeshElement<D>& e) {
-    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& each) {
-      return each.beam == e.beam &&
-             each.of->model()->beams[e.beam].properties == assembly.model()->beams[e.beam].properties;
-    });
-    if (group != groups.end()) return static_cast<int>(group - groups.begin());
-    groups.push_back({&assembly, e.beam});
-    return static_cast<int>(groups.size()) - 1;
-  }
-
-  // Whether the elements that are alike in a pair have the same loads on both sides, and those of its groups
-  // the loads of these.
+  // Whether the elements that are alike in a pair have the same loads on both sides, and those in batches the
+  // loads of these.
   bool same_loads(const Sides& pair, const State& above, const State& below) const {
     const auto loads_are = [&](int beam, const Vector& load, double strain) {
       return pair.more->line_load(beam, above) == load && pair.less->line_load(beam, below) == load &&
@@ -295,8 +237,9 @@ struct ResidualDifferences::In final : Implementation {
       if (!model.beams[b].rigid &&
           !loads_are(b, pair.more->line_load(b, above), pair.more->free_strain_of(b, above)))
         return false;
-    return std::all_of(pair.groups.begin(), pair.groups.end(), [&](int g) {
-      return loads_are(groups[g].beam, groups[g].load, groups[g].free_strain);
+    return std::all_of(pair.loads.begin(), pair.loads.end(), [&](int index) {
+      const auto& [beam, load, free_strain] = batches.load(index);
+      return loads_are(beam, load, free_strain);
     });
   }
 
@@ -312,7 +255,7 @@ struct ResidualDifferences::In final : Implementation {
 
   std::vector<bool> outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
                             const std::vector<int>& elements) override {
-    set_loads(at);
+    batches.set_loads(at);
     std::vector<bool> all;
     for (std::size_t k = 0; k < pairs.size(); ++k)
       all.push_back(std::all_of(pairs[k].batched.begin(), pairs[k].batched.end(),
@@ -348,36 +291,17 @@ struct ResidualDifferences::In final : Implementation {
 
   Eigen::RowVectorXd energies(const State& at) const override {
     Eigen::RowVectorXd energies = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(pairs.size()));
-    for (const Group& group : groups) {
-      const BeamModel& model = *group.of->model();
-      const Vector weight =
-          model.beams[group.beam].properties.mass_per_length * model.gravity.template head<D>();
-      auto column = group.columns.begin();
-      for (const ElementBatch<D>& batch : group.batches) {
-        const auto each = batch.energies(at, weight, group.of->free_strain_of(group.beam, at));
-        for (int i = 0; i < batch.count(); ++i, ++column) {
-          const auto& [kinetic, axial, bending, external, dissipation] = each[i];
-          energies[*column / 2] += (*column % 2 == 0 ? 1 : -1) * (kinetic + axial + bending + external) /
-                                   (2 * pairs[static_cast<std::size_t>(*column / 2)].step);
-        }
-      }
-    }
+    batches.energies(at, [&](Eigen::Index column, double energy) {
+      energies[column / 2] +=
+          (column % 2 == 0 ? 1 : -1) * energy / (2 * pairs[static_cast<std::size_t>(column / 2)].step);
+    });
     return energies;
-  }
-
-  void set_loads(const State& at) {
-    for (Group& group : groups) {
-      group.load = group.of->line_load(group.beam, at);
-      group.free_strain = group.of->free_strain_of(group.beam, at);
-    }
   }
 
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints) override {
-    set_loads(at);
-    for (const Group& group : groups)
-      for (const ElementBatch<D>& batch : group.batches)
-        batch.add_forces(at, group.load, group.free_strain, forces.data(), forces.cols());
+    batches.set_loads(at);
+    batches.add_forces(at, forces);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       Sides& pair = pairs[k];

@@ -55,11 +55,11 @@ struct Sensitivities::Stretch {
 
 /// A step that has been linearised, over which tangents go while the run takes the next one.
 struct Sensitivities::Ahead {
-  Eigen::RowVectorXd change;                      ///< of its length
-  MotionTangents::Matrix dynamics, constraints;   ///< how its residual changes
-  std::vector<std::size_t> records = {};          ///< at its end
-  std::optional<MotionTangents> end = {};         ///< what they are there; empty where it is singular
-  Alongside going = {};                           ///< to the end
+  Eigen::RowVectorXd change;                     ///< of its length
+  MotionTangents::Matrix dynamics, constraints;  ///< how its residual changes
+  std::vector<std::size_t> records = {};         ///< at its end
+  std::optional<MotionTangents> end = {};        ///< what they are there; empty where it is singular
+  Alongside going = {};                          ///< to the end
 };
 
 /// By the length of a step that lands on an event: the tangent, and of the distance to it.

@@ -1,0 +1,135 @@
+// Sensitivities over steps.
+#include <stdexcept>
+#include <utility>
+
+#include "fem/sensitivity/sensitivities_parts.h"
+#include "solver/side_by_side.h"
+
+namespace nurbeam {
+
+using Vector = Eigen::VectorXd;
+
+void singular_step() {
+  throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
+}
+
+// Of a step, by each parameter, from the tangents at its start: that of the system's step limit where this
+// has shortened it, or its part of what is left to the next time of the run; none where it lands on an event.
+Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
+  const double h = step.after.t - step.before.t, limit = system_->step_limit(step.before);
+  if (step.beyond) return Eigen::RowVectorXd::Zero(tangents_.parameters());
+  if (step.asked <= limit) return -h / step.rest * times();
+  Eigen::RowVectorXd changes(tangents_.parameters());
+  State own = step.before;  // places alone say how long it may be, and their rates
+  const Shifts shifts = shifts_at(step.before);
+  for (Eigen::Index k = 0; k < changes.size(); ++k) {
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    const double p = parameter.pair.step;
+    const auto limit_of = [&](double part) {
+      if (!parameter.lags) {
+        const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, part > 0);
+        return system.step_limit(state);
+      }
+      for (const MeshJoint& joint : system_->mesh().joints)
+        if (const int place = joint.place; place >= 0) {
+          own.q[place] = step.before.q[place] + part * tangents_.q(place, k);
+          own.v[place] = step.before.v[place] + part * tangents_.v(place, k);
+        }
+      for (const auto& [place, by] : shifts[static_cast<std::size_t>(k)]) own.q[place] -= part * by;
+      return system_->step_limit(own);
+    };
+    changes[k] = h / limit * (limit_of(p) - limit_of(-p)) / (2 * p);
+  }
+  return changes;
+}
+
+// Whether the state and the parameters decide how long it is: none that leads to the next time of the run.
+bool Sensitivities::has_own_length(const FollowedStep& step) const {
+  return step.beyond || step.asked > system_->step_limit(step.before);
+}
+
+// How the residual changes with t alone, constraints below (n + m), by differences over a part of h.
+Vector Sensitivities::rates_with_time(const State& at, double h) const {
+  const double shift = 1e-4 * h;
+  const Eigen::Index n = at.q.size(), m = at.lambda.size();
+  State later = at, sooner = at;
+  later.t += shift;
+  sooner.t -= shift;
+  Vector more(n + m), less(n + m);
+  system_->residual(later, more.head(n), more.tail(m));
+  system_->residual(sooner, less.head(n), less.tail(m));
+  return (more - less) / (2 * shift);
+}
+
+Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step) const {
+  const double h = step.after.t - step.before.t, shift = 1e-4 * h;
+  const Eigen::Index n = step.after.q.size(), m = step.after.lambda.size();
+  const Vector rates = rates_with_time(step.after, h);
+  const State longer =
+      step_->end(MotionTangents::zero(n, m, 1), Eigen::RowVectorXd::Ones(1), rates.head(n), rates.tail(m))
+          .of(0);
+  const double beyond = step.beyond(*system_, moved(step.after, longer, shift)) -
+                        step.beyond(*system_, moved(step.after, longer, -shift));
+  return {longer, beyond / (2 * shift)};
+}
+
+void Sensitivities::steps(const FollowedStep& step) {
+  const double h = step.after.t - step.before.t;
+  state_ = step.after;
+  if (h == 0) return;  // what a body that starts at the end of its beam does there
+  const bool own_length = has_own_length(step);
+  if (by_adjoint_ && !own_length) return keep(step);
+  if (own_length) carry();
+  carry_over({step.before, step.history, step.after, step.repeated}, changes_of_length(step));
+  if (step.beyond) {
+    arrive();
+    const Longer longer = by_length(step);
+    for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
+      const double p = parameters_[static_cast<std::size_t>(k)].pair.step;
+      const auto beyond = [&](bool more) {
+        auto [system, state] = beside(static_cast<std::size_t>(k), step.after, more);
+        const double part = more ? p : -p;
+        state.a = step.after.a + part * tangents_.a.col(k);
+        state.lambda = step.after.lambda + part * tangents_.lambda.col(k);
+        return step.beyond(system, state);
+      };
+      const double late = -(beyond(true) - beyond(false)) / (2 * p) / longer.approach;
+      tangents_.move(k, longer.tangent, late);
+    }
+  }
+}
+
+// Derivatives of the time at the end of the step ahead.
+Eigen::RowVectorXd Sensitivities::times() const {
+  return ahead_ ? tangents_.t + ahead_->change : tangents_.t;
+}
+
+// Linearises a step, to whose start the tangents come meanwhile, and lets them go to its end.
+void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change) {
+  if (!next_step_) next_step_ = std::make_unique<StepTangent>(settings_, *system_);
+  ++work_.tangents;
+  Shifts shifts;
+  const Eigen::RowVectorXd at_end = times() + change;
+  both([&] { next_step_->take(step.before, step.history, step.after, step.repeated); },
+       [&] { shifts = find_residual_changes(step.after, at_end); });
+  take_off(shifts, next_step_->stiffness());
+  arrive();
+  std::swap(step_, next_step_);
+  ahead_.reset(new Ahead{.change = change, .dynamics = dynamics_, .constraints = constraints_});
+  ahead_->going.begin([&start = tangents_, &step = *step_, &ahead = *ahead_] {
+    if (step.factorise()) ahead.end = step.end(start, ahead.change, ahead.dynamics, ahead.constraints);
+  });
+}
+
+// The tangents to the end of the step ahead.
+void Sensitivities::arrive() {
+  if (!ahead_) return;
+  const std::unique_ptr<Ahead> ahead = std::move(ahead_);
+  ahead->going.finish();
+  if (!ahead->end) singular_step();
+  tangents_ = std::move(*ahead->end);
+  work_.solves += tangents_.parameters();
+  for (const std::size_t record : ahead->records) records_[record].tangents = of_states(tangents_);
+}
+
+}  // namespace nurbeam

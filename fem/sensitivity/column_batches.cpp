@@ -1,0 +1,91 @@
+#include "fem/sensitivity/column_batches.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace nurbeam {
+
+template <int D>
+int ColumnBatches<D>::add(const Assembly<D>& of, const MeshElement<D>& element, int now,
+                          Eigen::Index column) {
+  const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& each) {
+    return each.load.beam == element.beam &&
+           each.of->model()->beams[element.beam].properties == of.model()->beams[element.beam].properties;
+  });
+  const int index = static_cast<int>(group - groups_.begin());
+  if (group == groups_.end()) groups_.push_back({&of, {.beam = element.beam}});
+  added_.push_back({index, now, column, &element});
+  return index;
+}
+
+// Of each group those that are one element of the mesh stand beside one another.
+template <int D>
+void ColumnBatches<D>::close(const Assembly<D>& present) {
+  const std::vector<Added> all = [this] {
+    std::vector<Added> sorted = std::exchange(added_, {});
+    std::sort(sorted.begin(), sorted.end(), [](const Added& a, const Added& b) {
+      return std::tie(a.group, a.now, a.column) < std::tie(b.group, b.now, b.column);
+    });
+    return sorted;
+  }();
+  for (auto each = all.begin(); each != all.end();) {
+    const auto end = std::find_if(each, all.end(), [&](const Added& other) {
+      return other.group != each->group || other.now != each->now;
+    });
+    put(each, end, present.elements()[each->now].dofs);
+    each = end;
+  }
+}
+
+// Into the batches of their group, a new one where they do not fit into the last.
+template <int D>
+void ColumnBatches<D>::put(Each begin, Each end, const std::array<int, element_size<D>>& dofs) {
+  Group& group = groups_[static_cast<std::size_t>(begin->group)];
+  std::vector<ElementBatch<D>>& batches = group.batches;
+  bool fit = !batches.empty() && end - begin <= ElementBatch<D>::lanes - batches.back().count();
+  for (auto each = begin; each != end; ++each) {
+    if (!std::exchange(fit, true) || batches.back().is_full())
+      batches.emplace_back(each->element->element.properties());
+    batches.back().add(each->element->element, dofs, each->element->slope_offset, each->column);
+    group.columns.push_back(each->column);
+  }
+}
+
+template <int D>
+void ColumnBatches<D>::set_loads(const State& at) {
+  for (auto& [of, load, batches, columns] : groups_) {
+    load.load = of->line_load(load.beam, at);
+    load.free_strain = of->free_strain_of(load.beam, at);
+  }
+}
+
+template <int D>
+void ColumnBatches<D>::add_forces(const State& at, Columns& forces) const {
+  for (const Group& group : groups_)
+    for (const ElementBatch<D>& batch : group.batches)
+      batch.add_forces(at, group.load.load, group.load.free_strain, forces.data(), forces.cols());
+}
+
+template <int D>
+void ColumnBatches<D>::energies(const State& at,
+                                const std::function<void(Eigen::Index column, double energy)>& tell) const {
+  for (const auto& [of, load, batches, columns] : groups_) {
+    const BeamModel& model = *of->model();
+    const Vector weight =
+        model.beams[load.beam].properties.mass_per_length * model.gravity.template head<D>();
+    auto column = columns.begin();
+    for (const ElementBatch<D>& batch : batches) {
+      const auto each = batch.energies(at, weight, of->free_strain_of(load.beam, at));
+      for (int i = 0; i < batch.count(); ++i, ++column) {
+        const auto& [kinetic, axial, bending, external, dissipation] = each[i];
+        tell(*column, kinetic + axial + bending + external);
+      }
+    }
+  }
+}
+
+template class ColumnBatches<2>;
+template class ColumnBatches<3>;
+
+}  // namespace nurbeam

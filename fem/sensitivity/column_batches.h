@@ -1,0 +1,59 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "fem/element/element_batch.h"
+#include "fem/sensitivity/residual_differences.h"
+#include "fem/system/assembly.h"
+
+namespace nurbeam {
+
+/// Elements with fixed ends of many systems of one mesh, evaluated in batches at one state: the forces of
+/// each go into a column, which has those of its system.
+template <int D>
+class ColumnBatches {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Columns = ResidualDifferences::Columns;
+
+  /// The load of elements that are made of the same: that of the beam in one of the systems.
+  struct Load {
+    int beam;
+    Vector load = Vector::Zero();  ///< of set_loads
+    double free_strain = 0;
+  };
+
+  /// Adds an element of a system, which is the one with index `now` of the present mesh. Returns the index of
+  /// its load. Precondition: ElementBatch<D>::takes(element.element).
+  int add(const Assembly<D>& of, const MeshElement<D>& element, int now, Eigen::Index column);
+  /// When all have been added: puts them together, with the coordinates that they have in the present mesh.
+  void close(const Assembly<D>& present);
+
+  void set_loads(const State& at);
+  const Load& load(int index) const { return groups_[static_cast<std::size_t>(index)].load; }
+  /// Adds their forces under these loads.
+  void add_forces(const State& at, Columns& forces) const;
+  /// Tells of each element its mechanical energy, with its weight alone.
+  void energies(const State& at, const std::function<void(Eigen::Index column, double energy)>& tell) const;
+
+ private:
+  struct Group {
+    const Assembly<D>* of;
+    Load load;
+    std::vector<ElementBatch<D>> batches = {};
+    std::vector<Eigen::Index> columns = {};  // of the elements in batches
+  };
+  struct Added {
+    int group, now;
+    Eigen::Index column;
+    const MeshElement<D>* element;
+  };
+  using Each = typename std::vector<Added>::const_iterator;
+
+  void put(Each begin, Each end, const std::array<int, element_size<D>>& dofs);
+
+  std::vector<Added> added_;  // until they are in batches
+  std::vector<Group> groups_;
+};
+
+}  // namespace nurbeam
