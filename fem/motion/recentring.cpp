@@ -2,18 +2,15 @@
 
 #include <algorithm>
 
+#include "fem/element/section_frame.h"
 #include "fem/system/assembly.h"
 
 namespace nurbeam {
 
-namespace {
-
-bool is_clamped(const BeamSystem& system, const MeshElement<3>& e, int end) {
+bool keeps_drawn_chart(const BeamSystem& system, const MeshElement<3>& e, int end) {
   const MeshNode& node = end == 0 ? system.mesh().node_a(e) : system.mesh().node_b(e);
   return node.home >= 0 && system.model().beams[e.beam].home[node.home].hold == Hold::clamp;
 }
-
-}  // namespace
 
 bool recentring_due(const BeamSystem& system, const State& state) {
   const Assembly<3>* spatial = system.assembly<3>();
@@ -24,21 +21,33 @@ bool recentring_due(const BeamSystem& system, const State& state) {
   });
 }
 
-MeshedState recentred(const BeamSystem& system, const State& state, const std::vector<bool>& held) {
+MeshedState recentred(const BeamSystem& system, const State& state, const std::vector<bool>& held,
+                      const MeshPlan* like) {
   MeshPlan plan = present_plan(system, state);  // of the same elements, in their order
-  auto charts = plan.section_charts.begin();
   State next = state;
+  std::size_t i = 0;
   for (const MeshElement<3>& e : system.assembly<3>()->elements()) {
     if (!e.twist) continue;
     const TwistElement& element = e.twist->element;
     const TwistState x = gather_twist(e, state);
-    MeshPlan::SectionCharts& now = *charts++;
+    MeshPlan::SectionCharts& now = plan.section_charts[i];
+    const MeshPlan::SectionCharts* const of_like = like ? &like->section_charts[i] : nullptr;
+    ++i;
+    if (of_like) now.turn = of_like->turn;
     for (const int end : {0, 1}) {
-      if (is_clamped(system, e, end)) continue;
-      now.charts[end] = element.end_section(x.q, end).matrix();
-      const int angle = e.twist->dofs[TwistLayout::angle(end)];
-      next.q[angle] = 0;
-      next.v[angle] = element.spin(x, end);
+      if (keeps_drawn_chart(system, e, end)) continue;
+      const Eigen::Matrix3d section = element.end_section(x.q, end).matrix();
+      const int angle = e.twist->dofs[TwistLayout::angle(end)], slope = TwistLayout::slope(end);
+      const double spin = element.spin(x, end);
+      if (of_like) {
+        const Eigen::Matrix3d& chart = now.charts[end] = of_like->charts[end];
+        next.q[angle] = angle_in(chart, section);
+        next.v[angle] = spin - spin_row<double>(chart, x.q.segment<3>(slope)).dot(x.v.segment<3>(slope));
+      } else {
+        now.charts[end] = section;
+        next.q[angle] = 0;
+        next.v[angle] = spin;
+      }
     }
   }
   return {system.replanned(std::move(plan), held), std::move(next)};

@@ -96,8 +96,9 @@ void settle_mesh(Run& run) {
 
 bool recentre_sections(Run& run) {
   if (!recentring_due(*run.at.system, run.at.state)) return true;
-  run.change([](MeshedState& at) {
-    at = recentred(*at.system, at.state);
+  run.at = recentred(*run.at.system, run.at.state);
+  run.follow([&](MeshedState& neighbour) {
+    neighbour = recentred(*neighbour.system, neighbour.state, {}, &run.at.system->mesh().plan);
     return true;
   });
   if (!run.restart()) return false;

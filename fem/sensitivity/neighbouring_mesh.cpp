@@ -1,8 +1,11 @@
 #include "fem/sensitivity/neighbouring_mesh.h"
 
 #include <stdexcept>
+#include <utility>
 
+#include "fem/motion/recentring.h"
 #include "fem/motion/run_follower.h"
+#include "fem/system/assembly.h"
 #include "fem/system/observables.h"
 
 namespace nurbeam {
@@ -56,6 +59,25 @@ std::vector<HomeNode> home_like(const Beam& beam, const Beam& drawn) {
     home.push_back(own_to);
   }
   return home;
+}
+
+// Those of a rest, for a neighbour that is on its mesh in the charts of the drawing: angles say the same of
+// both, but where the drawing holds them.
+std::vector<MeshPlan::SectionCharts> charts_like(const MeshedState& at, const BeamSystem& neighbour) {
+  const std::vector<MeshElement<3>>&own = at.system->assembly<3>()->elements(),
+        &others = neighbour.assembly<3>()->elements();
+  std::vector<MeshPlan::SectionCharts> charts;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!own[i].twist) continue;
+    const MeshElement<3>& e = others[i];
+    const TwistElement& like = own[i].twist->element;
+    const auto chart = [&](int end) {
+      return keeps_drawn_chart(neighbour, e, end) ? e.twist->element.chart(end) : like.chart(end);
+    };
+    charts.push_back(
+        {e.beam, e.s_a, e.s_b, {chart(0), chart(1)}, like.turn(gather_twist(own[i], at.state.q))});
+  }
+  return charts;
 }
 
 }  // namespace
@@ -139,16 +161,15 @@ void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour) {
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model) {
   MeshPlan plan = at.system->mesh().plan;
-  if (!plan.section_charts.empty())
-    throw std::runtime_error(
-        "an equilibrium of beams with torsion has no derivative here where it follows from another one (of a "
-        "load step before it, or as bodies slide), or where sections turn far; leave load steps out, or take "
-        "differences of runs");
   if (!plan.weights.empty())
     throw std::runtime_error(
         "an equilibrium has no derivative here where bodies slide to it on beams with constant weights; take "
         "differences of runs");
   for (int j = 0; j < static_cast<int>(plan.places.size()); ++j) plan.places[j] = held_place(at, j, *model);
+  const bool has_charts = !std::exchange(plan.section_charts, {}).empty();
+  auto drawn = std::make_unique<BeamSystem>(model, plan, held_joints(*at.system), *at.system);
+  if (!has_charts) return drawn;
+  plan.section_charts = charts_like(at, *drawn);
   return std::make_unique<BeamSystem>(model, std::move(plan), held_joints(*at.system), *at.system);
 }
 

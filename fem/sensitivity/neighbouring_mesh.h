@@ -32,9 +32,8 @@ std::vector<bool> held_joints(const BeamSystem& system);
 /// side of a node they stand on: a run keeps a span until the body passes its end. Precondition: same_mesh.
 void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour);
 
-/// The system of a neighbouring model on the mesh of a rest: with the same nodes, and joints held at the
-/// corresponding places. Throws std::runtime_error where sections have other charts than the drawing's, or
-/// elements constant weights.
+/// The system of a neighbouring model on the mesh of a rest: with the same nodes, sections in its charts, and
+/// joints held at the corresponding places. Throws std::runtime_error where elements have constant weights.
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model);
 

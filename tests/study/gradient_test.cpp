@@ -113,6 +113,31 @@ TEST(Gradient, OfAMotionInSpaceWithTorsion) {
   expect_gradient(of, 0.004, 1e-5);
 }
 
+// Sections turn by more than a right angle: charts are those of the rest before, and on the way other ones.
+TEST(Gradient, OfRestsWhoseSectionsTurnFar) {
+  StudyOfCase of("{\"nurbeam\": 1, " + space_beam + R"json(
+    "loads": [{"beam": "beam", "at": "end", "force": [20, 0, -90], "time": [[0, 0], [1, 1]]}],
+    "analysis": {"type": "static", "load_steps": [0.5, 1]},
+    "output": {"probes": [{"name": "tip", "beam": "beam", "at": "end"}]}})json",
+                 space_study + R"json("quantities": [{"name": "z", "value": "at(end, tip.z)"},
+      {"name": "y", "value": "at(end, tip.y)"}, {"name": "between", "value": "at(0.5, tip.x)"},
+      {"name": "torque", "value": "at(end, root.my)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.004, 1e-6);
+}
+
+// As above, in a motion: where charts are exchanged its tangents go over to the new ones.
+TEST(Gradient, OfAMotionWhoseSectionsTurnFar) {
+  StudyOfCase of(R"json({"nurbeam": 1, )json" + space_beam + R"json(
+    "loads": [{"beam": "beam", "at": "end", "force": [60, 0, -90]}],
+    "analysis": {"type": "dynamic", "end_time": 0.3, "step": "2 ms"},
+    "output": {"every": 0.05, "probes": [{"name": "tip", "beam": "beam", "at": "end"}]}})json",
+                 space_study + R"json("quantities": [{"name": "z", "value": "at(end, tip.z)"},
+      {"name": "y", "value": "at(0.25, tip.y)"}, {"name": "energy", "value": "at(end, energy.kinetic)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.002, 1e-5);
+}
+
 // In its plane nothing is across it: all that is asked of is exactly zero.
 TEST(Gradient, OfWhatIsZeroAsDrawn) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
