@@ -51,11 +51,12 @@ double turning(const RationalCubic& cubic) {
   return sum;
 }
 
-/// Appends the cubic, whose source lives on [a, b]; a rational one that turns by more than 90 degrees in
-/// halves. A cusp turns however short its piece is, so no more than `halvings` are made.
+/// Appends the cubic, whose source lives on [a, b]; a rational one that turns by more than 91 degrees in
+/// halves: quarter circles are drawn often, and what is drawn a little off one is divided as it is. A cusp
+/// turns however short its piece is, so no more than `halvings` are made.
 void append(BezierPath& path, const RationalCubic& cubic, double a, double b, int halvings = 10) {
-  constexpr double right_angle = 1.5707963267948966 + 1e-9;
-  if (halvings > 0 && is_rational(cubic) && turning(cubic) > right_angle) {
+  constexpr double most_turning = 91 * 1.5707963267948966 / 90;
+  if (halvings > 0 && is_rational(cubic) && turning(cubic) > most_turning) {
     const auto [first, second] = cubic.split(0.5);
     const double middle = 0.5 * (a + b);
     append(path, first, a, middle, halvings - 1);

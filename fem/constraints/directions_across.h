@@ -11,9 +11,13 @@ Eigen::Matrix<double, D - 1, D> directions_across(const Eigen::Vector3d& t) {
   if constexpr (D == 2) {
     n << -t.y(), t.x();
   } else {
-    int smallest;
-    t.cwiseAbs().minCoeff(&smallest);
-    const Eigen::Vector3d first = t.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+    // The first axis that is about as far from t as any: where two are as far, as drawings have it,
+    // directions beside t take the same one.
+    constexpr double about = 0.1234;
+    const Eigen::Vector3d along = t.cwiseAbs();
+    int axis = 0;
+    while (along[axis] > along.minCoeff() + about * t.norm()) ++axis;
+    const Eigen::Vector3d first = t.cross(Eigen::Vector3d::Unit(axis)).normalized();
     n.row(0) = first;
     n.row(1) = t.cross(first);
   }

@@ -171,9 +171,24 @@ State along(const State& from, const Vector& direction, double amount) {
   return state;
 }
 
-// d(tangent)/d(factor) on the path of equilibria under `loaded`'s own loads beside those of `system`.
-std::optional<Matrix> stiffness_of_loads(const BeamSystem& system, const BeamSystem& loaded,
-                                         const State& state, const Matrix& kkt) {
+// That with dampers that are as stiff in strain rates as its beams are in strains, beside its own.
+BeamModel with_viscous_beams(const BeamModel& model) {
+  BeamModel viscous = model;
+  for (Beam& beam : viscous.beams) beam.properties.damping += 1;
+  return viscous;
+}
+
+struct LoadStiffness {
+  Matrix geometric;  // by a factor of the loads
+  double reach = 0;  // factor with which they move something by the length of a beam, or turn it by 1
+};
+
+// By how much the section forces, multipliers and loads of `loaded` beside those of `system` stiffen it, by
+// what they are in first order.
+// `viscous`: `system` with viscous beams.
+std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const BeamSystem& loaded,
+                                                const BeamSystem& viscous, const State& state,
+                                                const Matrix& kkt) {
   const int n = system.coordinate_count(), m = system.constraint_count();
   Vector without(n + m), with(n + m);
   system.residual(state, without.head(n), without.tail(m));
@@ -188,16 +203,19 @@ std::optional<Matrix> stiffness_of_loads(const BeamSystem& system, const BeamSys
   for (int i = 0; i < n; ++i)
     if (kkt.coeff(i, i) > 0)
       free = std::max(free, std::abs(without[i] - with[i]) / kkt.coeff(i, i) / scale[i]);
-  if (!(fastest > 1e-10 * free)) return Matrix(n, n);
+  if (!(fastest > 1e-10 * free)) return LoadStiffness{Matrix(n, n)};
+  // What stiffness of the strains, turned by the path, would change is of second order in the loads.
+  const auto of_stresses = [&](const State& at) -> Matrix {
+    const Matrix of_strains = tangent(viscous, at, {.damping = 1}) - tangent(system, at, {.damping = 1});
+    return tangent(system, at, {.stiffness = 1}) - of_strains;
+  };
   const auto slope = [&](double h) -> Matrix {
-    const Matrix ahead = tangent(system, along(state, path, h), {.stiffness = 1});
-    const Matrix behind = tangent(system, along(state, path, -h), {.stiffness = 1});
-    return (ahead - behind) / (2 * h);
+    return (of_stresses(along(state, path, h)) - of_stresses(along(state, path, -h))) / (2 * h);
   };
   const double h = 2e-3 / fastest;  // extrapolated: errors of h^4, round-off of 1e-13
   const Matrix geometric = (4 * slope(h / 2) - slope(h)) / 3;
   const Matrix of_loads = tangent(loaded, state, {.stiffness = 1}) - kkt;
-  return coordinate_block(geometric + of_loads, n);
+  return LoadStiffness{coordinate_block(geometric + of_loads, n), 1 / fastest};
 }
 
 std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions& options,
@@ -212,18 +230,21 @@ std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions&
     return failure_of(Failure::Kind::resting_place);
   State state = at.state;
   state.load = 1;
-  const auto geometric = stiffness_of_loads(*at.system, loaded, state, kkt);
-  if (!geometric) return failure_of(Failure::Kind::not_held);
-  if (!is_symmetric(*geometric, n)) return failure_of(Failure::Kind::no_energy);
-  const double largest = geometric->nonZeros() > 0 ? geometric->coeffs().abs().maxCoeff() : 0;
+  const BeamSystem viscous(with_viscous_beams(at.system->model()), at.system->mesh().plan, held);
+  const auto by_loads = stiffness_of_loads(*at.system, loaded, viscous, state, kkt);
+  if (!by_loads) return failure_of(Failure::Kind::not_held);
+  const Matrix& geometric = by_loads->geometric;
+  if (!is_symmetric(geometric, n)) return failure_of(Failure::Kind::no_energy);
+  const double largest = geometric.nonZeros() > 0 ? geometric.coeffs().abs().maxCoeff() : 0;
   if (!(largest > 0)) return failure_of(Failure::Kind::nothing_buckles);
-  const Matrix A = -(*geometric + Matrix(geometric->transpose())) / 2;
+  const Matrix A = -(geometric + Matrix(geometric.transpose())) / 2;
   const int most = std::max(0, n - at.system->constraint_count());
   const auto found = largest_eigenpairs(A, kkt, std::min(options.count, most), between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
   for (Eigen::Index i = 0; i < found->values.size(); ++i) {
     Mode mode;
     mode.factor = 1 / found->values[i];
+    if (std::abs(mode.factor) > by_loads->reach) break;  // nothing is linear there
     mode.shape = found->vectors.col(i);
     report.modes.push_back(std::move(mode));
   }

@@ -38,7 +38,8 @@ void check_names(const Json& json, Findings& findings) {
     });
     return names;
   };
-  check_unique(collect(json, "beams", ""), findings);
+  const auto beams = collect(json, "beams", "");
+  check_unique(beams, findings);
   auto columns = collect(json, "bodies", "");  // these head columns of the same table
   const auto probes = collect(part(json, "output"), "probes", "output");
   const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
@@ -46,6 +47,10 @@ void check_names(const Json& json, Findings& findings) {
   for (const auto& more : {probes, supports, joints, connectors})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
+  // Both have a length in that table.
+  for (const auto& [name, path] : connectors)
+    for (const auto& [of_beam, beam_path] : beams)
+      if (!name.empty() && name == of_beam) check_unique({{of_beam, beam_path}, {name, path}}, findings);
 }
 
 /// The names of the items under the key; nothing when one of them is unusable.

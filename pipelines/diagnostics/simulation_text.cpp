@@ -121,7 +121,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::not_held:
       return "the tangent is singular (is the model held everywhere?)";
     case Failure::Kind::nothing_buckles:
-      return "the loads do not change the stiffness: nothing buckles under them";
+      return "nothing buckles under the loads: not before they bend the model by its own size";
     case Failure::Kind::eigenvalues:
       return "the eigenvalues are not found; a smaller \"count\" may help";
     case Failure::Kind::leaves_beam: {

@@ -383,15 +383,22 @@ double mass_of(const BeamModel& model) {
   return mass;
 }
 
+bool bears_moment(const ResolvedCase& resolved, const CaseBeam& beam) {
+  return std::any_of(
+      resolved.loads.begin(), resolved.loads.end(),
+      [&](const CaseLoad& load) { return load.kind == CaseLoad::Kind::moment && load.beam == beam.name; });
+}
+
 // Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
-// another one than drawn, and what a corner or a joint holds at an angle would turn about it.
+// another one than drawn, what a corner or a joint holds at an angle would turn about it, and a moment across
+// it has a part along it where it bends.
 bool is_given_torsion(const ResolvedCase& resolved, const CaseBeam& beam, const DrawnBeam& drawn) {
   if (!beam.torsion_by_drawing || drawn.curve.dimension() != 3) return false;
   const bool keeps_corner = beam.corners == Corners::rigid && !drawn.corners.empty();
   const auto holds_it = [&](const CaseBeamJoint& joint) {
     return joint.rigid && std::find(joint.beams.begin(), joint.beams.end(), beam.name) != joint.beams.end();
   };
-  return is_curved(drawn.curve) || keeps_corner ||
+  return is_curved(drawn.curve) || keeps_corner || bears_moment(resolved, beam) ||
          std::any_of(resolved.joints.begin(), resolved.joints.end(), holds_it);
 }
 
@@ -424,7 +431,8 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     if (built.frame.dimension == 3)
-      built.sources.back().torsion = why_torsion(from, asked, uneven, is_curved(drawn->curve));
+      built.sources.back().torsion =
+          why_torsion(from, {asked, uneven, is_curved(drawn->curve), bears_moment(resolved, from)});
     built.sources.back().outline = section_outline(*section);
     built.sources.back().drawn_bending =
         bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);

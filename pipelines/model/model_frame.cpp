@@ -9,6 +9,9 @@ namespace nurbeam {
 
 namespace {
 
+constexpr double flat =
+    1e-9;  // what is no further off a plane or line, in parts of the model's size, is in it
+
 // Unit vectors along those that are not zero.
 std::vector<Eigen::Vector3d> directions(const std::vector<Eigen::Vector3d>& vectors) {
   std::vector<Eigen::Vector3d> found;
@@ -22,11 +25,13 @@ Eigen::Vector3d plane_normal(const std::vector<Eigen::Vector3d>& in_plane,
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& v : in_plane) spread += v * v.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU);
-  const bool line = svd.singularValues()[1] < 1e-18 * svd.singularValues()[0];
+  const Eigen::Vector3d along = svd.matrixU().col(0);
+  // Of each by itself: the round-off of a sum of squares hides what is off the line.
+  const bool line = std::all_of(in_plane.begin(), in_plane.end(),
+                                [&](const Eigen::Vector3d& v) { return v.cross(along).norm() <= flat; });
   Eigen::Vector3d normal = svd.matrixU().col(2);
   if (line) {
     // Everything on one line: any plane through it; the one a moment asks for, else the one nearest to x-y.
-    const Eigen::Vector3d along = svd.matrixU().col(0);
     Eigen::Vector3d wanted = moments.empty() ? Eigen::Vector3d::UnitZ() : moments.front();
     if (wanted.cross(along).norm() < 1e-6) wanted = Eigen::Vector3d::UnitY();
     normal = (wanted - wanted.dot(along) * along).normalized();
@@ -77,7 +82,6 @@ ModelFrame model_frame(const std::vector<RationalCubic>& segments, const std::ve
   in_plane.insert(in_plane.end(), along_forces.begin(), along_forces.end());
 
   const Eigen::Vector3d normal = plane_normal(in_plane, across);
-  constexpr double flat = 1e-9;
   const auto off_plane = [&](const Eigen::Vector3d& v) { return std::abs(v.dot(normal)) > flat; };
   const auto off_normal = [&](const Eigen::Vector3d& v) { return v.cross(normal).norm() > flat; };
   const bool planar = !torsion && std::none_of(in_plane.begin(), in_plane.end(), off_plane) &&

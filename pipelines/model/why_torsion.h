@@ -5,9 +5,15 @@
 
 namespace nurbeam {
 
+/// What gives a beam in space torsion.
+struct TorsionReasons {
+  bool asked;   ///< by the case file itself
+  bool uneven;  ///< its section bends about two axes of its own
+  bool curved;  ///< as it is drawn
+  bool moment;  ///< works on it
+};
+
 /// Whether a beam in space has torsion, which its `torsion` says by now, and why: for those who check a case.
-/// `asked`: the case file itself asks for it; `uneven`: its section bends about two axes of its own;
-/// `curved`: it is drawn so.
-std::string why_torsion(const CaseBeam& beam, bool asked, bool uneven, bool curved);
+std::string why_torsion(const CaseBeam& beam, const TorsionReasons& reasons);
 
 }  // namespace nurbeam

@@ -23,6 +23,9 @@ struct StudyInterrupted {};
 /// Keeps OpenTURNS from writing to the terminal: what matters of its warnings stands in the answers.
 void silence_openturns();
 
+/// Of what is left of it between its ends.
+double mean_of(const StudyDistribution& distribution);
+
 /// The points of a plan.
 StudyPoints plan_points(const StudyFile& study, const StudyPlan& plan);
 
@@ -46,7 +49,7 @@ struct ReliabilityResult {
   double probability = 0;
   /// The standard deviation of the estimate over it; nothing where it is no estimate.
   std::optional<double> coefficient_of_variation = {};
-  std::optional<double> reliability_index = {};  ///< Hasofer and Lind's
+  std::optional<double> reliability_index = {};  ///< Hasofer and Lind's; below 0 where the origin fails
   std::vector<double> design_point = {};         ///< of the free variables, where FORM finds one
   std::vector<double> importance = {};           ///< of each free variable there, their sum is 1
   int not_done = 0;  ///< variants that are not done: a simulation counts them as ones that do not fail

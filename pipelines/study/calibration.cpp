@@ -226,12 +226,12 @@ CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& cali
       throw std::runtime_error("the measurements do not determine the variable " +
                                in_quotes(study.variables[study.free_variables()[i]].name) +
                                ": others can make up for it");
-    const OT::Distribution marginal = found.getParameterPosterior().getMarginal(i);
-    const OT::Interval interval = marginal.computeBilateralConfidenceInterval(calibration.confidence);
-    const double offset = result.point[i] - place[i] * units[i];
-    result.sd.push_back(std::sqrt(result.covariance[i][i]));
-    result.lower.push_back(offset + interval.getLowerBound()[0] * units[i]);
-    result.upper.push_back(offset + interval.getUpperBound()[0] * units[i]);
+    // About the estimate: the posterior of OpenTURNS is about another point.
+    const double sd = std::sqrt(result.covariance[i][i]),
+                 width = OT::DistFunc::qNormal((1 + calibration.confidence) / 2) * sd;
+    result.sd.push_back(sd);
+    result.lower.push_back(result.point[i] - width);
+    result.upper.push_back(result.point[i] + width);
   }
   const OT::Sample left = found.getResidualFunction()(OT::Sample(1, found.getParameterMAP()));
   result.noise = OT::Point(left[0]).norm() / std::sqrt(static_cast<double>(runs.measured().size()));

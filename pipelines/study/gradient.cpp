@@ -107,19 +107,22 @@ void check_stresses(const BeamModel& less, const BeamModel& model, const BeamMod
 }  // namespace
 
 double derivative_step(const StudyVariable& variable, double value) {
-  constexpr double part = 1e-5;
   using Kind = StudyDistribution::Kind;
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
-  // Not too small beside the value, as far as the range allows: that is lost in round-off. Places by no more
-  // than that: slender beams are stiff against what is of second order in them.
+  const double greater = std::max(width, std::abs(value)), lesser = std::min(width, std::abs(value));
+  // Not too small beside the value, as far as the range allows: that is lost in round-off. What moves the
+  // axis by no more than that: slender beams are stiff against what is of second order in it.
+  const auto is = [&]<class Target>() {
+    return variable.target && std::holds_alternative<Target>(*variable.target);
+  };
   const bool is_place =
-      variable.target && (std::holds_alternative<ControlPointCoordinate>(*variable.target) ||
-                          std::holds_alternative<CurveTransform>(*variable.target));
-  const double least = std::max(0.1 * width, 0.1 * std::abs(value));
-  const double size = is_place ? least : std::max(std::min(std::abs(value), width), least);
-  return std::min(part * size, 0.1 * width);
+      is.template operator()<ControlPointCoordinate>() || is.template operator()<CurveTransform>();
+  const double step = is_place ? 1e-6 * greater
+                               : (is.template operator()<ControlPointWeight>() ? 1e-5 : 1e-4) *
+                                     std::max(lesser, 0.1 * greater);
+  return std::min(step, 0.1 * width);
 }
 
 std::vector<double> differences(const StudyFile& study, const std::vector<double>& values,
@@ -157,20 +160,38 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     : study_(study), model_(model), values_(values) {
   const SimulationOptions options = simulation_options(case_file);
   const auto case_of = [&](const std::vector<double>& of) {
-    if (auto reshaped = study_case.reshaped(case_file, values, study.variables, of))
-      return std::move(*reshaped);
+    if (std::optional<CaseFile> reshaped = study_case.reshaped(case_file, values, study.variables, of))
+      return reshaped;
     CaseFileReport read = study_case.read(study.variables, of);
-    if (!read.value) throw std::invalid_argument("a neighbouring variant is no case");
+    if (!read.value) return std::optional<CaseFile>();
     if (!same_times(options, simulation_options(*read.value)))
       throw std::invalid_argument("variables that change the times of a run have no derivative");
-    return std::move(*read.value);
+    return std::optional<CaseFile>(std::move(*read.value));
   };
-  const auto run_of = [&](std::vector<double> of) {
-    BuildReport report = build_model(case_of(of), {}, &model);
-    if (!report.value) throw std::invalid_argument("a neighbouring variant has no model");
+  const auto run_of = [&](std::vector<double> of) -> std::optional<NeighbouringRun> {
+    const std::optional<CaseFile> neighbour = case_of(of);
+    BuildReport report = neighbour ? build_model(*neighbour, {}, &model) : BuildReport{};
+    if (!report.value) return std::nullopt;
     check_drawn_alike(model.model, report.value->model);
     return NeighbouringRun(study, std::move(of),
                            std::make_unique<const BuiltModel>(std::move(*report.value)));
+  };
+  // On one side where there is nothing on the other, as below a damping of zero: closer, as that is of first
+  // order.
+  const auto pair_of = [&](std::size_t k, double step) -> Pair {
+    std::optional<NeighbouringRun> more = run_of(changed(study, values, k, step)),
+                                   less = run_of(changed(study, values, k, -step));
+    if (more && less) {
+      if (asks_for_von_mises(study)) check_stresses(less->built->model, model.model, more->built->model);
+      return {std::move(*more), std::move(*less), step};
+    }
+    const double little = step / 10;
+    std::optional<NeighbouringRun> own = run_of(values),
+                                   beside = run_of(changed(study, values, k, more ? little : -little));
+    if (!own || !beside)
+      throw std::invalid_argument("with a little more and with a little less of it there is no model");
+    if (more) return {std::move(*beside), std::move(*own), little / 2};
+    return {std::move(*own), std::move(*beside), little / 2};
   };
   const std::vector<std::size_t> free = study.free_variables();
   std::vector<std::optional<Pair>> pairs(free.size());
@@ -179,10 +200,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const auto k = static_cast<std::size_t>(i);
     const double step = derivative_step(study.variables[free[k]], values[free[k]]);
     try {
-      pairs[k].emplace(
-          Pair{run_of(changed(study, values, k, step)), run_of(changed(study, values, k, -step)), step});
-      if (asks_for_von_mises(study))
-        check_stresses(pairs[k]->less.built->model, model.model, pairs[k]->more.built->model);
+      pairs[k].emplace(pair_of(k, step));
     } catch (const std::invalid_argument& problem) {
       problems[k] = problem.what();
     }

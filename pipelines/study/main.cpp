@@ -32,11 +32,17 @@ int main(int count, char** words) {
                                       .resume = arguments[4] == "resume",
                                       .quiet = arguments[5] == "quiet",
                                       .program = std::filesystem::read_symlink("/proc/self/exe")};
+  int code = nurbeam::exit_not_written;
   try {
-    return arguments[0] == "check" ? nurbeam::study_check_command(options, std::cout, std::cerr)
+    code = arguments[0] == "check" ? nurbeam::study_check_command(options, std::cout, std::cerr)
                                    : nurbeam::study_command(options, std::cout, std::cerr);
   } catch (const std::exception& problem) {
     std::cerr << "error: " << problem.what() << "\n";
-    return nurbeam::exit_not_written;
   }
+  // HDF5 crashes at the end of a process whose files it could not close, as on a full disk.
+  if (code == nurbeam::exit_not_written) {
+    std::cout.flush();
+    std::_Exit(code);
+  }
+  return code;
 }

@@ -103,6 +103,14 @@ OT::Distribution joint_distribution(const StudyFile& study) {
   return OT::ComposedDistribution(marginals);
 }
 
+double mean_of(const StudyDistribution& distribution) {
+  try {
+    return distribution_of(distribution).getMean()[0];
+  } catch (const OT::Exception&) {  // nothing is left, to its last digit
+    return distribution.lower.value_or(distribution.upper.value_or(0));
+  }
+}
+
 OT::Point to_point(const std::vector<double>& values) { return OT::Point(values.begin(), values.end()); }
 
 OT::Sample to_sample(const StudyPoints& points) {

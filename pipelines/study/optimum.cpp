@@ -21,6 +21,8 @@ class Goal {
   }
 
   std::size_t count() const { return indices_.size(); }
+  /// The first objective; else it maximises it.
+  bool minimises() const { return optimum_.objectives.front().minimise; }
   std::size_t constraints() const { return optimum_.constraints.size(); }
   std::vector<double> objectives(const std::vector<double>& quantities) const {
     std::vector<double> values;
@@ -312,7 +314,7 @@ OptimumResult best_of(const Search& search, const Goal& goal) {
         result.quantities.push_back(search.quantities()[i]);
       }
     }
-    result.history.push_back(best);
+    result.history.push_back(goal.minimises() ? best : -best);
   }
   return result;
 }

@@ -12,11 +12,11 @@ namespace {
 // At most so many variants of a simulation run together: few where it may end after each such block.
 constexpr std::size_t long_block = 1024, short_block = 32;
 
-// What is over the threshold, in units of `scale`; `of_not_done`: of a variant that is not done. Differences
-// are taken over a thousandth of the scatter: runs are not exact to the last digit.
+// What is over the threshold, or not `above` it, in units of `scale`; `of_not_done`: of a variant that is not
+// done. Differences are taken over a thousandth of the scatter: runs are not exact to the last digit.
 OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& reliability,
                              const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
-                             double scale, double of_not_done) {
+                             double scale, double of_not_done, bool above) {
   const std::size_t k = quantity_index(study, reliability.quantity);
   const double threshold = reliability.threshold;
   StudyDerivatives gradient;
@@ -38,8 +38,7 @@ OT::RandomVector limit_event(const StudyFile& study, const StudyReliability& rel
     f.setGradient(
         OT::CenteredFiniteDifferenceGradient(1e-3 * joint.getStandardDeviation(), f.getEvaluation()));
   const OT::CompositeRandomVector output(f, OT::RandomVector(joint));
-  return reliability.fails_above ? OT::ThresholdEvent(output, OT::Greater(), 0.0)
-                                 : OT::ThresholdEvent(output, OT::Less(), 0.0);
+  return above ? OT::ThresholdEvent(output, OT::Greater(), 0.0) : OT::ThresholdEvent(output, OT::Less(), 0.0);
 }
 
 // How far the quantity is from its threshold where FORM begins; 1 where that is not known.
@@ -111,18 +110,22 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
   const bool searches = reliability.method != Method::monte_carlo;
   const double scale = searches ? scale_of(study, reliability, counted) : 1;
   // To a simulation what is not done does not fail; a search does not go there.
-  const OT::RandomVector counts =
-      limit_event(study, reliability, counted, derivatives, scale, reliability.fails_above ? -1 : 1);
+  const bool above = reliability.fails_above;
+  const auto counts = [&](bool where_above) {
+    return limit_event(study, reliability, counted, derivatives, scale, above ? -1 : 1, where_above);
+  };
   if (!searches) {
-    ReliabilityResult result = simulated(reliability, counts, OT::MonteCarloExperiment());
+    ReliabilityResult result = simulated(reliability, counts(above), OT::MonteCarloExperiment());
     result.not_done = not_done;
     return result;
   }
-  const OT::RandomVector event =
-      limit_event(study, reliability, counted, derivatives, scale, std::numeric_limits<double>::quiet_NaN());
+  const OT::RandomVector event = limit_event(study, reliability, counted, derivatives, scale,
+                                             std::numeric_limits<double>::quiet_NaN(), above);
   const OT::FORMResult form = form_of(study, reliability, event);
+  // What is most likely may fail: then the index is negative, and the rare event is that it does not.
+  const bool mostly_fails = form.getIsStandardPointOriginInFailureSpace();
   ReliabilityResult result{.probability = form.getEventProbability(),
-                           .reliability_index = form.getHasoferReliabilityIndex(),
+                           .reliability_index = (mostly_fails ? -1 : 1) * form.getHasoferReliabilityIndex(),
                            .design_point = from_point(form.getPhysicalSpaceDesignPoint()),
                            .importance = from_point(form.getImportanceFactors())};
   if (!std::isfinite(*result.reliability_index))
@@ -131,10 +134,13 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
   if (reliability.method == Method::form) return result;
   const OT::ImportanceSamplingExperiment around(
       OT::Normal(form.getStandardSpaceDesignPoint(), OT::CovarianceMatrix(result.design_point.size())));
-  const OT::StandardEvent standard(counts);
+  const OT::StandardEvent standard(counts(above != mostly_fails));
   const ReliabilityResult estimate = simulated(reliability, standard, around);
-  result.probability = estimate.probability;
+  result.probability = mostly_fails ? 1 - estimate.probability : estimate.probability;
   result.coefficient_of_variation = estimate.coefficient_of_variation;
+  if (mostly_fails && estimate.coefficient_of_variation)
+    result.coefficient_of_variation =
+        *estimate.coefficient_of_variation * estimate.probability / result.probability;
   result.not_done = not_done;
   return result;
 }

@@ -156,8 +156,14 @@ int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEng
     err << "interrupted after " << result.variants.size() << " variants; go on with --resume\n";
     return exit_interrupted;
   }
-  if (result.failure.empty()) return exit_done;
-  err << options.file.string() << ": error: " << result.failure << "\n";
+  const bool any_done = std::any_of(result.variants.begin(), result.variants.end(),
+                                    [](const Variant& each) { return each.status == VariantStatus::done; });
+  if (result.failure.empty() && any_done) return exit_done;
+  err << options.file.string() << ": error: "
+      << (result.failure.empty()
+              ? "none of " + std::to_string(result.variants.size()) + " variants is done: study.csv says why"
+              : result.failure)
+      << "\n";
   return exit_not_converged;
 }
 

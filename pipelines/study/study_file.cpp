@@ -78,8 +78,8 @@ class StudyReader : StudyPartReader {
       read_distribution(json["distribution"], dimension, child(path, "distribution"), variable);
     if (has(json, "nominal"))
       variable.nominal = measured(json["nominal"], dimension, child(path, "nominal")).value_or(0);
-    else if (!variable.derived)
-      variable.nominal = middle_of(variable.distribution);
+    else if (!variable.derived && !findings_.has_errors())
+      variable.nominal = within_ends(variable.distribution, middle_of(variable.distribution));
     if (!variable.derived && !findings_.has_errors()) check_ends(variable);
     study_.variables.push_back(std::move(variable));
   }
@@ -109,6 +109,12 @@ class StudyReader : StudyPartReader {
       findings_.error(child(variable.path, "nominal"), "is " + text_of(variable.nominal, all_digits) +
                                                            ", outside of " + text_of(lower, all_digits) +
                                                            " to " + text_of(upper, all_digits));
+  }
+
+  // The middle, or the mean of what is left where that is cut off.
+  static double within_ends(const StudyDistribution& d, double middle) {
+    const bool is_left = !(d.lower && middle < *d.lower) && !(d.upper && middle > *d.upper);
+    return is_left ? middle : mean_of(d);
   }
 
   static double middle_of(const StudyDistribution& d) {
@@ -207,7 +213,21 @@ class StudyReader : StudyPartReader {
         findings_.error(child(variable.path, "name"),
                         "has a single quote, which cannot stand in an expression; leave it out");
     }
+    for (const StudyVariable& variable : study_.variables) check_column(variable.name, variable.path);
     check_targets();
+  }
+
+  // What study.nc can have as the name of a variable.
+  void check_column(const std::string& name, const std::string& path) {
+    std::string fitting = name;
+    std::replace(fitting.begin(), fitting.end(), '/', '-');
+    while (!fitting.empty() && fitting.back() == ' ') fitting.pop_back();
+    if (fitting != name)
+      findings_.error(child(path, "name"),
+                      in_quotes(name) +
+                          " cannot head a column of study.nc: it must have no \"/\" and not "
+                          "end with a space; " +
+                          in_quotes(fitting) + " can");
   }
 
   // What two variables set has the value of one alone.
@@ -263,6 +283,7 @@ class StudyReader : StudyPartReader {
       if (variable.name == name && !name.empty())
         findings_.error(child(path, "name"),
                         in_quotes(name) + " is the name of a variable; names must differ");
+    check_column(name, path);
     for (const StudyQuantity& other : study_.quantities)
       if (other.name == name && !name.empty())
         findings_.error(child(path, "name"),

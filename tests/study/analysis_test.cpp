@@ -165,6 +165,22 @@ TEST(Reliability, BySimulationIsWithinItsDeviation) {
   }
 }
 
+// R - S is below 12 with nearly all values: Phi(2.8).
+TEST(Reliability, OfWhatMostlyFailsIsThatOfTheRestAndItsIndexIsNegative) {
+  const double beta = -(12 - 5) / 2.5, exact = 0.5 * std::erfc(beta / std::sqrt(2.0));
+  for (const char* method : {"form", "importance_sampling"}) {
+    const StudyFile study = study_of(linear_head +
+                                     R"json("reliability": {"quantity": "margin", "below": 12, "count": 2000,
+      "method": ")json" + method + "\"}}");
+    const ReliabilityResult result =
+        failure_probability(study, std::get<StudyReliability>(study.task), evaluation_of(study));
+    EXPECT_NEAR(*result.reliability_index, beta, 1e-5) << method;
+    EXPECT_NEAR(result.probability, exact, 0.1 * (1 - exact)) << method;
+    if (result.coefficient_of_variation)
+      EXPECT_LE(*result.coefficient_of_variation, 0.1 * (1 - exact)) << method;
+  }
+}
+
 TEST(Reliability, BySimulationRunsAsManyAsAskedForOrUntilItIsSure) {
   const auto runs = [](const std::string& more) {
     const StudyFile study = study_of(linear_head + R"json("reliability": {"quantity": "margin", "below": 4,
@@ -239,6 +255,14 @@ TEST(Optimum, SaysThatItsEvaluationsAreUsedUp) {
     "quantities": [{"name": "f", "value": "(1 - x)^2 + 100 * (y - x^2)^2"}],
     "optimise": {"minimise": "f", "evaluations": 12, "method": "cobyla"}})json");
   EXPECT_TRUE(find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study)).cut_off);
+}
+
+TEST(Optimum, OfWhatIsMaximisedHasItsOwnSign) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1, "variables": [{"name": "x", "range": [-2, 2]}],
+    "quantities": [{"name": "f", "value": "3 - (x - 1)^2"}],
+    "optimise": {"maximise": "f", "evaluations": 60, "method": "cobyla"}})json");
+  EXPECT_NEAR(find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study)).history.back(), 3,
+              1e-3);
 }
 
 TEST(Optimum, HoldsItsConstraints) {

@@ -137,6 +137,8 @@ TEST(Calibration, WithWhatIsKnownBeforeWeighsBoth) {
   EXPECT_NEAR(result.point[0], (of_data * 1 + of_prior * 2) / (of_data + of_prior), 1e-6);
   EXPECT_NEAR(result.sd[0], 1 / std::sqrt(of_data + of_prior), 1e-6);
   EXPECT_NEAR(result.sd[1], 1e-3, 1e-8) << "of which the measurements say nothing";
+  EXPECT_NEAR(result.lower[0], result.point[0] - 1.959964 * result.sd[0], 1e-6);
+  EXPECT_NEAR(result.upper[0], result.point[0] + 1.959964 * result.sd[0], 1e-6);
 }
 
 TEST(Calibration, OfWhatMeasurementsDoNotDetermineSaysSo) {

@@ -138,6 +138,40 @@ TEST(Gradient, OfAMotionWhoseSectionsTurnFar) {
   expect_gradient(of, 0.002, 1e-5);
 }
 
+// Two components of the tangent at the clamp are equal, as where it is along an axis: beside it the clamp
+// takes the same directions across.
+TEST(Gradient, OfABeamThatIsClampedAlongAnAxis) {
+  for (const char* control : {"[0.5, 0, 0]", "[0.4, 0.4, 0.4]"}) {
+    StudyOfCase of(std::string(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1],
+                         "control_points": [[0, 0, 0], )json") +
+                       control + R"json(, [1, 0.8, 0.3], [0.9, 1.5, 0.5]]}},
+      "section": {"radius": "12 mm"}, "material": {"density": 2700, "youngs_modulus": "7 GPa", "poissons_ratio": 0.3},
+      "elements": {"count": 4}}],
+      "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "A"}], "analysis": {"type": "static"},
+      "output": {"probes": [{"name": "tip", "beam": "beam", "at": "end"}]}})json",
+                   R"json("variables": [
+      {"name": "y0", "control_point": {"beam": "beam", "index": 0, "axis": "y"}, "range": [-0.1, 0.1]},
+      {"name": "y1", "control_point": {"beam": "beam", "index": 1, "axis": "y"}, "range": [-0.1, 0.6]}],
+    "quantities": [{"name": "x", "value": "at(end, tip.x)"}, {"name": "m", "value": "at(end, A.mx)"}],
+    "plan": {"grid": 2})json");
+    expect_gradient(of, 2e-3, 1e-6);
+  }
+}
+
+// Below a damping of zero there is no case.
+TEST(Gradient, AtTheEndOfWhatThereIsLooksToOneSide) {
+  StudyOfCase of(
+      test::spline_case(6, 4, R"json({"type": "dynamic", "end_time": 0.1, "step": 0.005})json"),
+      R"json("variables": [{"name": "d", "path": "beams[0].material.damping", "range": [0, 1e-3], "nominal": 0}],
+    "quantities": [{"name": "z", "value": "at(end, tip.z)"}], "plan": {"gradient": "nominal"})json");
+  const Variant at_end = of.run({0}, true);
+  ASSERT_EQ(at_end.gradient.size(), 1U) << at_end.reason;
+  const auto slope = [&](double h) { return (of.run({h}, false).quantities[0] - at_end.quantities[0]) / h; };
+  const double coarse = slope(2e-5), fine = slope(1e-5);
+  EXPECT_NEAR(at_end.gradient[0][0], 2 * fine - coarse, 1e-3 * std::abs(fine));
+}
+
 // In its plane nothing is across it: all that is asked of is exactly zero.
 TEST(Gradient, OfWhatIsZeroAsDrawn) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],

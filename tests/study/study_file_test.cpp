@@ -101,6 +101,25 @@ TEST(StudyFile, RefusesEndsBetweenWhichNothingIs) {
   EXPECT_NE(wrong(R"("range": [1, 2], "nominal": 3)").find("variables[0].nominal: is 3, outside of 1 to 2"),
             std::string::npos);
   EXPECT_EQ(wrong(normal + R"("lower": 0.9, "upper": 1.3})"), "");
+  EXPECT_EQ(wrong(normal + R"("lower": 1.2, "upper": 1.3})"), "");
+}
+
+// Where the mean is cut off: the mean of what is left.
+TEST(StudyFile, TakesTheMeanOfWhatIsLeftAsNominal) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1, "variables": [{"name": "x",
+    "distribution": {"normal": {"mean": 0, "sd": 1}, "lower": 1}}],
+    "quantities": [{"name": "y", "value": "x"}], "plan": {"monte_carlo": {"count": 10}}})json");
+  EXPECT_NEAR(study.variables[0].nominal, 0.2419707245 / 0.1586552539, 1e-6);  // phi(1) / (1 - Phi(1))
+}
+
+TEST(StudyFile, RefusesNamesThatCannotHeadAColumn) {
+  const std::string wrong =
+      wrong_with(R"json({"nurbeam_study": 1, "variables": [{"name": "x ", "range": [0, 1]}],
+    "quantities": [{"name": "sag/span", "value": "3"}], "plan": {"monte_carlo": {"count": 10}}})json");
+  EXPECT_NE(wrong.find("variables[0].name: \"x \" cannot head a column of study.nc"), std::string::npos)
+      << wrong;
+  EXPECT_NE(wrong.find("quantities[0].name: \"sag/span\" cannot"), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("\"sag-span\" can"), std::string::npos) << wrong;
 }
 
 TEST(StudyFile, NeedsOneTask) {

@@ -164,6 +164,24 @@ TEST(Buckling, ByALoadThatPullsHasANegativeFactor) {
   EXPECT_NEAR(found.modes[0].factor, -M_PI * M_PI / 4, 1e-3);
 }
 
+// What a beam that is bent resists more is no less of its stiffness, though it is so in first order.
+TEST(Buckling, OfWhatIsBentIsThatOfItsStresses) {
+  const auto factors = [](const Eigen::Vector2d& force) {
+    ModelBuilder builder(2);
+    builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {2, 0, 0})}, 2), BeamProperties{2e7, 200, 1},
+                     {16});
+    const BeamModel model = builder.clamp(0, 0).force(0, 2, {force[0], force[1], 0}).build();
+    return modes_of(model, {.kind = ModesOptions::Kind::buckling, .count = 2});
+  };
+  const double euler = M_PI * M_PI / 4 * 200 / 4;
+  const ModesReport across = factors({0, -0.5});  // deflected by twice the radius of gyration
+  ASSERT_TRUE(across.rest.failure);
+  EXPECT_EQ(across.rest.failure->kind, Failure::Kind::nothing_buckles);
+  const ModesReport both = factors({-10, -0.5});
+  ASSERT_FALSE(both.rest.failure) << static_cast<int>(both.rest.failure->kind);
+  EXPECT_NEAR(both.modes[0].factor, euler / 10, 1e-3 * euler / 10);
+}
+
 TEST(Buckling, WithoutAnEffectOnTheStiffnessIsRefused) {
   const ModesReport found = modes_of(loaded(1e-9, -1, 0), {.kind = ModesOptions::Kind::buckling, .count = 1});
   ASSERT_TRUE(found.rest.failure);

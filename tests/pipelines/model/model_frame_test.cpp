@@ -57,6 +57,18 @@ TEST(ModelFrame, AMomentInThePlaneMakesTheModelSpatial) {
   EXPECT_EQ(model_frame({axis}, {}, {Vector3d::UnitX()}).dimension, 3);
 }
 
+// What is off a line by round-off is on it.
+TEST(ModelFrame, AMomentAcrossALineOfAnyDirectionIsNormalToThePlane) {
+  for (const Vector3d& end : {Vector3d(1.4367410316447358, 1.2369841043843008, -0.636903080137779),
+                              Vector3d(0.3, -2.7, 1.1), Vector3d(-1, 1e-3, 0.2)}) {
+    const Vector3d normal = end.cross(Vector3d(0.2, 0.5, 0.9)).normalized();
+    const ModelFrame frame =
+        model_frame({frame_line(Vector3d(1, 2, 3), Vector3d(1, 2, 3) + end)}, {}, {7 * normal});
+    EXPECT_EQ(frame.dimension, 2);
+    EXPECT_LT(frame.rotation.row(2).transpose().cross(normal).norm(), 1e-9);
+  }
+}
+
 TEST(ModelFrame, AnAxisOutOfThePlaneOfTheOthersMakesTheModelSpatial) {
   const RationalCubic first = in_plane(Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY());
   const RationalCubic second = in_plane(Vector3d(0, 0, 1), Vector3d::UnitX(), Vector3d::UnitY());
