@@ -163,7 +163,8 @@ def time_limits_end_variants():
     slow = json.loads(json.dumps(CASE))
     slow["analysis"].update(end_time=500, step=1e-4)
     study = write(scratch / "limit", {**STUDY, "plan": {"list": [["100 MPa", 0.1]]}, "time_limit": "300 ms"}, slow)
-    run(study, "--out", scratch / "limit/out")
+    told = run(study, "--out", scratch / "limit/out", expected=3).stderr
+    assert "none of 1 variants is done: study.csv says why" in told, told
     rows = table(scratch / "limit/out")
     assert rows[1][rows[0].index("status")] == "timed out", rows
 
