@@ -15,10 +15,12 @@ namespace nurbeam {
 namespace {
 
 // Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
-// [m].
-double push_off(Descent& body) {
+// [m]. On a guide not far: what else holds it may pull it back from there over the summit.
+double push_off(const BeamModel& model, int joint, Descent& body) {
   ++body.balanced;
-  return body.balanced == 1 ? body.most : body.balanced == 2 ? -body.moved : 0;
+  const bool on_guide = model.beam_of(model.joints[joint]).rigid;
+  const double push = on_guide ? std::min(body.most, first_move(model, joint)) : body.most;
+  return body.balanced == 1 ? push : body.balanced == 2 ? -body.moved : 0;
 }
 
 // What round-off makes of the force that holds a body where nothing pulls it [N]: strains are differences of
@@ -71,6 +73,10 @@ bool stands_at(const BeamModel& model, int joint, double end, bool from_below) {
 
 }  // namespace
 
+double first_move(const BeamModel& model, int joint) {
+  return home_spacing(model, joint) / (model.beam_of(model.joints[joint]).rigid ? 64 : 4);
+}
+
 double next_move(const MeshedState& at, int joint, Descent& body) {
   body.arrived = body.most == 0;
   if (body.arrived) return 0;
@@ -87,7 +93,7 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
     return 0;
   }
   const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, joint) : 0);
-  double ds = nothing_pulls ? push_off(body) : step_down(body, s, force);
+  double ds = nothing_pulls ? push_off(at.system->model(), joint, body) : step_down(body, s, force);
   if (!nothing_pulls) body.balanced = 0;
   const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
   const double room = 0.4 * distance_to_others(at, joint);

@@ -17,6 +17,9 @@ struct Descent {
   int way = 0;                           // that it slides against its friction
 };
 
+/// How far a body moves at first [m]: a quarter of an element; on a guide, which has none, less.
+double first_move(const BeamModel& model, int joint);
+
 /// The next move of a body by itself [m]; 0 where it has arrived.
 double next_move(const MeshedState& at, int joint, Descent& body);
 

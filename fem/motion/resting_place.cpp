@@ -136,7 +136,7 @@ class RestSearch {
       return;
     if (!move_driven_bodies()) return;
     std::vector<Descent> bodies;
-    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? spacing(j) / 4 : 0});
+    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? first_move(model(), j) : 0});
     for (std::vector<int>& group : coupled_joints(model(), slides))
       coupled_.emplace_back(model(), std::move(group));
     constexpr int most_moves = 2000;

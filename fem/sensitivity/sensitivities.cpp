@@ -1,5 +1,6 @@
 #include "fem/sensitivity/sensitivities.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -102,6 +103,7 @@ Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<Probe
     : begins_at_rest_(options.statics || options.start_from_equilibrium),
       is_static_(options.statics),
       by_adjoint_(by_adjoint),
+      end_time_(options.end_time),
       probes_(std::move(probes)) {
   const auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
   if (!options.statics && !settings)
@@ -171,10 +173,15 @@ void Sensitivities::take_off(const Shifts& shifts, const Eigen::SparseMatrix<dou
 }
 
 void Sensitivities::begins(const MeshedState& drawn) {
-  const std::vector<double> kinks = kink_times(drawn.system->model());
+  const auto kinks_of = [this](const BeamModel& model) {
+    std::vector<double> kinks = kink_times(model);  // where the run comes to them
+    kinks.erase(std::lower_bound(kinks.begin(), kinks.end(), end_time_), kinks.end());
+    return kinks;
+  };
+  const std::vector<double> kinks = kinks_of(drawn.system->model());
   for (Parameter& parameter : parameters_)
     for (Neighbour* each : {&parameter.pair.more, &parameter.pair.less}) {
-      if (kink_times(*each->model) != kinks) not_alike("the times of tables or releases change");
+      if (kinks_of(*each->model) != kinks) not_alike("the times of tables or releases change");
       each->model = divided_like(each->model, drawn.system->model());
     }
   if (begins_at_rest_) return;

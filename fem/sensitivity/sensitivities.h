@@ -146,6 +146,7 @@ class Sensitivities final : public RunFollower {
 
   GeneralizedAlpha settings_;
   bool begins_at_rest_, is_static_, by_adjoint_;
+  double end_time_;
   std::vector<ProbePlace> probes_;
   std::vector<Parameter> parameters_;
   std::optional<ResidualDifferences> differences_;  // of their present systems

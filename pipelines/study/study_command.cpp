@@ -138,11 +138,20 @@ void write_results(const ReadyStudy& ready, const StudyOptions& options, const S
     write_best_variant(options.out, ready.study, *study_case, calibrated->point);
 }
 
+// Of a study that was here before.
+void remove_former_results(const std::filesystem::path& directory) {
+  for (const char* name : {"study.csv", "study.nc", "study.json", "study.html", "best.json", "best.step"}) {
+    std::error_code ignored;
+    std::filesystem::remove(directory / name, ignored);
+  }
+}
+
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
                   std::ostream& out, std::ostream& err) {
   silence_openturns();
   const InterruptGuard guard;
   StudyRows rows(options.out / "study.rows", digest_of(ready), options.resume);
+  if (!options.resume) remove_former_results(options.out);
   StudyResult result;
   {
     StudyLine line(err, options.quiet);

@@ -20,6 +20,20 @@ TEST(Gradient, OfASlidingBodyBeforeAnyEvent) {
   expect_gradient(of, 0.01, 1e-5);
 }
 
+// When it would arrive changes with the curve and the speed, but the run ends before.
+TEST(Gradient, OfABodyThatIsDrivenAlong) {
+  std::string driven = plane_slide;
+  driven.replace(driven.find(R"("speed": 1)"), 10, R"("motion": {"speed": 1.5})");
+  StudyOfCase of(driven + R"json("analysis": {"type": "dynamic", "end_time": 0.03, "step": "1 ms"},
+    "output": {"every": 0.01}})json",
+                 R"json("variables": [
+      {"name": "z2", "control_point": {"beam": "beam", "index": 2, "axis": "z"}, "range": [-0.9, -0.5]},
+      {"name": "speed", "path": "sliding_joints[0].motion.speed", "range": [1, 2]}],
+    "quantities": [{"name": "s", "value": "at(end, slider.s)"}, {"name": "z", "value": "at(end, slider.z)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.01, 1e-5);
+}
+
 TEST(Gradient, AcrossChangesOfTheMesh) {
   StudyOfCase of(plane_slide + R"json("analysis": {"type": "dynamic", "end_time": 0.4, "step": "1 ms"},
     "output": {"every": 0.1}})json",

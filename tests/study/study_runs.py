@@ -267,6 +267,9 @@ def the_best_variant_runs():
     assert (out / "best.step").exists()
     done = subprocess.run([nurbeam, "run", out / "best.json", "--out", scratch / "best/results", "--quiet"])
     assert done.returncode == 0
+    del study["optimise"]
+    run(write(scratch / "best", {**study, "plan": {"list": [[0.1]]}}), "--out", out)
+    assert not (out / "best.json").exists() and not (out / "best.step").exists(), "of the study before"
     page = (out / "study.html").read_text()
     assert "http" not in page.replace("http://www.w3.org", ""), "the page needs no network"
 
