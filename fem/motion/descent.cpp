@@ -16,8 +16,13 @@ namespace {
 
 // Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
 // [m]. On a guide not far: what else holds it may pull it back from there over the summit.
-double push_off(const BeamModel& model, int joint, Descent& body) {
+double push_off(const BeamModel& model, int joint, double s, Descent& body) {
   ++body.balanced;
+  if (body.balanced == 1) {
+    const bool came_back = std::abs(s - body.pushed_from) < 1e-6 * home_spacing(model, joint);
+    body.pushed_from = s;
+    if (came_back) return 0;
+  }
   const bool on_guide = model.beam_of(model.joints[joint]).rigid;
   const double push = on_guide ? std::min(body.most, first_move(model, joint)) : body.most;
   return body.balanced == 1 ? push : body.balanced == 2 ? -body.moved : 0;
@@ -93,7 +98,7 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
     return 0;
   }
   const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, joint) : 0);
-  double ds = nothing_pulls ? push_off(at.system->model(), joint, body) : step_down(body, s, force);
+  double ds = nothing_pulls ? push_off(at.system->model(), joint, s, body) : step_down(body, s, force);
   if (!nothing_pulls) body.balanced = 0;
   const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
   const double room = 0.4 * distance_to_others(at, joint);

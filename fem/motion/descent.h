@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "fem/motion/coupled_descent.h"
@@ -14,7 +15,8 @@ struct Descent {
   bool arrived = false, at_end = false;  // the latter: of the beam, or at a stop
   bool leaves = false;                   // it is at an end, and nothing else holds it there
   int balanced = 0;                      // places in a row at which nothing held it
-  int way = 0;                           // that it slides against its friction
+  double pushed_from = std::numeric_limits<double>::quiet_NaN();  // the last of them that it was pushed off
+  int way = 0;                                                    // that it slides against its friction
 };
 
 /// How far a body moves at first [m]: a quarter of an element; on a guide, which has none, less.

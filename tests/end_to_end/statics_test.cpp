@@ -135,5 +135,27 @@ TEST(RestingPlace, DoesNotDependOnWhereTheBeadWasDrawn) {
   }
 }
 
+// On an incline, m g sin = k (s - l); under a spring that is pressed, beside the summit by sqrt(l^2 - 1);
+// beside one that is pulled along the guide.
+TEST(RestingPlace, OnAGuideIsThatOfItsSpring) {
+  const auto place = [](const char* end, const char* from) {
+    const test::TemporaryDirectory directory;
+    const CaseRun r = test::run_file(
+        directory.write("case.json", std::string(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+      "beams": [{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 0, 0], )json") +
+                                         end + R"json(]}}],
+      "bodies": [{"name": "m", "mass": 3}],
+      "sliding_joints": [{"body": "m", "beam": "rail", "at": {"length": 5}}],
+      "connectors": [{"name": "k", "from": {"point": )json" +
+                                         from + R"json(}, "to": {"body": "m"}, "stiffness": 30, "length": 4}],
+      "analysis": {"type": "static"}, "output": {"report": false}})json"));
+    EXPECT_EQ(r.code, 0) << r.messages;
+    return r.code == 0 ? r.last("m.s [m]") : NAN;
+  };
+  EXPECT_NEAR(place("[16, 0, -12]", "[0, 0, 0]"), 4 + 3 * 9.81 * 0.6 / 30, 1e-6);
+  EXPECT_NEAR(std::abs(place("[20, 0, 0]", "[5, 0, 1]") - 5), std::sqrt(15), 1e-6);
+  EXPECT_NEAR(place("[20, 0, 0]", "[20, 0, 0]"), 16, 1e-6);
+}
+
 }  // namespace
 }  // namespace nurbeam
