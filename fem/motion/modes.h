@@ -43,8 +43,8 @@ struct ModesReport {
 /// Small vibrations about a state at rest, or the factors on loads under which it buckles. Constraints hold
 /// exactly, in first order: shapes lie in the null space of their gradients. K is the tangent of the state,
 /// with the geometric stiffness of its section forces, supports and loads. K_g is by what the
-/// stresses of the linear response to the loads stiffen it, by central differences extrapolated once, with the
-/// stiffness of the loads themselves; factors with which that response is no small one are left out.
+/// stresses of the linear response to the loads stiffen it, by central differences extrapolated once, with
+/// the stiffness of the loads themselves; factors with which that response is no small one are left out.
 ///
 /// In the model's own coordinates. Fails where the state is unstable, the tangent is not symmetric (loads
 /// that follow a section, moments in space) or the eigenvalues are not found. `interrupted` is asked all
