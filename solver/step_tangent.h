@@ -42,9 +42,9 @@ class StepTangent {
   const Eigen::SparseMatrix<double>& stiffness() const { return step_.stiffness; }
   /// Whether the matrix of that step is regular.
   [[nodiscard]] bool factorise();
-  /// Precondition: it is. The tangents at the end of that step, whose length changes by `step`, of each
-  /// parameter. `dynamics` (n), `constraints` (m), a column for each: how the residual at `after` changes
-  /// with the parameter itself, by the system and by t, while q, v, a and lambda stay.
+  /// Precondition: factorise() returned true. The tangents at its end, where its length changes by `step`, of
+  /// each parameter. `dynamics` (n), `constraints` (m), a column for each: how the residual at `after`
+  /// changes with the parameter itself, by the system and by t, while q, v, a and lambda stay.
   MotionTangents end(const MotionTangents& start, const Eigen::RowVectorXd& step, const Matrix& dynamics,
                      const Matrix& constraints) const;
 
