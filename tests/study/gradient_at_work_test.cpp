@@ -171,6 +171,17 @@ TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {
             weight + "}]",
         "at(end, car.z)");
   };
+  // A quarter circle is one cubic, and so is what turns by a little more.
+  EXPECT_EQ(told_of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "b",
+        "axis": {"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [[0, 0, 0], [1, 0, 0], [1, 0, 1]],
+                           "weights": [1, 0.7071067811865476, 1]}},
+        "section": {"radius": "12 mm"}, "material": {"density": 2700, "youngs_modulus": "7 GPa"}, "elements": {"count": 4}}],
+      "supports": [{"beam": "b", "at": "start", "type": "clamped"}], "analysis": {"type": "static"},
+      "output": {"probes": [{"name": "tip", "beam": "b", "at": "end"}]}})json",
+                    R"json("variables": [
+      {"name": "z1", "control_point": {"beam": "b", "index": 1, "axis": "z"}, "range": [-0.2, 0.2]}])json",
+                    "at(end, tip.z)"),
+            "");
   const std::string told = guide("1");
   EXPECT_NE(
       told.find("no derivative by \"w\": beam \"rail\" is divided into 1 rational cubics, and into 2 with "

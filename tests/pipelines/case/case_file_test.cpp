@@ -589,6 +589,17 @@ TEST_F(CaseFileTest, TheSchemaStatesRangesChoicesAndExclusions) {
   EXPECT_EQ(beam.at("axis").at("allOf").at(0).at("oneOf").size(), 4u);
 }
 
+// Both have a length among the histories.
+TEST_F(CaseFileTest, AConnectorIsNotNamedLikeABeam) {
+  const auto connector = [](const char* name) {
+    return std::string(R"(connectors=[{"name": ")") + name +
+           R"(", "from": {"beam": "cable", "at": "end"}, "to": {"point": [2, 0, 1]}, "stiffness": 5}])";
+  };
+  expect_error({connector("cable")}, "connectors[0].name",
+               {"\"cable\" is already the name of beams[0].name; names must differ"});
+  read_valid(smallest_case, {connector("stay")});
+}
+
 TEST(ClosestName, EditDistanceCountsSingleCharacterChanges) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);  // the textbook pair
   EXPECT_EQ(edit_distance("", "abc"), 3);

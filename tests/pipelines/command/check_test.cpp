@@ -48,6 +48,10 @@ TEST(CheckCase, SaysOfEachBeamInSpaceWhetherItHasTorsionAndWhy) {
   says({"beams[0].torsion=true"}, "yes, as the case asks for it");
   says({bent, sideways}, "yes, as it is drawn curved in space");
   says({sideways}, "no, as it is drawn straight and bends alike");
+  says(
+      {R"(loads=[{"beam": "cable", "at": "end", "force": [0, 1, 1]}, {"beam": "cable", "at": "start", "force": [0, 1, 0]},
+    {"beam": "cable", "at": "end", "moment": [0, 1, 0]}])"},
+      "yes, as a moment on it has a part along it where it bends");
   says({bent, sideways, "beams[0].torsion=false"}, "no, as the case asks for an element without it");
 }
 
