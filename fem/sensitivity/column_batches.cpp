@@ -22,15 +22,12 @@ int ColumnBatches<D>::add(const Assembly<D>& of, const MeshElement<D>& element, 
 // Of each group those that are one element of the mesh stand beside one another.
 template <int D>
 void ColumnBatches<D>::close(const Assembly<D>& present) {
-  const std::vector<Added> all = [this] {
-    std::vector<Added> sorted = std::exchange(added_, {});
-    std::sort(sorted.begin(), sorted.end(), [](const Added& a, const Added& b) {
-      return std::tie(a.group, a.now, a.column) < std::tie(b.group, b.now, b.column);
-    });
-    return sorted;
-  }();
-  for (auto each = all.begin(); each != all.end();) {
-    const auto end = std::find_if(each, all.end(), [&](const Added& other) {
+  std::vector<Added> all = std::exchange(added_, {});
+  std::sort(all.begin(), all.end(), [](const Added& a, const Added& b) {
+    return std::tie(a.group, a.now, a.column) < std::tie(b.group, b.now, b.column);
+  });
+  for (Each each = all.begin(); each != all.end();) {
+    const Each end = std::find_if(each, all.cend(), [&](const Added& other) {
       return other.group != each->group || other.now != each->now;
     });
     put(each, end, present.elements()[each->now].dofs);

@@ -104,6 +104,11 @@ void check_stresses(const BeamModel& less, const BeamModel& model, const BeamMod
   }
 }
 
+template <class Target>
+bool targets(const StudyVariable& variable) {
+  return variable.target && std::holds_alternative<Target>(*variable.target);
+}
+
 }  // namespace
 
 double derivative_step(const StudyVariable& variable, double value) {
@@ -114,15 +119,10 @@ double derivative_step(const StudyVariable& variable, double value) {
   const double greater = std::max(width, std::abs(value)), lesser = std::min(width, std::abs(value));
   // Not too small beside the value, as far as the range allows: that is lost in round-off. What moves the
   // axis by no more than that: slender beams are stiff against what is of second order in it.
-  const auto is = [&]<class Target>() {
-    return variable.target && std::holds_alternative<Target>(*variable.target);
-  };
-  const bool is_place =
-      is.template operator()<ControlPointCoordinate>() || is.template operator()<CurveTransform>();
-  const double step = is_place ? 1e-6 * greater
-                               : (is.template operator()<ControlPointWeight>() ? 1e-5 : 1e-4) *
-                                     std::max(lesser, 0.1 * greater);
-  return std::min(step, 0.1 * width);
+  if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
+    return std::min(1e-6 * greater, 0.1 * width);
+  const double part = targets<ControlPointWeight>(variable) ? 1e-5 : 1e-4;
+  return std::min(part * std::max(lesser, 0.1 * greater), 0.1 * width);
 }
 
 std::vector<double> differences(const StudyFile& study, const std::vector<double>& values,
