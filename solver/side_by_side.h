@@ -21,18 +21,18 @@ class ThreadLimit {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Work that goes on beside its thread, where a second one is free.
+/// Pieces of work that go on beside their thread, one after another, where a second one is free.
 class Alongside {
  public:
   Alongside();
-  /// Waits for it.
+  /// Waits for the piece that is under way, and leaves those that come after it.
   ~Alongside();
   Alongside(const Alongside&) = delete;
   Alongside& operator=(const Alongside&) = delete;
 
-  /// Precondition: none is under way.
-  void begin(std::function<void()> work);
-  /// Until it is done; throws on what it has thrown.
+  /// To be done after all that have been added before.
+  void add(std::function<void()> work);
+  /// Until all are done; throws on what one of them has thrown, behind which the others are left.
   void finish();
 
  private:

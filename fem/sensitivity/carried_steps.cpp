@@ -1,4 +1,5 @@
 // Sensitivities over steps.
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -7,7 +8,18 @@
 
 namespace nurbeam {
 
+namespace {
+
 using Vector = Eigen::VectorXd;
+
+// Of matrices of a beam and their factors.
+std::size_t steps_ahead_within_memory(const State& state) {
+  constexpr double bytes = 64e6, of_an_unknown = 2000;
+  const double size = of_an_unknown * static_cast<double>(state.q.size() + state.lambda.size());
+  return static_cast<std::size_t>(std::clamp(bytes / size, 2.0, 8.0));
+}
+
+}  // namespace
 
 void singular_step() {
   throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
@@ -17,7 +29,7 @@ void singular_step() {
 // has shortened it, or its part of what is left to the next time of the run; none where it lands on an event.
 Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
   const double h = step.after.t - step.before.t, limit = system_->step_limit(step.before);
-  if (step.beyond) return Eigen::RowVectorXd::Zero(tangents_.parameters());
+  if (step.beyond) return Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()));
   if (step.asked <= limit) return -h / step.rest * times();
   Eigen::RowVectorXd changes(tangents_.parameters());
   State own = step.before;  // places alone say how long it may be, and their rates
@@ -66,7 +78,9 @@ Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step) const {
   const Eigen::Index n = step.after.q.size(), m = step.after.lambda.size();
   const Vector rates = rates_with_time(step.after, h);
   const State longer =
-      step_->end(MotionTangents::zero(n, m, 1), Eigen::RowVectorXd::Ones(1), rates.head(n), rates.tail(m))
+      ahead_->steps.back()
+          ->tangent
+          .end(MotionTangents::zero(n, m, 1), Eigen::RowVectorXd::Ones(1), rates.head(n), rates.tail(m))
           .of(0);
   const double beyond = step.beyond(*system_, moved(step.after, longer, shift)) -
                         step.beyond(*system_, moved(step.after, longer, -shift));
@@ -99,37 +113,60 @@ void Sensitivities::steps(const FollowedStep& step) {
   }
 }
 
-// Derivatives of the time at the end of the step ahead.
+// Derivatives of the time at the end of the last step ahead.
 Eigen::RowVectorXd Sensitivities::times() const {
-  return ahead_ ? tangents_.t + ahead_->change : tangents_.t;
+  return ahead_ && ahead_->is_going ? ahead_->times : tangents_.t;
+}
+
+// One with that system, to be linearised: the first one where that is over, else another.
+Sensitivities::Ahead::Step& Sensitivities::Ahead::next(const GeneralizedAlpha& settings,
+                                                       const BeamSystem& system) {
+  if (steps.empty() || !steps.front()->is_over)
+    steps.emplace_back(new Step{.tangent = StepTangent(settings, system)});
+  else
+    std::rotate(steps.begin(), steps.begin() + 1, steps.end());
+  return *steps.back();
 }
 
 // Linearises a step, to whose start the tangents come meanwhile, and lets them go to its end.
 void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change) {
-  if (!next_step_) next_step_ = std::make_unique<StepTangent>(settings_, *system_);
-  ++work_.tangents;
-  Shifts shifts;
   const Eigen::RowVectorXd at_end = times() + change;
-  both([&] { next_step_->take(step.before, step.history, step.after, step.repeated); },
+  if (!ahead_) ahead_.reset(new Ahead{.most = steps_ahead_within_memory(state_)});
+  if (ahead_->steps.size() == ahead_->most) arrive();
+  Ahead::Step& next = ahead_->next(settings_, *system_);
+  Shifts shifts;
+  both([&] { next.tangent.take(step.before, step.history, step.after, step.repeated); },
        [&] { shifts = find_residual_changes(step.after, at_end); });
-  take_off(shifts, next_step_->stiffness());
-  arrive();
-  std::swap(step_, next_step_);
-  ahead_.reset(new Ahead{.change = change, .dynamics = dynamics_, .constraints = constraints_});
-  ahead_->going.begin([&start = tangents_, &step = *step_, &ahead = *ahead_] {
-    if (step.factorise()) ahead.end = step.end(start, ahead.change, ahead.dynamics, ahead.constraints);
+  take_off(shifts, next.tangent.stiffness());
+  ++work_.tangents;
+  work_.solves += change.size();
+  next.change = change;
+  next.dynamics = dynamics_;
+  next.constraints = constraints_;
+  next.is_over = false;
+  ahead_->times = at_end;
+  ahead_->is_going = true;
+  ahead_->going.add([this, &next] {
+    if (!next.tangent.factorise()) singular_step();
+    tangents_ = next.tangent.end(tangents_, next.change, next.dynamics, next.constraints);
+    next.is_over = true;
   });
 }
 
-// The tangents to the end of the step ahead.
+// Those at the end of the last step ahead.
+void Sensitivities::keep_tangents(Record& record) {
+  const auto keep = [this, &record] { record.tangents = of_states(tangents_); };
+  if (ahead_ && ahead_->is_going)
+    ahead_->going.add(keep);
+  else
+    keep();
+}
+
+// The tangents to the end of all steps ahead.
 void Sensitivities::arrive() {
   if (!ahead_) return;
-  const std::unique_ptr<Ahead> ahead = std::move(ahead_);
-  ahead->going.finish();
-  if (!ahead->end) singular_step();
-  tangents_ = std::move(*ahead->end);
-  work_.solves += tangents_.parameters();
-  for (const std::size_t record : ahead->records) records_[record].tangents = of_states(tangents_);
+  ahead_->going.finish();
+  ahead_->is_going = false;
 }
 
 }  // namespace nurbeam

@@ -91,7 +91,7 @@ void Sensitivities::carry() {
     stretch->steps.forward([&](std::size_t i, const KeptSteps::Step& step) {
       carry_over(step, stretch->by_time[i] * times());
       for (; record != stretch->records.end() && records_[*record].position == i + 1; ++record)
-        ahead_->records.push_back(*record);
+        keep_tangents(records_[*record]);
     });
   }
   arrive();

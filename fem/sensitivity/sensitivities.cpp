@@ -132,8 +132,7 @@ void Sensitivities::go_on_from(const MeshedState& at, ResidualDifferences differ
   system_ = at.system;
   state_ = at.state;
   meshes_ = nullptr;
-  step_.reset();
-  next_step_.reset();
+  ahead_.reset();
   differences_ = std::move(differences);
 }
 
@@ -285,12 +284,10 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
   if (stretch_) {
     record.position = stretch_->steps.size();
     stretch_->records.push_back(records_.size());
-  } else if (ahead_) {
-    ahead_->records.push_back(records_.size());
+    records_.push_back(std::move(record));
   } else {
-    record.tangents = of_states(tangents_);
+    keep_tangents(records_.emplace_back(std::move(record)));
   }
-  records_.push_back(std::move(record));
 }
 
 std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter,

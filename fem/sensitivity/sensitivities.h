@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -140,6 +141,7 @@ class Sensitivities final : public RunFollower {
   void arrive();
   Eigen::RowVectorXd times() const;
   void carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change);
+  void keep_tangents(Record& record);
   void add_through_steps(const std::vector<std::size_t>& records,
                          const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
                          MotionTangents::Matrix& sum);
@@ -150,18 +152,17 @@ class Sensitivities final : public RunFollower {
   std::vector<ProbePlace> probes_;
   std::vector<Parameter> parameters_;
   std::optional<ResidualDifferences> differences_;  // of their present systems
-  std::unique_ptr<StepTangent> step_, next_step_;   // with the present system
   MotionTangents tangents_;
   MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
   std::shared_ptr<const BeamSystem> system_;
   State state_;                       // of the run
   std::unique_ptr<Stretch> stretch_;  // that tangents_ have not been taken over
-  std::unique_ptr<Ahead> ahead_;      // the step that they are at the start of
   Work work_;
   std::vector<std::vector<double>> event_times_;
-  std::vector<Record> records_;
+  std::deque<Record> records_;
   std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
   std::shared_ptr<const Rest> rest_;      // the last one, for its adjoint
+  std::unique_ptr<Ahead> ahead_;          // with the present system; what goes on there looks at the others
 };
 
 }  // namespace nurbeam

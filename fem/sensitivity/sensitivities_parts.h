@@ -1,4 +1,7 @@
 #pragma once
+#include <atomic>
+#include <deque>
+#include <memory>
 #include <optional>
 
 #include "fem/mesh/mesh_plan.h"
@@ -53,13 +56,21 @@ struct Sensitivities::Stretch {
   std::vector<std::size_t> records = {};  ///< behind its steps
 };
 
-/// A step that has been linearised, over which tangents go while the run takes the next one.
+/// Steps with one system that have been linearised, over which tangents go while the run takes the next ones.
 struct Sensitivities::Ahead {
-  Eigen::RowVectorXd change;                     ///< of its length
-  MotionTangents::Matrix dynamics, constraints;  ///< how its residual changes
-  std::vector<std::size_t> records = {};         ///< at its end
-  std::optional<MotionTangents> end = {};        ///< what they are there; empty where it is singular
-  Alongside going = {};                          ///< to the end
+  struct Step {
+    StepTangent tangent;
+    Eigen::RowVectorXd change = {};                          ///< of its length
+    MotionTangents::Matrix dynamics = {}, constraints = {};  ///< how its residual changes
+    std::atomic<bool> is_over = false;                       ///< tangents are at its end
+  };
+  Step& next(const GeneralizedAlpha& settings, const BeamSystem& system);
+
+  std::deque<std::unique_ptr<Step>> steps = {};  ///< in their order
+  std::size_t most;                              ///< of them
+  Eigen::RowVectorXd times = {};                 ///< derivatives of the time at the end of the last
+  bool is_going = false;                         ///< and tangents_ are not to be looked at
+  Alongside going = {};                          ///< to the end of the last
 };
 
 /// By the length of a step that lands on an event: the tangent, and of the distance to it.

@@ -213,17 +213,20 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const Pair& pair = pairs_.emplace_back(std::move(*pairs[k]));
     neighbours.push_back({pair.more.neighbour(), pair.less.neighbour(), pair.step});
   }
-  is_by_adjoint_ = pays_by_adjoint();
+  is_by_adjoint_ = pays_by_adjoint(options.statics);
   sensitivities_ =
       std::make_unique<Sensitivities>(options, probe_places(model), std::move(neighbours), is_by_adjoint_);
 }
 
 VariantGradient::~VariantGradient() = default;
 
-bool VariantGradient::pays_by_adjoint() const {
+// Not where extremes along beams and sections are looked for, which are at another place where one unknown of
+// a state changes; nor where, unknown by unknown, energies of a rest change by what nearly cancels in the
+// sum.
+bool VariantGradient::pays_by_adjoint(bool is_static) const {
   const SnapshotContents contents = Histories(study_, model_).contents();
   return pairs_.size() > study_.quantities.size() && !contents.beams && !contents.sections &&
-         !contents.energy;
+         !(contents.energy && is_static);
 }
 
 // (quantities x parameters) What states at these times, which change with the parameters, do to the

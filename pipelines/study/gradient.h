@@ -38,7 +38,7 @@ class VariantGradient {
   struct NeighbouringRun;
   struct Pair;
 
-  bool pays_by_adjoint() const;
+  bool pays_by_adjoint(bool is_static) const;
   Eigen::MatrixXd through_states(const Histories& histories, const std::vector<std::size_t>& times,
                                  const std::vector<RunEvent>& events);
 

@@ -15,7 +15,7 @@ TEST(Alongside, HasDoneItsWorkWhereItIsFinished) {
     int sum = 0;
     for (int i = 1; i <= 100; ++i) {
       int next = 0;
-      alongside.begin([&next, &sum, i] { next = sum + i; });
+      alongside.add([&next, &sum, i] { next = sum + i; });
       alongside.finish();
       sum = next;
     }
@@ -25,10 +25,10 @@ TEST(Alongside, HasDoneItsWorkWhereItIsFinished) {
 
 TEST(Alongside, ThrowsOnWhatItsWorkThrows) {
   Alongside alongside;
-  alongside.begin([] { throw std::runtime_error("a reason"); });
+  alongside.add([] { throw std::runtime_error("a reason"); });
   EXPECT_THROW(alongside.finish(), std::runtime_error);
   std::atomic<bool> done = false;
-  alongside.begin([&] { done = true; });
+  alongside.add([&] { done = true; });
   alongside.finish();
   EXPECT_TRUE(done);
 }
@@ -37,7 +37,7 @@ TEST(Alongside, LeavesNothingUnderWay) {
   std::atomic<bool> is_there = true, was_gone = false;
   {
     Alongside alongside;
-    alongside.begin([&] {
+    alongside.add([&] {
       for (int i = 0; i < 1000; ++i) was_gone = was_gone || !is_there;
     });
   }
