@@ -20,14 +20,15 @@ Eigen::MatrixXd rates_by_unknowns(const std::function<Eigen::VectorXd(const Eige
   };
   const std::function<void(Eigen::Index, Eigen::Index)> find = [&](Eigen::Index first, Eigen::Index end) {
     if (!change_something(first, end)) return;
-    if (end - first > 1) {
+    constexpr Eigen::Index few = 4;
+    if (end - first > few) {
       find(first, (first + end) / 2);
-      find((first + end) / 2, end);
-    } else {
-      by.row(first) = (8 * (where_one_changes(first, 1) - where_one_changes(first, -1)) -
-                       (where_one_changes(first, 2) - where_one_changes(first, -2))) /
-                      (12 * steps[first]);
+      return find((first + end) / 2, end);
     }
+    for (Eigen::Index i = first; i < end; ++i)
+      by.row(i) = (8 * (where_one_changes(i, 1) - where_one_changes(i, -1)) -
+                   (where_one_changes(i, 2) - where_one_changes(i, -2))) /
+                  (12 * steps[i]);
   };
   if (x.size() > 0) find(0, x.size());
   return by;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/motion/beam_extremes.h"
 #include "fem/motion/sag.h"
 #include "fem/system/observables.h"
 
@@ -10,33 +11,17 @@ namespace nurbeam {
 
 namespace {
 
-// Takes over a value where it is larger by `size`, or the first.
-void keep(Extreme& extreme, double value, double s, double (*size)(double)) {
-  if (std::isnan(value)) return;
-  if (std::isnan(extreme.value) || size(value) > size(extreme.value)) extreme = {value, s};
-}
-
-double itself(double x) { return x; }
-double negative(double x) { return -x; }
-double magnitude(double x) { return std::abs(x); }
-
 void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
   for (const ElementRecord& e : record.elements)
     for (int i = 0; i < 4; ++i) {
       const double s = curve.wrapped(e.s_start + (e.s_end - e.s_start) * i / 3);
-      keep(record.axial_force_min, e.axial_force[i], s, negative);
-      keep(record.axial_force_max, e.axial_force[i], s, itself);
-      keep(record.moment_max, e.bending_moment[i], s, magnitude);
-      keep(record.shear_force_max, e.shear_force[i], s, magnitude);
-      keep(record.stress_max, e.stress[i], s, magnitude);
-      keep(record.von_mises_max, e.von_mises[i], s, magnitude);
-      if (std::isnan(e.twist[i])) continue;  // no torsion
-      keep(record.torque_max, e.torque[i], s, magnitude);
-      keep(record.twist_max, e.twist[i], s, magnitude);
+      for (const auto& [extreme, values, size, of_torsion] : element_extremes)
+        if (!of_torsion || !std::isnan(e.twist[i])) keep(record.*extreme, (e.*values)[i], s, size);
     }
   for (std::size_t i = 0; i < record.node_s.size(); ++i) {
     const double s = record.node_s[i];
-    keep(record.displacement_max, (record.node_positions[i] - curve.position(s)).norm(), s, itself);
+    keep(record.displacement_max, displacement(curve, record.node_positions[i], s), s,
+         ElementExtreme::itself);
   }
 }
 
@@ -64,7 +49,7 @@ BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& grav
   return record;
 }
 
-BeamRecord record_beam(const BeamSystem& system, const State& state,
+BeamRecord record_with(const BeamSystem& system, const State& state,
                        const std::vector<SpanResultants>& carried, int b) {
   const Mesh& mesh = system.mesh();
   const ReferenceCurve& curve = system.model().beams[b].curve;
@@ -82,20 +67,12 @@ BeamRecord record_beam(const BeamSystem& system, const State& state,
   for (const MeshNode& node : mesh.nodes[b]) {
     record.node_positions.push_back(vector_at(system, state.q, node.r));
     record.node_slopes.push_back(vector_at(system, state.q, node.slope_left));
-    record.node_s.push_back(node.place >= 0 ? curve.wrapped(state.q[node.place]) : node.s);
+    record.node_s.push_back(place_of(curve, node, state));
   }
   record.length = beam_length(system, state, b);
   record.sag = sag(record.elements, system.model().gravity);
   find_extremes(curve, record);
   return record;
-}
-
-std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state,
-                                     const std::vector<SpanResultants>& carried) {
-  std::vector<BeamRecord> records;
-  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b)
-    records.push_back(record_beam(system, state, carried, b));
-  return records;
 }
 
 // Without its section.
@@ -114,14 +91,12 @@ ProbeRecord record_place(const BeamSystem& system, const State& state, const Pro
   return record;
 }
 
-ProbeRecord record_probe(const BeamSystem& system, const State& state,
-                         const std::vector<SpanResultants>& carried, const std::vector<BeamRecord>& beams,
-                         const ProbePlace& probe) {
+ProbeRecord record_probe(const BeamSystem& system, const State& state, const ProbePlace& probe) {
   ProbeRecord record = record_place(system, state, probe);
   if (system.model().beams[probe.beam].rigid) return record;
   const int span = probe.span < 0 ? span_of(system, state, probe) : probe.span;
-  record.section = section_at(system, state, span, carried[span], probe.s);
-  record.section.twist += beams[probe.beam].elements[span - system.mesh().first_span[probe.beam]].twist[0];
+  record.section = section_at(system, state, span, span_resultants(system, state, span), probe.s);
+  record.section.twist += twist_before(system, state, span);
   return record;
 }
 
@@ -146,8 +121,23 @@ int span_of(const BeamSystem& system, const State& state, const ProbePlace& prob
   return find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
 }
 
+double twist_before(const BeamSystem& system, const State& state, int span) {
+  const Mesh& mesh = system.mesh();
+  double twist = 0;
+  for (int i = mesh.first_span[mesh.spans[span].beam]; i < span; ++i) twist += span_twist(system, state, i);
+  return twist;
+}
+
+BeamRecord record_beam(const BeamSystem& system, const State& state, int beam) {
+  return record_with(system, state, stress_resultants(system, state), beam);
+}
+
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state) {
-  return record_beams(system, state, stress_resultants(system, state));
+  const std::vector<SpanResultants> carried = stress_resultants(system, state);
+  std::vector<BeamRecord> records;
+  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b)
+    records.push_back(record_with(system, state, carried, b));
+  return records;
 }
 
 Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
@@ -155,13 +145,9 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
   const BeamModel& model = system.model();
   Snapshot snapshot;
   snapshot.time = state.t;
-  std::vector<SpanResultants> carried;
-  if (contents.beams || contents.sections) {
-    carried = stress_resultants(system, state);
-    snapshot.beams = record_beams(system, state, carried);
-  }
+  if (contents.beams) snapshot.beams = record_beams(system, state);
   for (const ProbePlace& probe : probes)
-    snapshot.probes.push_back(contents.sections ? record_probe(system, state, carried, snapshot.beams, probe)
+    snapshot.probes.push_back(contents.sections ? record_probe(system, state, probe)
                                                 : record_place(system, state, probe));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});

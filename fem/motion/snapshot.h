@@ -122,6 +122,12 @@ struct SnapshotContents {
 /// The span that holds a place; -1 on a rigid guide, which has none.
 int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe);
 
+/// The twist since the drawing of what is in a span, at its start and against that of its beam [rad]; NaN
+/// without torsion, but for the first.
+double twist_before(const BeamSystem& system, const State& state, int span);
+
+/// One beam of a state.
+BeamRecord record_beam(const BeamSystem& system, const State& state, int beam);
 /// The beams of a state.
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state);
 

@@ -97,31 +97,31 @@ void Sensitivities::carry() {
   arrive();
 }
 
-void Sensitivities::choose(const std::vector<std::size_t>& records, std::size_t quantities) {
+void Sensitivities::ask(Asked asked) {
+  asked_ = std::move(asked);
   arrive();
+  for (const std::size_t record : asked_.records) hold_extremes(records_[record]);
   if (!stretch_) return;
   // In what a parameter takes over a step: a quantity back over one, which is the smaller part of as many
   // that go side by side; the derivatives of quantities by one state.
   constexpr double of_a_quantity = 5, of_a_record = 50;
   std::size_t last = 0, count = 0;
-  for (const std::size_t record : records)
+  for (const std::size_t record : asked_.records)
     if (!records_[record].tangents) last = records_[record].position, ++count;
   const double forward = static_cast<double>(parameters_.size() * stretch_->steps.size());
-  const double back =
-      of_a_quantity * static_cast<double>(quantities * last) + of_a_record * static_cast<double>(count);
+  const double back = of_a_quantity * static_cast<double>(asked_.quantities * last) +
+                      of_a_record * static_cast<double>(count);
   if (back >= forward) carry();
 }
 
-MotionTangents::Matrix Sensitivities::through_states(const std::vector<std::size_t>& records,
-                                                     const SnapshotContents& contents, std::size_t count,
-                                                     const Quantities& quantities) {
+MotionTangents::Matrix Sensitivities::through_states(const Quantities& quantities) {
   const auto at_record = [&](std::size_t record, const BeamSystem& system, const State& state) {
-    return quantities(record, record_snapshot(system, state, records_[record].probes, contents));
+    return quantities(record, snapshot(records_[record], system, state, records_[record].probes));
   };
-  MotionTangents::Matrix sum =
-      MotionTangents::Matrix::Zero(static_cast<Eigen::Index>(count), tangents_.parameters());
+  MotionTangents::Matrix sum = MotionTangents::Matrix::Zero(static_cast<Eigen::Index>(asked_.quantities),
+                                                            static_cast<Eigen::Index>(parameters_.size()));
   std::vector<std::size_t> of_steps;
-  for (const std::size_t record : records)
+  for (const std::size_t record : asked_.records)
     if (const Rest* rest = records_[record].rest.get())
       sum += rest->adjoint.through_rest(
           [&](const State& state) { return at_record(record, *rest->system, state); }, rest->dynamics,

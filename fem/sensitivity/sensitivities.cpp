@@ -290,34 +290,50 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
   }
 }
 
-std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter,
-                                                        const SnapshotContents& contents) const {
+// A neighbour's system at the time of a record.
+std::shared_ptr<const BeamSystem> Sensitivities::neighbour_at(const Record& record, std::size_t parameter,
+                                                              bool more) const {
+  const Parameter& of = parameters_[parameter];
+  const auto& [plan_of_more, plan_of_less] = record.meshes->plans[parameter];
+  const MeshPlan& plan = more ? plan_of_more : plan_of_less;
+  if (record.meshes != meshes_)
+    return std::make_shared<BeamSystem>((more ? of.pair.more : of.pair.less).model, plan,
+                                        record.meshes->held);
+  const std::shared_ptr<const BeamSystem>& now = more ? of.more : of.less;
+  return of.lags ? now->replanned(plan, record.meshes->held, system_.get()) : now;
+}
+
+// Where the run has those that are asked for.
+void Sensitivities::hold_extremes(Record& record) {
+  if (asked_.of_beams.empty() || record.extremes || parameters_.empty()) return;
+  record.extremes.emplace(*neighbour_at(record, 0, true), record.state, asked_.of_beams);
+}
+
+// What is asked of one: extremes where the run has them.
+Snapshot Sensitivities::snapshot(const Record& record, const BeamSystem& system, const State& state,
+                                 const std::vector<ProbePlace>& probes) const {
+  SnapshotContents contents = asked_.contents;
+  contents.beams = false;
+  Snapshot snapshot = record_snapshot(system, state, probes, contents);
+  if (record.extremes) snapshot.beams = record.extremes->at(system, state);
+  return snapshot;
+}
+
+std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter) const {
   const Record& of = records_[record];
   const NeighbourPair& pair = parameters_[parameter].pair;
   const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(parameter))
                                     : still(of.state.q.size(), of.state.lambda.size());
-  const bool present = of.meshes == meshes_;
-  const Parameter& at_end = parameters_[parameter];
-  const auto system_of = [&](const Neighbour& neighbour, const std::shared_ptr<const BeamSystem>& now,
-                             const MeshPlan& plan) -> std::shared_ptr<const BeamSystem> {
-    if (!present) return std::make_shared<BeamSystem>(neighbour.model, plan, of.meshes->held);
-    if (at_end.lags) return now->replanned(plan, of.meshes->held, system_.get());
-    return now;
-  };
-  const auto snapshot = [&](const Neighbour& neighbour, const std::shared_ptr<const BeamSystem>& now,
-                            const MeshPlan& plan, double part) {
-    const std::shared_ptr<const BeamSystem> held = system_of(neighbour, now, plan);
-    const BeamSystem& system = *held;
-    State state = moved(of.state, tangent, part);
-    if (of.of_the_moment && make_accelerations_consistent(system, state) != ConsistencyStatus::done)
+  const auto moved_by = [&](const Neighbour& neighbour, bool more) {
+    const std::shared_ptr<const BeamSystem> system = neighbour_at(of, parameter, more);
+    State state = moved(of.state, tangent, more ? pair.step : -pair.step);
+    if (of.of_the_moment && make_accelerations_consistent(*system, state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
     std::vector<ProbePlace> probes = neighbour.probes;
     for (std::size_t i = 0; i < probes.size(); ++i) probes[i].span = of.probes[i].span;
-    return record_snapshot(system, state, probes, contents);
+    return snapshot(of, *system, state, probes);
   };
-  const auto& [plan_of_more, plan_of_less] = of.meshes->plans[parameter];
-  return {snapshot(pair.more, at_end.more, plan_of_more, pair.step),
-          snapshot(pair.less, at_end.less, plan_of_less, -pair.step)};
+  return {moved_by(pair.more, true), moved_by(pair.less, false)};
 }
 
 }  // namespace nurbeam

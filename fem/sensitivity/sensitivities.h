@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/motion/held_extremes.h"
 #include "fem/motion/run_follower.h"
 #include "fem/motion/simulation.h"
 #include "fem/sensitivity/residual_differences.h"
@@ -76,21 +77,25 @@ class Sensitivities final : public RunFollower {
   };
   const Work& work() const { return work_; }
 
-  /// After the run, before what follows, where this many quantities of these records are asked for: takes
-  /// tangents over what steps are left where that is less work than to go back.
-  void choose(const std::vector<std::size_t>& records, std::size_t quantities);
-  /// At the time of snapshot `record` of the run, counted from 0, those of the models in which a parameter is
-  /// greater and less, of states step dq/dp away, with these contents. Throws std::runtime_error where these
-  /// have no accelerations.
-  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter,
-                                           const SnapshotContents& contents) const;
+  /// What is asked of a run: quantities that look at these records, counted from 0, and there at these
+  /// contents, of beams at no more than these parts.
+  struct Asked {
+    std::vector<std::size_t> records;
+    std::size_t quantities;
+    SnapshotContents contents;
+    std::vector<BeamPart> of_beams;
+  };
+  /// After the run, before what follows: takes tangents over what steps are left where that is less work than
+  /// to go back.
+  void ask(Asked asked);
+  /// At the time of such a record, snapshots of the models in which a parameter is greater and less, of
+  /// states step dq/dp away. Throws std::runtime_error where these have no accelerations.
+  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter) const;
   /// What quantities are where one record has another snapshot.
   using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;
-  /// Of quantities of these records (quantities x parameters), by adjoints: what they change by as these do,
-  /// but for how their neighbours differ.
-  MotionTangents::Matrix through_states(const std::vector<std::size_t>& records,
-                                        const SnapshotContents& contents, std::size_t count,
-                                        const Quantities& quantities);
+  /// Of the quantities (quantities x parameters), by adjoints: what they change by as the records do, but for
+  /// how their neighbours differ.
+  MotionTangents::Matrix through_states(const Quantities& quantities);
 
   void begins(const MeshedState& drawn) override;
   void rests(const MeshedState& at) override;
@@ -132,6 +137,11 @@ class Sensitivities final : public RunFollower {
   MotionTangents::Matrix curvature_changes(const State& at) const;
   MotionTangents::Matrix residual_changes(const State& at, const MotionTangents::Matrix& q,
                                           const std::vector<int>& rows);
+  std::shared_ptr<const BeamSystem> neighbour_at(const Record& record, std::size_t parameter,
+                                                 bool more) const;
+  void hold_extremes(Record& record);
+  Snapshot snapshot(const Record& record, const BeamSystem& system, const State& state,
+                    const std::vector<ProbePlace>& probes) const;
   bool has_own_length(const FollowedStep& step) const;
   Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
   Longer by_length(const FollowedStep& step) const;
@@ -161,8 +171,9 @@ class Sensitivities final : public RunFollower {
   std::vector<std::vector<double>> event_times_;
   std::deque<Record> records_;
   std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
-  std::shared_ptr<const Rest> rest_;      // the last one, for its adjoint
-  std::unique_ptr<Ahead> ahead_;          // with the present system; what goes on there looks at the others
+  Asked asked_ = {};
+  std::shared_ptr<const Rest> rest_;  // the last one, for its adjoint
+  std::unique_ptr<Ahead> ahead_;      // with the present system; what goes on there looks at the others
 };
 
 }  // namespace nurbeam

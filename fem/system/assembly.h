@@ -70,6 +70,8 @@ class Assembly final : public SecondOrderSystem {
   ElementEnergy axis_energy(const State& state, const std::vector<bool>* of = nullptr) const;
   /// Inertia less forces of every element alone, in its own coordinates.
   std::vector<ElementVector<D>> element_forces(const State& state) const;
+  /// That of one, under a load by line_load.
+  ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
   /// The dead load of a beam per reference length, its weight included [N/m].
   Vector line_load(int beam, const State& state) const;
   /// The axial strain without axial force of a beam that has elements, as State::load has it.
@@ -198,7 +200,6 @@ class Assembly final : public SecondOrderSystem {
                           double* values) const;
   void add_constraint_tangent(int i, const State& state, const TangentWeights& w,
                               const ConstraintBlock& block, double* values) const;
-  ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
   int part_count(int beam) const;
   void add_element(const MeshElement<D>& e, const State& state, const Vector& load,
                    Eigen::Ref<Eigen::VectorXd> dynamics) const;

@@ -65,6 +65,13 @@ struct PlaceInElement {
   }
 };
 
+// The angle by which a section has twisted since the drawing, against the start of the element: the strain of
+// twist is linear in it.
+double twist_since_start(const MeshElement<3>& e, const State& state, double s) {
+  const double s_a = e.start(state.q);
+  return s == s_a ? 0 : (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
+}
+
 // What a beam with torsion knows of its section besides.
 void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
                   const Eigen::Vector3d& couple, const PlaceInElement<3>& at, SectionRecord& record) {
@@ -74,9 +81,7 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
   record.moment_2 = couple.dot(triad.d2);
   // Two axes have no common sign: one that said whether it bends more would jump where they change roles.
   record.bending_moment = std::hypot(record.moment_1, record.moment_2);
-  const double s_a = e.start(state.q);
-  // The strain of twist is linear in an element.
-  record.twist = at.s == s_a ? 0 : (at.s - s_a) * section_of(e, state, (s_a + at.s) / 2).strain.twist;
+  record.twist = twist_since_start(e, state, at.s);
   record.stress = record.von_mises = SectionRecord::no_number;
   if (!beam.stresses) return;
   const auto [normal, von_mises] =
@@ -210,6 +215,22 @@ ElementRecord record_element(const BeamSystem& system, const State& state, int s
   return with_assembly(
       system,
       [&]<int D>(const Assembly<D>& a) { return element_of<D>(a, a.elements()[span], state, carried); });
+}
+
+Eigen::Matrix4d span_control_points(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) -> Eigen::Matrix4d {
+        const MeshElement<D>& e = a.elements()[span];
+        const ElementVector<D> q = gather<D>(e, state.q);
+        return control_points<D>(e.element.basis(q), q);
+      });
+}
+
+double span_twist(const BeamSystem& system, const State& state, int span) {
+  if (!system.model().beams[system.mesh().spans[span].beam].has_torsion()) return SectionRecord::no_number;
+  const MeshElement<3>& e = system.assembly<3>()->elements()[span];
+  return twist_since_start(e, state, e.element.place(gather<3>(e, state.q), 1));
 }
 
 double position_error(const BeamSystem& system, const State& state, int span) {

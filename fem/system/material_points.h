@@ -68,6 +68,11 @@ struct ElementRecord {
 ElementRecord record_element(const BeamSystem& system, const State& state, int span,
                              const SpanResultants& carried);
 
+/// What the other two of an ElementRecord are made of: its control points, and the angle by which its end has
+/// twisted against its start since the drawing [rad]; NaN without torsion.
+Eigen::Matrix4d span_control_points(const BeamSystem& system, const State& state, int span);
+double span_twist(const BeamSystem& system, const State& state, int span);
+
 /// What the element in a span contributes to the estimated error of positions [m]: its length times its
 /// quartic strain times quartic_strain_to_error. Measured, with the mean over the elements: cantilevers under
 /// loads of 1 and 10 EI/L^2, a beam rolled up to a circle and a cable of twice its span have errors of 1.1 to

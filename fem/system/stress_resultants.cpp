@@ -114,18 +114,30 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
   return {ends, places, std::move(placed)};
 }
 
+// Whether an action on an element is not the node's.
+template <int D>
+bool is_inside(const MeshElement<D>& e, const State& state, const PointAction& action) {
+  constexpr double at_node = 1e-9;  // of the element
+  const double s_a = e.start(state.q), s_b = e.end(state.q);
+  return std::min(action.s - s_a, s_b - action.s) > at_node * (s_b - s_a);
+}
+
+template <int D>
+SpanResultants of_one(const Assembly<D>& a, const State& state, int span) {
+  const MeshElement<D>& e = a.elements()[span];
+  std::vector<PointAction> inside;
+  for (const PointAction& action : a.actions(state))
+    if (action.element == span && is_inside(e, state, action)) inside.push_back(action);
+  return of_span<D>(a, e, state, a.element_force(e, state, a.line_load(e.beam, state)), inside);
+}
+
 template <int D>
 std::vector<SpanResultants> of_all(const Assembly<D>& a, const State& state) {
   const std::vector<MeshElement<D>>& elements = a.elements();
   const std::vector<ElementVector<D>> forces = a.element_forces(state);
   std::vector<std::vector<PointAction>> inside(elements.size());
-  for (const PointAction& action : a.actions(state)) {
-    constexpr double at_node = 1e-9;  // of the element: the node's then, not the element's
-    const auto [s_a, s_b] =
-        std::pair{elements[action.element].start(state.q), elements[action.element].end(state.q)};
-    const double from_node = std::min(action.s - s_a, s_b - action.s);
-    if (from_node > at_node * (s_b - s_a)) inside[action.element].push_back(action);
-  }
+  for (const PointAction& action : a.actions(state))
+    if (is_inside(elements[action.element], state, action)) inside[action.element].push_back(action);
   std::vector<SpanResultants> spans;
   spans.reserve(elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i)
@@ -170,6 +182,11 @@ StressResultants SpanResultants::at(double s, const Eigen::Vector3d& r, const Ei
 std::vector<SpanResultants> stress_resultants(const BeamSystem& system, const State& state) {
   return with_assembly(
       system, [&](const auto& a) { return of_all(a, state); });
+}
+
+SpanResultants span_resultants(const BeamSystem& system, const State& state, int span) {
+  return with_assembly(
+      system, [&](const auto& a) { return of_one(a, state, span); });
 }
 
 }  // namespace nurbeam

@@ -47,5 +47,7 @@ class SpanResultants {
 
 /// Those of all spans. The state's accelerations and multipliers must belong to it.
 std::vector<SpanResultants> stress_resultants(const BeamSystem& system, const State& state);
+/// Those of one span.
+SpanResultants span_resultants(const BeamSystem& system, const State& state, int span);
 
 }  // namespace nurbeam

@@ -30,6 +30,13 @@ class Columns {
     const std::size_t i = index_;
     add(part.column, part.unit, [i, &part](const Snapshot& f) { return f.probes[i].section.*part.value; });
   }
+  // Of a beam.
+  void add_extreme(const BeamExtreme& extreme) {
+    const std::size_t i = index_;
+    add(extreme.column, extreme.unit,
+        [i, &extreme](const Snapshot& f) { return (f.beams[i].*extreme.value).value; });
+    columns_.back().extreme = extreme.value;
+  }
   // before + "x", ...: of a vector that get(frame) gives.
   template <class Get>
   void add_vector(const std::string& before, const char* unit, Get get) {
@@ -86,9 +93,7 @@ void add_forces(const SnapshotNames& names, Columns& columns) {
   }
   for (std::size_t i = 0; i < names.beams.size(); ++i) {
     columns.of("beam", i, names.beams[i]);
-    for (const BeamExtreme& extreme : beam_extremes)
-      columns.add(extreme.column, extreme.unit,
-                  [i, &extreme](const Snapshot& f) { return (f.beams[i].*extreme.value).value; });
+    for (const BeamExtreme& extreme : beam_extremes) columns.add_extreme(extreme);
   }
   for (std::size_t i = 0; i < names.reactions.size(); ++i) {
     columns.of("reaction", i, names.reactions[i]);
@@ -105,9 +110,7 @@ void add_own_axes(const SnapshotNames& names, Columns& columns) {
   }
   for (std::size_t i = 0; i < names.beams.size(); ++i) {
     columns.of("beam", i, names.beams[i]);
-    for (const BeamExtreme& extreme : own_axes_extremes)
-      columns.add(extreme.column, extreme.unit,
-                  [i, &extreme](const Snapshot& f) { return (f.beams[i].*extreme.value).value; });
+    for (const BeamExtreme& extreme : own_axes_extremes) columns.add_extreme(extreme);
   }
 }
 

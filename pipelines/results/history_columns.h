@@ -15,6 +15,7 @@ struct HistoryColumn {
   std::string quantity, unit;
   std::function<double(const Snapshot&)> value;  ///< NaN where there is none
   SnapshotContents contents;                     ///< that it is read from
+  Extreme BeamRecord::*extreme = nullptr;        ///< of a beam, where it is one
 
   /// "trolley.x [m]".
   std::string heading() const { return name + "." + quantity + " [" + unit + "]"; }

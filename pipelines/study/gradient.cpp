@@ -141,8 +141,8 @@ struct VariantGradient::NeighbouringRun {
   std::unique_ptr<const BuiltModel> built;
   Histories histories;
 
-  NeighbouringRun(const StudyFile& study, std::vector<double> of, std::unique_ptr<const BuiltModel> model)
-      : values(std::move(of)), built(std::move(model)), histories(study, *built) {}
+  NeighbouringRun(const Histories& run, std::vector<double> of, std::unique_ptr<const BuiltModel> model)
+      : values(std::move(of)), built(std::move(model)), histories(run.of_neighbour(*built)) {}
 
   Neighbour neighbour() const {
     return {std::make_shared<const BeamModel>(built->model), probe_places(*built)};
@@ -159,6 +159,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
                                  const BuiltModel& model)
     : study_(study), model_(model), values_(values) {
   const SimulationOptions options = simulation_options(case_file);
+  const Histories own_histories(study, model);
   const auto case_of = [&](const std::vector<double>& of) {
     if (std::optional<CaseFile> reshaped = study_case.reshaped(case_file, values, study.variables, of))
       return reshaped;
@@ -173,7 +174,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     BuildReport report = neighbour ? build_model(*neighbour, {}, &model) : BuildReport{};
     if (!report.value) return std::nullopt;
     check_drawn_alike(model.model, report.value->model);
-    return NeighbouringRun(study, std::move(of),
+    return NeighbouringRun(own_histories, std::move(of),
                            std::make_unique<const BuiltModel>(std::move(*report.value)));
   };
   // On one side where there is nothing on the other, as below a damping of zero: closer, as that is of first
@@ -213,26 +214,28 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const Pair& pair = pairs_.emplace_back(std::move(*pairs[k]));
     neighbours.push_back({pair.more.neighbour(), pair.less.neighbour(), pair.step});
   }
-  is_by_adjoint_ = pays_by_adjoint(options.statics);
+  is_by_adjoint_ = pays_by_adjoint(own_histories, options.statics);
   sensitivities_ =
       std::make_unique<Sensitivities>(options, probe_places(model), std::move(neighbours), is_by_adjoint_);
 }
 
 VariantGradient::~VariantGradient() = default;
 
-// Not where extremes along beams and sections are looked for, which are at another place where one unknown of
-// a state changes; nor where, unknown by unknown, energies of a rest change by what nearly cancels in the
-// sum.
-bool VariantGradient::pays_by_adjoint(bool is_static) const {
-  const SnapshotContents contents = Histories(study_, model_).contents();
-  return pairs_.size() > study_.quantities.size() && !contents.beams && !contents.sections &&
-         !(contents.energy && is_static);
+// Not where single unknowns of a state change what is asked for by much more than all together: energies and
+// forces of a rest; nor what is not smooth as far as these go, such as sizes of vectors and the lowest place.
+bool VariantGradient::pays_by_adjoint(const Histories& histories, bool is_static) const {
+  const SnapshotContents contents = histories.contents();
+  const std::vector<BeamPart> parts = histories.parts_of_beams();
+  const bool are_smooth = std::all_of(parts.begin(), parts.end(), [](const BeamPart& part) {
+    return part.extreme == &BeamRecord::axial_force_min || part.extreme == &BeamRecord::axial_force_max;
+  });
+  return pairs_.size() > study_.quantities.size() && are_smooth && !contents.sections &&
+         !(is_static && (contents.beams || contents.energy));
 }
 
-// (quantities x parameters) What states at these times, which change with the parameters, do to the
+// (quantities x parameters) What states at the times that count, which change with the parameters, do to the
 // quantities, where adjoints say so.
 Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
-                                                const std::vector<std::size_t>& times,
                                                 const std::vector<RunEvent>& events) {
   const std::size_t count = study_.quantities.size();
   Histories changed = histories;
@@ -245,18 +248,21 @@ Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
     changed.replace(time, histories);
     return all;
   };
-  return sensitivities_->through_states(times, histories.contents(), count, quantities);
+  return sensitivities_->through_states(quantities);
 }
 
 StudyGradient VariantGradient::of_quantities(const Histories& histories,
                                              const std::vector<RunEvent>& events) {
   const std::vector<std::size_t> times = times_that_count(study_, values_, histories, model_.model, events);
-  sensitivities_->choose(times, study_.quantities.size());
+  sensitivities_->ask({.records = times,
+                       .quantities = study_.quantities.size(),
+                       .contents = histories.contents(),
+                       .of_beams = histories.parts_of_beams()});
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     pairs_[k].more.histories.begin_as(histories);
     pairs_[k].less.histories.begin_as(histories);
     for (const std::size_t time : times) {
-      const auto& [more, less] = sensitivities_->neighbours(time, k, histories.contents());
+      const auto& [more, less] = sensitivities_->neighbours(time, k);
       pairs_[k].more.histories.replace(time, more);
       pairs_[k].less.histories.replace(time, less);
     }
@@ -277,7 +283,7 @@ StudyGradient VariantGradient::of_quantities(const Histories& histories,
     gradient.push_back(std::move(row));
   }
   if (is_by_adjoint_) {
-    const Eigen::MatrixXd through = through_states(histories, times, events);
+    const Eigen::MatrixXd through = through_states(histories, events);
     for (std::size_t i = 0; i < gradient.size(); ++i)
       for (std::size_t k = 0; k < pairs_.size(); ++k)
         gradient[i][k] += through(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));

@@ -38,9 +38,8 @@ class VariantGradient {
   struct NeighbouringRun;
   struct Pair;
 
-  bool pays_by_adjoint(bool is_static) const;
-  Eigen::MatrixXd through_states(const Histories& histories, const std::vector<std::size_t>& times,
-                                 const std::vector<RunEvent>& events);
+  bool pays_by_adjoint(const Histories& histories, bool is_static) const;
+  Eigen::MatrixXd through_states(const Histories& histories, const std::vector<RunEvent>& events);
 
   const StudyFile& study_;
   const BuiltModel& model_;

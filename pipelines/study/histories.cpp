@@ -41,20 +41,30 @@ std::optional<double> value_of(const StudyFile& study, const std::vector<double>
 
 std::string column_name(const HistoryColumn& column) { return column.name + "." + column.quantity; }
 
-Histories::Histories(const StudyFile& study, const BuiltModel& built) : frame_(built.frame) {
+Histories::Histories(const StudyFile& study, const BuiltModel& built) : frame_(&built.frame) {
+  std::vector<HistoryColumn> columns;
   std::vector<std::string> wanted;
   for (const StudyQuantity& quantity : study.quantities)
     for (const std::string& name : quantity.value.names()) wanted.push_back(name);
   for (HistoryColumn& column : history_columns(snapshot_names(built)))
     if (std::find(wanted.begin(), wanted.end(), column_name(column)) != wanted.end())
-      columns_.push_back(std::move(column));
-  values_.resize(columns_.size());
+      columns.push_back(std::move(column));
+  values_.resize(columns.size());
+  columns_ = std::make_shared<const std::vector<HistoryColumn>>(std::move(columns));
+}
+
+Histories Histories::of_neighbour(const BuiltModel& built) const {
+  Histories empty = *this;
+  empty.frame_ = &built.frame;
+  empty.times_.clear();
+  for (std::vector<double>& column : empty.values_) column.clear();
+  return empty;
 }
 
 void Histories::add(const Snapshot& local) {
-  const Snapshot snapshot = to_world(frame_, local);
+  const Snapshot snapshot = to_world(*frame_, local);
   times_.push_back(snapshot.time);
-  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i].push_back(columns_[i].value(snapshot));
+  for (std::size_t i = 0; i < columns_->size(); ++i) values_[i].push_back((*columns_)[i].value(snapshot));
 }
 
 void Histories::begin_as(const Histories& other) {
@@ -63,22 +73,29 @@ void Histories::begin_as(const Histories& other) {
 }
 
 void Histories::replace(std::size_t time, const Snapshot& local) {
-  const Snapshot snapshot = to_world(frame_, local);
-  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i][time] = columns_[i].value(snapshot);
+  const Snapshot snapshot = to_world(*frame_, local);
+  for (std::size_t i = 0; i < columns_->size(); ++i) values_[i][time] = (*columns_)[i].value(snapshot);
 }
 
 void Histories::replace(std::size_t time, const Histories& other) {
-  for (std::size_t i = 0; i < columns_.size(); ++i) values_[i][time] = other.values_[i][time];
+  for (std::size_t i = 0; i < columns_->size(); ++i) values_[i][time] = other.values_[i][time];
 }
 
 SnapshotContents Histories::contents() const {
   SnapshotContents all{.beams = false, .sections = false, .energy = false};
-  for (const HistoryColumn& column : columns_) {
+  for (const HistoryColumn& column : *columns_) {
     all.beams |= column.contents.beams;
     all.sections |= column.contents.sections;
     all.energy |= column.contents.energy;
   }
   return all;
+}
+
+std::vector<BeamPart> Histories::parts_of_beams() const {
+  std::vector<BeamPart> parts;
+  for (const HistoryColumn& column : *columns_)
+    if (column.contents.beams) parts.push_back({static_cast<int>(column.index), column.extreme});
+  return parts;
 }
 
 void Histories::nudge(std::size_t time, double part) {
@@ -90,8 +107,8 @@ void Histories::nudge(std::size_t time, double part) {
 }
 
 const std::vector<double>* Histories::find(const std::string& name) const {
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (column_name(columns_[i]) == name) return &values_[i];
+  for (std::size_t i = 0; i < columns_->size(); ++i)
+    if (column_name((*columns_)[i]) == name) return &values_[i];
   return nullptr;
 }
 

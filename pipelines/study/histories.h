@@ -1,7 +1,9 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "fem/motion/held_extremes.h"
 #include "fem/motion/simulation_report.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/history_columns.h"
@@ -17,6 +19,8 @@ class Histories {
  public:
   /// `built` must outlive them.
   Histories(const StudyFile& study, const BuiltModel& built);
+  /// Empty ones of the same names, of a model that outlives them.
+  Histories of_neighbour(const BuiltModel& built) const;
 
   /// A snapshot in the model's own coordinates.
   void add(const Snapshot& local);
@@ -32,13 +36,14 @@ class Histories {
 
   /// What of a snapshot they are read from.
   SnapshotContents contents() const;
+  std::vector<BeamPart> parts_of_beams() const;
   const std::vector<double>& times() const { return times_; }
   /// Null where the study does not ask for that column.
   const std::vector<double>* find(const std::string& name) const;
 
  private:
-  const ModelFrame& frame_;
-  std::vector<HistoryColumn> columns_;
+  const ModelFrame* frame_;
+  std::shared_ptr<const std::vector<HistoryColumn>> columns_;
   std::vector<double> times_;
   std::vector<std::vector<double>> values_;
 };
