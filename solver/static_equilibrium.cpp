@@ -164,7 +164,10 @@ class EquilibriumSearch {
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
       improve(x, quality.allowed, strategy, iterations, outcome);
-      const bool better = equations_.quality(x, settings_.tolerance).residual_norm <= outcome.residual_norm;
+      const auto found = equations_.quality(x, settings_.tolerance);
+      // Where much of it is the round-off of large forces, what a small one still lacks counts.
+      const bool settles = found.acceptable && !quality.acceptable;
+      const bool better = settles || found.residual_norm <= outcome.residual_norm;
       if (better) trial = equations_.state_of(x);
       equations_.rescale(trial, largest_force(trial));
       quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);

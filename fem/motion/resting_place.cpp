@@ -298,6 +298,7 @@ class RestSearch {
       near = !s || std::abs(*s - *place(*at_.system, at_.state, j)) < 1e-3 * spacing(j);
     }
     if (near) at_ = std::move(freed);
+    report_.freed = near || std::count(held.begin(), held.end(), false) == 0;
   }
 
   MeshedState& at_;
