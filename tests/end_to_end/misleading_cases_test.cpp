@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -239,6 +240,43 @@ TEST(MisleadingCases, ABodyDoesNotBalanceOnASummit) {
   ASSERT_EQ(floats.code, 0) << floats.messages;
   EXPECT_LT(rolls.last("m.z [m]"), 0.1);
   EXPECT_NEAR(floats.last("m.x [m]"), 1, 1e-9);
+}
+
+CaseRun run_misleading_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const TemporaryDirectory directory;
+  return run_file(directory.write("case.json", text), overrides);
+}
+
+// A round strut of 3 m under q times its buckling load: with torsion the charts of its sections ended the
+// search.
+TEST(MisleadingCases, AStrutWithTorsionIsFoundBeyondItsBucklingLoad) {
+  const double EI = 2.1e11 * std::numbers::pi * std::pow(0.004, 4) / 4, L = 3;
+  const std::string strut = R"({
+    "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [3, 0, 0]] }, "section": { "radius": 0.004 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3 },
+                "elements": { "count": 24 }, "torsion": true }],
+    "supports": [{ "beam": "b", "at": "start", "type": "fork" },
+                 { "beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0] }],
+    "loads": [{ "beam": "b", "at": "end", "force": [0, 0, 0] }], "analysis": { "type": "static" },
+    "output": { "report": false, "probes": [{ "name": "p", "beam": "b", "at": "end" }] } })";
+  const auto end = [&](double q) {
+    std::ostringstream load;
+    load.precision(17);
+    load << "loads[0].force=[" << -q * std::numbers::pi * std::numbers::pi * EI / (L * L) << ", 0, 0]";
+    const CaseRun run = run_misleading_text(strut, {load.str()});
+    EXPECT_EQ(run.code, 0) << run.messages;
+    return run.code == 0 ? run.last("p.x [m]") : 0;
+  };
+  // The elastica: K(p) = pi/2 sqrt(q), x = L (2 E(p)/K(p) - 1).
+  double low = 0, high = 0.999;
+  for (int i = 0; i < 60; ++i) {
+    const double p = (low + high) / 2;
+    (std::comp_ellint_1(p) < std::numbers::pi / 2 * std::sqrt(1.5) ? low : high) = p;
+  }
+  EXPECT_NEAR(end(1.5), L * (2 * std::comp_ellint_2(low) / std::comp_ellint_1(low) - 1), 1e-3);
+  // Where its ends have met it snaps over: pulled straight on the other side.
+  EXPECT_NEAR(end(2.5), -L, 1e-3);
 }
 
 }  // namespace
