@@ -521,7 +521,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
   add_loads(resolved, beams, built.frame, built.model, findings);
-  add_sliding_joints(resolved, beams, joined, built.model, findings);
+  add_sliding_joints(resolved, beams, joined, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};

@@ -279,5 +279,39 @@ TEST(MisleadingCases, AStrutWithTorsionIsFoundBeyondItsBucklingLoad) {
   EXPECT_NEAR(end(2.5), -L, 1e-3);
 }
 
+// A stiff bar turns about a pin and carries a body along a guide: with the speed along the guide alone the
+// body stood still at the start.
+constexpr const char* crank = R"({
+  "nurbeam": 1, "gravity": [0, 0, 0],
+  "beams": [{ "name": "g", "rigid": true, "axis": { "polyline": [[-5, 0, 0], [5, 0, 0]] } },
+            { "name": "b", "axis": { "polyline": [[0, 0, -1], [1.3416407864998738, 0, 1.6832815729997477]] },
+              "section": { "radius": 0.02 }, "material": { "density": 700, "youngs_modulus": 2.1e11 },
+              "elements": { "count": 8 },
+              "initial": { "velocity": { "rotation": [0, -0.8, 0], "about": [0, 0, -1] } } }],
+  "bodies": [{ "name": "m", "mass": 2 }],
+  "supports": [{ "beam": "b", "at": "start", "type": "pinned" }],
+  "sliding_joints": [{ "body": "m", "beam": "g", "at": { "near": [0.5, 0, 0] }, "speed": -1 },
+                     { "body": "m", "beam": "b", "at": { "near": [0.5, 0, 0] } }],
+  "analysis": { "end_time": 0.8, "step": 0.002 }, "output": { "report": false } })";
+
+TEST(MisleadingCases, ABodyOnTwoBeamsHasTheSpeedThatItsFirstJointSays) {
+  const CaseRun run = run_misleading_text(crank);
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.value(0, "m.vx [m/s]"), -1, 1e-9);
+  // x = tan(phi), 2 E = (m + I / (1 + x^2)^2) x'^2, by the midpoint rule.
+  const double m = 2, I = 700 * std::numbers::pi * 4e-4 * 27 / 3, E = (m + I / 1.5625) / 2;
+  const auto rate = [&](double x) { return -std::sqrt(2 * E / (m + I / std::pow(1 + x * x, 2))); };
+  double x = 0.5;
+  for (int i = 0; i < 8000; ++i) x += 1e-4 * rate(x + 5e-5 * rate(x));
+  EXPECT_NEAR(run.last("m.x [m]"), x, 1e-4);
+}
+
+TEST(MisleadingCases, ABodyOnTwoBeamsThatCannotStartSoIsRefused) {
+  const CaseRun run = run_misleading_text(crank, {"beams[1].initial=null"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("sliding_joints[1].speed: body \"m\" starts at [-1, 0, 0] m/s by sliding_joints[0]"))
+      << run.messages;
+}
+
 }  // namespace
 }  // namespace nurbeam::test
