@@ -313,5 +313,13 @@ TEST(MisleadingCases, ABodyOnTwoBeamsThatCannotStartSoIsRefused) {
       << run.messages;
 }
 
+// 7e36 J were made before another message ended the run.
+TEST(MisleadingCases, ARunThatBlowsUpEndsBeforeItMeansNothing) {
+  const CaseRun run = run_misleading_case("kink_over_support_blows_up.json");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(run.says("has come from nowhere")) << run.messages;
+  EXPECT_LT(std::abs(run.last("energy.total [J]")), 1e6);
+}
+
 }  // namespace
 }  // namespace nurbeam::test
