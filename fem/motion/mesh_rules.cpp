@@ -269,7 +269,6 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {
   constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
   if (next.change == MeshChange::becomes_node) return true;
-  if (next.change != MeshChange::merge && next.change != MeshChange::split) return false;
   const Mesh& mesh = system.mesh();
   const int beam = system.model().joints[next.joint].beam;
   const int node = mesh.joints[next.joint].node, first = mesh.first_span[beam];

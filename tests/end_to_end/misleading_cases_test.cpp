@@ -321,5 +321,14 @@ TEST(MisleadingCases, ARunThatBlowsUpEndsBeforeItMeansNothing) {
   EXPECT_LT(std::abs(run.last("energy.total [J]")), 1e6);
 }
 
+// It ended a fifth of an element before its anchor.
+TEST(MisleadingCases, ABodyWithAKinkArrivesAtTheAnchor) {
+  const CaseRun run = run_misleading_case("kink_to_anchor.json");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("m.x [m]"), 40, 1e-9);
+  for (std::size_t i = 0; i < run.rows.size(); ++i)
+    EXPECT_NEAR(run.value(i, "energy.total [J]"), run.value(0, "energy.total [J]"), 0.5) << i;
+}
+
 }  // namespace
 }  // namespace nurbeam::test
