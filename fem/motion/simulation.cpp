@@ -14,6 +14,7 @@
 #include "fem/motion/run_passing.h"
 #include "fem/motion/run_step.h"
 #include "fem/motion/sliding_bodies.h"
+#include "fem/motion/stable_step.h"
 #include "fem/system/initial_state.h"
 #include "solver/consistent.h"
 
@@ -295,6 +296,17 @@ struct Simulation::Implementation {
   void end_early() {
     phase_ = Phase::ended;
     if (run_.options.output_times.empty() || run_.at.state.t > last_written_) take_snapshot();
+    if (run_.report.failure) look_behind(*run_.report.failure);
+  }
+
+  // Steps that fail, and energy from nowhere, may have one reason.
+  void look_behind(Failure& failure) {
+    if (failure.kind != Failure::Kind::step && failure.kind != Failure::Kind::energy) return;
+    if (const auto created = energy_from_nowhere()) failure = *created;
+    if (!std::holds_alternative<ExplicitRungeKutta>(run_.options.integrator) || !run_.options.step) return;
+    const MeshedState drawn = MeshedState::drawn(run_.model);
+    const double stable = longest_explicit_step(*drawn.system, drawn.state);
+    if (*run_.options.step > stable) failure.stable_step = stable;
   }
 
   // --- Output

@@ -52,6 +52,8 @@ struct Failure {
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};
   double energy = 0;  ///< [J]
+  /// Steps of an explicit method must be no longer, and were; 0 where that is not the reason [s].
+  double stable_step = 0;
   double growth = 0;  ///< [1/s]
   int connector = -1;
   double force = 0;  ///< [N]

@@ -330,5 +330,29 @@ TEST(MisleadingCases, ABodyWithAKinkArrivesAtTheAnchor) {
     EXPECT_NEAR(run.value(i, "energy.total [J]"), run.value(0, "energy.total [J]"), 0.5) << i;
 }
 
+// A clamped rod falls; above 2.8/omega of its fastest wave the classical method is unstable.
+TEST(MisleadingCases, AnExplicitMethodSaysHowLongItsStepsMayBe) {
+  const std::string rod = R"({
+    "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.005 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11 }, "elements": { "count": 8 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
+    "analysis": { "end_time": 0.002, "step": 1e-4, "integrator": { "type": "rk4" } },
+    "output": { "report": false } })";
+  const CaseRun run = run_misleading_text(rod);
+  EXPECT_EQ(run.code, 3);
+  const std::string before = "unstable above about ";
+  const auto at = run.messages.find(before);
+  ASSERT_NE(at, std::string::npos) << run.messages;
+  const double step = std::stod(run.messages.substr(at + before.size()));
+  const auto with = [&](double h) {
+    std::ostringstream text;
+    text << "analysis.step=" << h;
+    return run_misleading_text(rod, {text.str()}).code;
+  };
+  EXPECT_EQ(with(0.95 * step), 0);
+  EXPECT_EQ(with(1.1 * step), 3);
+}
+
 }  // namespace
 }  // namespace nurbeam::test
