@@ -121,7 +121,8 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return meeting_text(failure, model) + places;
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
-             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) + slope_hint(model);
+             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) +
+             (failure.equilibrium.status == StaticStatus::singular_matrix ? "" : slope_hint(model));
     case Failure::Kind::unstable_state:
       return "the state is unstable: an eigenvalue is negative, and a small disturbance grows like exp(" +
              text_of(failure.growth, 6) + " t); there are no natural frequencies";

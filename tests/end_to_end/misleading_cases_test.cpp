@@ -354,5 +354,19 @@ TEST(MisleadingCases, AnExplicitMethodSaysHowLongItsStepsMayBe) {
   EXPECT_EQ(with(1.1 * step), 3);
 }
 
+TEST(MisleadingCases, WhatIsNotHeldIsNotACable) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11 } }],
+    "bodies": [{ "name": "m", "mass": 1 }],
+    "sliding_joints": [{ "body": "m", "beam": "b", "at": { "fraction": 0.3 } }],
+    "analysis": { "type": "static" }, "output": { "report": false } })");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(run.says("is the model held everywhere?")) << run.messages;
+  EXPECT_FALSE(run.says("discontinuous")) << run.messages;
+}
+
+// Nothing holds it back, so hardly any energy is there for an error to be small beside.
 }  // namespace
 }  // namespace nurbeam::test
