@@ -142,9 +142,15 @@ std::optional<double> EnergyAccount::from_nowhere(const BeamSystem& system, cons
 }
 
 double strain_noise(const BeamModel& model) {
-  double stiffness = 0;
-  for (const Beam& beam : model.beams) stiffness += beam.properties.axial_stiffness * beam.curve.length();
-  return stiffness * 1e-22 / 2;
+  constexpr double round_off = 1e-11, of_heat = 1e-3;
+  double noise = 0;
+  for (const Beam& beam : model.beams) {
+    double strain = round_off;
+    for (const auto& [time, expansion] : beam.properties.free_strain.thermal)
+      strain = std::max(strain, of_heat * std::abs(expansion));
+    noise += beam.properties.axial_stiffness * beam.curve.length() * strain * strain / 2;
+  }
+  return noise;
 }
 
 bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,

@@ -46,7 +46,8 @@ class EnergyAccount {
   std::pair<double, SystemEnergy> known_{-1, {}};  // at a time, since the last restart
 };
 
-/// The energy of strains that are round-off, 1e-11, in all beams [J].
+/// The energy in all beams of strains that are round-off, 1e-11, or a thousandth of what heat makes of them:
+/// where a beam expands freely, nothing else is there to compare an error with [J].
 double strain_noise(const BeamModel& model);
 
 /// A change of the mesh that changes the energy, which is this by `now`, by too much, as its event has it;

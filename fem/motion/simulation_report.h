@@ -84,7 +84,7 @@ struct SimulationReport {
   double integration_error = 0;    ///< the same without what events changed [J]
   double peak_kinetic_energy = 0;  ///< [J]
   EnergyRange strain_energy, gravity_energy;
-  double strain_noise = 0;  ///< energy of strains that are round-off, 1e-11, in all beams [J]
+  double strain_noise = 0;  ///< as strain_noise() has it [J]
   std::vector<RunEvent> events;
 
   /// What an error of the energy is to be compared with: the largest of the kinetic energy and of the changes

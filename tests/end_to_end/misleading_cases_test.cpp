@@ -368,5 +368,20 @@ TEST(MisleadingCases, WhatIsNotHeldIsNotACable) {
 }
 
 // Nothing holds it back, so hardly any energy is there for an error to be small beside.
+TEST(MisleadingCases, ABarThatExpandsFreelyIsNotWarnedOf) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11, "thermal_expansion": 1.2e-5 },
+                "elements": { "count": 8 }, "temperature": [[0, 0], [1, 30]] }],
+    "supports": [{ "beam": "b", "at": "start", "type": "pinned" },
+                 { "beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0] }],
+    "analysis": { "end_time": 2, "step": 0.01 },
+    "output": { "report": false, "probes": [{ "name": "e", "beam": "b", "at": "end" }] } })");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("e.x [m]"), 2 * (1 + 30 * 1.2e-5), 1e-6);
+  EXPECT_FALSE(run.says("do not trust")) << run.messages;
+}
+
 }  // namespace
 }  // namespace nurbeam::test
