@@ -383,5 +383,16 @@ TEST(MisleadingCases, ABarThatExpandsFreelyIsNotWarnedOf) {
   EXPECT_FALSE(run.says("do not trust")) << run.messages;
 }
 
+TEST(MisleadingCases, ACuspIsToldWithItsPlaceInTheDrawing) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "nurbs": { "degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1],
+                                                   "control_points": [[3, 0, 0], [4, 0, 1], [3, 0, 1], [4, 0, 0]] } },
+                "section": { "radius": 0.01 }, "material": { "density": 7800, "youngs_modulus": 2.1e11 } }],
+    "analysis": { "end_time": 0.01 } })");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("at (3.5, 0, 0.75) m")) << run.messages;
+}
+
 }  // namespace
 }  // namespace nurbeam::test
