@@ -338,7 +338,7 @@ TEST(MisleadingCases, AnExplicitMethodSaysHowLongItsStepsMayBe) {
                 "material": { "density": 7800, "youngs_modulus": 2.1e11 }, "elements": { "count": 8 } }],
     "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
     "analysis": { "end_time": 0.002, "step": 1e-4, "integrator": { "type": "rk4" } },
-    "output": { "report": false } })";
+    "output": { "report": false, "every": 0.002 } })";
   const CaseRun run = run_misleading_text(rod);
   EXPECT_EQ(run.code, 3);
   const std::string before = "unstable above about ";
