@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "nurbs/golden_section.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -87,7 +88,7 @@ ArcLengthMap::ArcLengthMap(const RationalCubic& cubic)
   std::ostringstream message;
   message.precision(17);
   message << "the speed |r'(u)| is " << speed_(u) << " m at u = " << u << " of a cubic " << length()
-          << " m long; it must be above 1e-10 of the length";
+          << " m long, at " << text_of(cubic.point(u)) << "; it must be above 1e-10 of the length";
   throw std::invalid_argument(message.str());
 }
 

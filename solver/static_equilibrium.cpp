@@ -73,7 +73,7 @@ class EquilibriumSearch {
   /// Applies the load in increments from the equilibrium without load.
   void follow_load() {
     double increment = first_increment;
-    while (report_.status != StaticStatus::converged && steps_left()) {
+    while (report_.status != StaticStatus::converged && steps_left() && !ended_) {
       const double factor = std::min(1.0, report_.load_factor + increment);
       const Outcome outcome = reach(factor);
       if (outcome.converged) {
@@ -122,6 +122,11 @@ class EquilibriumSearch {
         continue;
       }
       centre = trial;
+      if (settings_.ends_at && settings_.ends_at(centre)) {
+        state_ = at_rest(centre, system_);
+        ended_ = true;
+        return false;
+      }
       const Outcome settled = moved <= settled_change ? newton(factor, trial) : Outcome{};
       const double settling = change(trial, centre);
       if (settled.converged && !settled.unstable() && settling <= largest_change) {
@@ -164,7 +169,10 @@ class EquilibriumSearch {
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
       improve(x, quality.allowed, strategy, iterations, outcome);
-      const bool better = equations_.quality(x, settings_.tolerance).residual_norm <= outcome.residual_norm;
+      const auto found = equations_.quality(x, settings_.tolerance);
+      // Where much of it is the round-off of large forces, what a small one still lacks counts.
+      const bool settles = found.acceptable && !quality.acceptable;
+      const bool better = settles || found.residual_norm <= outcome.residual_norm;
       if (better) trial = equations_.state_of(x);
       equations_.rescale(trial, largest_force(trial));
       quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
@@ -288,6 +296,8 @@ class EquilibriumSearch {
     report_.load_factor = factor;
     report_.residual_norm = outcome.residual_norm;
     report_.status = factor == 1 ? StaticStatus::converged : StaticStatus::not_converged;
+    lost_in_round_off_ = false;
+    ended_ = factor != 1 && settings_.ends_at && settings_.ends_at(state_);
   }
 
   bool steps_left() const { return report_.load_steps < settings_.max_load_steps; }
@@ -298,7 +308,8 @@ class EquilibriumSearch {
   State state_;
   const State start_;
   StaticReport report_;
-  bool lost_in_round_off_ = false;
+  bool lost_in_round_off_ = false;  // since the last equilibrium
+  bool ended_ = false;              // by the settings
   ScaledEquations equations_;
   Kinsol kinsol_;
   KktSolver kkt_solver_;

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "solver/second_order_system.h"
 
 namespace nurbeam {
@@ -7,6 +9,9 @@ struct StaticEquilibrium {
   double tolerance = 1e-10;  ///< on the scaled residual, relative to the largest single force contribution
   int max_iterations = 100;  ///< Newton iterations in one KINSOL call
   int max_load_steps = 400;  ///< increments, proximal steps and failed attempts together
+  /// Asked of every equilibrium and every proximal step on the way: true ends the search there, which is to
+  /// go on from that state in other coordinates.
+  std::function<bool(const State&)> ends_at = {};
 };
 
 enum class StaticStatus {
@@ -38,9 +43,9 @@ struct StaticReport {
 ///
 /// Converged means: no residual is larger than `tolerance` times the largest force (the load or G'lambda,
 /// compared as work over coordinate_scale()) or, failing that, than its own round-off. v and a are zero on
-/// return. On any status but `converged`, state and its load are those of the last equilibrium found (the
-/// start, when none was). Throws std::invalid_argument for settings out of range and a q of the wrong size;
-/// what the system throws arrives unchanged.
+/// return. On any status but `converged`, its load is that of the last equilibrium found (the start, when
+/// none was), and so is the state, unless `ends_at` ended a proximal step. Throws std::invalid_argument for
+/// settings out of range and a q of the wrong size; what the system throws arrives unchanged.
 [[nodiscard]] StaticReport find_static_equilibrium(const StaticEquilibrium& settings,
                                                    const SecondOrderSystem& system, State& state);
 

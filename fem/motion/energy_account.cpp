@@ -79,6 +79,14 @@ double lost_in_step(const BeamSystem& system, const State& from, const State& to
   return damped + lost_energy(system, from, to) - (first ? unbalanced_work(system, from, to) : 0);
 }
 
+// What events that are not in the books have added.
+double given_by_events(const std::vector<RunEvent>& events) {
+  double given = 0;
+  for (const RunEvent& event : events)
+    if (!is_booked(event.kind)) given += event.energy_after - event.energy_before;
+  return given;
+}
+
 }  // namespace
 
 void EnergyAccount::begin(const BeamSystem& system, const State& state) {
@@ -112,26 +120,37 @@ void EnergyAccount::enter(Snapshot& snapshot) const {
 }
 
 void EnergyAccount::record(const Snapshot& snapshot, SimulationReport& report) {
-  double drift = snapshot.energy.total - start_;
+  const double drift = snapshot.energy.total - start_;
   report.energy_drift = std::max(report.energy_drift, std::abs(drift));
-  for (const RunEvent& event : report.events)
-    if (!is_booked(event.kind)) drift -= event.energy_after - event.energy_before;
-  report.integration_error = std::max(report.integration_error, std::abs(drift));
-  created_ = drift;
+  report.integration_error =
+      std::max(report.integration_error, std::abs(drift - given_by_events(report.events)));
   report.peak_kinetic_energy = std::max(report.peak_kinetic_energy, snapshot.energy.kinetic);
   report.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending + snapshot.energy.spring);
   report.gravity_energy.add(snapshot.energy.gravity);
 }
 
-std::optional<double> EnergyAccount::from_nowhere(const SimulationReport& report) const {
-  if (created_ <= report.energy_scale() + report.energy_round_off()) return {};
-  return created_;
+std::optional<double> EnergyAccount::from_nowhere(const BeamSystem& system, const State& state,
+                                                  const SimulationReport& report) const {
+  const SystemEnergy now = energy(system, state);
+  const double created = now.mechanical() + dissipated_ - input_ - start_ - given_by_events(report.events);
+  EnergyRange strain = report.strain_energy, gravity = report.gravity_energy;
+  strain.add(now.strain());
+  gravity.add(now.gravity);
+  const double moves = std::max({report.peak_kinetic_energy, now.kinetic, strain.width(), gravity.width()});
+  if (std::isfinite(created) && created <= moves + report.energy_round_off()) return {};
+  return created;
 }
 
 double strain_noise(const BeamModel& model) {
-  double stiffness = 0;
-  for (const Beam& beam : model.beams) stiffness += beam.properties.axial_stiffness * beam.curve.length();
-  return stiffness * 1e-22 / 2;
+  constexpr double round_off = 1e-11, of_heat = 1e-3;
+  double noise = 0;
+  for (const Beam& beam : model.beams) {
+    double strain = round_off;
+    for (const auto& [time, expansion] : beam.properties.free_strain.thermal)
+      strain = std::max(strain, of_heat * std::abs(expansion));
+    noise += beam.properties.axial_stiffness * beam.curve.length() * strain * strain / 2;
+  }
+  return noise;
 }
 
 bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,

@@ -36,17 +36,18 @@ class EnergyAccount {
   void enter(Snapshot& snapshot) const;
   /// Takes the errors and the scales of energy in a snapshot down in the report.
   void record(const Snapshot& snapshot, SimulationReport& report);
-  /// Where all that moves has come from nowhere, what would follow means nothing: the energy that has, up to
-  /// the last snapshot.
-  std::optional<double> from_nowhere(const SimulationReport& report) const;
+  /// Where all that moves has come from nowhere, what would follow means nothing: the energy that has, by
+  /// this state.
+  std::optional<double> from_nowhere(const BeamSystem& system, const State& state,
+                                     const SimulationReport& report) const;
 
  private:
   double dissipated_ = 0, input_ = 0, start_ = 0;
-  double created_ = 0;                             // in the last snapshot, less what events gave
   std::pair<double, SystemEnergy> known_{-1, {}};  // at a time, since the last restart
 };
 
-/// The energy of strains that are round-off, 1e-11, in all beams [J].
+/// The energy in all beams of strains that are round-off, 1e-11, or a thousandth of what heat makes of them:
+/// where a beam expands freely, nothing else is there to compare an error with [J].
 double strain_noise(const BeamModel& model);
 
 /// A change of the mesh that changes the energy, which is this by `now`, by too much, as its event has it;

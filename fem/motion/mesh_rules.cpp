@@ -269,7 +269,9 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {
   constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
   if (next.change == MeshChange::becomes_node) return true;
-  if (next.change != MeshChange::merge && next.change != MeshChange::split) return false;
+  // What a point lacks of a kink is less and less; of a bend there is no more near the end than before.
+  const bool bends = system.model().joints[next.joint].continuous_slope;
+  if (next.change == MeshChange::becomes_point && bends) return false;
   const Mesh& mesh = system.mesh();
   const int beam = system.model().joints[next.joint].beam;
   const int node = mesh.joints[next.joint].node, first = mesh.first_span[beam];

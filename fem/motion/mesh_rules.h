@@ -41,9 +41,9 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
 NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control,
                    int first_joint = 0);
 
-/// Whether the motion may go on without a change of the mesh that is due: a joint can stay a point, a node
-/// stay until the joint is almost there, and stay away until the element beside the joint is half as long
-/// again as it is drawn.
+/// Whether the motion may go on without a change of the mesh that is due: a joint can stay a point, or a node
+/// until it is almost there, a node before it stay until then, and stay away until the element beside the
+/// joint is half as long again as it is drawn.
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next);
 
 }  // namespace nurbeam

@@ -43,6 +43,7 @@ MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOpt
   if (options.about_equilibrium) {
     report = options.bodies_held ? find_held_equilibrium(at, interrupted)
                                  : find_rest(at, options.length_control, interrupted);
+    if (!report.failure && !report.freed) report.failure = failure_of(Failure::Kind::resting_place);
   } else if (options.bodies_held) {
     const std::vector<bool> held(at.system->model().joints.size(), true);
     at.system = at.system->replanned(at.system->mesh().plan, held);

@@ -196,6 +196,7 @@ class RestSearch {
     const bool later = equilibrium_ && *equilibrium_ != to.t;
     StaticReport found = load(at, later ? Loading{1, *equilibrium_} : Loading{0, to.t}, to);
     // Sections that turn far stop it half way, in charts that go no further.
+    const MeshedState start = at;
     constexpr int most_recentrings = 20;
     for (int turns = 0; found.status != StaticStatus::converged && recentring_due(*at.system, at.state) &&
                         turns < most_recentrings;
@@ -203,7 +204,10 @@ class RestSearch {
       at = recentred(*at.system, at.state, held);
       found = load(at, {at.state.load, at.state.t}, to);
     }
-    if (found.status == StaticStatus::converged) equilibrium_ = to.t;
+    if (found.status == StaticStatus::converged)
+      equilibrium_ = to.t;
+    else if (at.system != start.system)
+      at = start;
     return found;
   }
 
@@ -211,7 +215,9 @@ class RestSearch {
   StaticReport load(MeshedState& at, Loading from, Loading to) {
     const LoadedBetween system(*at.system, from, to, interrupted_);
     at.state.load = 1;
-    StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system, at.state);
+    const StaticEquilibrium settings{
+        .ends_at = [&](const State& state) { return recentring_due(*at.system, state); }};
+    StaticReport found = find_static_equilibrium(settings, system, at.state);
     const Loading reached = system.at(found.load_factor);
     at.state.load = found.load_factor = reached.load;
     at.state.t = reached.t;
@@ -298,6 +304,7 @@ class RestSearch {
       near = !s || std::abs(*s - *place(*at_.system, at_.state, j)) < 1e-3 * spacing(j);
     }
     if (near) at_ = std::move(freed);
+    report_.freed = near || std::count(held.begin(), held.end(), false) == 0;
   }
 
   MeshedState& at_;

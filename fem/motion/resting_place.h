@@ -10,6 +10,9 @@ namespace nurbeam {
 struct RestReport {
   std::optional<Failure> failure = {};  ///< nothing where it was found, or the search interrupted
   bool interrupted = false;
+  /// Whether what rests anywhere but at an end, a stop or by friction is free to slide there in the state
+  /// that was found; else it is held, as nothing was found nearby with which it is free.
+  bool freed = true;
   long load_steps = 0, newton_iterations = 0;
   double length_control_seconds = 0;
 };

@@ -14,6 +14,7 @@
 #include "fem/motion/run_passing.h"
 #include "fem/motion/run_step.h"
 #include "fem/motion/sliding_bodies.h"
+#include "fem/motion/stable_step.h"
 #include "fem/system/initial_state.h"
 #include "solver/consistent.h"
 
@@ -262,7 +263,9 @@ struct Simulation::Implementation {
     if (std::abs(time - target) < run_.resolution()) time = target;
     if (time == kink && !(pass_kink(run_) && release_bodies(run_))) return end_early();
     write_due();
-    if (!run_.goes_on(energy_from_nowhere())) return end_early();
+    constexpr long watch = 16;  // steps: an instability makes all out of nothing in some more
+    const bool looked_at = time == last_written_ || run_.report.steps % watch == 0;
+    if (looked_at && !run_.goes_on(energy_from_nowhere())) return end_early();
     if (run_.observer.progress) run_.observer.progress(run_.last_record);
     if (run_.observer.checkpoint_due && run_.observer.checkpoint_due()) hand_over();
     end_at_end_time();
@@ -275,7 +278,8 @@ struct Simulation::Implementation {
   }
 
   std::optional<Failure> energy_from_nowhere() const {
-    const std::optional<double> created = run_.account.from_nowhere(run_.report);
+    const std::optional<double> created =
+        run_.account.from_nowhere(*run_.at.system, run_.at.state, run_.report);
     if (!created) return {};
     return Failure{.kind = Failure::Kind::energy,
                    .time = run_.at.state.t,
@@ -292,6 +296,17 @@ struct Simulation::Implementation {
   void end_early() {
     phase_ = Phase::ended;
     if (run_.options.output_times.empty() || run_.at.state.t > last_written_) take_snapshot();
+    if (run_.report.failure) look_behind(*run_.report.failure);
+  }
+
+  // Steps that fail, and energy from nowhere, may have one reason.
+  void look_behind(Failure& failure) {
+    if (failure.kind != Failure::Kind::step && failure.kind != Failure::Kind::energy) return;
+    if (const auto created = energy_from_nowhere()) failure = *created;
+    if (!std::holds_alternative<ExplicitRungeKutta>(run_.options.integrator) || !run_.options.step) return;
+    const MeshedState drawn = MeshedState::drawn(run_.model);
+    const double stable = longest_explicit_step(*drawn.system, drawn.state);
+    if (*run_.options.step > stable) failure.stable_step = stable;
   }
 
   // --- Output

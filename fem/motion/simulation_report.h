@@ -52,6 +52,8 @@ struct Failure {
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};
   double energy = 0;  ///< [J]
+  /// Steps of an explicit method must be no longer, and were; 0 where that is not the reason [s].
+  double stable_step = 0;
   double growth = 0;  ///< [1/s]
   int connector = -1;
   double force = 0;  ///< [N]
@@ -82,7 +84,7 @@ struct SimulationReport {
   double integration_error = 0;    ///< the same without what events changed [J]
   double peak_kinetic_energy = 0;  ///< [J]
   EnergyRange strain_energy, gravity_energy;
-  double strain_noise = 0;  ///< energy of strains that are round-off, 1e-11, in all beams [J]
+  double strain_noise = 0;  ///< as strain_noise() has it [J]
   std::vector<RunEvent> events;
 
   /// What an error of the energy is to be compared with: the largest of the kinetic energy and of the changes

@@ -122,7 +122,7 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, F
           .body = text(json, "body"),
           .beam = text(json, "beam"),
           .at = read_place(json),
-          .speed = number(json, "speed", 0),
+          .speed = optional_number(json, "speed"),
           .motion_speed = optional_number(motion, "speed"),
           .motion_table = time_table(motion, "table"),
           .release = optional_number(json, "release"),

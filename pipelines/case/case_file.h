@@ -177,7 +177,7 @@ struct CaseSlidingJoint {
   std::string path;
   std::string body, beam;
   Place at;
-  double speed = 0;                    ///< initial [m/s]
+  std::optional<double> speed;         ///< initial [m/s]
   std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
   TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
   std::optional<double> release;       ///< held until then [s]

@@ -336,7 +336,7 @@ Shape sliding_joint() {
        {"beam", name(), "the beam it slides on", required},
        {"at", place(), "where it starts", required},
        {"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)),
-        "initial speed in reference arc length; 0 when omitted"},
+        "initial speed in reference arc length; when omitted that of the body by its joint on another beam, else 0"},
        {"motion", motion, "prescribes the body's place, from `at` on"},
        {"equilibrium", choice({"held", "free"}),
         "where statics find the body: held at its `at`, or free, where it rests; when omitted free in a static "

@@ -147,9 +147,19 @@ const Unit* find_unit(std::string_view name) {
   return nullptr;
 }
 
-std::vector<std::string> unit_names() {
+bool has_word(std::string_view text, std::string_view word) {
+  for (auto at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const auto end = at + word.size();
+    if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]))) return true;
+  }
+  return false;
+}
+
+/// Those in the examples of a dimension.
+std::vector<std::string> unit_names(std::string_view examples) {
   std::vector<std::string> names;
-  for (const Unit& unit : units()) names.emplace_back(unit.name);
+  for (const Unit& unit : units())
+    if (has_word(examples, unit.name)) names.emplace_back(unit.name);
   return names;
 }
 
@@ -164,7 +174,8 @@ int take_power(std::string_view& rest) {
   return power;
 }
 
-UnitProduct parse_units(const std::string& text) {
+/// `examples`: units that could be meant.
+UnitProduct parse_units(const std::string& text, std::string_view examples) {
   UnitProduct product;
   std::string_view rest = text;
   int sign = 1;
@@ -183,8 +194,9 @@ UnitProduct parse_units(const std::string& text) {
     const std::string_view name = rest.substr(0, letters);
     const Unit* unit = find_unit(name);
     if (!unit) {
-      product.error = name.empty() ? "cannot read the unit from " + in_quotes(rest) + " on"
-                                   : "unknown unit " + in_quotes(name) + known_names(name, unit_names());
+      product.error = name.empty()
+                          ? "cannot read the unit from " + in_quotes(rest) + " on"
+                          : "unknown unit " + in_quotes(name) + known_names(name, unit_names(examples));
       return product;
     }
     rest.remove_prefix(letters);
@@ -222,9 +234,11 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   if (error != std::errc{} || !std::isfinite(number))
     return failed("does not begin with a finite number; expected a number and a unit of " + expected);
   rest.remove_prefix(end - rest.data());
-  const UnitProduct product = parse_units(plain(rest));
+  const bool has_unit = rest.find_first_not_of(' ') != std::string_view::npos;
+  if (dimension == Dimension::number && has_unit) return failed("has a unit; expected a plain number");
+  const UnitProduct product = parse_units(plain(rest), unit_examples(dimension));
   if (!product.error.empty()) return failed(product.error + "; expected " + expected);
-  if (rest.find_first_not_of(' ') == std::string_view::npos && dimension != Dimension::number) {
+  if (!has_unit && dimension != Dimension::number) {
     return failed("has no unit; expected " + expected + "; a number without quotes is in " +
                   si_unit(dimension));
   }

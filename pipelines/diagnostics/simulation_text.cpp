@@ -73,6 +73,15 @@ std::string meeting_text(const Failure& failure, const BeamModel& model) {
          text_of(2 * failure.nearest) + " m, or more elements";
 }
 
+// Where an explicit method was unstable, how long its steps may be.
+std::string shorter_step(const Failure& failure, const char* otherwise) {
+  if (failure.stable_step == 0) return otherwise;
+  return "; the \"step\" is too long for \"rk4\", which is unstable above about " +
+         text_of(failure.stable_step, 2) +
+         " s with these elements: take a shorter one, a \"tolerance\" instead, or " +
+         "\"generalized-alpha\", which is stable with any";
+}
+
 std::string failure_text(const Failure& failure, const BeamModel& model) {
   const std::string time = text_of(failure.time, 8) + " s", places = places_text(failure.places, model);
   switch (failure.kind) {
@@ -82,7 +91,8 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the mass matrix is singular at t = " + time;
     case Failure::Kind::step:
       return "the step from t = " + time + " failed, and shorter ones too: " + reason_of(failure.step) +
-             places + "; a shorter \"step\" from the start, or a \"tolerance\", may help";
+             places +
+             shorter_step(failure, "; a shorter \"step\" from the start, or a \"tolerance\", may help");
     case Failure::Kind::endless_events:
       return "at t = " + time + " \"" + model.body_of(model.joints[failure.joint]).name +
              "\" hits stops, or sticks and slides, again and again at one moment" + places +
@@ -106,12 +116,13 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::energy:
       return "by t = " + time + " an energy of " + text_of(failure.energy, 3) +
              " J has come from nowhere, more than all that moves" + places +
-             "; take a shorter \"step\" or a \"tolerance\"";
+             shorter_step(failure, "; take a shorter \"step\" or a \"tolerance\"");
     case Failure::Kind::bodies_meet:
       return meeting_text(failure, model) + places;
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
-             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) + slope_hint(model);
+             "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) +
+             (failure.equilibrium.status == StaticStatus::singular_matrix ? "" : slope_hint(model));
     case Failure::Kind::unstable_state:
       return "the state is unstable: an eigenvalue is negative, and a small disturbance grows like exp(" +
              text_of(failure.growth, 6) + " t); there are no natural frequencies";

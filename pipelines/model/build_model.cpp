@@ -486,6 +486,16 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
   return adapted;
 }
 
+// Out of its plane a planar model does not move.
+void mention_plane(const ResolvedCase& resolved, int dimension, Findings& findings) {
+  if (dimension != 2 || !resolved.analysis.has_modes()) return;
+  const bool buckles = resolved.analysis.type == CaseAnalysis::Type::buckling;
+  findings.add(Severity::note, "analysis.type",
+               std::string("the model lies in a plane: ") + (buckles ? "it buckles" : "its modes are those") +
+                   " in that plane; with \"torsion\": true of a beam it " + (buckles ? "buckles" : "swings") +
+                   " out of it too");
+}
+
 // Nothing, with errors among the findings, where the case cannot be a model.
 std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::function<bool()>& interrupted,
                                       const BuiltModel* like, Findings& findings) {
@@ -511,7 +521,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
   add_loads(resolved, beams, built.frame, built.model, findings);
-  add_sliding_joints(resolved, beams, joined, built.model, findings);
+  add_sliding_joints(resolved, beams, joined, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};
@@ -521,6 +531,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   check_freedom(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
+  mention_plane(resolved, built.frame.dimension, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);

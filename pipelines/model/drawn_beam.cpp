@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "nurbs/arc_length.h"
 #include "nurbs/closest_point.h"
 #include "nurbs/number_text.h"
 
@@ -26,6 +27,17 @@ void check_lengths(const CaseBeam& beam, const ReferenceCurve& curve, Findings& 
   }
 }
 
+// Why a curve of these segments is refused: with the place in the drawing, not in the model's own frame.
+std::string reason_in_drawing(const std::vector<RationalCubic>& segments, const std::string& otherwise) {
+  try {
+    for (const RationalCubic& cubic : segments) (void)ArcLengthMap(cubic);
+  } catch (const std::invalid_argument& problem) {
+    return std::string(problem.what()) +
+           ": round the cusp off, or divide the curve there into two beams with a joint";
+  }
+  return otherwise;
+}
+
 }  // namespace
 
 double DrawnBeam::material_coordinate(double s) const {
@@ -45,7 +57,7 @@ std::optional<DrawnBeam> drawn_beam(const CaseBeam& beam, const BeamAxis& axis, 
     return DrawnBeam{beam.name, axis.segments, axis.corners, measured,
                      ReferenceCurve(local, frame.dimension, beam.metric, beam.ring, &measured)};
   } catch (const std::invalid_argument& problem) {
-    findings.error(beam.path + ".axis", problem.what());
+    findings.error(beam.path + ".axis", reason_in_drawing(axis.segments, problem.what()));
     return {};
   }
 }

@@ -158,10 +158,65 @@ void check_together(const std::vector<CaseSlidingJoint>& from, const BeamModel& 
     }
 }
 
+// Of the beam's material as it starts.
+Eigen::Vector3d material_velocity(const SlidingJoint& joint, const BeamModel& model) {
+  const Beam& beam = model.beam_of(joint);
+  if (!beam.velocity) return Eigen::Vector3d::Zero();
+  const BeamVelocity& v = *beam.velocity;
+  return v.translation + v.rotation.cross(beam.curve.position(joint.s) - v.about) +
+         v.along * beam.curve.tangent(joint.s);
+}
+
+// Of a joint's body as the joint starts it, with what it is driven at.
+Eigen::Vector3d body_velocity(const SlidingJoint& joint, const BeamModel& model) {
+  const double speed = joint.motion ? joint.motion->at(0).speed : joint.speed;
+  return material_velocity(joint, model) + speed * model.beam_of(joint).curve.tangent(joint.s);
+}
+
+bool says_speed(const CaseSlidingJoint& joint) {
+  return joint.speed || joint.motion_speed || !joint.motion_table.empty() || joint.release;
+}
+
+std::string velocity_text(const Eigen::Vector3d& local, const ModelFrame& frame) {
+  const Eigen::Vector3d v = frame.direction_to_world(local);
+  return "[" + text_of(v.x(), 4) + ", " + text_of(v.y(), 4) + ", " + text_of(v.z(), 4) + "] m/s";
+}
+
+// A body on two beams starts with what one of its joints says: along the other beam it runs as fast as that
+// takes it.
+void share_speeds(const std::vector<CaseSlidingJoint>& from, const ModelFrame& frame, BeamModel& model,
+                  Findings& findings) {
+  const auto share = [&](std::size_t i, std::size_t j) {
+    SlidingJoint& joint = model.joints[j];
+    const Eigen::Vector3d along = body_velocity(model.joints[i], model) - material_velocity(joint, model);
+    if (says_speed(from[i]) && !says_speed(from[j]))
+      joint.speed = along.dot(model.beam_of(joint).curve.tangent(joint.s));
+  };
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const bool by_program = from[i].motion_law || from[j].motion_law;  // whose speeds are not known here
+      if (model.joints[i].body != model.joints[j].body || by_program) continue;
+      share(i, j);
+      share(j, i);
+      const Eigen::Vector3d here = body_velocity(model.joints[j], model),
+                            there = body_velocity(model.joints[i], model);
+      const bool driven = model.joints[i].motion || model.joints[j].motion;  // which may begin with a blow
+      if (driven || (here - there).norm() <= 1e-6 * std::max(here.norm(), there.norm())) continue;
+      findings.error(
+          from[j].path + ".speed",
+          "body \"" + from[j].body + "\" starts at " + velocity_text(there, frame) + " by " + from[i].path +
+              " on beam \"" + from[i].beam + "\", but at " + velocity_text(here, frame) +
+              " by this on beam \"" + from[j].beam +
+              "\": give the beams an \"initial\" \"velocity\" that takes the place where they cross "
+              "along, and leave the \"speed\" on one of them out, or start at rest");
+    }
+}
+
 }  // namespace
 
 void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
-                        const JoinedBeams& joined, BeamModel& model, Findings& findings) {
+                        const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model,
+                        Findings& findings) {
   if (resolved.analysis.is_explicit() && !resolved.sliding_joints.empty())
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
@@ -185,7 +240,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     SlidingJoint added{0,
                        b,
                        place_on(beams[b], joint.at, joint.path, findings),
-                       joint.speed,
+                       joint.speed.value_or(0),
                        std::nullopt,
                        joint.release,
                        joint.continuous_slope,
@@ -221,6 +276,8 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
   }
   check_apart(resolved.sliding_joints, model, findings);
   check_together(resolved.sliding_joints, model, findings);
+  if (resolved.analysis.type == CaseAnalysis::Type::dynamic)
+    share_speeds(resolved.sliding_joints, frame, model, findings);
 }
 
 }  // namespace nurbeam

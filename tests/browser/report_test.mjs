@@ -56,6 +56,14 @@ report_test('of a straight rigid guide nothing is shown along it', 'guide/report
   assert.ok(!plots.some((name) => ['length', 'axial-force', 'moment', 'displacement', 'along'].includes(name)), plots.join());
 });
 
+report_test('a body that hangs on a rope alone has no place on a beam', 'guide/report.html', {}, async (page) => {
+  assert.deepEqual(Object.keys(await readings(page, 's')), ['car']);
+});
+
+report_test('round-off is no extreme', 'strut/report.html', {}, async (page) => {
+  assert.doesNotMatch(await page.textContent('#extremes'), /axial_force|stress|von_mises/);
+});
+
 report_test('names do not cover each other', 'cable_crane/report.html', {}, async (page) => {
   for (let i = 0; i < 12; ++i) {
     await page.evaluate(() => document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: '-', bubbles: true })));

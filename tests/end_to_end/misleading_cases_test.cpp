@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -239,6 +240,158 @@ TEST(MisleadingCases, ABodyDoesNotBalanceOnASummit) {
   ASSERT_EQ(floats.code, 0) << floats.messages;
   EXPECT_LT(rolls.last("m.z [m]"), 0.1);
   EXPECT_NEAR(floats.last("m.x [m]"), 1, 1e-9);
+}
+
+CaseRun run_misleading_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const TemporaryDirectory directory;
+  return run_file(directory.write("case.json", text), overrides);
+}
+
+// A round strut of 3 m under q times its buckling load: with torsion the charts of its sections ended the
+// search.
+TEST(MisleadingCases, AStrutWithTorsionIsFoundBeyondItsBucklingLoad) {
+  const double EI = 2.1e11 * std::numbers::pi * std::pow(0.004, 4) / 4, L = 3;
+  const std::string strut = R"({
+    "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [3, 0, 0]] }, "section": { "radius": 0.004 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3 },
+                "elements": { "count": 24 }, "torsion": true }],
+    "supports": [{ "beam": "b", "at": "start", "type": "fork" },
+                 { "beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0] }],
+    "loads": [{ "beam": "b", "at": "end", "force": [0, 0, 0] }], "analysis": { "type": "static" },
+    "output": { "report": false, "probes": [{ "name": "p", "beam": "b", "at": "end" }] } })";
+  const auto end = [&](double q) {
+    std::ostringstream load;
+    load.precision(17);
+    load << "loads[0].force=[" << -q * std::numbers::pi * std::numbers::pi * EI / (L * L) << ", 0, 0]";
+    const CaseRun run = run_misleading_text(strut, {load.str()});
+    EXPECT_EQ(run.code, 0) << run.messages;
+    return run.code == 0 ? run.last("p.x [m]") : 0;
+  };
+  // The elastica: K(p) = pi/2 sqrt(q), x = L (2 E(p)/K(p) - 1).
+  double low = 0, high = 0.999;
+  for (int i = 0; i < 60; ++i) {
+    const double p = (low + high) / 2;
+    (std::comp_ellint_1(p) < std::numbers::pi / 2 * std::sqrt(1.5) ? low : high) = p;
+  }
+  EXPECT_NEAR(end(1.5), L * (2 * std::comp_ellint_2(low) / std::comp_ellint_1(low) - 1), 1e-3);
+  // Where its ends have met it snaps over: pulled straight on the other side.
+  EXPECT_NEAR(end(2.5), -L, 1e-3);
+}
+
+// A stiff bar turns about a pin and carries a body along a guide: with the speed along the guide alone the
+// body stood still at the start.
+constexpr const char* crank = R"({
+  "nurbeam": 1, "gravity": [0, 0, 0],
+  "beams": [{ "name": "g", "rigid": true, "axis": { "polyline": [[-5, 0, 0], [5, 0, 0]] } },
+            { "name": "b", "axis": { "polyline": [[0, 0, -1], [1.3416407864998738, 0, 1.6832815729997477]] },
+              "section": { "radius": 0.02 }, "material": { "density": 700, "youngs_modulus": 2.1e11 },
+              "elements": { "count": 8 },
+              "initial": { "velocity": { "rotation": [0, -0.8, 0], "about": [0, 0, -1] } } }],
+  "bodies": [{ "name": "m", "mass": 2 }],
+  "supports": [{ "beam": "b", "at": "start", "type": "pinned" }],
+  "sliding_joints": [{ "body": "m", "beam": "g", "at": { "near": [0.5, 0, 0] }, "speed": -1 },
+                     { "body": "m", "beam": "b", "at": { "near": [0.5, 0, 0] } }],
+  "analysis": { "end_time": 0.8, "step": 0.002 }, "output": { "report": false } })";
+
+TEST(MisleadingCases, ABodyOnTwoBeamsHasTheSpeedThatItsFirstJointSays) {
+  const CaseRun run = run_misleading_text(crank);
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.value(0, "m.vx [m/s]"), -1, 1e-9);
+  // x = tan(phi), 2 E = (m + I / (1 + x^2)^2) x'^2, by the midpoint rule.
+  const double m = 2, I = 700 * std::numbers::pi * 4e-4 * 27 / 3, E = (m + I / 1.5625) / 2;
+  const auto rate = [&](double x) { return -std::sqrt(2 * E / (m + I / std::pow(1 + x * x, 2))); };
+  double x = 0.5;
+  for (int i = 0; i < 8000; ++i) x += 1e-4 * rate(x + 5e-5 * rate(x));
+  EXPECT_NEAR(run.last("m.x [m]"), x, 1e-4);
+}
+
+TEST(MisleadingCases, ABodyOnTwoBeamsThatCannotStartSoIsRefused) {
+  const CaseRun run = run_misleading_text(crank, {"beams[1].initial=null"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("sliding_joints[1].speed: body \"m\" starts at [-1, 0, 0] m/s by sliding_joints[0]"))
+      << run.messages;
+}
+
+// 7e36 J were made before another message ended the run.
+TEST(MisleadingCases, ARunThatBlowsUpEndsBeforeItMeansNothing) {
+  const CaseRun run = run_misleading_case("kink_over_support_blows_up.json");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(run.says("has come from nowhere")) << run.messages;
+  EXPECT_LT(std::abs(run.last("energy.total [J]")), 1e6);
+}
+
+// It ended a fifth of an element before its anchor.
+TEST(MisleadingCases, ABodyWithAKinkArrivesAtTheAnchor) {
+  const CaseRun run = run_misleading_case("kink_to_anchor.json");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("m.x [m]"), 40, 1e-9);
+  for (std::size_t i = 0; i < run.rows.size(); ++i)
+    EXPECT_NEAR(run.value(i, "energy.total [J]"), run.value(0, "energy.total [J]"), 0.5) << i;
+}
+
+// A clamped rod falls; above 2.8/omega of its fastest wave the classical method is unstable.
+TEST(MisleadingCases, AnExplicitMethodSaysHowLongItsStepsMayBe) {
+  const std::string rod = R"({
+    "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.005 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11 }, "elements": { "count": 8 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
+    "analysis": { "end_time": 0.002, "step": 1e-4, "integrator": { "type": "rk4" } },
+    "output": { "report": false, "every": 0.002 } })";
+  const CaseRun run = run_misleading_text(rod);
+  EXPECT_EQ(run.code, 3);
+  const std::string before = "unstable above about ";
+  const auto at = run.messages.find(before);
+  ASSERT_NE(at, std::string::npos) << run.messages;
+  const double step = std::stod(run.messages.substr(at + before.size()));
+  const auto with = [&](double h) {
+    std::ostringstream text;
+    text << "analysis.step=" << h;
+    return run_misleading_text(rod, {text.str()}).code;
+  };
+  EXPECT_EQ(with(0.95 * step), 0);
+  EXPECT_EQ(with(1.1 * step), 3);
+}
+
+TEST(MisleadingCases, WhatIsNotHeldIsNotACable) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11 } }],
+    "bodies": [{ "name": "m", "mass": 1 }],
+    "sliding_joints": [{ "body": "m", "beam": "b", "at": { "fraction": 0.3 } }],
+    "analysis": { "type": "static" }, "output": { "report": false } })");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(run.says("is the model held everywhere?")) << run.messages;
+  EXPECT_FALSE(run.says("discontinuous")) << run.messages;
+}
+
+// Nothing holds it back, so hardly any energy is there for an error to be small beside.
+TEST(MisleadingCases, ABarThatExpandsFreelyIsNotWarnedOf) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11, "thermal_expansion": 1.2e-5 },
+                "elements": { "count": 8 }, "temperature": [[0, 0], [1, 30]] }],
+    "supports": [{ "beam": "b", "at": "start", "type": "pinned" },
+                 { "beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0] }],
+    "analysis": { "end_time": 2, "step": 0.01 },
+    "output": { "report": false, "probes": [{ "name": "e", "beam": "b", "at": "end" }] } })");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("e.x [m]"), 2 * (1 + 30 * 1.2e-5), 1e-6);
+  EXPECT_FALSE(run.says("do not trust")) << run.messages;
+}
+
+TEST(MisleadingCases, ACuspIsToldWithItsPlaceInTheDrawing) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "nurbs": { "degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1],
+                                                   "control_points": [[3, 0, 0], [4, 0, 1], [3, 0, 1], [4, 0, 0]] } },
+                "section": { "radius": 0.01 }, "material": { "density": 7800, "youngs_modulus": 2.1e11 } }],
+    "analysis": { "end_time": 0.01 } })");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("at (3.5, 0, 0.75) m")) << run.messages;
 }
 
 }  // namespace

@@ -283,6 +283,20 @@ TEST(StaticEquilibrium, AMomentRollsAChainUpMoreThanTwiceAlongItsBranch) {
   }
 }
 
+TEST(StaticEquilibrium, EndsAtTheEquilibriumThatItIsAskedTo) {
+  HingedRoll roll;
+  State state = resting(Eigen::VectorXd::Zero(2 * roll.links));
+  for (int i = 0; i < roll.links; ++i) state.q[2 * i] = 1;
+  const auto turned = [](const State& at) { return at.q[1] > 0.5; };  // the first link by 30 degrees
+  const StaticReport report = find_static_equilibrium({.ends_at = turned}, roll, state);
+  EXPECT_EQ(report.status, StaticStatus::not_converged);
+  EXPECT_GT(report.load_factor, 0);
+  EXPECT_LT(report.load_factor, 1);
+  const double reached = std::asin(report.load_factor * roll.moment / roll.hinge);
+  EXPECT_GT(reached, std::numbers::pi / 6);
+  EXPECT_NEAR(state.q[0], std::cos(reached), 1e-8);
+}
+
 /// Independent springs pulled by the same force, of stiffnesses many magnitudes apart.
 class UnlikeSprings : public DenseSystem {
  public:

@@ -319,11 +319,13 @@ export function plots_of(data, at_rest = false) {
       plots.push({ title, unit, id, series });
     }
   };
-  if (names.bodies.length) {
+  // What hangs on connectors alone has no place on a beam.
+  const sliding = names.bodies.map((name, i) => ({ name, i })).filter(({ i }) => values('body', i, 's').some((s) => !Number.isNaN(s)));
+  if (sliding.length) {
     plots.push({ title: 'Place on the beam s', unit: 'm', id: 's',
-      series: names.bodies.map((name, i) => ({ name, values: values('body', i, 's') })) });
+      series: sliding.map(({ name, i }) => ({ name, values: values('body', i, 's') })) });
     plots.push({ title: 'Joint force', unit: 'N', id: 'joint-force',
-      series: names.bodies.map((name, i) => ({ name, values: length_of('body', i, ['joint_force.x', 'joint_force.y', 'joint_force.z']) })) });
+      series: sliding.map(({ name, i }) => ({ name, values: length_of('body', i, ['joint_force.x', 'joint_force.y', 'joint_force.z']) })) });
   }
   of_bodies('Friction', 'N', 'friction', 'friction_force');
   if (names.connectors?.length) {

@@ -119,11 +119,21 @@ export function energy_table(data) {
   ];
 }
 
+/** Whether section forces of a beam, and with them its stresses, are the round-off of its strains. */
+function carries_nothing(beam, extremes) {
+  const most = 1e-13 * beam['EA [N]'];
+  return extremes.filter(({ quantity }) => quantity.startsWith(`${beam.name}.`)).every(({ value, unit }) => (
+    !['N', 'N m'].includes(unit) || Math.abs(value) <= (unit === 'N' ? most : most * beam['length [m]'])));
+}
+
 /** The extremes of the run; a button shows their time, or the load factor that has no unit. */
 export function extremes_table(run, time_unit, go_to_time) {
-  const extremes = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
+  const all = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
+  const idle = (run?.model?.beams ?? []).filter((beam) => carries_nothing(beam, all));
+  const extremes = all.filter(({ quantity, unit }) => (
+    !(['N', 'N m', 'Pa'].includes(unit) && idle.some(({ name }) => quantity.startsWith(`${name}.`)))));
   if (!extremes.length) {
-    return element('p', { class: 'none' }, 'run.json of these results does not name any.');
+    return element('p', { class: 'none' }, all.length ? 'The beams carry nothing.' : 'run.json of these results does not name any.');
   }
   const moving = extremes.some((extreme) => extreme['time [s]'] > 0);
   const rows = extremes.map((extreme) => element('tr', {},

@@ -50,6 +50,15 @@ TEST(Quantity, AnUnknownUnitNamesTheClosestOne) {
             std::string::npos);
 }
 
+TEST(Quantity, AUnitIsNotTakenForOneOfSomethingElse) {
+  const std::string plain = parse_quantity("15 deg", Dimension::number).error,
+                    time = parse_quantity("15 dm", Dimension::time).error,
+                    length = parse_quantity("15 deg", Dimension::length).error;
+  EXPECT_NE(plain.find("has a unit; expected a plain number"), std::string::npos) << plain;
+  EXPECT_EQ(length.find("did you mean"), std::string::npos) << length;
+  EXPECT_NE(time.find("does not measure time"), std::string::npos) << time;
+}
+
 TEST(Quantity, TextsThatAreNoQuantityAreRefused) {
   for (const char* text : {"", "mm", "5", "nan mm", "inf mm", "1e999 mm", "5 mm/", "5 mm^0", "5 mm^",
                            "5 mm mm", "5 / / mm", "5 m-m", "five mm", "1e308 km", "1e-323 nm",
