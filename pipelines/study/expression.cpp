@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/utf8_text.h"
 
 namespace nurbeam {
 
@@ -177,12 +178,16 @@ class ExpressionParser {
   NodePointer parse() {
     NodePointer root = comparison();
     skip();
-    if (at_ < text_.size()) fail("expected an operator or the end, found \"" + text_.substr(at_, 12) + "\"");
+    if (at_ < text_.size())
+      fail("expected an operator or the end, found " + rest(12) +
+           (begins_word(text_[at_]) ? "; a name with spaces stands in single quotes" : ""));
     return root;
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw ExpressionError(what, at_); }
+  /// So many characters of what has not been read, in quotes.
+  std::string rest(std::size_t most) const { return in_quotes(first_characters(text_.substr(at_), most)); }
 
   void skip() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
@@ -260,7 +265,9 @@ class ExpressionParser {
     }
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
     if (begins_word(c) || c == '\'') return name_or_call();
-    fail(std::string("expected a number, a name or \"(\", found \"") + c + "\"");
+    const bool is_ascii = static_cast<unsigned char>(c) < 0x80;
+    fail("expected a number, a name or \"(\", found " + rest(12) +
+         (is_ascii ? "" : "; a name with other letters than a to z stands in single quotes"));
   }
   NodePointer number() {
     Node leaf;
