@@ -41,7 +41,8 @@ struct SensitivityResult {
   std::vector<SobolIndices> indices;
   int rows_left_out = 0;  ///< of the base sample, because a variant of theirs is not done
 };
-/// By Saltelli's estimators. Throws std::runtime_error where fewer than half of the variants are done.
+/// By Saltelli's estimators; the intervals are as wide as the estimates scatter over samples that are drawn
+/// from the given one. Throws std::runtime_error where fewer than half of the variants are done.
 SensitivityResult sobol_indices(const StudyFile& study, const StudySensitivity& sensitivity,
                                 const StudyEvaluation& evaluate);
 

@@ -52,6 +52,28 @@ TEST(SobolIndices, OfIshigamisFunctionAreWithinTheirIntervals) {
   }
 }
 
+// The exact index is 1, and its interval is to hold it in 95 % of all samples.
+TEST(SobolIndices, OfOneVariableLieWithinTheirIntervalsAsOftenAsThoseSay) {
+  constexpr int samples = 200;
+  int first = 0, total = 0;
+  for (int seed = 1; seed <= samples; ++seed) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "a", "distribution": {"normal": {"mean": 0, "sd": 1}}}],
+      "quantities": [{"name": "f", "value": "a"}], "sensitivity": {"count": 64}, "seed": )json" +
+                                     std::to_string(seed) + "}");
+    const SobolIndices f =
+        sobol_indices(study, std::get<StudySensitivity>(study.task), evaluation_of(study)).indices[0];
+    for (const SobolIndices::Index& index : {f.first_order[0], f.total_order[0]}) {
+      EXPECT_LT(index.lower, index.value);
+      EXPECT_GT(index.upper, index.value);
+    }
+    first += f.first_order[0].lower <= 1 && 1 <= f.first_order[0].upper ? 1 : 0;
+    total += f.total_order[0].lower <= 1 && 1 <= f.total_order[0].upper ? 1 : 0;
+  }
+  EXPECT_GE(first, 0.90 * samples);  // three standard deviations of the count below 95 %
+  EXPECT_GE(total, 0.90 * samples);
+}
+
 TEST(SobolIndices, OfWhatIsTheSameInAllVariantsAreZero) {
   const StudyFile study = study_of(R"json({"nurbeam_study": 1,
     "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
