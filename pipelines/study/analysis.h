@@ -61,7 +61,7 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
                                       const StudyDerivatives& derivatives = {});
 
 struct OptimumResult {
-  /// One point, or those of the Pareto front.
+  /// One point, or those of the Pareto front, the best one in the first objective first.
   StudyPoints points;
   StudyPoints quantities;  ///< of each
   std::vector<double>

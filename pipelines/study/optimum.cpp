@@ -3,6 +3,7 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
@@ -293,7 +294,22 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
   return better;
 }
 
-/// Of all variants that hold the constraints those that no other one is better than in all objectives.
+// From the least to the greatest first objective.
+void sort_front(OptimumResult& result, const std::vector<std::vector<double>>& front) {
+  std::vector<std::size_t> order(front.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return front[a] < front[b]; });
+  StudyPoints points, quantities;
+  for (const std::size_t i : order) {
+    points.push_back(result.points[i]);
+    quantities.push_back(result.quantities[i]);
+  }
+  result.points = std::move(points);
+  result.quantities = std::move(quantities);
+}
+
+/// Of all variants that hold the constraints those that no other one is better than in all objectives, the
+/// best one in the first objective first.
 OptimumResult best_of(const Search& search, const Goal& goal) {
   OptimumResult result;
   std::vector<std::vector<double>> front;
@@ -320,6 +336,7 @@ OptimumResult best_of(const Search& search, const Goal& goal) {
     }
     result.history.push_back(goal.minimises() ? best : -best);
   }
+  sort_front(result, front);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "pipelines/study/study_output.h"
 #include "pipelines/study/variant.h"
 #include "tests/study/study_text.h"
 
@@ -251,6 +252,23 @@ TEST(Reliability, ByFormThatDoesNotEndIsNoAnswer) {
   };
   EXPECT_THROW(found("10"), std::runtime_error);
   EXPECT_GT(*found("1000").reliability_index, 2);
+}
+
+TEST(Optimum, OfTwoObjectivesIsAFrontInOrder) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
+    "quantities": [{"name": "f", "value": "x"}, {"name": "g", "value": "1 - x + y"}],
+    "optimise": {"minimise": ["f", "g"], "evaluations": 400}})json");
+  const OptimumResult front = find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+  ASSERT_GT(front.quantities.size(), 20U);
+  for (std::size_t i = 0; i + 1 < front.quantities.size(); ++i) {
+    EXPECT_LT(front.quantities[i][0], front.quantities[i + 1][0]);
+    EXPECT_GT(front.quantities[i][1], front.quantities[i + 1][1]);
+  }
+  EXPECT_EQ(front.points[0][0], front.quantities[0][0]);
+  const std::string told = answer_text(study, {.answer = front});
+  EXPECT_NE(told.find("the first 20 of them, by the first objective; study.json has all"), std::string::npos)
+      << told;
 }
 
 // Its value hardly changes, far from zero or near it.
