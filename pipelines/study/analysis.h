@@ -96,6 +96,9 @@ struct SurrogateResult {
   /// Of polynomial chaos: the Sobol indices that its coefficients are.
   std::vector<double> first_order = {}, total_order = {};
 };
+/// Why no surrogate can be made of so many variants that are done; empty where one can.
+std::string too_few_for(const StudySurrogate& surrogate, std::size_t variables, std::size_t variants);
+
 /// Made of rows (`inputs` with `outputs`, all done). Throws std::runtime_error where there are too few.
 std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const StudySurrogate& surrogate,
                                              const StudyPoints& inputs, const StudyPoints& outputs);

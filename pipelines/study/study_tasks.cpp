@@ -6,6 +6,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/analysis.h"
 #include "pipelines/study/study_parts.h"
 
 namespace nurbeam {
@@ -31,10 +32,26 @@ class StudyTaskReader : StudyPartReader {
                                                                  : StudySurrogate::Kind::chaos,
                          .degree = static_cast<int>(number(json, "degree", 3)),
                          .held_back = number(json, "held_back", 0.2)};
+      check_enough_for_surrogate();
     }
   }
 
  private:
+  void check_enough_for_surrogate() {
+    const auto* plan = std::get_if<StudyPlan>(&study_.task);
+    if (!plan || findings_.has_errors()) return;  // of which the number of variants may be
+    const std::size_t variants = variants_of(*plan);
+    if (const std::string problem = too_few_for(*study_.surrogate, study_.free_variables().size(), variants);
+        !problem.empty())
+      findings_.error("surrogate", problem);
+  }
+
+  static std::size_t variants_of(const StudyPlan& plan) {
+    if (plan.kind == StudyPlan::Kind::list) return plan.rows.size();
+    if (plan.kind != StudyPlan::Kind::grid) return static_cast<std::size_t>(plan.count);
+    return std::accumulate(plan.levels.begin(), plan.levels.end(), std::size_t{1}, std::multiplies<>());
+  }
+
   StudyPlan read_plan(const Json& json) {
     using Way = StudyPlan::Kind;
     StudyPlan plan;

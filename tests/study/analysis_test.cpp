@@ -108,9 +108,19 @@ TEST(Surrogate, ByKrigingAnswersWhateverTheUnits) {
 }
 
 TEST(Surrogate, ThatHasMoreTermsThanRowsIsRefused) {
-  const StudyFile study = study_of(
-      ishigami_head + R"json("plan": {"latin_hypercube": {"count": 50}}, "surrogate": {"degree": 9}})json");
-  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  const auto plan = [](int count) {
+    return ishigami_head + R"json("plan": {"latin_hypercube": {"count": )json" + std::to_string(count) +
+           R"json(}}, "surrogate": {"degree": 9}})json";
+  };
+  EXPECT_NE(test::wrong_with(plan(274)).find(
+                "study.json: surrogate: polynomials of degree 9 have 220 terms, more than "
+                "the 219 of 274 variants that are not held back"),
+            std::string::npos)
+      << test::wrong_with(plan(274));
+  // Enough, but not all of them are done.
+  const StudyFile study = study_of(plan(275));
+  StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  points.pop_back();
   EXPECT_THROW(make_surrogates(study, *study.surrogate, points, evaluated(study, points)),
                std::runtime_error);
 }
