@@ -314,13 +314,22 @@ bool is_in_axis(const std::string& path, const std::string& beam, std::size_t in
 // Whether the numbers that variables set are there, and are not those of a curve that others move.
 void check_paths(const StudyFile& study, const Json& case_json,
                  const std::map<std::string, StudyCurve>& curves, Findings& findings) {
+  std::map<std::string, std::pair<std::string, std::string>>
+      owners;  // by place: variable, and as it writes it
   for (const StudyVariable& variable : study.variables) {
     const auto* numbers = variable.target ? std::get_if<CasePaths>(&*variable.target) : nullptr;
     if (!numbers) continue;
     for (const std::string& path : numbers->paths) {
       Json json = case_json;
-      if (const std::string problem = apply_override(json, path + "=1").problem; !problem.empty())
-        findings.error(variable.path + ".path", problem);
+      const AppliedOverride applied = apply_override(json, path + "=1");
+      if (!applied.problem.empty()) findings.error(variable.path + ".path", applied.problem);
+      const auto& [owner, written] =
+          owners.try_emplace(applied.problem.empty() ? applied.path : path, variable.name, path)
+              .first->second;
+      if (written != path)  // what is written alike has been found
+        findings.error(variable.path + ".path",
+                       in_quotes(path) + " is " + in_quotes(written) + ", which " + in_quotes(owner) +
+                           " sets; one variable can set it, with a \"value\" made of others");
       for (const auto& [beam, curve] : curves)
         if (is_in_axis(path, beam, curve.beam))
           findings.error(variable.path + ".path",

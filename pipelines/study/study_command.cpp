@@ -31,15 +31,16 @@ struct ReadyStudy {
 };
 
 // What is wrong with the quantities of a study whose case, changes or variables cannot be used as they are.
-void tell_of_quantities(StudyFile study, const std::vector<StudyChange>& changes, std::ostream& err) {
+std::vector<Diagnostic> wrong_quantities(StudyFile study, const std::vector<StudyChange>& changes) {
   study.changes = changes;
+  study.derivatives = false;
   for (StudyVariable& variable : study.variables) {  // the case as it stands: their values may be wrong
     variable.target.reset();
     variable.derived.reset();
   }
   study.refinements.clear();
   const StudyCaseReport plain = read_study_case(study);
-  if (plain.value) print_diagnostics(err, check_quantities(study, &*plain.value));
+  return plain.value ? check_quantities(study, &*plain.value) : std::vector<Diagnostic>{};
 }
 
 // What is wrong with a study besides what its file alone shows: beams, control points, columns.
@@ -47,7 +48,7 @@ void tell_of_case(StudyFile study, std::ostream& err) {
   if (!study.case_file) return;
   const StudyCaseReport of_case = read_study_case(study);
   print_diagnostics(err, of_case.diagnostics);
-  tell_of_quantities(std::move(study), of_case.changes, err);
+  print_diagnostics(err, wrong_quantities(std::move(study), of_case.changes));
 }
 
 /// Nothing, with its errors printed, where it cannot run.
@@ -63,13 +64,17 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
     StudyCaseReport of_case = read_study_case(ready.study);
     print_diagnostics(err, of_case.diagnostics);
     if (!of_case.value) {
-      tell_of_quantities(std::move(ready.study), of_case.changes, err);
+      print_diagnostics(err, wrong_quantities(std::move(ready.study), of_case.changes));
       return {};
     }
     ready.study_case = std::move(of_case.value);
   }
-  const std::vector<Diagnostic> wrong =
+  std::vector<Diagnostic> wrong =
       check_quantities(ready.study, ready.study_case ? &*ready.study_case : nullptr);
+  if (!wrong.empty() && !has_errors(wrong)) {  // the nominal variant cannot be built
+    const std::vector<Diagnostic> plain = wrong_quantities(ready.study, ready.study.changes);
+    if (has_errors(plain)) wrong.insert(wrong.end(), plain.begin(), plain.end());
+  }
   print_diagnostics(err, wrong);
   if (has_errors(wrong)) return {};
   if (ready.study.derivatives && ready.study.derivatives_where_known)

@@ -158,7 +158,7 @@ void fill_formulas(const StudyFile& study, Variant& variant) {
 // Of a study whose nominal variant cannot be: the others may.
 Diagnostic unchecked(const StudyFile& study, const std::string& why) {
   return {Severity::warning, study.path.string() + ": variables",
-          "the nominal variant cannot be built, so the quantities are not checked beforehand: " + why};
+          "the nominal variant cannot be built: " + why};
 }
 
 // With histories of two times: a quantity must be one number, and the events that it asks for can be.
@@ -202,8 +202,10 @@ bool ends_vary(const StudyFile& study) {
 // Histories are asked for at times that a run must reach.
 void check_times(const StudyFile& study, const CaseFile& case_file, Findings& findings) {
   const SimulationOptions options = simulation_options(case_file);
-  if (options.output_times.empty() || ends_vary(study)) return;
-  const double begin = options.output_times.front(), end = options.output_times.back();
+  if (ends_vary(study)) return;
+  const bool is_one = options.output_times.empty();  // equilibrium
+  const double begin = is_one ? 0 : options.output_times.front(),
+               end = is_one ? 0 : options.output_times.back();
   const std::string extent =
       std::string(options.statics ? "the load steps of the case go" : "a run of this case goes") + " from " +
       text_of(begin) + " s to " + text_of(end) + " s";

@@ -135,6 +135,17 @@ TEST(StudyCase, SaysOfEveryQuantityWhatIsWrongWithIt) {
   EXPECT_EQ(messages.find("in_time"), std::string::npos) << messages;
 }
 
+TEST(StudyCase, RefusesTwoVariablesForOneNumberHoweverItIsWritten) {
+  const ReadCase read = read_with(R"json(
+    {"name": "a", "path": "beams[rail].section.radius", "range": [0.01, 0.02]},
+    {"name": "b", "path": ["beams[1].section.radius", "beams[0].section.radius"], "range": [0.01, 0.02]})json");
+  EXPECT_FALSE(read.of_case.value);
+  EXPECT_NE(read.messages.find("study.json: variables[1].path: \"beams[0].section.radius\" is "
+                               "\"beams[rail].section.radius\", which \"a\" sets"),
+            std::string::npos)
+      << read.messages;
+}
+
 TEST(StudyCase, RefusesModesOfWhichThereAreNoQuantities) {
   const ReadCase read = read_with(one_point, R"json(, "set": ["analysis={\"type\": \"modes\"}"])json");
   EXPECT_FALSE(read.of_case.value);

@@ -192,6 +192,15 @@ def bad_files_are_refused():
                   "study.json: set[1]: \"analysis.step=-1\": analysis.step: ",
                   "quantities[0].value: a run of this case has no column"):
         assert place in done.stderr, (place, done.stderr)
+    wrong = {**STUDY, "variables": [{"name": "r", "path": "beams[0].section.radius", "range": [-0.02, 0.01]}],
+             "constraints": [], "quantities": [{"name": "q", "value": "max(tipp.x)"}]}
+    done = run(write(scratch / "bad", wrong), "--out", scratch / "bad/out", expected=2)
+    for text in ("warning: ", "variables: the nominal variant cannot be built: ", "no column \"tipp.x\""):
+        assert text in done.stderr, (text, done.stderr)
+    resting = {**CASE, "analysis": {"type": "static"}}
+    wrong = {**STUDY, "quantities": [{"name": "q", "value": "at(1, tip.x)"}]}
+    done = run(write(scratch / "bad", wrong, resting), "--out", scratch / "bad/out", expected=2)
+    assert "quantities[0].value: the load steps of the case go from 0 s to 0 s, and 1 s is not between" in done.stderr, done.stderr
     assert not (scratch / "bad/out").exists(), "of a study that cannot run nothing is left behind"
     run(scratch / "bad/nothing.json", expected=2)
     done = run(write(scratch / "bad"), "--out", scratch / "bad/none", "--resume", expected=2)
