@@ -117,6 +117,16 @@ study_test('a surrogate comes with its error, and its indices without intervals'
   assert.ok(!(await texts(page, '#more text')).some((text) => text.includes('interval')));
 });
 
+study_test('a search that was cut off says so', 'short', async (page) => {
+  assert.match(await page.textContent('#answer p'), /has used up its evaluations/);
+});
+
+study_test('a probability says how many variants are not done', 'risk', async (page) => {
+  const { not_done } = JSON.parse(readFileSync(join(out, 'risk/study.json'), 'utf8')).answer;
+  assert.ok(not_done > 0);
+  assert.match(await page.textContent('#answer p'), new RegExp(`^${not_done} variants are not done`));
+});
+
 study_test('indices come with their intervals', 'indices', async (page) => {
   assert.ok((await texts(page, '#more text')).some((text) => text.includes('lines: confidence intervals')));
   assert.equal((await page.$$('.whisker')).length, 2 * 19);
