@@ -120,13 +120,15 @@ std::optional<Json> parse_json(const std::string& text, Findings& findings) {
 
 namespace {
 
-std::optional<std::string> read_text(const std::filesystem::path& file, Findings& findings) {
+std::optional<std::string> read_text(const std::filesystem::path& file, const JsonFileKind& kind,
+                                     Findings& findings) {
+  const std::string expected = "; expected a " + std::string(kind.name) + " (JSON)";
   if (std::filesystem::is_directory(file)) {
-    findings.error("", "is a directory; expected a case file (JSON)");
+    findings.error("", "is a directory" + expected);
     return {};
   }
   if (std::filesystem::is_block_file(file) || std::filesystem::is_character_file(file)) {
-    findings.error("", "is a device; expected a case file (JSON)");
+    findings.error("", "is a device" + expected);
     return {};
   }
   std::ifstream stream(file, std::ios::binary);
@@ -137,7 +139,7 @@ std::optional<std::string> read_text(const std::filesystem::path& file, Findings
     return {};
   }
   if (text.str().find_first_not_of(" \t\r\n") == std::string::npos) {
-    findings.error("", "is empty; the smallest case has \"nurbeam\": 1, \"beams\" and \"analysis\"");
+    findings.error("", "is empty" + expected + "; the smallest has " + kind.smallest);
     return {};
   }
   return text.str();
@@ -177,7 +179,7 @@ std::size_t too_deep_at(const std::string& text) {
 }
 
 std::string too_deep_message() {
-  return "brackets are nested more than " + std::to_string(deepest) + " deep; a case needs fewer than 10";
+  return "brackets are nested more than " + std::to_string(deepest) + " deep; fewer than 10 are needed";
 }
 
 const Key* find_key(const Shape& shape, const std::string& name) {
@@ -192,8 +194,9 @@ std::vector<std::string> key_names(const Shape& shape) {
   return names;
 }
 
-std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings) {
-  const auto text = read_text(file, findings);
+std::optional<Json> read_json(const std::filesystem::path& file, const JsonFileKind& kind,
+                              Findings& findings) {
+  const auto text = read_text(file, kind, findings);
   return text ? parse_json(*text, findings) : std::nullopt;
 }
 

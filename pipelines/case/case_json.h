@@ -31,7 +31,13 @@ std::vector<std::string> key_names(const Shape& shape);
 
 /// The JSON of a text with comments; nothing, and findings, when it cannot be read as JSON.
 std::optional<Json> parse_json(const std::string& text, Findings& findings);
-/// The same of a file.
-std::optional<Json> read_json(const std::filesystem::path& file, Findings& findings);
+/// What a file should be, for messages.
+struct JsonFileKind {
+  const char* name;      ///< "case file"
+  const char* smallest;  ///< what the smallest one has
+};
+/// The same of a file of that kind.
+std::optional<Json> read_json(const std::filesystem::path& file, const JsonFileKind& kind,
+                              Findings& findings);
 
 }  // namespace nurbeam

@@ -225,24 +225,29 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   const auto failed = [&](const std::string& reason) {
     return ParsedQuantity{{}, in_quotes(text) + ": " + reason};
   };
-  const std::string expected = dimension_name(dimension) + " (valid units: " + unit_examples(dimension) + ")";
+  const bool is_plain = dimension == Dimension::number;
+  const std::string expected =
+      is_plain ? "a plain number"
+               : dimension_name(dimension) + " (valid units: " + unit_examples(dimension) + ")";
 
   std::string_view rest = text;
   rest.remove_prefix(std::min(rest.find_first_not_of(" +"), rest.size()));
   double number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error != std::errc{} || !std::isfinite(number))
-    return failed("does not begin with a finite number; expected a number and a unit of " + expected);
+    return failed("does not begin with a finite number; expected " +
+                  std::string(is_plain ? "" : "a number and a unit of ") + expected);
   rest.remove_prefix(end - rest.data());
   const bool has_unit = rest.find_first_not_of(' ') != std::string_view::npos;
-  if (dimension == Dimension::number && has_unit) return failed("has a unit; expected a plain number");
+  if (is_plain && has_unit) return failed("has a unit; expected a plain number");
   const UnitProduct product = parse_units(plain(rest), unit_examples(dimension));
   if (!product.error.empty()) return failed(product.error + "; expected " + expected);
-  if (!has_unit && dimension != Dimension::number) {
+  if (!has_unit && !is_plain) {
     return failed("has no unit; expected " + expected + "; a number without quotes is in " +
                   si_unit(dimension));
   }
-  if (product.exponents != info(dimension).exponents) return failed("the unit does not measure " + expected);
+  if (product.exponents != info(dimension).exponents)
+    return failed((is_plain ? "has a unit; expected " : "the unit does not measure ") + expected);
   const double value = number * product.multiply / product.divide;
   if (!std::isfinite(value) || (value == 0 && number != 0)) {
     return failed(std::string("is too ") + (value == 0 ? "small" : "large") + " for a number in " +

@@ -105,7 +105,7 @@ class TableFile {
     std::ifstream stream(file_);
     if (!std::filesystem::is_regular_file(file_, ignored) || !stream) {
       findings_.error(child(path_, "file"), "there is no file " + in_quotes(file_.string()) +
-                                                "; expected a CSV file, relative to the case file");
+                                                "; expected a CSV file, relative to the one that names it");
       return false;
     }
     std::string text;

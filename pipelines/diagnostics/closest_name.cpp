@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <utility>
 
 namespace nurbeam {
 
@@ -13,15 +14,17 @@ int lower(char c) { return std::tolower(static_cast<unsigned char>(c)); }
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
+  const auto same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
   std::vector<int> row(b.size() + 1);  // row[j]: distance between the first i of a and the first j of b
   std::iota(row.begin(), row.end(), 0);
+  std::vector<int> last, last_but_one;  // of smaller i
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
+    last_but_one = std::exchange(last, row);
     row[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int replaced = diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same(i, j) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j))
+        row[j] = std::min(row[j], last_but_one[j - 2] + 1);
     }
   }
   return row.back();
@@ -35,7 +38,9 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return list;
 }
 
-std::string known_names(std::string_view unknown, const std::vector<std::string>& known) {
+std::string known_names(std::string_view unknown, const std::vector<std::string>& all) {
+  std::vector<std::string> known = all;
+  std::erase(known, "");  // of what should have a name
   if (known.empty()) return "; there is none to name here";
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return edit_distance(unknown, a) < edit_distance(unknown, b);

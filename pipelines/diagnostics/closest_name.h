@@ -5,7 +5,8 @@
 
 namespace nurbeam {
 
-/// Number of single-character insertions, deletions and replacements between two texts, letter case ignored.
+/// Number of single-character insertions, deletions, replacements and swaps of neighbours between two texts,
+/// letter case ignored.
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The ending of a message about an unknown name: `; did you mean "x"? Known: "x", "y"`. The question is left

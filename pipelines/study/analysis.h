@@ -41,7 +41,8 @@ struct SensitivityResult {
   std::vector<SobolIndices> indices;
   int rows_left_out = 0;  ///< of the base sample, because a variant of theirs is not done
 };
-/// By Saltelli's estimators. Throws std::runtime_error where fewer than half of the variants are done.
+/// By Saltelli's estimators; the intervals are as wide as the estimates scatter over samples that are drawn
+/// from the given one. Throws std::runtime_error where fewer than half of the variants are done.
 SensitivityResult sobol_indices(const StudyFile& study, const StudySensitivity& sensitivity,
                                 const StudyEvaluation& evaluate);
 
@@ -60,7 +61,7 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
                                       const StudyDerivatives& derivatives = {});
 
 struct OptimumResult {
-  /// One point, or those of the Pareto front.
+  /// One point, or those of the Pareto front, the best one in the first objective first.
   StudyPoints points;
   StudyPoints quantities;  ///< of each
   std::vector<double>
@@ -95,6 +96,9 @@ struct SurrogateResult {
   /// Of polynomial chaos: the Sobol indices that its coefficients are.
   std::vector<double> first_order = {}, total_order = {};
 };
+/// Why no surrogate can be made of so many variants that are done; empty where one can.
+std::string too_few_for(const StudySurrogate& surrogate, std::size_t variables, std::size_t variants);
+
 /// Made of rows (`inputs` with `outputs`, all done). Throws std::runtime_error where there are too few.
 std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const StudySurrogate& surrogate,
                                              const StudyPoints& inputs, const StudyPoints& outputs);

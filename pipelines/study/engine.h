@@ -29,9 +29,9 @@ class StudyEngine {
 /// The command line of a process that runs variants (serve_variants).
 using WorkerCommand = std::vector<std::string>;
 
-/// So many processes on this machine, each of which runs one variant after another: one that crashes or does
-/// not end costs its variant alone. Throws std::runtime_error where no process can be started. `time_limit`:
-/// of a variant [s].
+/// So many processes on this machine, each started where there is a variant for it, and running one after
+/// another: one that crashes or does not end costs its variant alone. run() throws std::runtime_error where
+/// no process can be started. `time_limit`: of a variant [s].
 std::unique_ptr<StudyEngine> make_process_pool(const WorkerCommand& command, int workers,
                                                std::optional<double> time_limit);
 

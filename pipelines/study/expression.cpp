@@ -8,8 +8,17 @@
 #include <optional>
 
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/utf8_text.h"
 
 namespace nurbeam {
+
+namespace {
+
+const ExpressionScope nothing_known{.value = [](const std::string& name) -> ExpressionValue {
+  throw std::invalid_argument(in_quotes(name) + " is not known");
+}};
+
+}  // namespace
 
 /// An operation on its arguments, or a leaf: a number or a name.
 struct Expression::Node {
@@ -22,6 +31,7 @@ struct Expression::Node {
   Arguments arguments = {};
   double number = 0;
   std::string name = {};  ///< of a leaf that is no number
+  bool at_time = false;   ///< the first argument is the time at which a history is asked for
 
   ExpressionValue evaluate(const ExpressionScope& scope) const {
     if (!name.empty()) return scope.value(name);
@@ -33,6 +43,13 @@ struct Expression::Node {
   void collect(std::vector<std::string>& names) const {
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     for (const auto& argument : arguments) argument->collect(names);
+  }
+  void collect(std::vector<double>& times) const {
+    if (at_time) try {
+        times.push_back(std::get<double>(arguments[0]->evaluate(nothing_known)));
+      } catch (const std::invalid_argument&) {  // it depends on a variable or an event
+      }
+    for (const auto& argument : arguments) argument->collect(times);
   }
 };
 
@@ -98,9 +115,7 @@ double mean_of(const Series& f, const Series& times) {
 
 /// Between two stored times the value is linear.
 double at_time(double t, const Series& f, const Series& times) {
-  const double slack = 1e-9 * std::max(std::abs(times.front()), std::abs(times.back()));
-  if (!(t >= times.front() - slack && t <= times.back() + slack))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (!is_between(t, times.front(), times.back())) return std::numeric_limits<double>::quiet_NaN();
   const auto after = std::upper_bound(times.begin(), times.end(), t);
   const std::size_t i =
       std::clamp<std::ptrdiff_t>(after - times.begin() - 1, 0, static_cast<std::ptrdiff_t>(f.size()) - 1);
@@ -177,12 +192,16 @@ class ExpressionParser {
   NodePointer parse() {
     NodePointer root = comparison();
     skip();
-    if (at_ < text_.size()) fail("expected an operator or the end, found \"" + text_.substr(at_, 12) + "\"");
+    if (at_ < text_.size())
+      fail("expected an operator or the end, found " + rest(12) +
+           (begins_word(text_[at_]) ? "; a name with spaces stands in single quotes" : ""));
     return root;
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw ExpressionError(what, at_); }
+  /// So many characters of what has not been read, in quotes.
+  std::string rest(std::size_t most) const { return in_quotes(first_characters(text_.substr(at_), most)); }
 
   void skip() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
@@ -260,7 +279,9 @@ class ExpressionParser {
     }
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
     if (begins_word(c) || c == '\'') return name_or_call();
-    fail(std::string("expected a number, a name or \"(\", found \"") + c + "\"");
+    const bool is_ascii = static_cast<unsigned char>(c) < 0x80;
+    fail("expected a number, a name or \"(\", found " + rest(12) +
+         (is_ascii ? "" : "; a name with other letters than a to z stands in single quotes"));
   }
   NodePointer number() {
     Node leaf;
@@ -338,15 +359,15 @@ class ExpressionParser {
     expect(",");
     arguments.push_back(comparison());
     expect(")");
-    return call(
-        [at_end](const Values& values, const ExpressionScope& scope) -> ExpressionValue {
-          const Series& f = history(values.back(), "at");
-          if (at_end) return *at_end ? f.back() : f.front();
-          const auto* t = std::get_if<double>(&values[0]);
-          if (!t) throw std::invalid_argument("the time of at(time, history) must be one number");
-          return at_time(*t, f, scope.times);
-        },
-        std::move(arguments));
+    Node node{.arguments = std::move(arguments), .at_time = !at_end};
+    node.operation = [at_end](const Values& values, const ExpressionScope& scope) -> ExpressionValue {
+      const Series& f = history(values.back(), "at");
+      if (at_end) return *at_end ? f.back() : f.front();
+      const auto* t = std::get_if<double>(&values[0]);
+      if (!t) throw std::invalid_argument("the time of at(time, history) must be one number");
+      return at_time(*t, f, scope.times);
+    };
+    return std::make_shared<const Node>(std::move(node));
   }
   /// time(kind, body or beam) of an event.
   NodePointer time_call() {
@@ -372,6 +393,11 @@ class ExpressionParser {
 
 }  // namespace
 
+bool is_between(double time, double first, double last) {
+  const double slack = 1e-9 * std::max(std::abs(first), std::abs(last));
+  return time >= first - slack && time <= last + slack;
+}
+
 Expression Expression::parse(const std::string& text) { return {text, ExpressionParser(text).parse()}; }
 
 ExpressionValue Expression::evaluate(const ExpressionScope& scope) const { return root_->evaluate(scope); }
@@ -382,6 +408,12 @@ double Expression::number(const ExpressionScope& scope) const {
   throw std::invalid_argument(
       "the expression is a history; take one number of it by min, max, mean, rms, first, last, "
       "integral or at(end, ...)");
+}
+
+std::vector<double> Expression::times() const {
+  std::vector<double> times;
+  root_->collect(times);
+  return times;
 }
 
 std::vector<std::string> Expression::names() const {

@@ -14,6 +14,9 @@ struct ExpressionError : std::runtime_error {
   std::size_t offset;
 };
 
+/// Whether a time is between the first and the last one, but for round-off.
+bool is_between(double time, double first, double last);
+
 /// One number, or one for each stored time of a run.
 using ExpressionValue = std::variant<double, std::vector<double>>;
 
@@ -46,6 +49,8 @@ class Expression {
 
   /// The variables and columns that it names, each once.
   std::vector<std::string> names() const;
+  /// The times at which it asks for histories, of those that depend on nothing.
+  std::vector<double> times() const;
   const std::string& text() const { return text_; }
 
   struct Node;

@@ -3,14 +3,19 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/study/openturns_study.h"
 #include "pipelines/study/variant.h"
 
 namespace nurbeam {
 
 namespace {
+
+bool is_held(double margin) { return margin >= -1e-9; }
 
 /// What a search minimises and holds, of one variant.
 class Goal {
@@ -44,7 +49,7 @@ class Goal {
   }
   bool holds(const std::vector<double>& quantities, const std::vector<double>& point) const {
     const std::vector<double> all = margins(quantities, point);
-    return std::all_of(all.begin(), all.end(), [](double margin) { return margin >= -1e-9; });
+    return std::all_of(all.begin(), all.end(), is_held);
   }
 
  private:
@@ -289,7 +294,22 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
   return better;
 }
 
-/// Of all variants that hold the constraints those that no other one is better than in all objectives.
+// From the least to the greatest first objective.
+void sort_front(OptimumResult& result, const std::vector<std::vector<double>>& front) {
+  std::vector<std::size_t> order(front.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return front[a] < front[b]; });
+  StudyPoints points, quantities;
+  for (const std::size_t i : order) {
+    points.push_back(result.points[i]);
+    quantities.push_back(result.quantities[i]);
+  }
+  result.points = std::move(points);
+  result.quantities = std::move(quantities);
+}
+
+/// Of all variants that hold the constraints those that no other one is better than in all objectives, the
+/// best one in the first objective first.
 OptimumResult best_of(const Search& search, const Goal& goal) {
   OptimumResult result;
   std::vector<std::vector<double>> front;
@@ -316,7 +336,29 @@ OptimumResult best_of(const Search& search, const Goal& goal) {
     }
     result.history.push_back(goal.minimises() ? best : -best);
   }
+  sort_front(result, front);
   return result;
+}
+
+// Why none of the variants of a search holds the constraints.
+std::string none_holds(const StudyOptimum& optimum, const Search& search, const Goal& goal) {
+  std::size_t done = 0;
+  std::vector<double> best(optimum.constraints.size(), -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < search.points().size(); ++i) {
+    if (search.quantities()[i].empty()) continue;
+    ++done;
+    const std::vector<double> margins = goal.margins(search.quantities()[i], search.points()[i]);
+    for (std::size_t k = 0; k < best.size(); ++k) best[k] = std::fmax(best[k], margins[k]);
+  }
+  std::string missed;
+  for (std::size_t k = 0; k < best.size(); ++k)
+    if (!is_held(best[k]))
+      missed +=
+          (missed.empty() ? "" : ", ") + in_quotes(optimum.constraint_texts[k]) +
+          (std::isfinite(best[k]) ? " is missed by " + text_of(-best[k], 4) + " at least" : " is no number");
+  return "none of the " + std::to_string(done) + " variants that are done holds \"subject_to\": " +
+         (missed.empty() ? "each holds in some of them, but not all together" : missed) +
+         "; take wider ranges or more \"evaluations\"";
 }
 
 }  // namespace
@@ -340,9 +382,7 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
   OptimumResult result = best_of(search, goal);
   result.cut_off = optimum.method != StudyOptimum::Method::genetic &&
                    search.points().size() >= static_cast<std::size_t>(optimum.evaluations);
-  if (result.points.empty())
-    throw std::runtime_error("no variant of " + std::to_string(search.points().size()) +
-                             " is done and holds \"subject_to\"; take wider ranges or more \"evaluations\"");
+  if (result.points.empty()) throw std::runtime_error(none_holds(optimum, search, goal));
   return result;
 }
 

@@ -55,7 +55,6 @@ std::string how_it_ended(int status) {
 ProcessWorker::ProcessWorker(WorkerCommand command, std::optional<double> time_limit)
     : command_(std::move(command)), time_limit_(time_limit) {
   signal(SIGPIPE, SIG_IGN);  // a process that has ended is found by the write's failure
-  start();
 }
 
 ProcessWorker::~ProcessWorker() { stop(); }

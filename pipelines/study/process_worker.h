@@ -7,7 +7,8 @@
 
 namespace nurbeam {
 
-/// A process that runs one variant at a time. Not copyable; the process ends with it.
+/// A process that runs one variant at a time, started with its first one. Not copyable; the process ends with
+/// it.
 class ProcessWorker {
  public:
   explicit ProcessWorker(WorkerCommand command, std::optional<double> time_limit);

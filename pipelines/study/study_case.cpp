@@ -101,11 +101,14 @@ std::vector<int> indices_of(const StudyTarget& target) {
   return {};
 }
 
-void refine(NurbsCurve& curve, const StudyRefinement& refinement, Findings& findings) {
+// Whether it could be done.
+bool refine(NurbsCurve& curve, const StudyRefinement& refinement, Findings& findings) {
   try {
-    curve = refined(std::move(curve), refinement);
+    curve = refined(curve, refinement);
+    return true;
   } catch (const std::invalid_argument& problem) {
     findings.error(refinement.path, problem.what());
+    return false;
   }
 }
 
@@ -113,6 +116,7 @@ void refine(NurbsCurve& curve, const StudyRefinement& refinement, Findings& find
 std::map<std::string, StudyCurve> curves_to_move(const StudyFile& study, const CaseFile& case_file,
                                                  CadFiles& files, Findings& findings) {
   std::map<std::string, StudyCurve> curves;
+  std::set<std::string> miscounted;  // whose control points are others than the study means
   std::optional<ResolvedCase> resolved;
   for (const StudyVariable& variable : study.variables) {
     const std::string* name = variable.target ? beam_of(*variable.target) : nullptr;
@@ -149,10 +153,11 @@ std::map<std::string, StudyCurve> curves_to_move(const StudyFile& study, const C
       const Chain& chain = resolved->chains[static_cast<std::size_t>(found - resolved->beams.begin())];
       NurbsCurve drawn = drawn_curve(*found, chain, files, findings);
       for (const StudyRefinement& refinement : study.refinements)
-        if (refinement.beam == *name) refine(drawn, refinement, findings);
+        if (refinement.beam == *name && !refine(drawn, refinement, findings)) miscounted.insert(*name);
       curves.emplace(*name,
                      StudyCurve{static_cast<std::size_t>(beam - case_file.beams.begin()), std::move(drawn)});
     }
+    if (miscounted.contains(*name)) continue;
     const auto count = static_cast<int>(curves.at(*name).drawn.control_points().cols());
     for (const int index : indices_of(*variable.target))
       if (index >= count)
@@ -309,13 +314,22 @@ bool is_in_axis(const std::string& path, const std::string& beam, std::size_t in
 // Whether the numbers that variables set are there, and are not those of a curve that others move.
 void check_paths(const StudyFile& study, const Json& case_json,
                  const std::map<std::string, StudyCurve>& curves, Findings& findings) {
+  std::map<std::string, std::pair<std::string, std::string>>
+      owners;  // by place: variable, and as it writes it
   for (const StudyVariable& variable : study.variables) {
     const auto* numbers = variable.target ? std::get_if<CasePaths>(&*variable.target) : nullptr;
     if (!numbers) continue;
     for (const std::string& path : numbers->paths) {
       Json json = case_json;
-      if (const std::string problem = apply_override(json, path + "=1").problem; !problem.empty())
-        findings.error(variable.path + ".path", problem);
+      const AppliedOverride applied = apply_override(json, path + "=1");
+      if (!applied.problem.empty()) findings.error(variable.path + ".path", applied.problem);
+      const auto& [owner, written] =
+          owners.try_emplace(applied.problem.empty() ? applied.path : path, variable.name, path)
+              .first->second;
+      if (written != path)  // what is written alike has been found
+        findings.error(variable.path + ".path",
+                       in_quotes(path) + " is " + in_quotes(written) + ", which " + in_quotes(owner) +
+                           " sets; one variable can set it, with a \"value\" made of others");
       for (const auto& [beam, curve] : curves)
         if (is_in_axis(path, beam, curve.beam))
           findings.error(variable.path + ".path",
@@ -398,6 +412,10 @@ StudyCaseReport read_study_case(const StudyFile& study) {
   report.diagnostics = read.diagnostics;
   name_changes(study, made, report.diagnostics);
   report.changes = without_errors(study, made, report.diagnostics);
+  if (read.value && read.value->analysis.has_modes())
+    findings.error("case",
+                   "finds modes, of which there are no quantities; give one with \"analysis.type\": "
+                   "\"dynamic\" or \"static\", or change it by \"set\"");
   std::map<std::string, StudyCurve> curves;
   CadFiles files;
   try {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
@@ -30,15 +31,16 @@ struct ReadyStudy {
 };
 
 // What is wrong with the quantities of a study whose case, changes or variables cannot be used as they are.
-void tell_of_quantities(StudyFile study, const std::vector<StudyChange>& changes, std::ostream& err) {
+std::vector<Diagnostic> wrong_quantities(StudyFile study, const std::vector<StudyChange>& changes) {
   study.changes = changes;
+  study.derivatives = false;
   for (StudyVariable& variable : study.variables) {  // the case as it stands: their values may be wrong
     variable.target.reset();
     variable.derived.reset();
   }
   study.refinements.clear();
   const StudyCaseReport plain = read_study_case(study);
-  if (plain.value) print_diagnostics(err, check_quantities(study, &*plain.value));
+  return plain.value ? check_quantities(study, &*plain.value) : std::vector<Diagnostic>{};
 }
 
 // What is wrong with a study besides what its file alone shows: beams, control points, columns.
@@ -46,7 +48,7 @@ void tell_of_case(StudyFile study, std::ostream& err) {
   if (!study.case_file) return;
   const StudyCaseReport of_case = read_study_case(study);
   print_diagnostics(err, of_case.diagnostics);
-  tell_of_quantities(std::move(study), of_case.changes, err);
+  print_diagnostics(err, wrong_quantities(std::move(study), of_case.changes));
 }
 
 /// Nothing, with its errors printed, where it cannot run.
@@ -62,13 +64,17 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
     StudyCaseReport of_case = read_study_case(ready.study);
     print_diagnostics(err, of_case.diagnostics);
     if (!of_case.value) {
-      tell_of_quantities(std::move(ready.study), of_case.changes, err);
+      print_diagnostics(err, wrong_quantities(std::move(ready.study), of_case.changes));
       return {};
     }
     ready.study_case = std::move(of_case.value);
   }
-  const std::vector<Diagnostic> wrong =
+  std::vector<Diagnostic> wrong =
       check_quantities(ready.study, ready.study_case ? &*ready.study_case : nullptr);
+  if (!wrong.empty() && !has_errors(wrong)) {  // the nominal variant cannot be built
+    const std::vector<Diagnostic> plain = wrong_quantities(ready.study, ready.study.changes);
+    if (has_errors(plain)) wrong.insert(wrong.end(), plain.begin(), plain.end());
+  }
   print_diagnostics(err, wrong);
   if (has_errors(wrong)) return {};
   if (ready.study.derivatives && ready.study.derivatives_where_known)
@@ -125,6 +131,30 @@ WorkerCommand worker_command(const StudyOptions& options) {
   return {options.program.string(), "worker", options.file.string()};
 }
 
+// As many processes as are asked for, but no more than keep this machine busy.
+int useful_jobs(int wanted, std::ostream& err) {
+  constexpr int most_per_core = 4;
+  const int most = most_per_core * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (wanted <= most) return wanted;
+  err << "warning: --jobs " << wanted << ": no more than " << most << " variants run at a time here, "
+      << most_per_core << " for each core\n";
+  return most;
+}
+
+/// Makes the directory of the results, of a study that can run; an exit code.
+ExitCode make_directory(const StudyOptions& options, std::ostream& err) {
+  if (options.resume && !std::filesystem::exists(options.out / "study.rows")) {
+    err << "error: " << (options.out / "study.rows").string()
+        << ": does not exist: there is no study to resume; run without --resume\n";
+    return exit_bad_input;
+  }
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (std::filesystem::is_directory(options.out)) return exit_done;
+  err << "error: " << options.out.string() << ": cannot be made a directory\n";
+  return exit_not_written;
+}
+
 void write_results(const ReadyStudy& ready, const StudyOptions& options, const StudyResult& result) {
   write_study_table(options.out / "study.csv", ready.study, result);
   write_study_netcdf(options.out / "study.nc", ready.study, result);
@@ -165,14 +195,8 @@ int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEng
     err << "interrupted after " << result.variants.size() << " variants; go on with --resume\n";
     return exit_interrupted;
   }
-  const bool any_done = std::any_of(result.variants.begin(), result.variants.end(),
-                                    [](const Variant& each) { return each.status == VariantStatus::done; });
-  if (result.failure.empty() && any_done) return exit_done;
-  err << options.file.string() << ": error: "
-      << (result.failure.empty()
-              ? "none of " + std::to_string(result.variants.size()) + " variants is done: study.csv says why"
-              : result.failure)
-      << "\n";
+  if (result.failure.empty()) return exit_done;
+  err << "error: " << options.file.string() << ": " << result.failure << "\n";
   return exit_not_converged;
 }
 
@@ -191,7 +215,9 @@ int run_under_mpi(const StudyOptions& options, std::ostream& out, std::ostream& 
   const bool first = session.rank() == 0;
   std::ofstream silent;
   const std::optional<ReadyStudy> ready = read_study(options.file, first ? err : silent);
-  if (!session.agreed(ready.has_value())) return exit_bad_input;
+  ExitCode code = ready ? exit_done : exit_bad_input;
+  if (first && ready) code = make_directory(options, err);
+  if (!session.agreed(code == exit_done)) return code == exit_done ? exit_bad_input : code;
   if (!first) {
     serve_mpi(session, worker_command(options), ready->study.time_limit);
     return exit_done;
@@ -203,22 +229,12 @@ int run_under_mpi(const StudyOptions& options, std::ostream& out, std::ostream& 
 }  // namespace
 
 int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (!std::filesystem::is_directory(options.out)) {
-    err << "error: " << options.out.string() << ": cannot be made a directory\n";
-    return exit_not_written;
-  }
-  if (options.resume && !std::filesystem::exists(options.out / "study.rows")) {
-    err << "error: " << (options.out / "study.rows").string()
-        << ": does not exist: there is no study to resume; run without --resume\n";
-    return exit_bad_input;
-  }
   if (started_by_mpi()) return run_under_mpi(options, out, err);
   const std::optional<ReadyStudy> ready = read_study(options.file, err);
   if (!ready) return exit_bad_input;
+  if (const ExitCode code = make_directory(options, err); code != exit_done) return code;
   const std::unique_ptr<StudyEngine> engine =
-      make_process_pool(worker_command(options), options.jobs, ready->study.time_limit);
+      make_process_pool(worker_command(options), useful_jobs(options.jobs, err), ready->study.time_limit);
   return run_at_one_rank(*ready, options, *engine, out, err);
 }
 

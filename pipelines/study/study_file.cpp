@@ -31,14 +31,13 @@ class StudyReader : StudyPartReader {
     study_.name = text(json_, "name", study_.path.stem().string());
     const std::filesystem::path directory = std::filesystem::absolute(study_.path).parent_path();
     if (has(json_, "case")) study_.case_file = (directory / text(json_, "case")).lexically_normal();
-    for_each_item(
-        json_, "set", "",
-        [&](const Json& change, const std::string& path) {
-          study_.changes.push_back({change.get<std::string>(), path});
-        });
+    for_each_item(json_, "set", "", [&](const Json& change, const std::string& path) {
+      study_.changes.push_back({change.get<std::string>(), path});
+    });
     for_each_item(
         json_, "refine", "",
         [&](const Json& item, const std::string& path) {
+          if (!has(item, "beam")) return;
           study_.refinements.push_back({.beam = text(item, "beam"),
                                         .path = path,
                                         .knots = numbers(item, "knots"),
@@ -46,12 +45,12 @@ class StudyReader : StudyPartReader {
         });
     for_each_item(json_, "variables", "",
                   [&](const Json& item, const std::string& path) { read_variable(item, path); });
-    check_names();
+    check_variable_names();
     for_each_item(
         json_, "constraints", "",
         [&](const Json& item, const std::string& path) {
           if (auto expression = parsed(item.get<std::string>(), path)) {
-            check_variables(*expression, path);
+            check_formula(*expression, path);
             study_.constraints.push_back(std::move(*expression));
           }
         });
@@ -67,9 +66,11 @@ class StudyReader : StudyPartReader {
   void read_variable(const Json& json, const std::string& path) {
     StudyVariable variable{.name = text(json, "name"), .path = path};
     variable.target = read_target(json, path);
+    if (variable.target && !json_.contains("case"))
+      findings_.error(path, "changes a case, but the study has no \"case\"; name one");
     const Dimension dimension = dimension_of(variable, path);
     variable.unit = turns(variable) ? "degrees" : si_unit(dimension);
-    if (has(json, "value")) variable.derived = parsed(text(json, "value"), child(path, "value"));
+    if (has(json, "value")) variable.derived = parsed_or_zero(text(json, "value"), child(path, "value"));
     if (has(json, "range")) {
       variable.distribution.parameters = all_measured(json["range"], dimension, child(path, "range"));
       check_increasing(variable.distribution.parameters, child(path, "range"));
@@ -130,7 +131,8 @@ class StudyReader : StudyPartReader {
       if (json["path"].is_string())
         paths.paths.push_back(text(json, "path"));
       else
-        for (const Json& each : json["path"]) paths.paths.push_back(each.get<std::string>());
+        for (const Json& each : json["path"])
+          if (each.is_string()) paths.paths.push_back(each.get<std::string>());
       return paths;
     }
     if (has(json, "control_point")) {
@@ -200,7 +202,7 @@ class StudyReader : StudyPartReader {
     if (d.lower && d.upper) check_increasing({*d.lower, *d.upper}, child(path, "upper"));
   }
 
-  void check_names() {
+  void check_variable_names() {
     std::set<std::string> seen;
     for (const StudyVariable& variable : study_.variables)
       if (!variable.name.empty() && !seen.insert(variable.name).second)
@@ -253,23 +255,18 @@ class StudyReader : StudyPartReader {
     }
   }
 
-  void check_variables(const Expression& expression, const std::string& path) {
-    const std::vector<std::string> known = names_of(study_.variables);
-    for (const std::string& name : expression.names())
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        findings_.error(path, "there is no variable " + in_quotes(name) + known_names(name, known));
+  // Of variables alone.
+  void check_formula(const Expression& expression, const std::string& path) {
+    if (check_names(expression, path, "variable", names_of(study_.variables))) check_number(expression, path);
   }
 
   // A derived variable is made of those that stand before it.
   void check_derived() {
     std::vector<std::string> before;
     for (const StudyVariable& variable : study_.variables) {
-      if (variable.derived)
-        for (const std::string& name : variable.derived->names())
-          if (std::find(before.begin(), before.end(), name) == before.end())
-            findings_.error(
-                child(variable.path, "value"),
-                "there is no variable " + in_quotes(name) + " before this one" + known_names(name, before));
+      const std::string path = child(variable.path, "value");
+      if (variable.derived && check_names(*variable.derived, path, "earlier variable", before))
+        check_number(*variable.derived, path);
       before.push_back(variable.name);
     }
     if (!study_.variables.empty() && study_.free_variables().empty())
@@ -288,10 +285,10 @@ class StudyReader : StudyPartReader {
       if (other.name == name && !name.empty())
         findings_.error(child(path, "name"),
                         in_quotes(name) + " is the name of two quantities; names must differ");
-    auto value = parsed(text(json, "value"), child(path, "value"));
-    if (!value) return;
-    if (!study_.case_file) check_variables(*value, child(path, "value"));
-    study_.quantities.push_back({name, text(json, "unit"), path, std::move(*value)});
+    Expression value = has(json, "value") ? parsed_or_zero(text(json, "value"), child(path, "value"))
+                                          : Expression::parse("0");
+    if (!json_.contains("case")) check_formula(value, child(path, "value"));
+    study_.quantities.push_back({name, text(json, "unit"), path, std::move(value)});
   }
 };
 
@@ -312,7 +309,8 @@ std::vector<double> StudyFile::nominal() const {
 
 StudyFileReport read_study_file(const std::filesystem::path& file) {
   Findings findings(file.string());
-  auto json = read_json(file, findings);
+  constexpr JsonFileKind kind{"study file", R"("nurbeam_study": 1, "variables", "quantities" and "plan")"};
+  auto json = read_json(file, kind, findings);
   if (!json) return {{}, findings.take()};
   StudyFile study;
   study.path = file;

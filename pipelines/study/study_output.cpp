@@ -198,6 +198,8 @@ void tell(std::ostream& out, const StudyFile& study, const OptimumResult& result
       out << "  " << study.quantities[k].name << " = " << text_of(result.quantities[i][k], 8);
     out << "\n";
   }
+  if (result.points.size() > most_lines)
+    out << "  the first " << most_lines << " of them, by the first objective; study.json has all\n";
   if (result.points.size() == 1 && !result.history.empty())
     out << "  within 1 % of it after " << variants_until(result.history, 0.01)
         << " variants, within 0.1 % after " << variants_until(result.history, 0.001) << ", of "

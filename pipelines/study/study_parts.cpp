@@ -6,6 +6,7 @@
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/utf8_text.h"
 
 namespace nurbeam {
 
@@ -13,9 +14,42 @@ std::optional<Expression> StudyPartReader::parsed(const std::string& source, con
   try {
     return Expression::parse(source);
   } catch (const ExpressionError& problem) {
-    findings_.error(path, in_quotes(source) + ", character " + std::to_string(problem.offset + 1) + ": " +
-                              problem.what());
+    constexpr std::size_t longest = 200;
+    const std::size_t before = character_count(source.substr(0, problem.offset));
+    findings_.error(path, in_quotes(first_characters(source, longest)) + ", character " +
+                              std::to_string(before + 1) + ": " + problem.what());
     return {};
+  }
+}
+
+Expression StudyPartReader::parsed_or_zero(const std::string& source, const std::string& path) {
+  return parsed(source, path).value_or(Expression::parse("0"));
+}
+
+bool StudyPartReader::all_named(const char* key) const {
+  const Json& all = part(json_, key);
+  return std::all_of(all.begin(), all.end(),
+                     [](const Json& each) { return !each.is_null() && has(each, "name"); });
+}
+
+bool StudyPartReader::check_names(const Expression& expression, const std::string& path,
+                                  const std::string& what, const std::vector<std::string>& known) {
+  bool all_known = true;
+  for (const std::string& name : expression.names()) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    all_known = false;
+    if (all_named("variables") && all_named("quantities"))
+      findings_.error(path, "there is no " + what + " " + in_quotes(name) + known_names(name, known));
+  }
+  return all_known;
+}
+
+void StudyPartReader::check_number(const Expression& expression, const std::string& path) {
+  try {
+    expression.number({.value = [](const std::string&) -> ExpressionValue { return 1.0; }});
+  } catch (const std::invalid_argument& problem) {
+    findings_.error(path, in_quotes(expression.text()) + ": " + problem.what() +
+                              "; histories and events are there only for \"quantities\" of a \"case\"");
   }
 }
 
@@ -68,6 +102,7 @@ Dimension StudyPartReader::dimension_of(const StudyVariable& variable, const std
 
 void StudyPartReader::check_quantity(const std::string& name, const std::string& path) {
   const std::vector<std::string> known = names_of(study_.quantities);
+  if (name.empty() || !all_named("quantities")) return;  // which has its message
   if (std::find(known.begin(), known.end(), name) == known.end())
     findings_.error(path, "there is no quantity " + in_quotes(name) + known_names(name, known));
 }

@@ -13,6 +13,15 @@ class StudyPartReader {
 
  protected:
   std::optional<Expression> parsed(const std::string& source, const std::string& path);
+  /// 0 stands for an expression that is wrong, so that it is not missed elsewhere.
+  Expression parsed_or_zero(const std::string& source, const std::string& path);
+  /// Whether it names only those; `what` they are, for the message.
+  bool check_names(const Expression& expression, const std::string& path, const std::string& what,
+                   const std::vector<std::string>& known);
+  /// Of one that stands where there are only numbers: it must do without histories and events.
+  void check_number(const Expression& expression, const std::string& path);
+  /// Whether each of the file's "variables" or "quantities" could be read, and has a name.
+  bool all_named(const char* key) const;
   /// A number, or a text with a unit of that dimension.
   std::optional<double> measured(const Json& value, Dimension dimension, const std::string& path);
   std::vector<double> all_measured(const Json& values, Dimension dimension, const std::string& path);

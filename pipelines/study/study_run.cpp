@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 
 namespace nurbeam {
@@ -133,6 +134,27 @@ std::vector<Variant> done(const std::vector<Variant>& variants) {
   return done;
 }
 
+/// "3 failed (why the first one did), 2 rejected (likewise)"; empty where all are done.
+std::string undone_text(const std::vector<Variant>& variants) {
+  std::map<VariantStatus, std::vector<const Variant*>> undone;
+  for (const Variant& variant : variants)
+    if (variant.status != VariantStatus::done) undone[variant.status].push_back(&variant);
+  std::string text;
+  for (const auto& [status, of_it] : undone)
+    text += (text.empty() ? "" : ", ") + std::to_string(of_it.size()) + " " + name_of(status) + " (" +
+            (of_it.size() > 1 ? "the first: " : "") + of_it.front()->reason + ")";
+  return text;
+}
+
+/// What a method says of its end, with what has become of the variants.
+std::string whole_failure(const std::string& of_method, const std::vector<Variant>& variants) {
+  const std::string undone = undone_text(variants);
+  if (!variants.empty() && done(variants).empty())
+    return "none of " + std::to_string(variants.size()) + " variants is done: " + undone;
+  return of_method.empty() || undone.empty() ? of_method
+                                             : of_method + "; variants that are not done: " + undone;
+}
+
 }  // namespace
 
 std::size_t expected_variants(const StudyFile& study) {
@@ -186,6 +208,7 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
     result.failure = problem.what();
   }
   result.variants = source.ended();
+  if (!result.interrupted) result.failure = whole_failure(result.failure, result.variants);
   return result;
 }
 

@@ -39,7 +39,7 @@ struct StudyResult {
   StudyAnswer answer;             ///< of what is no plan
   std::vector<SurrogateResult> surrogates;
   bool interrupted = false;
-  std::string failure;  ///< why there is no answer; empty where there is one, or none was asked for
+  std::string failure;  ///< why there is no answer, or no variant is done; else empty
 };
 
 /// How many variants a study runs, at most where it is a search or a simulation.

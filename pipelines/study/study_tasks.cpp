@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <set>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/analysis.h"
 #include "pipelines/study/study_parts.h"
 
 namespace nurbeam {
@@ -20,7 +23,8 @@ class StudyTaskReader : StudyPartReader {
     if (has(json_, "reliability")) study_.task = read_reliability(json_["reliability"]);
     if (has(json_, "optimise")) study_.task = read_optimum(json_["optimise"]);
     if (has(json_, "calibrate")) study_.task = read_calibration(json_["calibrate"]);
-    if (study_.quantities.empty()) findings_.error("quantities", "is missing: what is asked of each variant");
+    if (!json_.contains("quantities") && !json_.contains("calibrate"))
+      findings_.error("quantities", "is missing: what is asked of each variant");
     if (has(json_, "surrogate")) {
       const Json& json = json_["surrogate"];
       study_.surrogate =
@@ -28,10 +32,26 @@ class StudyTaskReader : StudyPartReader {
                                                                  : StudySurrogate::Kind::chaos,
                          .degree = static_cast<int>(number(json, "degree", 3)),
                          .held_back = number(json, "held_back", 0.2)};
+      check_enough_for_surrogate();
     }
   }
 
  private:
+  void check_enough_for_surrogate() {
+    const auto* plan = std::get_if<StudyPlan>(&study_.task);
+    if (!plan || findings_.has_errors()) return;  // of which the number of variants may be
+    const std::size_t variants = variants_of(*plan);
+    if (const std::string problem = too_few_for(*study_.surrogate, study_.free_variables().size(), variants);
+        !problem.empty())
+      findings_.error("surrogate", problem);
+  }
+
+  static std::size_t variants_of(const StudyPlan& plan) {
+    if (plan.kind == StudyPlan::Kind::list) return plan.rows.size();
+    if (plan.kind != StudyPlan::Kind::grid) return static_cast<std::size_t>(plan.count);
+    return std::accumulate(plan.levels.begin(), plan.levels.end(), std::size_t{1}, std::multiplies<>());
+  }
+
   StudyPlan read_plan(const Json& json) {
     using Way = StudyPlan::Kind;
     StudyPlan plan;
@@ -50,7 +70,7 @@ class StudyTaskReader : StudyPartReader {
         for (const double levels : numbers(json, "grid")) plan.levels.push_back(static_cast<int>(levels));
       else
         plan.levels.assign(free, json["grid"].get<int>());
-      if (plan.levels.size() != free)
+      if (plan.levels.size() != free && all_named("variables"))
         findings_.error("plan.grid", "has " + std::to_string(plan.levels.size()) + " numbers for " +
                                          std::to_string(free) +
                                          " variables; give one for each, or one for all");
@@ -78,8 +98,9 @@ class StudyTaskReader : StudyPartReader {
       const std::string path = child(where, r);
       if (rows[r].is_null()) continue;
       if (rows[r].size() != free.size()) {
-        findings_.error(path, "has " + std::to_string(rows[r].size()) + " values for " +
-                                  std::to_string(free.size()) + " variables");
+        if (all_named("variables"))
+          findings_.error(path, "has " + std::to_string(rows[r].size()) + " values for " +
+                                    std::to_string(free.size()) + " variables");
         continue;
       }
       plan.rows.emplace_back();
@@ -110,6 +131,9 @@ class StudyTaskReader : StudyPartReader {
     for_each_item(json, "quantities", "sensitivity", [&](const Json& name, const std::string& path) {
       sensitivity.quantities.push_back(name.get<std::string>());
       check_quantity(sensitivity.quantities.back(), path);
+      const auto last = sensitivity.quantities.end() - 1;
+      if (std::find(sensitivity.quantities.begin(), last, *last) != last)
+        findings_.error(path, in_quotes(*last) + " is named twice; name it once");
     });
     if (!has(json, "quantities")) sensitivity.quantities = names_of(study_.quantities);
     return sensitivity;
@@ -137,19 +161,24 @@ class StudyTaskReader : StudyPartReader {
   StudyOptimum read_optimum(const Json& json) {
     using Method = StudyOptimum::Method;
     StudyOptimum optimum;
+    std::set<std::string> named;
     for (const auto& [key, minimise] : {std::pair{"minimise", true}, {"maximise", false}}) {
       if (!has(json, key)) continue;
       std::vector<std::string> names;
       if (json[key].is_string())
         names.push_back(text(json, key));
       else
-        for (const Json& each : json[key]) names.push_back(each.get<std::string>());
+        for (const Json& each : json[key])
+          if (each.is_string()) names.push_back(each.get<std::string>());
       for (const std::string& name : names) {
         check_quantity(name, child("optimise", key));
+        if (!named.insert(name).second)
+          findings_.error(child("optimise", key), in_quotes(name) + " is named twice; name it once");
         optimum.objectives.push_back({name, minimise});
       }
     }
-    if (optimum.objectives.empty()) findings_.error("optimise", "needs \"minimise\" or \"maximise\"");
+    if (!json.contains("minimise") && !json.contains("maximise"))
+      findings_.error("optimise", "needs \"minimise\" or \"maximise\"");
     for_each_item(json, "subject_to", "optimise", [&](const Json& item, const std::string& path) {
       read_inequality(item.get<std::string>(), path, optimum);
     });
@@ -218,7 +247,7 @@ class StudyTaskReader : StudyPartReader {
   void read_observation(const Json& json, const std::string& path, StudyCalibration& calibration) {
     StudyCalibration::Observation observation{
         .value = text(json, "value"), .path = path, .sd = number(json, "sd", 1)};
-    if (!parsed(observation.value, child(path, "value"))) return;
+    if (!parsed(observation.value, child(path, "value")) || !has(json, "measured")) return;
     for (const auto& [time, value] : time_table(json, "measured")) {
       observation.times.push_back(time);
       observation.measured.push_back(value);
@@ -238,15 +267,14 @@ class StudyTaskReader : StudyPartReader {
     const std::size_t behind = sign + (sign + 1 < source.size() && source[sign + 1] == '=' ? 2 : 1);
     const std::string left = source.substr(0, sign), right = source.substr(behind);
     const std::string margin = less ? "(" + right + ") - (" + left + ")" : "(" + left + ") - (" + right + ")";
-    if (!parsed(left, path) || !parsed(right, path)) return;
     std::vector<std::string> known = names_of(study_.variables);
     for (const StudyQuantity& quantity : study_.quantities) known.push_back(quantity.name);
-    Expression expression = Expression::parse(margin);
-    for (const std::string& name : expression.names())
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        findings_.error(path,
-                        "there is no quantity or variable " + in_quotes(name) + known_names(name, known));
-    optimum.constraints.push_back(std::move(expression));
+    for (const std::string& side : {left, right}) {
+      const auto expression = parsed(side, path);
+      if (!expression) return;
+      if (check_names(*expression, path, "quantity or variable", known)) check_number(*expression, path);
+    }
+    optimum.constraints.push_back(Expression::parse(margin));
     optimum.constraint_texts.push_back(source);
   }
 };

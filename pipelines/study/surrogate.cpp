@@ -2,11 +2,16 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "nurbs/number_text.h"
 #include "pipelines/study/openturns_study.h"
 
 namespace nurbeam {
 
 namespace {
+
+std::size_t held_back(const StudySurrogate& surrogate, std::size_t variants) {
+  return static_cast<std::size_t>(std::round(surrogate.held_back * static_cast<double>(variants)));
+}
 
 struct Fitted {
   OT::Function function;
@@ -23,10 +28,6 @@ Fitted chaos_of(const StudyFile& study, int degree, const OT::Sample& x, const O
   const OT::LinearEnumerateFunction enumerate(inputs);
   const OT::OrthogonalBasis basis = OT::OrthogonalProductPolynomialFactory(families, enumerate);
   const std::size_t terms = enumerate.getBasisSizeFromTotalDegree(static_cast<std::size_t>(degree));
-  if (terms > x.getSize())
-    throw std::runtime_error("polynomials of degree " + std::to_string(degree) + " have " +
-                             std::to_string(terms) + " terms, more than the " + std::to_string(x.getSize()) +
-                             " rows to fit them to; take a lower degree or more variants");
   OT::FunctionalChaosAlgorithm algorithm(x, y, joint, OT::FixedStrategy(basis, terms),
                                          OT::LeastSquaresStrategy());
   algorithm.run();
@@ -61,14 +62,28 @@ Fitted kriging_of(const OT::Sample& x, const OT::Sample& y) {
 
 }  // namespace
 
+std::string too_few_for(const StudySurrogate& surrogate, std::size_t variables, std::size_t variants) {
+  const std::size_t held = held_back(surrogate, variants);
+  const std::string all = std::to_string(variants);
+  if (held < 2 || variants < held + 3)
+    return "a surrogate needs more than " + all + " variants that are done";
+  double terms = 1;  // of a polynomial: (variables + degree) over degree
+  for (int k = 1; k <= surrogate.degree; ++k) terms *= (static_cast<double>(variables) + k) / k;
+  if (surrogate.kind != StudySurrogate::Kind::chaos ||
+      std::round(terms) <= static_cast<double>(variants - held))
+    return {};
+  return "polynomials of degree " + std::to_string(surrogate.degree) + " have " + text_of(std::round(terms)) +
+         " terms, more than the " + std::to_string(variants - held) + " of " + all +
+         " variants that are not held back; take a lower \"degree\" or more variants";
+}
+
 std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const StudySurrogate& surrogate,
                                              const StudyPoints& inputs, const StudyPoints& outputs) {
   OT::RandomGenerator::SetSeed(study.seed);
-  const auto held =
-      static_cast<std::size_t>(std::round(surrogate.held_back * static_cast<double>(inputs.size())));
-  if (held < 2 || inputs.size() < held + 3)
-    throw std::runtime_error("a surrogate needs more than " + std::to_string(inputs.size()) +
-                             " variants that are done");
+  if (const std::string problem = too_few_for(surrogate, study.free_variables().size(), inputs.size());
+      !problem.empty())
+    throw std::runtime_error(problem);
+  const std::size_t held = held_back(surrogate, inputs.size());
   // Plans are in order of space or time: what is held back is spread over them.
   StudyPoints fit_x, fit_y, test_x, test_y;
   for (std::size_t i = 0; i < inputs.size(); ++i) {

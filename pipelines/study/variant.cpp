@@ -26,14 +26,27 @@ constexpr std::pair<VariantStatus, const char*> status_names[] = {
     {VariantStatus::refused, "refused"},     {VariantStatus::failed, "failed"},
     {VariantStatus::timed_out, "timed out"}, {VariantStatus::crashed, "crashed"}};
 
+std::string why_no_number(double value, bool of_run) {
+  if (std::isinf(value)) return " is infinite: something is divided by 0, or too large";
+  return of_run ? " is no number: what it asks for did not happen, or is not known at that time"
+                : " is no number, as 0 / 0 or the root of what is negative";
+}
+
+/// "a = 1, b = 2", of the variables that the expression names.
+std::string values_in(const Expression& expression, const ExpressionScope& scope) {
+  std::string text;
+  for (const std::string& name : expression.names())
+    text += (text.empty() ? "" : ", ") + name + " = " + text_of(std::get<double>(scope.value(name)));
+  return text;
+}
+
 void fill_quantities(const StudyFile& study, const ExpressionScope& scope, Variant& variant) {
   for (const StudyQuantity& quantity : study.quantities) {
     try {
       const double value = quantity.value.number(scope);
       if (!std::isfinite(value) && variant.reason.empty())
-        variant.reason = "the quantity " + in_quotes(quantity.name) +
-                         " is no number: what it asks for did not happen, or "
-                         "is not known at that time";
+        variant.reason =
+            "the quantity " + in_quotes(quantity.name) + why_no_number(value, !scope.times.empty());
       variant.quantities.push_back(value);
     } catch (const std::invalid_argument& problem) {
       variant.reason = "the quantity " + in_quotes(quantity.name) + ": " + problem.what();
@@ -69,8 +82,6 @@ VariantModel model_of(const StudyFile& study, const StudyCase& study_case,
   VariantModel model{.read = study_case.read(study.variables, values)};
   if (!model.read.value) {
     model.problem = first_error(model.read.diagnostics);
-  } else if (model.read.value->analysis.has_modes()) {
-    model.problem = "the analysis finds modes; a study needs a motion or statics";
   } else {
     model.built = build_model(*model.read.value);
     if (!model.built.value) model.problem = first_error(model.built.diagnostics);
@@ -147,7 +158,7 @@ void fill_formulas(const StudyFile& study, Variant& variant) {
 // Of a study whose nominal variant cannot be: the others may.
 Diagnostic unchecked(const StudyFile& study, const std::string& why) {
   return {Severity::warning, study.path.string() + ": variables",
-          "the nominal variant cannot be built, so the quantities are not checked beforehand: " + why};
+          "the nominal variant cannot be built: " + why};
 }
 
 // With histories of two times: a quantity must be one number, and the events that it asks for can be.
@@ -176,23 +187,39 @@ void check_kind(const StudyFile& study, const StudyQuantity& quantity, const Bea
   }
 }
 
-// What was measured is looked for at its times: a run must go on as long.
+// Whether a variable changes when a run ends.
+bool ends_vary(const StudyFile& study) {
+  return std::any_of(
+      study.variables.begin(), study.variables.end(),
+      [](const StudyVariable& variable) {
+        const auto* numbers = variable.target ? std::get_if<CasePaths>(&*variable.target) : nullptr;
+        return numbers && std::any_of(
+                              numbers->paths.begin(), numbers->paths.end(),
+                              [](const std::string& path) { return path.starts_with("analysis."); });
+      });
+}
+
+// Histories are asked for at times that a run must reach.
 void check_times(const StudyFile& study, const CaseFile& case_file, Findings& findings) {
-  const auto* calibration = std::get_if<StudyCalibration>(&study.task);
-  if (!calibration) return;
   const SimulationOptions options = simulation_options(case_file);
-  const double end = options.output_times.empty() ? 0 : options.output_times.back();
-  const std::string ends =
-      options.statics ? "the load steps of the case end at " : "a run of this case ends at ";
+  if (ends_vary(study)) return;
+  const bool is_one = options.output_times.empty();  // equilibrium
+  const double begin = is_one ? 0 : options.output_times.front(),
+               end = is_one ? 0 : options.output_times.back();
+  const std::string extent =
+      std::string(options.statics ? "the load steps of the case go" : "a run of this case goes") + " from " +
+      text_of(begin) + " s to " + text_of(end) + " s";
   const std::string cure = options.statics ? "\"analysis.load_steps\"" : "a longer \"analysis.end_time\"";
-  for (const StudyCalibration::Observation& observation : calibration->observations)
-    for (const double time : observation.times)
-      if (time > end) {
-        findings.error(observation.path + ".measured",
-                       ends + text_of(end) + " s, before the measurement at " + text_of(time) + " s; give " +
-                           cure + " that reaches it, or leave out what was measured later");
-        break;
-      }
+  std::string told;  // of an observation, which is a quantity at each of its times
+  for (const StudyQuantity& quantity : study.quantities)
+    for (const double time : quantity.value.times()) {
+      if (is_between(time, begin, end) || quantity.path == told) continue;
+      told = quantity.path;
+      findings.error(quantity.path + (quantity.observed ? ".measured" : ".value"),
+                     extent + ", and " + text_of(time, all_digits) + " s is not between; give " + cure +
+                         " that reaches it, or " +
+                         (quantity.observed ? "leave out what was measured there" : "another time"));
+    }
 }
 
 // What takes sums over the run has none: its tangent does not go along.
@@ -245,7 +272,8 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
     const ExpressionScope scope = scope_of_variables(study, variant.values);
     for (const Expression& constraint : study.constraints)
       if (constraint.number(scope) == 0)
-        end(variant, VariantStatus::rejected, in_quotes(constraint.text()) + " does not hold");
+        end(variant, VariantStatus::rejected,
+            in_quotes(constraint.text()) + " does not hold with " + values_in(constraint, scope));
     if (variant.status == VariantStatus::done) {
       if (study_case)
         simulate_variant(study, *study_case, variant);

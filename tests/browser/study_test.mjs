@@ -56,5 +56,78 @@ study_test('a front that is longer than its table says so', 'front', async (page
   const rows = (await page.$$('#answer tr')).length - 1;
   assert.ok(rows < optima.length, 'the front is long');
   assert.equal(await page.textContent('#answer p'), `${rows} of the ${optima.length} points of the front; study.json has all of them.`);
-  assert.deepEqual((await texts(page, '#answer tr:first-child td')).slice(1), ['x', 'y', 'f [m]', 'g [N]']);
+  assert.deepEqual((await texts(page, '#answer th')).slice(1), ['x', 'y', 'f [m]', 'g [N]']);
+});
+
+study_test('a front stands in order, from end to end', 'front', async (page) => {
+  const { optima } = JSON.parse(readFileSync(join(out, 'front/study.json'), 'utf8')).answer;
+  const all = optima.map(({ quantities }) => quantities.f);
+  assert.deepEqual(all, all.toSorted((a, b) => a - b));
+  const shown = (await texts(page, '#answer td:nth-child(4)')).map(Number);
+  assert.deepEqual(shown, shown.toSorted((a, b) => a - b));
+  assert.ok(Math.abs(shown[0] - all[0]) < 1e-4 && Math.abs(shown.at(-1) - all.at(-1)) < 1e-4, shown.join());
+  await page.click('#answer tr:last-child');
+  assert.equal(Number((await texts(page, '#chosen td'))[3]), shown.at(-1));
+});
+
+for (const study of ['many', 'derivatives', 'indices', 'nothing', 'front', 'lost']) {
+  study_test(`no words run into others, off the page or out of a drawing: ${study}`, study, async (page) => {
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'off the page');
+    const { cut, crossed } = await page.evaluate(() => {
+      const cut = [], crossed = [];
+      for (const drawing of document.querySelectorAll('svg')) {
+        const box = drawing.getBoundingClientRect(), upright = [];
+        for (const node of drawing.querySelectorAll('text')) {
+          const { left, right, top, bottom } = node.getBoundingClientRect();
+          if (left < box.left - 1 || right > box.right + 1 || top < box.top - 1 || bottom > box.bottom + 1) cut.push(node.textContent);
+          if (node.hasAttribute('transform')) continue;
+          for (const other of upright) {
+            if (left < other.right && other.left < right && top < other.bottom - 3 && other.top < bottom - 3) {
+              crossed.push(`${node.textContent} over ${other.text}`);
+            }
+          }
+          upright.push({ left, right, top, bottom, text: node.textContent });
+        }
+      }
+      return { cut, crossed };
+    });
+    assert.deepEqual(cut, []);
+    assert.deepEqual(crossed, []);
+  });
+
+  study_test(`below each heading there is something: ${study}`, study, async (page) => {
+    const empty = await page.$$eval('h2', (headings) => headings.filter((heading) => {
+      const next = heading.nextElementSibling;
+      return !next || next.getBoundingClientRect().height === 0;
+    }).map((heading) => heading.textContent));
+    assert.deepEqual(empty, []);
+  });
+}
+
+study_test('a study of which no variant is done shows these', 'nothing', async (page) => {
+  assert.deepEqual(await texts(page, 'h2'), ['Variants: one line each', 'Variants that are not done']);
+  assert.match(await page.textContent('#counts'), /none of 3 variants is done: 3 rejected/);
+});
+
+study_test('a surrogate comes with its error, and its indices without intervals', 'many', async (page) => {
+  const [{ q2 }] = JSON.parse(readFileSync(join(out, 'many/study.json'), 'utf8')).surrogates;
+  const row = await texts(page, '#answer td');
+  assert.equal(row[0], 'deflection of the free end of the cantilever [m]');
+  assert.ok(Math.abs(Number(row[1]) - q2) < 1e-4, row.join());
+  assert.ok(!(await texts(page, '#more text')).some((text) => text.includes('interval')));
+});
+
+study_test('a search that was cut off says so', 'short', async (page) => {
+  assert.match(await page.textContent('#answer p'), /has used up its evaluations/);
+});
+
+study_test('a probability says how many variants are not done', 'risk', async (page) => {
+  const { not_done } = JSON.parse(readFileSync(join(out, 'risk/study.json'), 'utf8')).answer;
+  assert.ok(not_done > 0);
+  assert.match(await page.textContent('#answer p'), new RegExp(`^${not_done} variants are not done`));
+});
+
+study_test('indices come with their intervals', 'indices', async (page) => {
+  assert.ok((await texts(page, '#more text')).some((text) => text.includes('lines: confidence intervals')));
+  assert.equal((await page.$$('.whisker')).length, 2 * 19);
 });

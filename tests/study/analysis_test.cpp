@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "pipelines/study/study_output.h"
 #include "pipelines/study/variant.h"
 #include "tests/study/study_text.h"
 
@@ -52,6 +53,28 @@ TEST(SobolIndices, OfIshigamisFunctionAreWithinTheirIntervals) {
   }
 }
 
+// The exact index is 1, and its interval is to hold it in 95 % of all samples.
+TEST(SobolIndices, OfOneVariableLieWithinTheirIntervalsAsOftenAsThoseSay) {
+  constexpr int samples = 200;
+  int first = 0, total = 0;
+  for (int seed = 1; seed <= samples; ++seed) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "a", "distribution": {"normal": {"mean": 0, "sd": 1}}}],
+      "quantities": [{"name": "f", "value": "a"}], "sensitivity": {"count": 64}, "seed": )json" +
+                                     std::to_string(seed) + "}");
+    const SobolIndices f =
+        sobol_indices(study, std::get<StudySensitivity>(study.task), evaluation_of(study)).indices[0];
+    for (const SobolIndices::Index& index : {f.first_order[0], f.total_order[0]}) {
+      EXPECT_LT(index.lower, index.value);
+      EXPECT_GT(index.upper, index.value);
+    }
+    first += f.first_order[0].lower <= 1 && 1 <= f.first_order[0].upper ? 1 : 0;
+    total += f.total_order[0].lower <= 1 && 1 <= f.total_order[0].upper ? 1 : 0;
+  }
+  EXPECT_GE(first, 0.90 * samples);  // three standard deviations of the count below 95 %
+  EXPECT_GE(total, 0.90 * samples);
+}
+
 TEST(SobolIndices, OfWhatIsTheSameInAllVariantsAreZero) {
   const StudyFile study = study_of(R"json({"nurbeam_study": 1,
     "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
@@ -85,9 +108,19 @@ TEST(Surrogate, ByKrigingAnswersWhateverTheUnits) {
 }
 
 TEST(Surrogate, ThatHasMoreTermsThanRowsIsRefused) {
-  const StudyFile study = study_of(
-      ishigami_head + R"json("plan": {"latin_hypercube": {"count": 50}}, "surrogate": {"degree": 9}})json");
-  const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  const auto plan = [](int count) {
+    return ishigami_head + R"json("plan": {"latin_hypercube": {"count": )json" + std::to_string(count) +
+           R"json(}}, "surrogate": {"degree": 9}})json";
+  };
+  EXPECT_NE(test::wrong_with(plan(274)).find(
+                "study.json: surrogate: polynomials of degree 9 have 220 terms, more than "
+                "the 219 of 274 variants that are not held back"),
+            std::string::npos)
+      << test::wrong_with(plan(274));
+  // Enough, but not all of them are done.
+  const StudyFile study = study_of(plan(275));
+  StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+  points.pop_back();
   EXPECT_THROW(make_surrogates(study, *study.surrogate, points, evaluated(study, points)),
                std::runtime_error);
 }
@@ -229,6 +262,23 @@ TEST(Reliability, ByFormThatDoesNotEndIsNoAnswer) {
   };
   EXPECT_THROW(found("10"), std::runtime_error);
   EXPECT_GT(*found("1000").reliability_index, 2);
+}
+
+TEST(Optimum, OfTwoObjectivesIsAFrontInOrder) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
+    "quantities": [{"name": "f", "value": "x"}, {"name": "g", "value": "1 - x + y"}],
+    "optimise": {"minimise": ["f", "g"], "evaluations": 400}})json");
+  const OptimumResult front = find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+  ASSERT_GT(front.quantities.size(), 20U);
+  for (std::size_t i = 0; i + 1 < front.quantities.size(); ++i) {
+    EXPECT_LT(front.quantities[i][0], front.quantities[i + 1][0]);
+    EXPECT_GT(front.quantities[i][1], front.quantities[i + 1][1]);
+  }
+  EXPECT_EQ(front.points[0][0], front.quantities[0][0]);
+  const std::string told = answer_text(study, {.answer = front});
+  EXPECT_NE(told.find("the first 20 of them, by the first objective; study.json has all"), std::string::npos)
+      << told;
 }
 
 // Its value hardly changes, far from zero or near it.

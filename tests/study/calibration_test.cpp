@@ -160,25 +160,27 @@ TEST(Calibration, NeedsRangesOrNormalDistributionsAndEnoughValues) {
 }
 
 TEST(Calibration, RefusesWhatWasMeasuredAfterTheEndOfTheRun) {
-  const auto told = [](double last) {
+  const auto told = [](const std::string& last) {
     const test::StudyOfCase of(
         test::spline_case(6, 4, R"json({"end_time": 0.4, "step": 0.01})json"),
         R"json("variables": [{"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1e9, 3e9]}],
           "calibrate": {"observations": [{"value": "tip.z", "measured": [[0.1, 0], [)json" +
-            std::to_string(last) + R"json(, 0]]}]})json");
+            last + R"json(, 0]]}]})json");
     std::string all;
     for (const Diagnostic& d : check_quantities(of.study, &of.study_case))
       all += d.where + ": " + d.message + "\n";
     return all;
   };
-  EXPECT_EQ(told(0.4), "");
+  EXPECT_EQ(told("0.4"), "");
+  EXPECT_EQ(told("0.40000000000000002"), "");
+  EXPECT_EQ(told("0.40000000000000008"), "") << "one digit behind the end";
   EXPECT_NE(
-      told(0.5).find(
-          "study.json: calibrate.observations[0].measured: a run of this case ends at 0.4 s, before the "
-          "measurement at 0.5 s; give a longer \"analysis.end_time\" that reaches it, or leave out what "
-          "was measured later"),
+      told("0.5").find(
+          "study.json: calibrate.observations[0].measured: a run of this case goes from 0 s to 0.4 s, and 0.5 s "
+          "is not between; give a longer \"analysis.end_time\" that reaches it, or leave out what was "
+          "measured there"),
       std::string::npos)
-      << told(0.5);
+      << told("0.5");
 }
 
 }  // namespace

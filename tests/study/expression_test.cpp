@@ -58,6 +58,12 @@ TEST(Expression, NamesWhatItNeeds) {
             (std::vector<std::string>{"end_z", "start_h.s"}));
 }
 
+TEST(Expression, KnowsTheTimesThatItAsksFor) {
+  EXPECT_EQ(Expression::parse("at(2 * 3, a.b) + max(at(0.5, c.d), 1)").times(),
+            (std::vector<double>{6, 0.5}));
+  EXPECT_TRUE(Expression::parse("at(x, a.b) + at(time(leaves, c), a.b) + at(end, a.b)").times().empty());
+}
+
 // What is wrong, with the number of the character.
 std::string complaint(const std::string& text) {
   try {

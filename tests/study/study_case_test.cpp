@@ -122,13 +122,36 @@ TEST(StudyCase, SaysOfEveryQuantityWhatIsWrongWithIt) {
   quantity("kind", "rail.length");
   quantity("event", "time(flies, rail)");
   quantity("body", "time(leaves, rial)");
+  quantity("late", "or(at(1.5, rail.length), 2)");
+  quantity("in_time", "at(1.0000000000000002, rail.length)");
   std::string messages;
   for (const Diagnostic& d : check_quantities(read.study, &*read.of_case.value))
     messages += d.where + ": " + d.message + "\n";
-  for (const char* expected : {"column.value: a run of this case has no column \"rail.lenght\"",
-                               "kind.value: ", "there is no event \"flies\"",
-                               "the case has no body or beam \"rial\"; did you mean \"rail\""})
+  for (const char* expected :
+       {"column.value: a run of this case has no column \"rail.lenght\"", "kind.value: ",
+        "there is no event \"flies\"", "the case has no body or beam \"rial\"; did you mean \"rail\"",
+        "late.value: a run of this case goes from 0 s to 1 s, and 1.5 s is not between"})
     EXPECT_NE(messages.find(expected), std::string::npos) << messages;
+  EXPECT_EQ(messages.find("in_time"), std::string::npos) << messages;
+}
+
+TEST(StudyCase, RefusesTwoVariablesForOneNumberHoweverItIsWritten) {
+  const ReadCase read = read_with(R"json(
+    {"name": "a", "path": "beams[rail].section.radius", "range": [0.01, 0.02]},
+    {"name": "b", "path": ["beams[1].section.radius", "beams[0].section.radius"], "range": [0.01, 0.02]})json");
+  EXPECT_FALSE(read.of_case.value);
+  EXPECT_NE(read.messages.find("study.json: variables[1].path: \"beams[0].section.radius\" is "
+                               "\"beams[rail].section.radius\", which \"a\" sets"),
+            std::string::npos)
+      << read.messages;
+}
+
+TEST(StudyCase, RefusesModesOfWhichThereAreNoQuantities) {
+  const ReadCase read = read_with(one_point, R"json(, "set": ["analysis={\"type\": \"modes\"}"])json");
+  EXPECT_FALSE(read.of_case.value);
+  EXPECT_NE(read.messages.find("study.json: case: finds modes, of which there are no quantities"),
+            std::string::npos)
+      << read.messages;
 }
 
 TEST(StudyCase, RefinementsThatCannotBeSaySo) {
@@ -141,6 +164,8 @@ TEST(StudyCase, RefinementsThatCannotBeSaySo) {
                 .find("refine[0]: no variable moves the curve of beam \"cable\""),
             std::string::npos);
   EXPECT_NE(wrong(R"({"beam": "rail"})").find("parts"), std::string::npos);
+  EXPECT_EQ(wrong(R"({"beam": "rail", "knots": [4]})").find("control points"), std::string::npos)
+      << "which are not those that are meant";
 }
 
 TEST(StudyCase, VariablesMoveGroupsOfControlPoints) {

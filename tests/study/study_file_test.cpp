@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pipelines/study/analysis.h"
 #include "tests/study/study_text.h"
 
@@ -59,7 +61,7 @@ TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
        "study.json: variables[2].name: \"b\" is the name of two variables",
        "study.json: variables[3].distribution.lognormal.mean: is -1; must be greater than 0",
        "study.json: variables[3].distribution.lognormal.sd: is 0; must be greater than 0",
-       "study.json: variables[4].value: there is no variable \"e\" before this one",
+       "study.json: variables[4].value: there is no earlier variable \"e\"",
        "study.json: variables[5].path: \"beams[0].section\": is no single number",
        "study.json: constraints[0]: \"a <\", character 4: the expression ends",
        "study.json: quantities[0].value: \"maxi(x.y)\", character 1: there is no function \"maxi\"",
@@ -132,6 +134,90 @@ TEST(StudyFile, NeedsOneTask) {
   EXPECT_EQ(wrong_with(head + R"json(, "plan": {"grid": 3}})json"), "");
   EXPECT_NE(wrong_with(head + R"json(, "plan": {"grid": [3, 4]}})json").find("has 2 numbers for 1 variables"),
             std::string::npos);
+}
+
+// Each message is one that a user can act on: nothing is said of what only follows from another error.
+TEST(StudyFile, SaysNothingOfWhatFollowsFromAnotherError) {
+  const auto wrong = [](const std::string& rest) {
+    return wrong_with(R"json({"nurbeam_study": 1, )json" + rest);
+  };
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const std::string a = R"json("variables": [{"name": "a", "range": [0, 1]}], )json";
+  for (
+      const std::string& one :
+      {wrong(a + R"json("quantities": [{"name": "q", "value": "a +"}], "optimise": {"minimise": "q"}})json"),
+       wrong(a + R"json("quantities": 5, "plan": {"grid": 2}})json"),
+       wrong(R"json("variables": [{"name": "a", "range": [0, 1]}, {"name": "b", "value": "2 *"}],
+             "quantities": [{"name": "q", "value": "a + b"}], "plan": {"list": [[1]]}})json"),
+       wrong(R"json("variables": [{"name": "a", "range": [0, 1]}, {"nome": "b", "name": 5, "range": [0, 1]}],
+             "quantities": [{"name": "q", "value": "a + b"}], "plan": {"grid": [2, 2]}})json"),
+       wrong(
+           R"json("variables": [5], "quantities": [{"name": "q", "value": "a"}], "plan": {"list": [[1]]}})json"),
+       wrong(R"json("case": "c.json", "variables": [{"name": "a", "path": "gravity[2]", "range": [0, 1]}],
+             "calibrate": {"observations": [{"value": "tip.x", "measured": [[0, 1], [0, 2]]}]}})json")})
+    EXPECT_LE(lines(one), 2) << one;
+  for (const char* untrue :
+       {"is missing: what is asked", "no quantity \"q\"", "no variable", "numbers for", "values for"})
+    EXPECT_EQ(wrong(R"json("variables": [{"name": "a", "range": [0, 1]}, {"name": "b,c", "range": [0, 1]}],
+                "quantities": [{"name": "q", "value": "a + b +"}], "optimise": {"minimise": "q"}})json")
+                  .find(untrue),
+              std::string::npos)
+        << untrue;
+  const std::string empty = wrong_with("  ");
+  EXPECT_NE(empty.find("study.json: is empty; expected a study file (JSON)"), std::string::npos) << empty;
+  EXPECT_EQ(empty.find("beams"), std::string::npos) << empty;
+}
+
+TEST(StudyFile, RefusesHistoriesWhereThereAreOnlyNumbers) {
+  const std::string wrong = wrong_with(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "a", "range": [0, 1]}, {"name": "b", "value": "max(a)"}],
+    "constraints": ["time(leaves, x) < 1"],
+    "quantities": [{"name": "q", "value": "at(end, a)"}, {"name": "r", "value": "2 * a"}],
+    "optimise": {"minimise": "r", "subject_to": ["mean(r) < 1"]}})json");
+  for (const char* text : {"variables[1].value: \"max(a)\": max needs a history",
+                           "constraints[0]: \"time(leaves, x) < 1\": time(leaves, x) needs a run with events",
+                           "quantities[0].value: \"at(end, a)\": at needs a history",
+                           "optimise.subject_to[0]: \"mean(r) \": mean needs a history"})
+    EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
+}
+
+TEST(StudyFile, NeedsACaseForWhatChangesOne) {
+  const std::string wrong = wrong_with(R"json({"nurbeam_study": 1, "set": ["gravity[2]=-1"],
+    "refine": [{"beam": "b", "parts": 2}],
+    "variables": [{"name": "a", "control_point": {"beam": "b", "index": 1, "axis": "z"}, "range": [0, 1]}],
+    "calibrate": {"observations": [{"value": "tip.x", "measured": [[0, 1], [1, 2]]}]}})json");
+  for (const char* text :
+       {"\"set\" needs \"case\"", "\"refine\" needs \"case\"", "\"calibrate\" needs \"case\"",
+        "variables[0]: changes a case, but the study has no \"case\""})
+    EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
+}
+
+TEST(StudyFile, RefusesAQuantityThatIsNamedTwice) {
+  const auto wrong = [](const std::string& task) {
+    return wrong_with(R"json({"nurbeam_study": 1, "variables": [{"name": "a", "range": [0, 1]}],
+      "quantities": [{"name": "q", "value": "a"}], )json" +
+                      task + "}");
+  };
+  EXPECT_NE(wrong(R"json("optimise": {"minimise": "q", "maximise": "q"})json").find("\"q\" is named twice"),
+            std::string::npos);
+  EXPECT_NE(wrong(R"json("sensitivity": {"count": 8, "quantities": ["q", "q"]})json")
+                .find("sensitivity.quantities[1]: \"q\" is named twice"),
+            std::string::npos);
+}
+
+TEST(StudyFile, QuotesWholeCharacters) {
+  const std::string wrong =
+      wrong_with(R"json({"nurbeam_study": 1, "variables": [{"name": "größe", "range": [0, 1]}],
+    "quantities": [{"name": "q", "value": "'größe' + ü"}, {"name": "r", "value": "2 ααααααααααααα"},
+                   {"name": "s", "value": ")json" +
+                 std::string(5000, '(') + R"json("}], "plan": {"grid": 2}})json");
+  EXPECT_NE(wrong.find("\"'größe' + ü\", character 11: expected a number, a name or \"(\", found \"ü\""),
+            std::string::npos)
+      << wrong;
+  EXPECT_NE(wrong.find("character 3: expected an operator or the end, found \"αααααααααααα...\""),
+            std::string::npos)
+      << wrong;
+  EXPECT_LE(wrong.size(), 1000U) << "what is long is shortened";
 }
 
 }  // namespace

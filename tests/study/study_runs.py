@@ -164,7 +164,7 @@ def time_limits_end_variants():
     slow["analysis"].update(end_time=500, step=1e-4)
     study = write(scratch / "limit", {**STUDY, "plan": {"list": [["100 MPa", 0.1]]}, "time_limit": "300 ms"}, slow)
     told = run(study, "--out", scratch / "limit/out", expected=3).stderr
-    assert "none of 1 variants is done: study.csv says why" in told, told
+    assert "none of 1 variants is done: 1 timed out (took longer than 0.3 s)" in told, told
     rows = table(scratch / "limit/out")
     assert rows[1][rows[0].index("status")] == "timed out", rows
 
@@ -192,8 +192,20 @@ def bad_files_are_refused():
                   "study.json: set[1]: \"analysis.step=-1\": analysis.step: ",
                   "quantities[0].value: a run of this case has no column"):
         assert place in done.stderr, (place, done.stderr)
+    wrong = {**STUDY, "variables": [{"name": "r", "path": "beams[0].section.radius", "range": [-0.02, 0.01]}],
+             "constraints": [], "quantities": [{"name": "q", "value": "max(tipp.x)"}]}
+    done = run(write(scratch / "bad", wrong), "--out", scratch / "bad/out", expected=2)
+    for text in ("warning: ", "variables: the nominal variant cannot be built: ", "no column \"tipp.x\""):
+        assert text in done.stderr, (text, done.stderr)
+    resting = {**CASE, "analysis": {"type": "static"}}
+    wrong = {**STUDY, "quantities": [{"name": "q", "value": "at(1, tip.x)"}]}
+    done = run(write(scratch / "bad", wrong, resting), "--out", scratch / "bad/out", expected=2)
+    assert "quantities[0].value: the load steps of the case go from 0 s to 0 s, and 1 s is not between" in done.stderr, done.stderr
+    assert not (scratch / "bad/out").exists(), "of a study that cannot run nothing is left behind"
     run(scratch / "bad/nothing.json", expected=2)
-    run(study, "--out", scratch / "bad/none", "--resume", expected=2)
+    done = run(write(scratch / "bad"), "--out", scratch / "bad/none", "--resume", expected=2)
+    assert "there is no study to resume" in done.stderr, done.stderr
+    assert not (scratch / "bad/none").exists()
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
     run(changed, "--out", scratch / "bad/changed")
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 3}}})
@@ -257,6 +269,40 @@ def a_variant_that_cannot_be_built_says_why():
     assert sorted(data["curves"][0]["variants"]) == ["0", "1"], "its curve is there to see"
 
 
+def no_more_processes_than_are_of_use():
+    slow = json.loads(json.dumps(CASE))
+    slow["analysis"].update(end_time=30, step=1e-4)
+    study = write(scratch / "jobs", {**STUDY, "plan": {"list": [["100 MPa", 0.1]]}}, slow)
+    process = subprocess.Popen([nurbeam, "study", study, "--out", scratch / "jobs/out", "--jobs", "1000", "--quiet"],
+                               stderr=subprocess.PIPE, text=True)
+    deadline = time.time() + 60
+    while not workers_of(process) and time.time() < deadline:
+        time.sleep(0.05)
+    time.sleep(0.3)
+    assert len(workers_of(process)) == 1, "one for each variant"
+    process.terminate()
+    told = process.communicate()[1]
+    assert "--jobs 1000: no more than" in told, told
+
+
+def answers_that_there_are_not_say_why():
+    def told(study):
+        return run(write(scratch / "why", {"nurbeam_study": 1, "variables": [{"name": "a", "range": [0, 1]}],
+                                           "quantities": [{"name": "q", "value": "log(a - 0.4)"}], **study}),
+                   "--out", scratch / "why/out", expected=3).stderr
+    search = {"optimise": {"minimise": "q", "evaluations": 20}}
+    text = told({"constraints": ["a > 5"], **search})
+    assert "study.json: none of " in text and "rejected (the first: \"a > 5\" does not hold with a = 0.5)" in text, text
+    assert "subject_to" not in text, text
+    text = told({"quantities": [{"name": "q", "value": "log(-1 - a)"}], **search})
+    assert "failed (the first: the quantity \"q\" is no number" in text and "subject_to" not in text, text
+    text = told({"optimise": {"minimise": "q", "subject_to": ["q < 9", "q <= a - 30"], "evaluations": 20}})
+    assert "that are done holds \"subject_to\": \"q <= a - 30\" is missed by" in text, text
+    assert "q < 9" not in text, text
+    status = json.loads((scratch / "why/out/study.json").read_text())["status"]
+    assert "is missed by" in status, status
+
+
 def the_best_variant_runs():
     study = {**STUDY, "variables": [STUDY["variables"][1]], "constraints": [],
              "quantities": [{"name": "height", "value": "max(tip.z)"}],
@@ -282,5 +328,7 @@ a_killed_worker_costs_its_variant()
 time_limits_end_variants()
 bad_files_are_refused()
 a_variant_that_cannot_be_built_says_why()
+no_more_processes_than_are_of_use()
+answers_that_there_are_not_say_why()
 the_best_variant_runs()
 print("all studies ran as they should")

@@ -604,6 +604,8 @@ TEST(ClosestName, EditDistanceCountsSingleCharacterChanges) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);  // the textbook pair
   EXPECT_EQ(edit_distance("", "abc"), 3);
   EXPECT_EQ(edit_distance("MPA", "MPa"), 0);
+  EXPECT_EQ(edit_distance("rnage", "range"), 1);
+  EXPECT_EQ(edit_distance("abcd", "badc"), 2);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace nurbeam {
+
+/// The number of characters of a text in UTF-8.
+std::size_t character_count(std::string_view text);
+
+/// The first characters of a text in UTF-8, at most so many; "..." stands for the others.
+std::string first_characters(std::string_view text, std::size_t most);
+
+}  // namespace nurbeam
