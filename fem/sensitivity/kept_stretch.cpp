@@ -38,7 +38,7 @@ void set_unknowns(const Vector& x, State& state) {
 // How far to go for derivatives by each of them, in a motion with steps of length h. Speeds are not linear in
 // velocities, of which some may be much less than others.
 Vector steps_of_unknowns(const State& state, const Vector& scale, double h) {
-  constexpr double part = 1e-4, of_velocities = 1e-6;
+  constexpr double part = 1e-5, of_velocities = 1e-6;
   const auto greatest = [](const auto& values) {
     const double found = values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0;
     return found > 0 ? found : 1;

@@ -303,10 +303,16 @@ std::shared_ptr<const BeamSystem> Sensitivities::neighbour_at(const Record& reco
   return of.lags ? now->replanned(plan, record.meshes->held, system_.get()) : now;
 }
 
-// Where the run has those that are asked for.
+// Where the run has those that are asked for: on a former mesh, of which its own system is gone, where a
+// neighbour has them.
 void Sensitivities::hold_extremes(Record& record) {
   if (asked_.of_beams.empty() || record.extremes || parameters_.empty()) return;
-  record.extremes.emplace(*neighbour_at(record, 0, true), record.state, asked_.of_beams);
+  if (record.meshes == meshes_)
+    record.extremes.emplace(*system_, record.state, asked_.of_beams);
+  else
+    record.extremes.emplace(*neighbour_at(record, 0, true),
+                            moved(record.state, record.tangents->of(0), parameters_[0].pair.step),
+                            asked_.of_beams);
 }
 
 // What is asked of one: extremes where the run has them.

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <vector>
 
 namespace nurbeam {
 namespace {
@@ -20,6 +22,33 @@ TEST(Alongside, HasDoneItsWorkWhereItIsFinished) {
       sum = next;
     }
     EXPECT_EQ(sum, 5050) << threads;
+  }
+}
+
+TEST(Alongside, DoesOnePieceAfterAnother) {
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    Alongside alongside;
+    std::vector<int> order;
+    for (int i = 0; i < 1000; ++i) alongside.add([&order, i] { order.push_back(i); });
+    alongside.finish();
+    ASSERT_EQ(order.size(), 1000) << threads;
+    EXPECT_TRUE(std::is_sorted(order.begin(), order.end())) << threads;
+  }
+}
+
+TEST(Alongside, LeavesWhatFollowsAProblem) {
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    Alongside alongside;
+    int count = 0;
+    for (int i = 0; i < 10; ++i)
+      alongside.add([&count, i] {
+        if (i == 3) throw std::runtime_error("a reason");
+        ++count;
+      });
+    EXPECT_THROW(alongside.finish(), std::runtime_error);
+    EXPECT_LE(count, threads == 1 ? 9 : 3);
   }
 }
 

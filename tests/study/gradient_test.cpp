@@ -172,6 +172,21 @@ TEST(Gradient, AtTheEndOfWhatThereIsLooksToOneSide) {
   EXPECT_NEAR(at_end.gradient[0][0], 2 * fine - coarse, 1e-3 * std::abs(fine));
 }
 
+// Means over all times of what is greatest along the beam, at one place or another.
+TEST(Gradient, OfExtremesAlongABeam) {
+  StudyOfCase of(spline_case(8, 8, R"json({"type": "dynamic", "end_time": 0.1, "step": "2 ms"})json"),
+                 R"json("variables": [
+      {"name": "z3", "control_point": {"beam": "beam", "index": 3, "axis": "z"}, "range": [0.2, 0.6]},
+      {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1.9e9, 2.1e9]}],
+    "quantities": [{"name": "tension", "value": "mean(beam.axial_force.max)"},
+      {"name": "pressure", "value": "mean(beam.axial_force.min)"},
+      {"name": "moment", "value": "mean(beam.moment.max)"},
+      {"name": "shear", "value": "mean(beam.shear_force.max)"}, {"name": "length", "value": "mean(beam.length)"},
+      {"name": "far", "value": "mean(beam.displacement.max)"}, {"name": "sag", "value": "mean(beam.sag)"}],
+    "plan": {"grid": 2})json");
+  test::expect_gradient(of, 0.002, 1e-4);
+}
+
 // In its plane nothing is across it: all that is asked of is exactly zero.
 TEST(Gradient, OfWhatIsZeroAsDrawn) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
