@@ -37,14 +37,17 @@ class EnergyAccount {
   /// Takes the errors and the scales of energy in a snapshot down in the report.
   void record(const Snapshot& snapshot, SimulationReport& report);
   /// Where all that moves has come from nowhere, what would follow means nothing: the energy that has, by
-  /// this state.
+  /// this state; where it is more than `slight`.
   std::optional<double> from_nowhere(const BeamSystem& system, const State& state,
-                                     const SimulationReport& report) const;
+                                     const SimulationReport& report, double slight) const;
 
  private:
   double dissipated_ = 0, input_ = 0, start_ = 0;
   std::pair<double, SystemEnergy> known_{-1, {}};  // at a time, since the last restart
 };
+
+/// The energy of bending each beam by a tenth of a radian [J].
+double slight_bending(const BeamModel& model);
 
 /// The energy in all beams of strains that are round-off, 1e-11, or a thousandth of what heat makes of them:
 /// where a beam expands freely, nothing else is there to compare an error with [J].

@@ -264,8 +264,10 @@ struct Simulation::Implementation {
     if (time == kink && !(pass_kink(run_) && release_bodies(run_))) return end_early();
     write_due();
     constexpr long watch = 16;  // steps: an instability makes all out of nothing in some more
-    const bool looked_at = time == last_written_ || run_.report.steps % watch == 0;
-    if (looked_at && !run_.goes_on(energy_from_nowhere())) return end_early();
+    // Between what is written bodies of little mass on beams at rest make some for a moment.
+    if (time == last_written_ && !run_.goes_on(energy_from_nowhere(0))) return end_early();
+    if (run_.report.steps % watch == 0 && !run_.goes_on(energy_from_nowhere(slight_bending(*run_.model))))
+      return end_early();
     if (run_.observer.progress) run_.observer.progress(run_.last_record);
     if (run_.observer.checkpoint_due && run_.observer.checkpoint_due()) hand_over();
     end_at_end_time();
@@ -277,9 +279,9 @@ struct Simulation::Implementation {
     return kink != kinks_.end() ? std::min(*kink, end) : end;
   }
 
-  std::optional<Failure> energy_from_nowhere() const {
+  std::optional<Failure> energy_from_nowhere(double slight) const {
     const std::optional<double> created =
-        run_.account.from_nowhere(*run_.at.system, run_.at.state, run_.report);
+        run_.account.from_nowhere(*run_.at.system, run_.at.state, run_.report, slight);
     if (!created) return {};
     return Failure{.kind = Failure::Kind::energy,
                    .time = run_.at.state.t,
@@ -302,7 +304,7 @@ struct Simulation::Implementation {
   // Steps that fail, and energy from nowhere, may have one reason.
   void look_behind(Failure& failure) {
     if (failure.kind != Failure::Kind::step && failure.kind != Failure::Kind::energy) return;
-    if (const auto created = energy_from_nowhere()) failure = *created;
+    if (const auto created = energy_from_nowhere(0)) failure = *created;
     if (!std::holds_alternative<ExplicitRungeKutta>(run_.options.integrator) || !run_.options.step) return;
     const MeshedState drawn = MeshedState::drawn(run_.model);
     const double stable = longest_explicit_step(*drawn.system, drawn.state);
