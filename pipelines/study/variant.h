@@ -46,8 +46,8 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
 bool has_derivatives(const StudyFile& study, const StudyCase* study_case);
 
 /// What is wrong with the quantities of a study, found by building the nominal variant: columns that the run
-/// does not have, histories where a number must be; only a warning where that variant cannot be built. Nothing
-/// is run.
+/// does not have, histories where a number must be; only a warning where that variant cannot be built.
+/// Nothing is run.
 std::vector<Diagnostic> check_quantities(const StudyFile& study, const StudyCase* study_case);
 
 }  // namespace nurbeam
