@@ -14,6 +14,7 @@
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
+#include "solver/near_equilibrium.h"
 #include "solver/side_by_side.h"
 
 namespace nurbeam {
@@ -333,6 +334,8 @@ std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std:
   const auto moved_by = [&](const Neighbour& neighbour, bool more) {
     const std::shared_ptr<const BeamSystem> system = neighbour_at(of, parameter, more);
     State state = moved(of.state, tangent, more ? pair.step : -pair.step);
+    if (is_static_ && !of.rest && !settle_near(*system, state))
+      throw std::runtime_error("a derivative finds no equilibrium beside that of the run");
     if (of.of_the_moment && make_accelerations_consistent(*system, state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
     std::vector<ProbePlace> probes = neighbour.probes;

@@ -33,8 +33,10 @@ struct NeighbourPair {
 /// tangent for each, of all at once. Or, where many parameters are asked what they do to few quantities, back
 /// from these by adjoints.
 ///
-///   - At rest: K dq + G'dlambda = -dR, G dq = -dg; or RestAdjoint, where nothing but quantities of rests is
-///     asked for.
+///   - At rest: K dq + G'dlambda = -dR, G dq = -dg, from where in statics each neighbour goes to its own
+///     equilibrium; or RestAdjoint, where nothing but quantities of rests is asked for. Forces are small
+///     differences of great numbers in stiff beams: at an equilibrium they are as small as the loads, so that
+///     neighbours may be further apart than round-off reaches.
 ///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end; or StepAdjoint:
 ///   steps
 ///     whose length does not depend on the state are kept until something else happens, which takes the
@@ -89,7 +91,8 @@ class Sensitivities final : public RunFollower {
   /// to go back.
   void ask(Asked asked);
   /// At the time of such a record, snapshots of the models in which a parameter is greater and less, of
-  /// states step dq/dp away. Throws std::runtime_error where these have no accelerations.
+  /// states step dq/dp away, in statics of their equilibria there. Throws std::runtime_error where these have
+  /// no accelerations, or are not found.
   std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter) const;
   /// What quantities are where one record has another snapshot.
   using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;

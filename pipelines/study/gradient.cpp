@@ -111,18 +111,23 @@ bool targets(const StudyVariable& variable) {
 
 }  // namespace
 
-double derivative_step(const StudyVariable& variable, double value) {
+double derivative_step(const StudyVariable& variable, double value, bool settles) {
   using Kind = StudyDistribution::Kind;
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
   const double greater = std::max(width, std::abs(value)), lesser = std::min(width, std::abs(value));
-  // Not too small beside the value, as far as the range allows: that is lost in round-off. What moves the
-  // axis by no more than that: slender beams are stiff against what is of second order in it.
-  if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
-    return std::min(1e-6 * greater, 0.1 * width);
-  const double part = targets<ControlPointWeight>(variable) ? 1e-5 : 1e-4;
-  return std::min(part * std::max(lesser, 0.1 * greater), 0.1 * width);
+  const auto step = [&] {
+    // Neighbours that settle answer as their loads are, with an error of the square of this step.
+    constexpr double settled = 4e-4;
+    // Not too small beside the value: that is lost in round-off. What moves the axis of neighbours that do
+    // not settle by no more than that: slender beams are stiff against what is of second order in it.
+    if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
+      return std::max(settles ? settled * width : 0, 1e-6 * greater);
+    const double part = settles ? settled : targets<ControlPointWeight>(variable) ? 1e-5 : 1e-4;
+    return part * std::max(lesser, 0.1 * greater);
+  };
+  return std::min(step(), 0.1 * width);  // as far as the range allows
 }
 
 std::vector<double> differences(const StudyFile& study, const std::vector<double>& values,
@@ -195,11 +200,13 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     return {std::move(*own), std::move(*beside), little / 2};
   };
   const std::vector<std::size_t> free = study.free_variables();
+  is_by_adjoint_ = pays_by_adjoint(free.size(), own_histories, options.statics);
+  const bool settles = options.statics && !is_by_adjoint_;
   std::vector<std::optional<Pair>> pairs(free.size());
   std::vector<std::string> problems(free.size());
   side_by_side(static_cast<int>(free.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    const double step = derivative_step(study.variables[free[k]], values[free[k]]);
+    const double step = derivative_step(study.variables[free[k]], values[free[k]], settles);
     try {
       pairs[k].emplace(pair_of(k, step));
     } catch (const std::invalid_argument& problem) {
@@ -214,7 +221,6 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const Pair& pair = pairs_.emplace_back(std::move(*pairs[k]));
     neighbours.push_back({pair.more.neighbour(), pair.less.neighbour(), pair.step});
   }
-  is_by_adjoint_ = pays_by_adjoint(own_histories, options.statics);
   sensitivities_ =
       std::make_unique<Sensitivities>(options, probe_places(model), std::move(neighbours), is_by_adjoint_);
 }
@@ -223,13 +229,14 @@ VariantGradient::~VariantGradient() = default;
 
 // Not where single unknowns of a state change what is asked for by much more than all together: energies and
 // forces of a rest; nor what is not smooth as far as these go, such as sizes of vectors and the lowest place.
-bool VariantGradient::pays_by_adjoint(const Histories& histories, bool is_static) const {
+bool VariantGradient::pays_by_adjoint(std::size_t variables, const Histories& histories,
+                                      bool is_static) const {
   const SnapshotContents contents = histories.contents();
   const std::vector<BeamPart> parts = histories.parts_of_beams();
   const bool are_smooth = std::all_of(parts.begin(), parts.end(), [](const BeamPart& part) {
     return part.extreme == &BeamRecord::axial_force_min || part.extreme == &BeamRecord::axial_force_max;
   });
-  return pairs_.size() > study_.quantities.size() && are_smooth && !contents.sections &&
+  return variables > study_.quantities.size() && are_smooth && !contents.sections &&
          !(is_static && (contents.beams || contents.energy));
 }
 
@@ -258,7 +265,8 @@ StudyGradient VariantGradient::of_quantities(const Histories& histories,
                        .quantities = study_.quantities.size(),
                        .contents = histories.contents(),
                        .of_beams = histories.parts_of_beams()});
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+  side_by_side(static_cast<int>(pairs_.size()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
     pairs_[k].more.histories.begin_as(histories);
     pairs_[k].less.histories.begin_as(histories);
     for (const std::size_t time : times) {
@@ -266,7 +274,7 @@ StudyGradient VariantGradient::of_quantities(const Histories& histories,
       pairs_[k].more.histories.replace(time, more);
       pairs_[k].less.histories.replace(time, less);
     }
-  }
+  });
   StudyGradient gradient;
   for (const StudyQuantity& quantity : study_.quantities) {
     std::vector<double> row;

@@ -8,8 +8,9 @@
 
 namespace nurbeam {
 
-/// By how much a variable is changed for a derivative.
-double derivative_step(const StudyVariable& variable, double value);
+/// By how much a variable is changed for a derivative; `settles`: of neighbours that go to equilibria of
+/// their own.
+double derivative_step(const StudyVariable& variable, double value, bool settles = false);
 
 /// f(more) - f(less) over 2 step, for each free variable: of the values of all variables around those of a
 /// variant.
@@ -38,7 +39,7 @@ class VariantGradient {
   struct NeighbouringRun;
   struct Pair;
 
-  bool pays_by_adjoint(const Histories& histories, bool is_static) const;
+  bool pays_by_adjoint(std::size_t variables, const Histories& histories, bool is_static) const;
   Eigen::MatrixXd through_states(const Histories& histories, const std::vector<RunEvent>& events);
 
   const StudyFile& study_;

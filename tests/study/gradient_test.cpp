@@ -204,6 +204,30 @@ TEST(Gradient, OfWhatIsZeroAsDrawn) {
   expect_gradient(of, 1e-2, 1e-5);
 }
 
+// A force is a small difference of great numbers: EA is ten thousand times as large as the loads.
+TEST(Gradient, OfForcesInAStiffCable) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "cable",
+      "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 1, 1, 1, 1],
+                         "control_points": [[0, 0, 0], [1, 0, -0.2], [3, 0, -0.33], [5, 0, -0.2], [6, 0, 0]]}},
+      "section": {"radius": "6 mm"}, "material": {"density": 5200, "youngs_modulus": "8 GPa"},
+      "elements": {"count": 8}}],
+    "supports": [{"beam": "cable", "at": "start", "type": "pinned", "name": "A"},
+                 {"beam": "cable", "at": "end", "type": "pinned"}],
+    "output": {"probes": [{"name": "mid", "beam": "cable", "at": {"fraction": 0.4}}]},
+    "analysis": {"type": "static"}})json",
+                 R"json("variables": [
+      {"name": "z1", "control_point": {"beam": "cable", "index": 1, "axis": "z"}, "range": [-0.3, -0.1]},
+      {"name": "x2", "control_point": {"beam": "cable", "index": 2, "axis": "x"}, "range": [2.8, 3.2]},
+      {"name": "w3", "weight": {"beam": "cable", "index": 3}, "range": [0.9, 1.2]},
+      {"name": "density", "path": "beams[0].material.density", "range": [5000, 5400]}],
+    "quantities": [{"name": "force", "value": "at(end, mid.axial_force)"},
+      {"name": "greatest", "value": "at(end, cable.axial_force.max)"},
+      {"name": "stress", "value": "at(end, mid.axial_force) / 1e-4 + at(end, mid.moment)"},
+      {"name": "energy", "value": "at(end, energy.axial)"}, {"name": "reaction", "value": "at(end, A.fx)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.02, 1e-6);
+}
+
 // The elements on both sides of a knot carry an axial force of their own. Where a probe is at the knot, which
 // moves, runs on one side of the nominal one look at the element that this looks at: differences towards
 // there, whose error is of first order.
