@@ -351,13 +351,11 @@ CaseFileReport with_text(CaseFileReport report, const Json& json) {
   return report;
 }
 
-constexpr JsonFileKind case_kind{"case file", R"("nurbeam": 1, "beams" and "analysis")"};
-
 }  // namespace
 
 CaseFileReport read_case_file(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Findings findings(file.string());
-  auto json = read_json(file, case_kind, findings);
+  auto json = read_json(file, case_file_kind, findings);
   if (!json) return {{}, findings.take()};
   std::vector<Diagnostic> diagnostics;
   apply_overrides(*json, overrides, diagnostics);
@@ -381,7 +379,7 @@ CaseFileReport read_case_json(nlohmann::ordered_json json, const std::filesystem
 
 CaseTextReport case_text(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Findings findings(file.string());
-  auto json = read_json(file, case_kind, findings);
+  auto json = read_json(file, case_file_kind, findings);
   if (!json) return {{}, findings.take()};
   CaseTextReport report;
   apply_overrides(*json, overrides, report.diagnostics);

@@ -197,7 +197,15 @@ std::vector<std::string> key_names(const Shape& shape) {
 std::optional<Json> read_json(const std::filesystem::path& file, const JsonFileKind& kind,
                               Findings& findings) {
   const auto text = read_text(file, kind, findings);
-  return text ? parse_json(*text, findings) : std::nullopt;
+  auto json = text ? parse_json(*text, findings) : std::nullopt;
+  if (!json || json->contains(kind.version)) return json;
+  for (const JsonFileKind& other : {case_file_kind, study_file_kind})
+    if (json->contains(other.version)) {
+      findings.error("", std::string("this is a ") + other.name + ", and a " + kind.name + " is wanted; \"" +
+                             other.command + "\" takes it");
+      return std::nullopt;
+    }
+  return json;
 }
 
 }  // namespace nurbeam

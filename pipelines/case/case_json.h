@@ -33,10 +33,16 @@ std::vector<std::string> key_names(const Shape& shape);
 std::optional<Json> parse_json(const std::string& text, Findings& findings);
 /// What a file should be, for messages.
 struct JsonFileKind {
-  const char* name;      ///< "case file"
+  const char* name;
+  const char* version;   ///< the key that says so
+  const char* command;   ///< that takes it
   const char* smallest;  ///< what the smallest one has
 };
-/// The same of a file of that kind.
+inline constexpr JsonFileKind case_file_kind{"case file", "nurbeam", "nurbeam run",
+                                             R"("nurbeam": 1, "beams" and "analysis")"};
+inline constexpr JsonFileKind study_file_kind{"study file", "nurbeam_study", "nurbeam study",
+                                              R"("nurbeam_study": 1, "variables", "quantities" and "plan")"};
+/// The same of a file of that kind; nothing, and a finding, where it is of the other.
 std::optional<Json> read_json(const std::filesystem::path& file, const JsonFileKind& kind,
                               Findings& findings);
 

@@ -309,8 +309,7 @@ std::vector<double> StudyFile::nominal() const {
 
 StudyFileReport read_study_file(const std::filesystem::path& file) {
   Findings findings(file.string());
-  constexpr JsonFileKind kind{"study file", R"("nurbeam_study": 1, "variables", "quantities" and "plan")"};
-  auto json = read_json(file, kind, findings);
+  auto json = read_json(file, study_file_kind, findings);
   if (!json) return {{}, findings.take()};
   StudyFile study;
   study.path = file;

@@ -124,6 +124,11 @@ TEST(StudyFile, RefusesNamesThatCannotHeadAColumn) {
   EXPECT_NE(wrong.find("\"sag-span\" can"), std::string::npos) << wrong;
 }
 
+TEST(StudyFile, IsToldFromACaseFile) {
+  EXPECT_EQ(wrong_with(R"json({"nurbeam": 1, "beams": [], "analysis": {"type": "static"}})json"),
+            "study.json: this is a case file, and a study file is wanted; \"nurbeam run\" takes it\n");
+}
+
 TEST(StudyFile, NeedsOneTask) {
   const std::string head = R"json({"nurbeam_study": 1, "variables": [{"name": "x", "range": [0, 1]}],
                                "quantities": [{"name": "y", "value": "x"}])json";

@@ -186,6 +186,11 @@ TEST_F(CaseFileTest, UnknownKeysNameTheClosestKnownKey) {
                {"did you mean \"end_time\""});
 }
 
+TEST_F(CaseFileTest, IsToldFromAStudyFile) {
+  expect_text_error(R"({"nurbeam_study": 1, "case": "case.json", "variables": []})", "",
+                    {"this is a study file", "\"nurbeam study\" takes it"});
+}
+
 TEST_F(CaseFileTest, AllErrorsAreReportedAtOnce) {
   const CaseFileReport report = read(R"({"nurbeam": 1, "gravitiy": 1,
     "beams": [{"name": "a", "axis": {"polyline": [[0,0,0]]}, "section": {"radius": -1},
