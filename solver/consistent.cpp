@@ -17,89 +17,20 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// The same in the rows near some unknowns alone.
-class LocalKkt {
- public:
-  /// So many levels of unknowns that are coupled: what changes a velocity there changes none beyond.
-  static constexpr int reach = 40;
-  /// Of a chain of elements in the plane, with four coordinates at each node, no more is left beyond.
-  static constexpr int fewest = 10 * reach;
+/// So many levels of unknowns that are coupled: what changes an acceleration there changes none beyond that
+/// counts. Systems of no more unknowns than that are in the plane, of a chain of elements with four
+/// coordinates at each node, are solved for as a whole.
+constexpr int reach_of_accelerations = 40, few_unknowns = 10 * reach_of_accelerations;
+/// Masses of elements that follow one another take 0.28 from each node to the next: 4e-17 are left.
+constexpr int reach_of_velocities = 30;
 
-  LocalKkt(const SecondOrderSystem& system, const State& state, double h, const std::vector<int>& around)
-      : n_(system.coordinate_count()),
-        pattern_(system.tangent_pattern()),
-        near_(surroundings(pattern_, around)) {
-    if (!is_worth_it()) return;
-    // Nobody looks at the other columns.
-    values_ = std::make_unique_for_overwrite<double[]>(pattern_.rows().size());
-    const int* starts = pattern_.column_starts().data();
-    for (const int i : near_.unknowns)
-      std::fill(values_.get() + starts[i], values_.get() + starts[i + 1], 0.0);
-    std::vector<bool> is_near(static_cast<std::size_t>(pattern_.size()), false);
-    for (std::size_t k = 0; k < near_.rows; ++k) is_near[near_.unknowns[k]] = true;
-    system.tangent_near(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, is_near, values_.get());
-    scale_coordinates();
-  }
+/// Of accelerations.
+NearKkt near_kkt(const SecondOrderSystem& system, const std::vector<int>& around) {
+  const int size = system.tangent_pattern().size();
+  return {system, around, size < few_unknowns ? size : reach_of_accelerations};
+}
 
-  /// Whether much of the system lies beyond.
-  bool is_worth_it() const { return is_worth_it(near_, pattern_); }
-
-  /// The unknowns that are solved for alone, in order; none where that is not worth it.
-  static std::vector<int> unknowns(const SecondOrderSystem& system, const std::vector<int>& around) {
-    const SparsePattern& pattern = system.tangent_pattern();
-    Surroundings near = surroundings(pattern, around);
-    if (!is_worth_it(near, pattern)) return {};
-    near.unknowns.resize(near.inner);
-    std::sort(near.unknowns.begin(), near.unknowns.end());
-    return std::move(near.unknowns);
-  }
-
-  /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m). Precondition: is_worth_it().
-  bool correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Beyond beyond, NearSolver& solver,
-               Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-    Eigen::VectorXd right(top.size() + bottom.size()), left(right.size());
-    right << top / scale_, bottom;
-    left << x, y / scale_;
-    const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(
-        pattern_.size(), pattern_.size(), static_cast<Eigen::Index>(pattern_.rows().size()),
-        pattern_.column_starts().data(), pattern_.rows().data(), values_.get());
-    if (!right.allFinite() || !left.allFinite() ||
-        !correct_around(matrix, right, near_, beyond, solver, left))
-      return false;
-    x = left.head(x.size());
-    y = scale_ * left.tail(y.size());
-    return true;
-  }
-
- private:
-  static Surroundings surroundings(const SparsePattern& pattern, const std::vector<int>& around) {
-    return {pattern, pattern.size() < fewest ? std::vector<int>{} : around, reach};
-  }
-  static bool is_worth_it(const Surroundings& near, const SparsePattern& pattern) {
-    return !near.unknowns.empty() && 4 * near.unknowns.size() < 3 * static_cast<std::size_t>(pattern.size());
-  }
-
-  void scale_coordinates() {
-    const int *starts = pattern_.column_starts().data(), *rows = pattern_.rows().data();
-    double largest = 0;
-    for (std::size_t k = 0; k < near_.rows; ++k)
-      if (const int i = near_.unknowns[k]; i < n_)
-        largest =
-            std::fmax(largest, values_[std::lower_bound(rows + starts[i], rows + starts[i + 1], i) - rows]);
-    if (!(largest > 0) || !std::isfinite(largest)) return;
-    scale_ = largest;
-    for (const int i : near_.unknowns)
-      for (int k = starts[i]; k < starts[i + 1] && i < n_ && rows[k] < n_; ++k) values_[k] /= largest;
-  }
-
-  int n_;
-  const SparsePattern& pattern_;
-  Surroundings near_;
-  std::unique_ptr<double[]> values_;
-  double scale_ = 1;
-};
-
-/// The same, factorised.
+/// The matrix, factorised.
 class FactorisedKkt {
  public:
   FactorisedKkt(const SecondOrderSystem& system, const State& state, double h = 0)
@@ -155,14 +86,12 @@ Projection from_momentum(const SecondOrderSystem& system, const Vector& momentum
   return {ConsistencyStatus::done, kkt.scale * x.tail(m)};
 }
 
-/// Those near some unknowns; nothing where there are none or that is not worth it.
+/// Those near some unknowns; nothing where that cannot be.
 std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
-                                          const std::vector<int>& around, NearSolver& solver, State& state) {
-  if (around.empty()) return std::nullopt;
-  const LocalKkt kkt(system, state, 0, around);
+                                          NearKkt& near, State& state) {
   Vector impulse = Vector::Zero(system.constraint_count());
-  if (!kkt.is_worth_it() ||
-      !kkt.correct(momentum, -system.constraint_rate(state), Beyond::closed, solver, state.v, impulse))
+  if (!near.factorise(state, 0) ||
+      !near.correct(momentum, -system.constraint_rate(state), Beyond::closed, state.v, impulse))
     return std::nullopt;
   return Projection{ConsistencyStatus::done, impulse};
 }
@@ -261,8 +190,8 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   const State still = unloaded(system, state);
   const Eigen::VectorXd f = force(system, state), curvature = system.constraint_curvature(state);
   if (!around.empty() && !system.forces_depend_on_multipliers()) {
-    const LocalKkt near(system, still, h, around);
-    if (near.is_worth_it() && near.correct(f, -curvature, Beyond::given, solver, state.a, state.lambda))
+    NearKkt near = near_kkt(system, around);
+    if (near.factorise(still, h) && near.correct(f, -curvature, Beyond::given, state.a, state.lambda))
       return ConsistencyStatus::done;
   }
   const ScaledKkt kkt(system, still, h);
@@ -281,7 +210,8 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
 
 std::vector<int> solved_near(const SecondOrderSystem& system, const std::vector<int>& around) {
   if (around.empty() || system.forces_depend_on_multipliers()) return {};
-  return LocalKkt::unknowns(system, around);
+  std::vector<int> near = near_kkt(system, around).unknowns();
+  return static_cast<int>(near.size()) < system.tangent_pattern().size() ? near : std::vector<int>{};
 }
 
 ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state) {
@@ -336,16 +266,22 @@ Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen
 }
 
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
-                                    const std::vector<int>& around, NearSolver& solver, State& state) {
-  if (const auto near = near_velocities(system, momentum, around, solver, state)) return *near;
+                                    const std::vector<int>& around, ProjectionSolver& solver, State& state) {
+  if (!around.empty()) {
+    if (!solver.near) solver.near.emplace(system, around, reach_of_velocities);
+    if (const auto near = near_velocities(system, momentum, *solver.near, state)) return *near;
+  }
   return from_momentum(system, momentum, state, [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
-    return solver.solve(kkt.matrix, system.moving_unknowns(), b, x);
+    return solver.whole.solve(kkt.matrix, system.moving_unknowns(), b, x);
   });
 }
 
 Projection velocities_beside(const SecondOrderSystem& system, const Vector& momentum,
                              const std::vector<int>& around, NeighbourSolver& solver, State& state) {
-  if (const auto near = near_velocities(system, momentum, around, solver.around, state)) return *near;
+  if (!around.empty()) {
+    NearKkt near(system, around, reach_of_velocities);
+    if (const auto projection = near_velocities(system, momentum, near, state)) return *projection;
+  }
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   if (solver.solution.size() != n + m)
     return from_momentum(system, momentum, state, [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {

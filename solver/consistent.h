@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "solver/near_kkt.h"
 #include "solver/near_solver.h"
 #include "solver/second_order_system.h"
 
@@ -56,12 +58,17 @@ struct Projection {
 /// The velocity with M v + G' impulse = momentum and G v + rate = 0 (L2 projection of a momentum vector (n)).
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum, State& state);
+/// What has been solved for velocities of one system at places of which each lies near the one before.
+struct ProjectionSolver {
+  std::optional<NearKkt> near;  ///< of unknowns near some place
+  NearSolver whole;
+};
 /// The same where the velocities of the state already have that momentum, but in the rows of these unknowns,
-/// of the coordinates and then the multipliers: solved for near them, as far as it takes. None: everywhere.
-/// `solver`: of states and systems that lie near.
+/// of the coordinates and then the multipliers: solved for near them, or where that does not suffice, and for
+/// none, everywhere.
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum,
-                                                  const std::vector<int>& around, NearSolver& solver,
+                                                  const std::vector<int>& around, ProjectionSolver& solver,
                                                   State& state);
 /// The same for a motion, of which `solver` has solved nothing, and then for its neighbours, on one mesh:
 /// these by one correction of the first one's. What that misses is of second order in how far they are, and

@@ -22,12 +22,6 @@ View view(const Matrix& A) {
 struct Open {
   Eigen::VectorXd rows, round_off;
 
-  // With some columns of A, or with all.
-  Open(const View& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x, const std::vector<int>& columns)
-      : rows(b), round_off(b.cwiseAbs()) {
-    for (const int column : columns) take(A, x, column);
-    round_off *= 32 * std::numeric_limits<double>::epsilon();
-  }
   Open(const View& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x) : rows(b), round_off(b.cwiseAbs()) {
     for (int column = 0; column < A.cols(); ++column) take(A, x, column);
     round_off *= 32 * std::numeric_limits<double>::epsilon();
@@ -86,10 +80,6 @@ class Window {
       begin = append_coupled(A.outerIndexPtr(), A.innerIndexPtr(), begin, unknowns_, place_);
     number();
   }
-  Window(const View& A, std::vector<int> unknowns)
-      : unknowns_(std::move(unknowns)), place_(static_cast<std::size_t>(A.cols()), -1) {
-    number();
-  }
 
   int size() const { return static_cast<int>(unknowns_.size()); }
   Eigen::VectorXd part(const Eigen::VectorXd& all) const { return all(unknowns_); }
@@ -127,13 +117,11 @@ class Window {
 
 }  // namespace
 
-Matrix submatrix(const View& A, const std::vector<int>& unknowns) {
+Matrix submatrix(const Matrix& A, const std::vector<int>& unknowns) {
   std::vector<int> place(static_cast<std::size_t>(A.cols()), -1);
   for (std::size_t k = 0; k < unknowns.size(); ++k) place[unknowns[k]] = static_cast<int>(k);
-  return part_of(A, unknowns, place);
+  return part_of(view(A), unknowns, place);
 }
-
-Matrix submatrix(const Matrix& A, const std::vector<int>& unknowns) { return submatrix(view(A), unknowns); }
 
 bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
                      Eigen::VectorXd& x) {
@@ -156,35 +144,6 @@ bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::
   const Eigen::VectorXd correction = solver.solve(open.rows);
   if (!correction.allFinite()) return false;
   x += correction;
-  return true;
-}
-
-Surroundings::Surroundings(const SparsePattern& pattern, const std::vector<int>& around, int reach)
-    : unknowns(around) {
-  std::vector<int> place(static_cast<std::size_t>(pattern.size()), -1);
-  for (const int unknown : around) place[unknown] = 0;
-  std::size_t begin = 0;
-  const auto go_on = [&] {
-    begin = append_coupled(pattern.column_starts().data(), pattern.rows().data(), begin, unknowns, place);
-  };
-  for (; reach > 0 && begin < unknowns.size(); --reach) go_on();
-  inner = unknowns.size();
-  go_on();
-  rows = unknowns.size();
-  go_on();
-}
-
-bool correct_around(const View& A, const Eigen::VectorXd& b, const Surroundings& around, Beyond beyond,
-                    NearSolver& solver, Eigen::VectorXd& x) {
-  const Open open(A, b, x, around.unknowns);
-  const auto end_of_inner = around.unknowns.begin() + static_cast<std::ptrdiff_t>(around.inner);
-  const Window window(A, std::vector<int>(around.unknowns.begin(), end_of_inner));
-  if (window.size() == 0) return true;
-  Eigen::VectorXd solution;
-  if (!solver.solve(window.matrix(A), {}, window.part(open.rows), solution)) return false;
-  if (!solution.allFinite() || (beyond == Beyond::closed && !window.suffices(A, open, solution)))
-    return false;
-  window.add(solution, x);
   return true;
 }
 

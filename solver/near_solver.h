@@ -35,7 +35,6 @@ struct NeighbourSolver {
   KktSolver factors;
   Eigen::VectorXd solution = {};  ///< empty: nothing has
   double scale = 1;               ///< by which the rows of coordinates were divided
-  NearSolver around = {};         ///< of unknowns near some place, where these are solved for alone
 };
 /// Of several systems that are solved one after the other.
 using NeighbourSolvers = std::deque<NeighbourSolver>;

@@ -218,9 +218,10 @@ double BeamElement<D>::length(const ElementVector<D>& q) const {
     });
     return sum;
   }
-  for_each_point(q, [&](const ShapeFunctions<Jet>& shape, const Jet&, const Jet& weight) {
-    sum += weight.value() * PointField<D>(shape.d1, e).value.norm();
-  });
+  for_each_point(q[Layout::place(0)], q[Layout::place(1)],
+                 [&](const ShapeFunctions<double>& shape, double, double weight) {
+                   sum += weight * (e * row(shape.d1)).norm();
+                 });
   return sum;
 }
 

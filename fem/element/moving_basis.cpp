@@ -26,6 +26,20 @@ Jet power_of_length(double l, int m) {
   return Jet(Jet::Coefficients{f, -d1, d1, d2, -2 * d2, d2, -d3, 3 * d3, -3 * d3, d3});
 }
 
+// The Hermite functions of x, of an element of length l, at a place that stays: at a fixed x it would go with
+// the ends, by 1 - x and x of what they do.
+MovingRows::Series uniform_positions(double l, double x) {
+  const double x2 = x * x, x3 = x2 * x, H = 3 * x2 - 2 * x3, H1 = 6 / l * (x - x2);
+  const double a = x - 2 * x2 + x3, b = x3 - x2;
+  const MovingRows::Row along(-H1, 1 - 4 * x + 3 * x2, H1, 3 * x2 - 2 * x);
+  MovingRows::Series r;
+  r.value << 1 - H, l * a, H, l * b;
+  r.first[1] << 0, a, 0, b;
+  r.first[0] = -r.first[1] - (1 - x) * along;
+  r.first[1] -= x * along;
+  return r;
+}
+
 }  // namespace
 
 MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const Jet& s_a, const Jet& s_b,
@@ -188,7 +202,8 @@ MovingRows MovingBasis::rows_at(const Jet& s) const {
 }
 
 MovingRows::Series MovingBasis::positions_at(double s) const {
-  if (uniform_ || constant_weights_) return rows_at(Jet(s)).r;
+  if (constant_weights_) return rows_at(Jet(s)).r;
+  if (uniform_) return uniform_positions(uniform_->l.value(), fraction(Jet(s)).first);
   const double u = curve_->parameter(segment_, s);
   const Eigen::RowVector4d f = hermite_at(u, weight_at(curve_->segment(segment_), u), u_a_, length_);
   MovingRows::Series r;

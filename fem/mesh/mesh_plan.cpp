@@ -29,9 +29,9 @@ int node_to_replace(const Beam& beam, double s) {
 bool too_light_for_node(const Structure& structure, const SlidingJoint& joint) {
   constexpr double light = 0.01;
   const Beam& beam = structure.beam_of(joint);
-  return joint.continuous_slope && !joint.motion &&
-         structure.body_of(joint).mass <=
-             light * beam.properties.mass_per_length * beam.home_spacing(joint.s);
+  const double limit = light * beam.properties.mass_per_length, mass = structure.body_of(joint).mass;
+  return joint.continuous_slope && !joint.motion && mass <= limit * beam.curve.length() &&
+         mass <= limit * beam.home_spacing(joint.s);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "fem/motion/mesh_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -49,27 +50,31 @@ class JointRules {
   }
 
  private:
+  // A node where it is now.
+  struct Node {
+    double s;
+    int home, joint;  // -1: none
+  };
+  static constexpr int on_each_side = 2;
+
   // The joint's node and two on each side of it, where they are now: on a ring as often as it takes, else as
   // many as there are.
   void look_around(const Eigen::VectorXd& q) {
-    constexpr int reach = 2;
     const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
     const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
     const int first = mesh_.first_span[index_];
     const double L = beam_.curve.length();
-    nodes_.reserve(2 * reach + 1);
     const auto now = [&](int i) {
       return i + 1 < count || beam_.is_ring() ? mesh_.spans[first + i].start(q)
                                               : mesh_.spans[first + i - 1].end(q);
     };
     const int turns = beam_.is_ring() ? static_cast<int>(std::round((s_ - now(own)) / L)) : 0;
-    for (int k = own - reach; k <= own + reach; ++k) {
+    for (int around = 0, k = own - on_each_side; k <= own + on_each_side; ++k) {
       if (!beam_.is_ring() && (k < 0 || k >= count)) continue;
       const int turn = k < 0 ? -((count - 1 - k) / count) : k / count, i = k - turn * count;
-      if (k == own) left_ = static_cast<int>(nodes_.size()) - 1;
-      nodes_.push_back(nodes[i]);
-      nodes_.back().s = now(i) + (turns + turn) * L;
-      if (nodes[i].home >= 0) nodes_.back().home += (turns + turn) * beam_.home_intervals();
+      if (k == own) left_ = around - 1;
+      const int home = nodes[i].home >= 0 ? nodes[i].home + (turns + turn) * beam_.home_intervals() : -1;
+      nodes_[around++] = {now(i) + (turns + turn) * L, home, nodes[i].joint};
     }
     right_ = left_ + 2;
     // The home nodes from the left neighbour to the right one, of those that can come and go.
@@ -112,7 +117,7 @@ class JointRules {
 
   bool near_end() const {
     const auto near = [&](int neighbour) {
-      const MeshNode& node = nodes_[neighbour];
+      const Node& node = nodes_[neighbour];
       const bool approaching = (neighbour == right_) == (rate_ > 0);
       return node.joint < 0 && is_end(node.home) && approaching &&
              std::abs(node.s - s_) <= end_zone * spacing(s_);
@@ -133,7 +138,7 @@ class JointRules {
   // Whether a neighbour that is itself a moving node is within some home intervals of a home node.
   bool another_joint_near(int h, double reach) const {
     for (const int neighbour : {left_, right_}) {
-      const MeshNode& node = nodes_[neighbour];
+      const Node& node = nodes_[neighbour];
       if (node.joint < 0) continue;
       const double gap = at(h) < node.s ? at(h + 1) - at(h) : at(h) - at(h - 1);
       if (std::abs(at(h) - node.s) <= reach * gap) return true;
@@ -169,7 +174,7 @@ class JointRules {
 
   // Returns whether a hidden home node comes back in the element towards `far`.
   bool insert_towards(int neighbour) {
-    const MeshNode& far = nodes_[neighbour];
+    const Node& far = nodes_[neighbour];
     if (far.joint >= 0) return insert_between_joints(far);
     for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
@@ -181,7 +186,7 @@ class JointRules {
   }
 
   // The far end is another moving node: a hidden node returns when it is half a standard length from both.
-  bool insert_between_joints(const MeshNode& far) {
+  bool insert_between_joints(const Node& far) {
     for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
       const double margin = (control_.max - 1) * spacing(at(h));
@@ -193,11 +198,11 @@ class JointRules {
   }
 
   bool remove_at(int neighbour) {
-    const MeshNode& near = nodes_[neighbour];
+    const Node& near = nodes_[neighbour];
     const int h = near.home;
     if (near.joint >= 0 || is_end(h) || home(h).permanent) return false;
     // The next node may be another moving one: then a home node beyond it is hidden by that one.
-    const MeshNode& beyond = nodes_[neighbour + (neighbour == left_ ? -1 : 1)];
+    const Node& beyond = nodes_[neighbour + (neighbour == left_ ? -1 : 1)];
     if (beyond.joint < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
     const double distance = std::abs(near.s - s_);
     const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
@@ -229,7 +234,7 @@ class JointRules {
   NextPlan& next_;
   bool is_planned_ = false;
   double s_ = 0, rate_;
-  std::vector<MeshNode> nodes_;
+  std::array<Node, 2 * on_each_side + 1> nodes_;
   int left_ = -1, right_ = -1;     // of nodes_
   int lowest_ = 0, highest_ = -1;  // of home nodes
 };

@@ -14,6 +14,7 @@
 #include "fem/system/momentum.h"
 #include "fem/system/observables.h"
 #include "fem/system/same_elements.h"
+#include "fem/system/with_assembly.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
@@ -206,15 +207,32 @@ class Remap {
     still.v.setZero();
     still.a.setZero();
     still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
-    Eigen::VectorXd force(to_.coordinate_count()), constraints(to_.constraint_count());
-    to_.residual(still, force, constraints);
     const TangentBlocks stiffness(to_, still, {.stiffness = 1}, free), mass(to_, still, {.mass = 1}, free);
     allowed = allowed_moves(mass.gradient());
     const auto part = [&](const TangentBlocks& tangent) {
       const Eigen::MatrixXd block = allowed.transpose() * tangent.coordinates() * allowed;
       return Eigen::MatrixXd((block + block.transpose()) / 2);
     };
-    return {part(stiffness), part(mass), allowed.transpose() * force(free)};
+    return {part(stiffness), part(mass), allowed.transpose() * force_on(free, still)};
+  }
+
+  // What acts on some coordinates where there are no multipliers.
+  Eigen::VectorXd force_on(const std::vector<int>& coordinates, const State& still) const {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(to_.coordinate_count()), none(to_.constraint_count());
+    std::vector<bool> wanted(static_cast<std::size_t>(to_.coordinate_count()), false);
+    for (const int coordinate : coordinates) wanted[coordinate] = true;
+    const auto is_wanted = [&](int dof) { return dof >= 0 && wanted[dof]; };
+    with_assembly(to_, [&]<int D>(const Assembly<D>& assembly) {
+      std::vector<int> beside;
+      for (int i = 0; i < static_cast<int>(assembly.elements().size()); ++i) {
+        const MeshElement<D>& e = assembly.elements()[i];
+        bool acts = std::any_of(e.dofs.begin(), e.dofs.end(), is_wanted);
+        if (e.twist) acts = acts || std::any_of(e.twist->dofs.begin(), e.twist->dofs.end(), is_wanted);
+        if (acts) beside.push_back(i);
+      }
+      assembly.add_residual_of(beside, still, force, none);
+    });
+    return force(coordinates);
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e of the energy away;
@@ -285,7 +303,7 @@ class Remap {
   const BeamSystem& to_;
   NeighbourSolvers* const solvers_;
   mutable std::size_t solved_ = 0;  // with them
-  mutable NearSolver own_;          // without such motions
+  mutable ProjectionSolver own_;    // without such motions
   const CarriedMomentum momentum_;
   const std::vector<int> around_;  // where rows of the new mesh may be open
   const double enough_;            // of closed constraints

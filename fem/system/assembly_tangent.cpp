@@ -1,5 +1,7 @@
 // The tangents of an assembly and where their entries are.
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -184,19 +186,28 @@ void Assembly<D>::build_pattern() {
 template <int D>
 template <class IndexOf>
 void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std::vector<Run>& runs) {
-  const std::size_t size = dofs.size();
-  std::size_t in_column = 0;
-  for (std::size_t i = 0; i < size; ++i) in_column += dofs[i] >= 0 && (i == 0 || dofs[i] != dofs[i - 1] + 1);
+  struct Rows {
+    int first;
+    std::uint8_t at, count;
+  };
+  constexpr std::size_t most = 64;  // coordinates of a contribution
+  assert(dofs.size() <= most);
+  std::array<Rows, most> in_column;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i] < 0) continue;
+    if (i > 0 && dofs[i - 1] >= 0 && dofs[i] == dofs[i - 1] + 1)
+      ++in_column[count - 1].count;
+    else
+      in_column[count++] = {dofs[i], static_cast<std::uint8_t>(i), 1};
+  }
   int previous = -1;  // start of the column before
-  for (std::size_t j = 0; j < size; ++j) {
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
     if (dofs[j] < 0) continue;
-    for (std::size_t i = 0; i < size;) {
-      const std::size_t first = i++;
-      if (dofs[first] < 0) continue;
-      while (i < size && dofs[i] == dofs[i - 1] + 1) ++i;
-      const int guess = previous < 0 ? 0 : runs[runs.size() - in_column].value - previous;
-      runs.push_back({index_of(dofs[first], dofs[j], guess), static_cast<std::uint8_t>(j),
-                      static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(i - first)});
+    for (std::size_t k = 0; k < count; ++k) {
+      const int guess = previous < 0 ? 0 : runs[runs.size() - count].value - previous;
+      runs.push_back({index_of(in_column[k].first, dofs[j], guess), static_cast<std::uint8_t>(j),
+                      in_column[k].at, in_column[k].count});
     }
     previous = index_of.start(dofs[j]);
   }

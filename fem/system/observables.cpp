@@ -91,21 +91,17 @@ double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
   return sum + heating_of(a, from, to);
 }
 
+// Shape functions of positions add up to one: their rows of the momentum to that of the whole.
 template <int D>
-Eigen::Matrix<double, D, 1> momentum_of(const MeshElement<D>& e, const ElementState<D>& x,
-                                        const State& state) {
+Eigen::Matrix<double, D, 1> momentum_of(const MeshElement<D>& e, const ElementState<D>& x) {
   using Layout = ElementLayout<D>;
+  using Vector = Eigen::Matrix<double, D, 1>;
   if (e.element.fixed()) {
     const ElementNodes<D> nodal = e.element.nodal_momentum(x.node_rates());
     return nodal.col(0) + nodal.col(2);
   }
-  Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
-  const double rho = e.element.properties().mass_per_length;
-  e.element.for_each_point(x.q[Layout::place(0)], x.q[Layout::place(1)],
-                           [&](const ShapeFunctions<double>&, double s, double weight) {
-                             sum += rho * weight * material_point<D>(e, state.q, state.v, s).velocity;
-                           });
-  return sum;
+  const ElementVector<D> p = e.element.tangent(x, Vector::Zero(), {.mass = 1}) * x.v;
+  return p.template segment<D>(Layout::r(0)) + p.template segment<D>(Layout::r(1));
 }
 
 template <int D>
@@ -123,7 +119,7 @@ void add_force_momenta(const Assembly<D>& a, const State& state, Eigen::Matrix<d
 template <int D>
 Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
-  for (const MeshElement<D>& e : a.elements()) sum += momentum_of<D>(e, gather<D>(e, state), state);
+  for (const MeshElement<D>& e : a.elements()) sum += momentum_of<D>(e, gather<D>(e, state));
   add_force_momenta(a, state, sum);
   return widened<D>(sum);
 }
@@ -137,7 +133,7 @@ MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std
     if (!counts[i]) continue;
     const MeshElement<D>& e = a.elements()[i];
     const ElementState<D> x = gather<D>(e, state);
-    momentum += momentum_of<D>(e, x, state);
+    momentum += momentum_of<D>(e, x);
     if (e.beam == beam) sums.length += e.element.length(x.q);
   }
   add_force_momenta(a, state, momentum);

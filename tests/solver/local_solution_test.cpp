@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseLU>
-#include <limits>
 #include <vector>
 
 namespace nurbeam {
@@ -107,56 +106,6 @@ TEST(LocalSolution, IsNoneOfASingularMatrix) {
   b[20] = 1;
   EXPECT_FALSE(correct_locally(A, b, {}, x));
   EXPECT_EQ(x, start);
-}
-
-Eigen::Map<const Matrix> view(const Matrix& A) {
-  return {A.rows(), A.cols(), A.nonZeros(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
-}
-
-TEST(Surroundings, AreTheUnknownsByLevels) {
-  const Matrix A = matrix_of(50, chain(50));
-  const Surroundings near(SparsePattern(A), {20, 21}, 3);
-  EXPECT_EQ(near.unknowns.size(), 12u);
-  EXPECT_EQ(near.inner, 8u);
-  EXPECT_EQ(near.rows, 10u);
-  for (std::size_t k = 0; k < near.inner; ++k) {
-    EXPECT_GE(near.unknowns[k], 17);
-    EXPECT_LE(near.unknowns[k], 24);
-  }
-}
-
-TEST(LocalSolution, AroundWhatIsOpenIsThatOfAllWhereItSuffices) {
-  constexpr int n = 600, open = 250;
-  Matrix A = matrix_of(n, chain(n));
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1, 3).array().sin();
-  const Eigen::VectorXd start = x;
-  Eigen::VectorXd b = A * x;
-  b[open] += 0.7;
-  const Eigen::VectorXd exact = solved(A, b);
-  const Surroundings near(SparsePattern(A), {open}, 40), narrow(SparsePattern(A), {open}, 5);
-  // Nobody looks at what the rows beyond have.
-  for (int i = 0; i < n; ++i)
-    if (std::abs(i - open) > 42) A.coeffRef(i, i) = std::numeric_limits<double>::quiet_NaN();
-  NearSolver solver;
-  EXPECT_FALSE(correct_around(view(A), b, narrow, Beyond::closed, solver, x));
-  EXPECT_EQ(x, start);
-  ASSERT_TRUE(correct_around(view(A), b, near, Beyond::closed, solver, x));
-  EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-14);
-}
-
-TEST(LocalSolution, WithTheOthersGivenClosesTheInnerRows) {
-  constexpr int n = 60, open = 30;
-  const Matrix A = matrix_of(n, chain(n));
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1, 3).array().sin();
-  const Eigen::VectorXd start = x, b = Eigen::VectorXd::LinSpaced(n, -1, 2);
-  const Surroundings near(SparsePattern(A), {open}, 5);
-  NearSolver solver;
-  ASSERT_TRUE(correct_around(view(A), b, near, Beyond::given, solver, x));
-  const Eigen::VectorXd left = b - A * x;
-  for (int i = 0; i < n; ++i) {
-    if (std::abs(i - open) <= 5) EXPECT_NEAR(left[i], 0, 1e-14);
-    if (std::abs(i - open) > 5) EXPECT_EQ(x[i], start[i]);
-  }
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(LocalVelocities, HaveTheMomentumThatThoseOfAllUnknownsHave) {
             if (i < momentum.size()) momentum[i] *= 1 + 0.3 * unit(random);
           State whole = local;
           const State start = local;
-          NearSolver solver;
+          ProjectionSolver solver;
           const Projection near = velocities_from_momentum(to, momentum, around, solver, local);
           const Projection all = velocities_from_momentum(to, momentum, whole);
           ASSERT_EQ(near.status, ConsistencyStatus::done);
