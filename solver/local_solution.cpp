@@ -14,7 +14,7 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using View = Eigen::Map<const Matrix>;
 
-View view(const Matrix& A) {
+View view(const SparseView& A) {
   return {A.rows(), A.cols(), A.nonZeros(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
 }
 
@@ -133,9 +133,11 @@ Matrix submatrix(const View& A, const std::vector<int>& unknowns) {
   return part_of(A, unknowns, place);
 }
 
-Matrix submatrix(const Matrix& A, const std::vector<int>& unknowns) { return submatrix(view(A), unknowns); }
+Matrix submatrix(const SparseView& A, const std::vector<int>& unknowns) {
+  return submatrix(view(A), unknowns);
+}
 
-bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
+bool correct_locally(const SparseView& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
                      Eigen::VectorXd& x) {
   constexpr int first_reach = 40, growth = 3;
   const View A = view(matrix);

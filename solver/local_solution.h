@@ -11,13 +11,13 @@ namespace nurbeam {
 /// there, as in matrices of masses, only the unknowns around them are solved for: as many as it takes, if
 /// need be all. `A`: compressed, its pattern symmetric; `last`: as `part` of KktSolver::factorise. Returns
 /// false, x unchanged, where A is singular.
-[[nodiscard]] bool correct_locally(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b,
+[[nodiscard]] bool correct_locally(const SparseView& A, const Eigen::VectorXd& b,
                                    const std::vector<int>& last, Eigen::VectorXd& x);
 
 /// The rows and columns of these unknowns, in order.
 Eigen::SparseMatrix<double> submatrix(const Eigen::Map<const Eigen::SparseMatrix<double>>& A,
                                       const std::vector<int>& unknowns);
-Eigen::SparseMatrix<double> submatrix(const Eigen::SparseMatrix<double>& A, const std::vector<int>& unknowns);
+Eigen::SparseMatrix<double> submatrix(const SparseView& A, const std::vector<int>& unknowns);
 
 /// Unknowns of a symmetric pattern, those first that are coupled with some over the fewest others.
 struct Surroundings {
