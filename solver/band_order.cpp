@@ -12,12 +12,10 @@ namespace nurbeam {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-
 // The unknowns that each is coupled with: itself too, and the rows of its column alone.
 class Neighbours {
  public:
-  Neighbours(const Matrix& pattern, const std::vector<int>& left_out)
+  Neighbours(const SparseView& pattern, const std::vector<int>& left_out)
       : pattern_(pattern), coupled_(static_cast<std::size_t>(pattern.cols()), false) {
     for (const int i : left_out)
       for (const int* other = begin(i); other != end(i); ++other) coupled_[*other] = true;
@@ -31,7 +29,7 @@ class Neighbours {
   bool is_coupled(int i) const { return coupled_[i]; }
 
  private:
-  const Matrix& pattern_;
+  const SparseView& pattern_;
   std::vector<bool> coupled_;
 };
 
@@ -111,13 +109,13 @@ std::vector<int> by_levels(const Neighbours& neighbours, const std::vector<int>&
 
 }  // namespace
 
-BandOrder::BandOrder(const Matrix& pattern, const std::vector<int>& left_out) {
+BandOrder::BandOrder(const SparseView& pattern, const std::vector<int>& left_out) {
   std::optional<std::vector<int>> close = close_order(pattern, left_out);
   unknown = close ? std::move(*close) : by_levels(Neighbours(pattern, left_out), left_out);
   place_unknowns(pattern);
 }
 
-BandOrder BandOrder::of(const Matrix& pattern, std::vector<int> unknowns) {
+BandOrder BandOrder::of(const SparseView& pattern, std::vector<int> unknowns) {
   BandOrder order;
   order.unknown = std::move(unknowns);
   order.place_unknowns(pattern);
@@ -154,7 +152,7 @@ BandOrder BandOrder::aligned(int block) const {
 }
 
 // All that follows from `unknown`.
-void BandOrder::place_unknowns(const Matrix& pattern) {
+void BandOrder::place_unknowns(const SparseView& pattern) {
   place.assign(static_cast<std::size_t>(pattern.cols()), -1);
   const int held = static_cast<int>(unknown.size());
   for (int k = 0; k < held; ++k) place[unknown[k]] = k;

@@ -1,6 +1,7 @@
 #pragma once
-#include <Eigen/SparseCore>
 #include <vector>
+
+#include "solver/sparse_pattern.h"
 
 namespace nurbeam {
 
@@ -10,9 +11,9 @@ namespace nurbeam {
 struct BandOrder {
   /// Of all unknowns but those `left_out`. What is coupled with these comes last in its component where that
   /// makes no wider band.
-  explicit BandOrder(const Eigen::SparseMatrix<double>& pattern, const std::vector<int>& left_out = {});
+  explicit BandOrder(const SparseView& pattern, const std::vector<int>& left_out = {});
   /// Of these unknowns alone, in the order in which they come.
-  static BandOrder of(const Eigen::SparseMatrix<double>& pattern, std::vector<int> unknowns);
+  static BandOrder of(const SparseView& pattern, std::vector<int> unknowns);
   /// The same with places left free before unknowns that reach equally far, as those of a node, where they
   /// are a multiple of `block`: they then begin at such a multiple too.
   BandOrder aligned(int block) const;
@@ -25,7 +26,7 @@ struct BandOrder {
 
  private:
   BandOrder() = default;
-  void place_unknowns(const Eigen::SparseMatrix<double>& pattern);
+  void place_unknowns(const SparseView& pattern);
 };
 
 }  // namespace nurbeam

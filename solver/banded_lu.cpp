@@ -11,18 +11,12 @@ namespace nurbeam {
 
 using namespace fours;
 
-namespace {
-
-using Matrix = Eigen::SparseMatrix<double>;
-
-}  // namespace
-
 // The rows that are being eliminated, each with what its columns take, and the multipliers of a block. They
 // are filled column by column, as far as the next elimination needs; where there is no room for more, those
 // that are left move to its beginning.
 class BandedLu::Window {
  public:
-  Window(BandedLu& of, const Matrix& matrix)
+  Window(BandedLu& of, const SparseView& matrix)
       : order_(*of.order_),
         matrix_(matrix),
         scale_(of.scale_),
@@ -108,7 +102,7 @@ class BandedLu::Window {
   }
 
   const BandOrder& order_;
-  const Matrix& matrix_;
+  const SparseView& matrix_;
   std::vector<double>& scale_;
   int size_, before_, width_, height_, capacity_;
   int begin_ = 0, first_ = 0;                   // row at the beginning, and first one that is needed
@@ -292,7 +286,7 @@ NURBEAM_WITHIN void BandedLu::invert_lower(int k) {
   for (int j = 0; j < block; ++j) four(own.from_previous[j].data()) = product(own.lower, four(before[j]));
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix) {
+NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const SparseView& matrix) {
   const int n = static_cast<int>(order_->unknown.size());
   Window window(*this, matrix);
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
@@ -322,7 +316,7 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const Matrix& matrix
   return largest > 0 ? smallest / largest : 0;
 }
 
-double BandedLu::factorise(const Matrix& matrix) {
+double BandedLu::factorise(const SparseView& matrix) {
   upper_end_ = lower_end_ = 0;
   return order_->unknown.empty() ? 1 : eliminate_rows(matrix);
 }

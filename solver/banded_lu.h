@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <vector>
@@ -21,7 +20,7 @@ class BandedLu {
 
   /// Row-scales and factorises what the order holds of a matrix of that pattern, R A = P L U with the scales
   /// R and row exchanges P; `compressed`, and finite. Returns the smallest over the largest pivot.
-  double factorise(const Eigen::SparseMatrix<double>& matrix);
+  double factorise(const SparseView& matrix);
   /// Numbers by places that the steps of a solution take, with room for what blocks reach beyond.
   using Places = std::vector<double>;
   Places places() const { return Places(room_, 0); }
@@ -47,7 +46,7 @@ class BandedLu {
   // reach.
   class Window;
 
-  double eliminate_rows(const Eigen::SparseMatrix<double>& matrix);
+  double eliminate_rows(const SparseView& matrix);
   static std::ptrdiff_t append(int count, std::size_t& end, std::vector<double>& numbers);
   void keep_block(int k, Window& window);
   void invert_upper(int k);

@@ -7,11 +7,9 @@ namespace nurbeam {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-
 class CloseOrder {
  public:
-  CloseOrder(const Matrix& pattern, const std::vector<int>& left_out)
+  CloseOrder(const SparseView& pattern, const std::vector<int>& left_out)
       : starts_(pattern.outerIndexPtr()),
         rows_(pattern.innerIndexPtr()),
         size_(static_cast<int>(pattern.cols())),
@@ -109,7 +107,7 @@ class CloseOrder {
 
 }  // namespace
 
-std::optional<std::vector<int>> close_order(const Matrix& pattern, const std::vector<int>& left_out) {
+std::optional<std::vector<int>> close_order(const SparseView& pattern, const std::vector<int>& left_out) {
   CloseOrder order(pattern, left_out);
   if (!order.is_narrow()) return std::nullopt;
   return order.turned(left_out);

@@ -1,7 +1,8 @@
 #pragma once
-#include <Eigen/SparseCore>
 #include <optional>
 #include <vector>
+
+#include "solver/sparse_pattern.h"
 
 namespace nurbeam {
 
@@ -10,7 +11,6 @@ namespace nurbeam {
 /// component whose unknowns coupled with those `left_out` are nearer to its start is turned round. All but
 /// those `left_out`; nothing where that makes a band much wider than the most that one unknown is coupled
 /// with asks for. Takes a look at each column, where BandOrder walks over all entries several times.
-std::optional<std::vector<int>> close_order(const Eigen::SparseMatrix<double>& pattern,
-                                            const std::vector<int>& left_out);
+std::optional<std::vector<int>> close_order(const SparseView& pattern, const std::vector<int>& left_out);
 
 }  // namespace nurbeam

@@ -110,12 +110,11 @@ Eigen::VectorXd constraint_values(const SecondOrderSystem& system, const State& 
   return constraints;
 }
 
-/// (n) f(q, v, t): what is left of minus the dynamics without acceleration and multipliers.
-Eigen::VectorXd force(const SecondOrderSystem& system, const State& moving) {
-  const State state = unloaded(system, moving);
+/// (n) f(q, v, t): minus the dynamics of an unloaded state.
+Eigen::VectorXd force(const SecondOrderSystem& system, const State& still) {
   Eigen::VectorXd dynamics(system.coordinate_count());
   Eigen::VectorXd constraints(system.constraint_count());
-  system.residual(state, dynamics, constraints);
+  system.residual(still, dynamics, constraints);
   return -dynamics;
 }
 
@@ -187,8 +186,9 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
                                             const std::vector<int>& around, NearSolver& solver,
                                             State& state) {
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
-  const State still = unloaded(system, state);
-  const Eigen::VectorXd f = force(system, state), curvature = system.constraint_curvature(state);
+  State still = unloaded(system, state);
+  const Eigen::VectorXd curvature = system.constraint_curvature(state);
+  Eigen::VectorXd f = force(system, still);
   if (!around.empty() && !system.forces_depend_on_multipliers()) {
     NearKkt near = near_kkt(system, around);
     if (near.factorise(still, h) && near.correct(f, -curvature, Beyond::given, state.a, state.lambda))
@@ -197,13 +197,22 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   const ScaledKkt kkt(system, still, h);
   Eigen::VectorXd right(n + m), solution;
   right << f / kkt.scale, -curvature;
+  // The factors ask for room.
+  still = {};
+  f.resize(0);
   if (!solver.solve(kkt.matrix, system.moving_unknowns(), right, solution) || !solution.allFinite())
     return ConsistencyStatus::singular;
+  const auto take = [&](State& into) {
+    into.a = solution.head(n);
+    into.lambda = kkt.scale * solution.tail(m);
+  };
+  if (!system.forces_depend_on_multipliers()) {
+    take(state);
+    return ConsistencyStatus::done;
+  }
   State found = state;
-  found.a = solution.head(n);
-  found.lambda = kkt.scale * solution.tail(m);
-  if (system.forces_depend_on_multipliers() && !correct_accelerations(system, h, found))
-    return ConsistencyStatus::singular;
+  take(found);
+  if (!correct_accelerations(system, h, found)) return ConsistencyStatus::singular;
   state = std::move(found);
   return ConsistencyStatus::done;
 }

@@ -108,7 +108,7 @@ GeneralizedAlphaIntegrator::Parameters GeneralizedAlphaIntegrator::parameters(do
 GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
                                                        const SecondOrderSystem& system, State start)
     : GeneralizedAlphaIntegrator(settings, system, std::move(start), 1) {
-  mass_scale_ = nurbeam::mass_scale(system, state_, kkt_);
+  mass_scale_ = nurbeam::mass_scale(system, state_, matrix());
 }
 
 GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
@@ -122,7 +122,7 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   parameters_ = parameters(settings_.rho_infinity);
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
-  kkt_ = system.tangent_pattern().matrix();
+  kkt_.resize(static_cast<Eigen::Index>(system.tangent_pattern().rows().size()));
   scale_ = system.coordinate_scale();
   inverse_scale_ = scale_.cwiseInverse();
   trial_ = state_;
@@ -161,7 +161,7 @@ StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const Integra
   last_step_ = last_error_ = 0;
   linearisation_ = nullptr;
   jerk_.setZero();
-  mass_scale_ = nurbeam::mass_scale(*system_, state_, kkt_);
+  mass_scale_ = nurbeam::mass_scale(*system_, state_, matrix());
   return advance_within(step, 0, 0);
 }
 
@@ -237,14 +237,24 @@ bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
          std::abs(trial_.t - linearisation_->state.t) <= longest_use * step;
 }
 
+Eigen::Map<Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::matrix() {
+  return system_->tangent_pattern().matrix_of(kkt_.data());
+}
+
+Eigen::Map<const Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::iteration_matrix() const {
+  const SparsePattern& pattern = system_->tangent_pattern();
+  return {pattern.size(),        pattern.size(), kkt_.size(), pattern.column_starts().data(),
+          pattern.rows().data(), kkt_.data()};
+}
+
 /// Makes the matrix of that place the one that corrects, if it is not. False where it is singular.
 bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> at) {
   linearisation_ = std::move(at);
   if (factorised_ == linearisation_) return true;
   factorised_ = nullptr;
   const TangentWeights weights = weights_of(linearisation_->step);
-  system_->tangent(linearisation_->state, weights, kkt_);
-  if (!solver_.factorise(kkt_, system_->moving_unknowns())) {
+  system_->tangent(linearisation_->state, weights, matrix());
+  if (!solver_.factorise(matrix(), system_->moving_unknowns())) {
     linearisation_ = nullptr;
     return false;
   }
@@ -347,8 +357,9 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   correction_.setZero();
   reference_.setConstant(std::numeric_limits<double>::min());
   double* reference = reference_.data();
-  const double* values = kkt_.valuePtr();
-  const int *rows = kkt_.innerIndexPtr(), *starts = kkt_.outerIndexPtr();
+  const double* values = kkt_.data();
+  const SparsePattern& pattern = system_->tangent_pattern();
+  const int *rows = pattern.rows().data(), *starts = pattern.column_starts().data();
   for (Eigen::Index column = 0; column < n; ++column) {
     const double rounding = floor * (std::abs(at.q[column]) + scale_[column]);
     const double moved = rounding + scaling * std::abs(at.a[column]);

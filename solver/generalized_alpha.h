@@ -66,7 +66,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
                                   double step) override;
   /// (n+m) x (n+m) the scaled matrix of the last Newton iteration, whichever step it was taken in.
-  const Eigen::SparseMatrix<double>& iteration_matrix() const { return kkt_; }
+  Eigen::Map<const Eigen::SparseMatrix<double>> iteration_matrix() const;
 
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
   [[nodiscard]] StepReport advance(double step) override;
@@ -76,6 +76,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   StepStatus attempt(double step, StepReport& report);
   bool predict(double step);
   bool has_matrix_for(double step) const;
+  Eigen::Map<Eigen::SparseMatrix<double>> matrix();
   TangentWeights weights_of(double step) const;
   bool linearise(std::shared_ptr<const Linearisation> at);
   std::shared_ptr<const Linearisation> trial_point(double step);
@@ -104,7 +105,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
   KktSolver solver_;
-  Eigen::SparseMatrix<double> kkt_;
+  Eigen::VectorXd kkt_;          ///< values of the system's pattern
   Eigen::MatrixXd moving_part_;  ///< that in kkt_
 
   // The attempt under way.

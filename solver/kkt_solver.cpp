@@ -16,8 +16,6 @@ namespace nurbeam {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-
 // The places of an order where it falls into two that are coupled through what lies between them alone.
 struct Cut {
   int end, begin;
@@ -43,7 +41,7 @@ Cut cut_of(const BandOrder& order) {
 // indices.
 class PatternInRuns {
  public:
-  explicit PatternInRuns(const Matrix& matrix)
+  explicit PatternInRuns(const SparseView& matrix)
       : column_ends_(matrix.outerIndexPtr() + 1, matrix.outerIndexPtr() + matrix.cols() + 1) {
     const int* rows = matrix.innerIndexPtr();
     for (int k = 0; const int end : column_ends_)
@@ -55,7 +53,7 @@ class PatternInRuns {
     runs_.shrink_to_fit();
   }
 
-  bool is_of(const Matrix& matrix) const {
+  bool is_of(const SparseView& matrix) const {
     if (static_cast<std::size_t>(matrix.cols()) != column_ends_.size() ||
         !std::equal(column_ends_.begin(), column_ends_.end(), matrix.outerIndexPtr() + 1))
       return false;
@@ -92,7 +90,7 @@ struct AnalysedPattern {
   std::vector<Entry> within;
 
   // `may_cut`: whether a long strand may become two.
-  AnalysedPattern(const Matrix& matrix, const std::vector<int>& eliminated_last, bool may_cut)
+  AnalysedPattern(const SparseView& matrix, const std::vector<int>& eliminated_last, bool may_cut)
       : entries(matrix), last(eliminated_last), part(eliminated_last) {
     BandOrder whole(matrix, last);
     is_cut = may_cut && is_worth_two(whole);
@@ -108,7 +106,7 @@ struct AnalysedPattern {
         if (in_part[rows[k]] >= 0) within.push_back({k, in_part[rows[k]], in_part[column]});
   }
 
-  bool is_of(const Matrix& matrix, const std::vector<int>& eliminated_last) const {
+  bool is_of(const SparseView& matrix, const std::vector<int>& eliminated_last) const {
     return last == eliminated_last && entries.is_of(matrix);
   }
 
@@ -122,17 +120,17 @@ struct AnalysedPattern {
     return middle.begin - middle.end <= widest_cut;
   }
 
-  std::vector<int> places_in_part(const Matrix& matrix) const {
+  std::vector<int> places_in_part(const SparseView& matrix) const {
     std::vector<int> places(static_cast<std::size_t>(matrix.cols()), -1);
     for (std::size_t j = 0; j < part.size(); ++j) places[part[j]] = static_cast<int>(j);
     return places;
   }
 
-  void add_strand(const Matrix& matrix, BandOrder order, const std::vector<int>& in_part) {
+  void add_strand(const SparseView& matrix, BandOrder order, const std::vector<int>& in_part) {
     strands.push_back(std::make_shared<const StrandOrder>(matrix, std::move(order), in_part));
   }
 
-  void cut(const Matrix& matrix, const BandOrder& whole) {
+  void cut(const SparseView& matrix, const BandOrder& whole) {
     const auto [end, begin] = cut_of(whole);
     const auto start = whole.unknown.begin();
     part.insert(part.end(), start + end, start + begin);
@@ -162,7 +160,7 @@ struct KktSolver::Implementation {
   Eigen::PartialPivLU<Eigen::MatrixXd> corner_lu;
   Eigen::VectorXd rest, part;
 
-  void analyse(const Matrix& matrix, const std::vector<int>& last, bool may_cut) {
+  void analyse(const SparseView& matrix, const std::vector<int>& last, bool may_cut) {
     // Of one mesh several matrices are solved, by as many solvers: the order that was found last is at hand.
     thread_local std::shared_ptr<const AnalysedPattern> found;
     if (!found || !found->is_of(matrix, last) || (found->is_cut && !may_cut))
@@ -179,7 +177,7 @@ struct KktSolver::Implementation {
   }
 
   // The factors of all strands and of the corner; whether they are regular.
-  bool factorise(const Matrix& matrix) {
+  bool factorise(const SparseView& matrix) {
     bool is_regular[2] = {true, true};
     for_each_strand([&](Strand& strand) {
       is_regular[&strand - strands.data()] = strand.factorise(matrix, pattern->part.size());
@@ -233,7 +231,7 @@ KktSolver::~KktSolver() = default;
 KktSolver::KktSolver(KktSolver&&) noexcept = default;
 KktSolver& KktSolver::operator=(KktSolver&&) noexcept = default;
 
-bool KktSolver::factorise(const Matrix& matrix, const std::vector<int>& part) {
+bool KktSolver::factorise(const SparseView& matrix, const std::vector<int>& part) {
   assert(matrix.isCompressed() && matrix.rows() == matrix.cols());
   Implementation& self = *implementation_;
   if (!all_finite(Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros()))) return false;

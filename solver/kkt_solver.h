@@ -1,7 +1,9 @@
 #pragma once
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
+
+#include "solver/sparse_pattern.h"
 
 namespace nurbeam {
 
@@ -23,7 +25,7 @@ class KktSolver {
   /// leave a matrix A that is regular.
   /// Returns whether the matrix is finite and numerically non-singular: smallest over largest pivot of the
   /// row-scaled factors above 1e-15.
-  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& part = {});
+  [[nodiscard]] bool factorise(const SparseView& matrix, const std::vector<int>& part = {});
   /// Adds `change` (p x p) to S as it was in the matrix that has been factorised, in the order of the part.
   /// Returns what factorise does.
   [[nodiscard]] bool renew(const Eigen::MatrixXd& change);

@@ -14,7 +14,7 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using View = Eigen::Map<const Matrix>;
 
-View view(const Matrix& A) {
+View view(const SparseView& A) {
   return {A.rows(), A.cols(), A.nonZeros(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
 }
 
@@ -117,13 +117,13 @@ class Window {
 
 }  // namespace
 
-Matrix submatrix(const Matrix& A, const std::vector<int>& unknowns) {
+Matrix submatrix(const SparseView& A, const std::vector<int>& unknowns) {
   std::vector<int> place(static_cast<std::size_t>(A.cols()), -1);
   for (std::size_t k = 0; k < unknowns.size(); ++k) place[unknowns[k]] = static_cast<int>(k);
   return part_of(view(A), unknowns, place);
 }
 
-bool correct_locally(const Matrix& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
+bool correct_locally(const SparseView& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
                      Eigen::VectorXd& x) {
   constexpr int first_reach = 40, growth = 3;
   const View A = view(matrix);

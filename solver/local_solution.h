@@ -1,6 +1,7 @@
 #pragma once
-#include <Eigen/SparseCore>
 #include <vector>
+
+#include "solver/sparse_pattern.h"
 
 namespace nurbeam {
 
@@ -8,10 +9,10 @@ namespace nurbeam {
 /// there, as in matrices of masses, only the unknowns around them are solved for: as many as it takes, if
 /// need be all. `A`: compressed, its pattern symmetric; `last`: as `part` of KktSolver::factorise. Returns
 /// false, x unchanged, where A is singular.
-[[nodiscard]] bool correct_locally(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b,
+[[nodiscard]] bool correct_locally(const SparseView& A, const Eigen::VectorXd& b,
                                    const std::vector<int>& last, Eigen::VectorXd& x);
 
 /// The rows and columns of these unknowns, in order.
-Eigen::SparseMatrix<double> submatrix(const Eigen::SparseMatrix<double>& A, const std::vector<int>& unknowns);
+Eigen::SparseMatrix<double> submatrix(const SparseView& A, const std::vector<int>& unknowns);
 
 }  // namespace nurbeam

@@ -26,8 +26,8 @@ bool correct_solution(const KktSolver& factors,
   return false;
 }
 
-bool NearSolver::solve(const Eigen::SparseMatrix<double>& A, const std::vector<int>& last,
-                       const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+bool NearSolver::solve(const SparseView& A, const std::vector<int>& last, const Eigen::VectorXd& b,
+                       Eigen::VectorXd& x) {
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   const auto open = [&](const Eigen::VectorXd& of, Eigen::VectorXd& left) {
     left = b;

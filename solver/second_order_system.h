@@ -43,8 +43,7 @@ class SecondOrderSystem {
   /// Values of [[w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq, dF/dlambda], [G, 0]], F = dynamics at
   /// `state` (lambda included), into a matrix of tangent_pattern(). dF/dlambda is G' where all weights
   /// are 0.
-  virtual void tangent(const State& state, const TangentWeights& w,
-                       Eigen::SparseMatrix<double>& kkt) const = 0;
+  virtual void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const = 0;
 
   /// The same for two sets of weights.
   virtual void tangents(const State& state, const std::array<TangentWeights, 2>& w,

@@ -6,6 +6,10 @@
 
 namespace nurbeam {
 
+/// A compressed matrix that is read, and one whose values are written: its indices may be those of a pattern.
+using SparseView = Eigen::Ref<const Eigen::SparseMatrix<double>>;
+using SparseValues = Eigen::Ref<Eigen::SparseMatrix<double>>;
+
 /// Where a square sparse matrix has entries: column by column, the rows of each in order.
 class SparsePattern {
  public:
@@ -31,6 +35,17 @@ class SparsePattern {
     std::copy(rows_.begin(), rows_.end(), zero.innerIndexPtr());
     zero.coeffs().setZero();
     return zero;
+  }
+
+  /// That with so many values of somebody's own, rows().size(); it looks at the pattern, and writes values
+  /// alone.
+  Eigen::Map<Eigen::SparseMatrix<double>> matrix_of(double* values) const {
+    return {size(),
+            size(),
+            static_cast<Eigen::Index>(rows_.size()),
+            const_cast<int*>(column_starts_.data()),
+            const_cast<int*>(rows_.data()),
+            values};
   }
 
   bool operator==(const SparsePattern&) const = default;

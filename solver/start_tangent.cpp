@@ -66,8 +66,8 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
   State still = state;
   still.a.setZero();
   still.lambda.setZero();
-  ScaledKkt kkt(system, still, h);
-  kkt_ = std::move(kkt.matrix);
+  const ScaledKkt kkt(system, still, h);
+  kkt_ = kkt.matrix;
   scale_ = kkt.scale;
   unknowns_ = solved_near(system, around);
   regular_ = unknowns_.empty() ? solver_.factorise(kkt_, system.moving_unknowns())

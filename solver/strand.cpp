@@ -9,8 +9,6 @@ namespace nurbeam {
 
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-
 /// Widest band that is eliminated as one: chains of elements, rings and a few branches have less.
 constexpr int widest_band = 40;
 
@@ -28,7 +26,7 @@ BandOrder in_best_order(BandOrder order) {
 }  // namespace
 
 /// KLU's own estimate of the reciprocal condition, smallest over largest pivot of the row-scaled factors.
-class Strand::Klu : public Eigen::KLU<Matrix> {
+class Strand::Klu : public Eigen::KLU<Eigen::SparseMatrix<double>> {
  public:
   double reciprocal_condition() {
     klu_rcond(m_symbolic, m_numeric, &m_common);
@@ -36,7 +34,7 @@ class Strand::Klu : public Eigen::KLU<Matrix> {
   }
 };
 
-StrandOrder::StrandOrder(const Matrix& matrix, BandOrder of, const std::vector<int>& in_part)
+StrandOrder::StrandOrder(const SparseView& matrix, BandOrder of, const std::vector<int>& in_part)
     : band(std::make_shared<const BandOrder>(in_best_order(std::move(of)))) {
   const auto for_each_row = [&](int column, const auto& visit) {
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k)
@@ -60,7 +58,8 @@ StrandOrder::StrandOrder(const Matrix& matrix, BandOrder of, const std::vector<i
   std::sort(out_of.begin(), out_of.end(), by_part);
 }
 
-Strand::Strand(std::shared_ptr<const StrandOrder> order, const Matrix& matrix) : order_(std::move(order)) {
+Strand::Strand(std::shared_ptr<const StrandOrder> order, const SparseView& matrix)
+    : order_(std::move(order)) {
   is_banded_ = band().half_bandwidth <= widest_band;
   if (is_banded_) {
     lu_.take(order_->band);
@@ -78,19 +77,19 @@ Strand::~Strand() = default;
 Strand::Strand(Strand&&) noexcept = default;
 
 // A of all rows and columns.
-void Strand::extract(const Matrix& matrix) {
+void Strand::extract(const SparseView& matrix) {
   matrix_.resize(size(), size());
   matrix_.reserve(matrix.nonZeros());
   for (int k = 0; k < size(); ++k) {
     matrix_.startVec(k);
-    for (Matrix::InnerIterator entry(matrix, band().unknown[k]); entry; ++entry)
+    for (Eigen::InnerIterator<SparseView> entry(matrix, band().unknown[k]); entry; ++entry)
       if (band().place[entry.row()] >= 0) matrix_.insertBack(band().place[entry.row()], k) = entry.value();
   }
   matrix_.finalize();
 }
 
 // Those of A; returns the reciprocal condition.
-double Strand::factors(const Matrix& matrix) {
+double Strand::factors(const SparseView& matrix) {
   if (is_banded_) return lu_.factorise(matrix);
   if (!is_structurally_regular_) return 0;
   extract(matrix);
@@ -103,7 +102,7 @@ void Strand::solve_whole(BandedLu::Places& y) const {
       klu_->solve(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(y.data(), size())));
 }
 
-bool Strand::factorise(const Matrix& matrix, std::size_t part) {
+bool Strand::factorise(const SparseView& matrix, std::size_t part) {
   if (!(factors(matrix) > smallest_reciprocal_condition)) return false;
   const double* values = matrix.valuePtr();
   into_.resize(part);

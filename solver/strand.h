@@ -20,7 +20,7 @@ struct StrandOrder {
   };
 
   /// `in_part`: of each unknown its place in the part, or -1.
-  StrandOrder(const Eigen::SparseMatrix<double>& matrix, BandOrder of, const std::vector<int>& in_part);
+  StrandOrder(const SparseView& matrix, BandOrder of, const std::vector<int>& in_part);
 
   std::shared_ptr<const BandOrder> band;
   std::vector<Entry> into, out_of;  ///< by part, then by place
@@ -30,12 +30,12 @@ struct StrandOrder {
 /// then A, and U is 1.
 class Strand {
  public:
-  Strand(std::shared_ptr<const StrandOrder> order, const Eigen::SparseMatrix<double>& matrix);
+  Strand(std::shared_ptr<const StrandOrder> order, const SparseView& matrix);
   ~Strand();
   Strand(Strand&&) noexcept;
 
   /// Whether A is regular; then its factors, V and W, with `part` columns and rows.
-  bool factorise(const Eigen::SparseMatrix<double>& matrix, std::size_t part);
+  bool factorise(const SparseView& matrix, std::size_t part);
   /// Takes W V from what is left of S.
   void take_from(Eigen::MatrixXd& schur) const;
 
@@ -57,8 +57,8 @@ class Strand {
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(order_->band->unknown.size()); }
   const BandOrder& band() const { return *order_->band; }
-  void extract(const Eigen::SparseMatrix<double>& matrix);
-  double factors(const Eigen::SparseMatrix<double>& matrix);
+  void extract(const SparseView& matrix);
+  double factors(const SparseView& matrix);
   void solve_whole(BandedLu::Places& y) const;
   void keep(Piece& piece, int first, int last);
   static double product(const Piece& a, const Piece& b);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 
 #include "fem/motion/beam_extremes.h"
 #include "fem/motion/sag.h"
@@ -21,17 +20,6 @@ double node_displacement(const BeamSystem& system, const State& state, int beam,
   return displacement(curve, vector_at(system, state.q, of.r), place_of(curve, of, state));
 }
 
-// From the spans around the lowest one, and those at the ends.
-double sag_near(const BeamSystem& system, const State& state, int beam, int lowest) {
-  const Mesh& mesh = system.mesh();
-  const int first = mesh.first_span[beam], last = mesh.first_span[beam + 1] - 1;
-  std::vector<ElementRecord> elements;
-  for (const int span :
-       std::set{first, std::max(first, lowest - 1), lowest, std::min(last, lowest + 1), last})
-    elements.emplace_back().control_points = span_control_points(system, state, span);
-  return sag(elements, system.model().gravity);
-}
-
 const ElementExtreme& of_elements(Extreme BeamRecord::*extreme) {
   return *std::find_if(
       std::begin(element_extremes), std::end(element_extremes),
@@ -40,7 +28,7 @@ const ElementExtreme& of_elements(Extreme BeamRecord::*extreme) {
 
 double value_in(const BeamSystem& system, const State& state, int span, int sample,
                 Extreme BeamRecord::*extreme) {
-  const ElementRecord element = record_element(system, state, span, span_resultants(system, state, span));
+  const ElementRecord element = record_element(system, state, span, CarriedBySpans(system, state)[span]);
   const double value = (element.*of_elements(extreme).values)[sample];
   return extreme == &BeamRecord::twist_max ? value + twist_before(system, state, span) : value;
 }

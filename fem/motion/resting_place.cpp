@@ -72,7 +72,7 @@ class LoadedBetween final : public SecondOrderSystem {
     system_.residual(loaded(state), dynamics, constraints);
   }
   const SparsePattern& tangent_pattern() const override { return system_.tangent_pattern(); }
-  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
+  void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override {
     if (interrupted_ && interrupted_()) throw Interruption{};
     system_.tangent(loaded(state), w, kkt);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "nurbs/golden_section.h"
 
@@ -11,43 +12,43 @@ namespace {
 
 RationalCubic cubic_of(const ElementRecord& element) { return RationalCubic(element.control_points); }
 
-// The line between the ends of a beam, and what is below it.
-struct Chord {
-  Eigen::Vector3d start, along, down, across;
+Chord chord_of(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity) {
+  return {elements.front().control_points, elements.back().control_points, gravity};
+}
 
-  Chord(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity)
-      : start(cubic_of(elements.front()).point(0)),
-        along(cubic_of(elements.back()).point(1) - start),
-        down(gravity.normalized()),
-        across(along - along.dot(down) * down) {}
-
-  bool is_vertical() const { return across.norm() <= 1e-9 * std::max(along.norm(), 1e-300); }
-  double depth(const RationalCubic& cubic, double u) const {
-    const Eigen::Vector3d d = cubic.point(u) - start;
-    return d.dot(down) - d.dot(across) / across.squaredNorm() * along.dot(down);
-  }
-};
-
-int lowest_of(const std::vector<ElementRecord>& elements, const Chord& chord) {
-  int lowest = 0;
-  double deepest = chord.depth(cubic_of(elements[0]), 0.5);
-  for (std::size_t i = 1; i < elements.size(); ++i)
-    if (const double here = chord.depth(cubic_of(elements[i]), 0.5); here > deepest) {
-      deepest = here;
-      lowest = static_cast<int>(i);
-    }
-  return lowest;
+int lowest_of(const std::vector<ElementRecord>& elements, Chord chord) {
+  for (const ElementRecord& element : elements) chord.look_at(element.control_points);
+  return chord.lowest();
 }
 
 }  // namespace
 
+Chord::Chord(const Eigen::Matrix4d& first, const Eigen::Matrix4d& last, const Eigen::Vector3d& gravity)
+    : start_(RationalCubic(first).point(0)),
+      along_(RationalCubic(last).point(1) - start_),
+      down_(gravity.normalized()),
+      across_(along_ - along_.dot(down_) * down_) {}
+
+double Chord::depth(const RationalCubic& cubic, double u) const {
+  const Eigen::Vector3d d = cubic.point(u) - start_;
+  return d.dot(down_) - d.dot(across_) / across_.squaredNorm() * along_.dot(down_);
+}
+
+void Chord::look_at(const Eigen::Matrix4d& control_points) {
+  const int element = looked_at_++;
+  const double here = depth(RationalCubic(control_points), 0.5);
+  if (element > 0 && !(here > deepest_)) return;
+  deepest_ = here;
+  lowest_ = element;
+}
+
 int lowest_element(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity) {
-  return lowest_of(elements, Chord(elements, gravity));
+  return lowest_of(elements, chord_of(elements, gravity));
 }
 
 double sag(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Chord chord(elements, gravity);
+  const Chord chord = chord_of(elements, gravity);
   if (gravity.norm() == 0 || chord.is_vertical()) return none;
   const int lowest = lowest_of(elements, chord), count = static_cast<int>(elements.size());
   double most = 0;
@@ -57,6 +58,16 @@ double sag(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gr
     most = std::max(most, chord.depth(cubic, u));
   }
   return most;
+}
+
+double sag_near(const BeamSystem& system, const State& state, int beam, int lowest) {
+  const Mesh& mesh = system.mesh();
+  const int first = mesh.first_span[beam], last = mesh.first_span[beam + 1] - 1;
+  std::vector<ElementRecord> elements;
+  for (const int span :
+       std::set{first, std::max(first, lowest - 1), lowest, std::min(last, lowest + 1), last})
+    elements.emplace_back().control_points = span_control_points(system, state, span);
+  return sag(elements, system.model().gravity);
 }
 
 }  // namespace nurbeam

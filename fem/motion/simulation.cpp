@@ -86,17 +86,17 @@ struct Simulation::Implementation {
 
   // Right after a restart with the accelerations and multipliers of the moment, of which an integrator may
   // have taken means over its first step.
-  Snapshot present() const {
+  Snapshot present(const TakeElements& take = nullptr) const {
     if (run_.restarted) {
       State state = run_.at.state;
       if (make_accelerations_consistent(*run_.at.system, state) == ConsistencyStatus::done)
-        return snapshot_of(state);
+        return snapshot_of(state, take);
     }
-    return snapshot_of(run_.at.state);
+    return snapshot_of(run_.at.state, take);
   }
 
-  Snapshot snapshot_of(const State& state) const {
-    Snapshot snapshot = record_snapshot(*run_.at.system, state, probes_);
+  Snapshot snapshot_of(const State& state, const TakeElements& take) const {
+    Snapshot snapshot = record_snapshot(*run_.at.system, state, probes_, {}, take);
     snapshot.steps = run_.steps;
     run_.account.enter(snapshot);
     snapshot.step = run_.last_step;
@@ -328,7 +328,10 @@ struct Simulation::Implementation {
   }
 
   void take_snapshot() {
-    Snapshot snapshot = present();
+    const auto& elements = run_.observer.elements;
+    const double time = run_.at.state.t;
+    Snapshot snapshot =
+        present(elements ? [&](int beam, auto& some) { elements(time, beam, some); } : TakeElements());
     run_.steps.clear();
     iterations_written_ = run_.report.newton_iterations;
     if (!run_.options.statics) run_.account.record(snapshot, run_.report);

@@ -25,7 +25,9 @@ struct SimulationOptions {
 
 /// What happens on the way; what is empty is not told.
 struct SimulationObserver {
-  std::function<void(Snapshot)> snapshot = nullptr;           ///< at every output time
+  std::function<void(Snapshot)> snapshot = nullptr;  ///< at every output time
+  /// Takes the elements of a snapshot, which then has none, before it: at this time.
+  std::function<void(double time, int beam, std::vector<ElementRecord>& elements)> elements = nullptr;
   std::function<void(const StepRecord&)> progress = nullptr;  ///< after every step
   std::function<bool()> interrupted =
       nullptr;  ///< true asks to end: a motion after its step, a search for rest at once

@@ -1,5 +1,6 @@
 #include "fem/motion/snapshot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,9 @@ namespace nurbeam {
 
 namespace {
 
+constexpr int at_once = 4096;  ///< elements that are handed over together
+
+// Of its elements.
 void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
   for (const ElementRecord& e : record.elements)
     for (int i = 0; i < 4; ++i) {
@@ -18,6 +22,9 @@ void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
       for (const auto& [extreme, values, size, of_torsion] : element_extremes)
         if (!of_torsion || !std::isnan(e.twist[i])) keep(record.*extreme, (e.*values)[i], s, size);
     }
+}
+
+void find_displacement(const ReferenceCurve& curve, BeamRecord& record) {
   for (std::size_t i = 0; i < record.node_s.size(); ++i) {
     const double s = record.node_s[i];
     keep(record.displacement_max, displacement(curve, record.node_positions[i], s), s,
@@ -46,21 +53,62 @@ BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& grav
   record.length = curve.length();
   record.sag = sag(record.elements, gravity);
   find_extremes(curve, record);
+  find_displacement(curve, record);
   return record;
 }
 
-BeamRecord record_with(const BeamSystem& system, const State& state,
-                       const std::vector<SpanResultants>& carried, int b) {
-  const Mesh& mesh = system.mesh();
-  const ReferenceCurve& curve = system.model().beams[b].curve;
-  if (system.model().beams[b].rigid) return record_guide(curve, system.model().gravity);
-  BeamRecord record;
-  record.elements.reserve(static_cast<std::size_t>(mesh.first_span[b + 1] - mesh.first_span[b]));
-  double twisted = 0;  // since the start of the beam
-  for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i) {
-    ElementRecord& element = record.elements.emplace_back(record_element(system, state, i, carried[i]));
+// The elements of spans that follow one another. `twisted`: at the end of the one before, since the start of
+// the beam.
+void record_spans(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int first,
+                  int end, double& twisted, std::vector<ElementRecord>& elements) {
+  elements.reserve(static_cast<std::size_t>(end - first));
+  for (int i = first; i < end; ++i) {
+    ElementRecord& element = elements.emplace_back(record_element(system, state, i, carried[i]));
     element.twist.array() += twisted;
     twisted = element.twist[3];
+  }
+}
+
+void hand_over(int beam, const TakeElements& take, BeamRecord& record) {
+  record.handed_over += record.elements.size();
+  take(beam, record.elements);
+  record.elements.clear();
+}
+
+// Hands the elements over; their extremes and the sag stay.
+void record_in_stretches(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
+                         const TakeElements& take, BeamRecord& record) {
+  const int first = system.mesh().first_span[b], end = system.mesh().first_span[b + 1];
+  Chord chord(span_control_points(system, state, first), span_control_points(system, state, end - 1),
+              system.model().gravity);
+  double twisted = 0;
+  for (int i = first; i < end; i += at_once) {
+    record_spans(carried, system, state, i, std::min(i + at_once, end), twisted, record.elements);
+    find_extremes(system.model().beams[b].curve, record);
+    for (const ElementRecord& element : record.elements) chord.look_at(element.control_points);
+    hand_over(b, take, record);
+  }
+  record.sag = sag_near(system, state, b, first + chord.lowest());
+}
+
+BeamRecord record_with(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
+                       const TakeElements& take = nullptr) {
+  const Mesh& mesh = system.mesh();
+  const ReferenceCurve& curve = system.model().beams[b].curve;
+  if (system.model().beams[b].rigid) {
+    BeamRecord record = record_guide(curve, system.model().gravity);
+    if (take) hand_over(b, take, record);
+    return record;
+  }
+  BeamRecord record;
+  if (take) {
+    record_in_stretches(carried, system, state, b, take, record);
+  } else {
+    double twisted = 0;
+    record_spans(carried, system, state, mesh.first_span[b], mesh.first_span[b + 1], twisted,
+                 record.elements);
+    find_extremes(curve, record);
+    record.sag = sag(record.elements, system.model().gravity);
   }
   for (auto* each : {&record.node_positions, &record.node_slopes}) each->reserve(mesh.nodes[b].size());
   record.node_s.reserve(mesh.nodes[b].size());
@@ -70,8 +118,7 @@ BeamRecord record_with(const BeamSystem& system, const State& state,
     record.node_s.push_back(place_of(curve, node, state));
   }
   record.length = beam_length(system, state, b);
-  record.sag = sag(record.elements, system.model().gravity);
-  find_extremes(curve, record);
+  find_displacement(curve, record);
   return record;
 }
 
@@ -95,7 +142,7 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state, const Pro
   ProbeRecord record = record_place(system, state, probe);
   if (system.model().beams[probe.beam].rigid) return record;
   const int span = probe.span < 0 ? span_of(system, state, probe) : probe.span;
-  record.section = section_at(system, state, span, span_resultants(system, state, span), probe.s);
+  record.section = section_at(system, state, span, CarriedBySpans(system, state)[span], probe.s);
   record.section.twist += twist_before(system, state, span);
   return record;
 }
@@ -129,23 +176,23 @@ double twist_before(const BeamSystem& system, const State& state, int span) {
 }
 
 BeamRecord record_beam(const BeamSystem& system, const State& state, int beam) {
-  return record_with(system, state, stress_resultants(system, state), beam);
+  return record_with(CarriedBySpans(system, state), system, state, beam);
 }
 
-std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state) {
-  const std::vector<SpanResultants> carried = stress_resultants(system, state);
+std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state, const TakeElements& take) {
+  const CarriedBySpans carried(system, state);
   std::vector<BeamRecord> records;
   for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b)
-    records.push_back(record_with(system, state, carried, b));
+    records.push_back(record_with(carried, system, state, b, take));
   return records;
 }
 
 Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
-                         const SnapshotContents& contents) {
+                         const SnapshotContents& contents, const TakeElements& take) {
   const BeamModel& model = system.model();
   Snapshot snapshot;
   snapshot.time = state.t;
-  if (contents.beams) snapshot.beams = record_beams(system, state);
+  if (contents.beams) snapshot.beams = record_beams(system, state, take);
   for (const ProbePlace& probe : probes)
     snapshot.probes.push_back(contents.sections ? record_probe(system, state, probe)
                                                 : record_place(system, state, probe));

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ struct Extreme {
 
 struct BeamRecord {
   std::vector<ElementRecord> elements;
+  std::size_t handed_over = 0;  ///< elements that TakeElements has taken, which are not among these
   std::vector<Eigen::Vector3d> node_positions, node_slopes;  ///< [m], [-] (left slope at a kink)
   std::vector<double> node_s;                                ///< [m]
   double length = 0;                                         ///< deformed [m]
@@ -119,6 +121,10 @@ struct SnapshotContents {
   bool energy = true;
 };
 
+/// Takes elements of a beam, in its order, those of one beam after those of the one before: some at a time,
+/// where a record of all would take much room.
+using TakeElements = std::function<void(int beam, std::vector<ElementRecord>& elements)>;
+
 /// The span that holds a place; -1 on a rigid guide, which has none.
 int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe);
 
@@ -128,12 +134,14 @@ double twist_before(const BeamSystem& system, const State& state, int span);
 
 /// One beam of a state.
 BeamRecord record_beam(const BeamSystem& system, const State& state, int beam);
-/// The beams of a state.
-std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state);
+/// The beams of a state. `take`: takes their elements, of which the records then have none.
+std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state,
+                                     const TakeElements& take = nullptr);
 
 /// A state with its beams, bodies, probes and energies (dissipated: none), in the model's own coordinates;
-/// what is known of steps is left empty, as is what is not among `contents`.
+/// what is known of steps is left empty, as is what is not among `contents`. `take`: as
+/// record_beams has it.
 Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
-                         const SnapshotContents& contents = {});
+                         const SnapshotContents& contents = {}, const TakeElements& take = nullptr);
 
 }  // namespace nurbeam

@@ -148,17 +148,6 @@ ElementEnergy Assembly<D>::axis_energy(const State& state, const std::vector<boo
 }
 
 template <int D>
-std::vector<ElementVector<D>> Assembly<D>::element_forces(const State& state) const {
-  std::vector<ElementVector<D>> forces;
-  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
-    const Vector load = line_load(b, state);
-    for (int i = mesh_.first_span[b]; i < mesh_.first_span[b + 1]; ++i)
-      forces.push_back(element_force(elements_[i], state, load));
-  }
-  return forces;
-}
-
-template <int D>
 std::vector<PointAction> Assembly<D>::actions(const State& state) const {
   const MeshedBeams<D> at = beams();
   std::vector<PointAction> actions;

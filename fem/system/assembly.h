@@ -68,9 +68,7 @@ class Assembly final : public SecondOrderSystem {
   /// The sum of the elements' energies, of the axis alone; with the potential of gravity. `of`: these
   /// elements alone; null: all.
   ElementEnergy axis_energy(const State& state, const std::vector<bool>* of = nullptr) const;
-  /// Inertia less forces of every element alone, in its own coordinates.
-  std::vector<ElementVector<D>> element_forces(const State& state) const;
-  /// That of one, under a load by line_load.
+  /// Inertia less forces of an element alone, in its own coordinates, under a load by line_load.
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
   /// The dead load of a beam per reference length, its weight included [N/m].
   Vector line_load(int beam, const State& state) const;
@@ -107,7 +105,7 @@ class Assembly final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
   const SparsePattern& tangent_pattern() const override { return pattern_; }
-  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override;
   void tangents(const State& state, const std::array<TangentWeights, 2>& w,
                 const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,

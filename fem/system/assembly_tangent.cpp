@@ -394,8 +394,7 @@ void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, cons
 }
 
 template <int D>
-void Assembly<D>::tangent(const State& state, const TangentWeights& w,
-                          Eigen::SparseMatrix<double>& kkt) const {
+void Assembly<D>::tangent(const State& state, const TangentWeights& w, SparseValues kkt) const {
   double* values = kkt.valuePtr();
   std::fill(values, values + kkt.nonZeros(), 0.0);
   add_tangents(state, w, All{}, values);
@@ -470,8 +469,8 @@ template void Assembly<2>::build_pattern();
 template void Assembly<3>::build_pattern();
 template void Assembly<2>::choose_moving_part();
 template void Assembly<3>::choose_moving_part();
-template void Assembly<2>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
-template void Assembly<3>::tangent(const State&, const TangentWeights&, Eigen::SparseMatrix<double>&) const;
+template void Assembly<2>::tangent(const State&, const TangentWeights&, SparseValues) const;
+template void Assembly<3>::tangent(const State&, const TangentWeights&, SparseValues) const;
 template void Assembly<2>::tangents(const State&, const std::array<TangentWeights, 2>&,
                                     const std::array<Eigen::SparseMatrix<double>*, 2>&) const;
 template void Assembly<3>::tangents(const State&, const std::array<TangentWeights, 2>&,

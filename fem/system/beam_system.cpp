@@ -76,8 +76,7 @@ void BeamSystem::constraints(const State& state, Eigen::Ref<Eigen::VectorXd> con
   system_->constraints(state, constraints);
 }
 const SparsePattern& BeamSystem::tangent_pattern() const { return system_->tangent_pattern(); }
-void BeamSystem::tangent(const State& state, const TangentWeights& w,
-                         Eigen::SparseMatrix<double>& kkt) const {
+void BeamSystem::tangent(const State& state, const TangentWeights& w, SparseValues kkt) const {
   system_->tangent(state, w, kkt);
 }
 void BeamSystem::tangents(const State& state, const std::array<TangentWeights, 2>& w,

@@ -48,7 +48,7 @@ class BeamSystem final : public SecondOrderSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void constraints(const State& state, Eigen::Ref<Eigen::VectorXd> constraints) const override;
   const SparsePattern& tangent_pattern() const override;
-  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override;
+  void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override;
   void tangents(const State& state, const std::array<TangentWeights, 2>& w,
                 const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,

@@ -1,6 +1,7 @@
 #include "fem/system/stress_resultants.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -123,26 +124,21 @@ bool is_inside(const MeshElement<D>& e, const State& state, const PointAction& a
 }
 
 template <int D>
-SpanResultants of_one(const Assembly<D>& a, const State& state, int span) {
-  const MeshElement<D>& e = a.elements()[span];
+std::vector<PointAction> actions_inside(const Assembly<D>& a, const State& state) {
   std::vector<PointAction> inside;
   for (const PointAction& action : a.actions(state))
-    if (action.element == span && is_inside(e, state, action)) inside.push_back(action);
-  return of_span<D>(a, e, state, a.element_force(e, state, a.line_load(e.beam, state)), inside);
+    if (is_inside(a.elements()[action.element], state, action)) inside.push_back(action);
+  std::stable_sort(inside.begin(), inside.end(),
+                   [](const PointAction& x, const PointAction& y) { return x.element < y.element; });
+  return inside;
 }
 
 template <int D>
-std::vector<SpanResultants> of_all(const Assembly<D>& a, const State& state) {
-  const std::vector<MeshElement<D>>& elements = a.elements();
-  const std::vector<ElementVector<D>> forces = a.element_forces(state);
-  std::vector<std::vector<PointAction>> inside(elements.size());
-  for (const PointAction& action : a.actions(state))
-    if (is_inside(elements[action.element], state, action)) inside[action.element].push_back(action);
-  std::vector<SpanResultants> spans;
-  spans.reserve(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    spans.push_back(of_span<D>(a, elements[i], state, forces[i], inside[i]));
-  return spans;
+std::vector<Eigen::Vector3d> line_loads(const Assembly<D>& a, const State& state) {
+  std::vector<Eigen::Vector3d> loads;
+  for (int beam = 0; beam < static_cast<int>(a.model()->beams.size()); ++beam)
+    loads.push_back(widened<D>(a.line_load(beam, state)));
+  return loads;
 }
 
 }  // namespace
@@ -179,14 +175,21 @@ StressResultants SpanResultants::at(double s, const Eigen::Vector3d& r, const Ei
   return carried;
 }
 
-std::vector<SpanResultants> stress_resultants(const BeamSystem& system, const State& state) {
-  return with_assembly(
-      system, [&](const auto& a) { return of_all(a, state); });
-}
+CarriedBySpans::CarriedBySpans(const BeamSystem& system, const State& state)
+    : system_(system),
+      state_(state),
+      inside_(with_assembly(system, [&](const auto& a) { return actions_inside(a, state); })),
+      loads_(with_assembly(system, [&](const auto& a) { return line_loads(a, state); })) {}
 
-SpanResultants span_resultants(const BeamSystem& system, const State& state, int span) {
-  return with_assembly(
-      system, [&](const auto& a) { return of_one(a, state, span); });
+SpanResultants CarriedBySpans::operator[](int span) const {
+  const auto comes_before = [](const auto& action, int of) { return action.element < of; };
+  const auto first = std::lower_bound(inside_.begin(), inside_.end(), span, comes_before),
+             end = std::lower_bound(first, inside_.end(), span + 1, comes_before);
+  return with_assembly(system_, [&]<int D>(const Assembly<D>& a) {
+    const MeshElement<D>& e = a.elements()[span];
+    return of_span<D>(a, e, state_, a.element_force(e, state_, loads_[e.beam].template head<D>()),
+                      {first, end});
+  });
 }
 
 }  // namespace nurbeam

@@ -45,9 +45,18 @@ class SpanResultants {
   std::vector<Inside> inside_;
 };
 
-/// Those of all spans. The state's accelerations and multipliers must belong to it.
-std::vector<SpanResultants> stress_resultants(const BeamSystem& system, const State& state);
-/// Those of one span.
-SpanResultants span_resultants(const BeamSystem& system, const State& state, int span);
+/// Those of the spans of one state, each found when it is asked for. The state's accelerations and
+/// multipliers must belong to it. Both must outlive it.
+class CarriedBySpans {
+ public:
+  CarriedBySpans(const BeamSystem& system, const State& state);
+  SpanResultants operator[](int span) const;
+
+ private:
+  const BeamSystem& system_;
+  const State& state_;
+  std::vector<PointAction> inside_;     // of spans, in their order
+  std::vector<Eigen::Vector3d> loads_;  // of beams
+};
 
 }  // namespace nurbeam

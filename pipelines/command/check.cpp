@@ -129,11 +129,9 @@ void print_connectors(std::ostream& out, const BeamModel& model) {
 // Where elements cannot even have the drawn shape without stretching.
 void print_mismatch(std::ostream& out, const BeamSystem& system) {
   Mismatch mismatch;
-  Snapshot drawn;
-  drawn.beams = record_beams(system, drawn_state(system));
-  std::vector<std::string> names;
-  for (const Beam& beam : system.model().beams) names.push_back(beam.name);
-  mismatch.look_at(drawn, names);
+  record_beams(system, drawn_state(system), [&](int beam, const std::vector<ElementRecord>& elements) {
+    mismatch.look_at(elements, system.model().beams[beam].name, 0);
+  });
   constexpr double round_off = 1e-12;
   if (mismatch.value > round_off)
     out << "mesh      axial mismatch of the drawn shape up to " << text_of(mismatch.value, 3) << ", in "

@@ -21,6 +21,17 @@ std::string distinct(const std::string& name, const std::vector<std::string>& ot
 
 }  // namespace
 
+void put_into_world(const ModelFrame& f, ElementRecord& e) {
+  for (int i = 0; i < 4; ++i) {
+    const double w = e.control_points(3, i);
+    const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
+    e.control_points.col(i).head<3>() = w * p;
+    e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
+    e.d1.col(i) = f.direction_to_world(e.d1.col(i));
+    e.d2.col(i) = f.direction_to_world(e.d2.col(i));
+  }
+}
+
 Snapshot to_world(const ModelFrame& f, Snapshot frame) {
   for (ProbeRecord& p : frame.probes) {
     to_world(f, p);
@@ -40,15 +51,7 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
     body.joint_force = f.direction_to_world(body.joint_force);
   }
   for (BeamRecord& beam : frame.beams) {
-    for (ElementRecord& e : beam.elements)
-      for (int i = 0; i < 4; ++i) {
-        const double w = e.control_points(3, i);
-        const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
-        e.control_points.col(i).head<3>() = w * p;
-        e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
-        e.d1.col(i) = f.direction_to_world(e.d1.col(i));
-        e.d2.col(i) = f.direction_to_world(e.d2.col(i));
-      }
+    for (ElementRecord& e : beam.elements) put_into_world(f, e);
     for (Eigen::Vector3d& p : beam.node_positions) p = f.to_world(p);
     for (Eigen::Vector3d& p : beam.node_slopes) p = f.direction_to_world(p);
   }

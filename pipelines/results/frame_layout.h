@@ -193,10 +193,13 @@ struct StoredRows {
   }
 };
 
+/// With those that were handed over before the record.
+inline std::size_t element_count(const BeamRecord& beam) { return beam.handed_over + beam.elements.size(); }
+
 inline StoredRows rows_of(const Snapshot& frame) {
   StoredRows rows{.frames = 1, .steps = frame.steps.size()};
   for (const BeamRecord& beam : frame.beams) {
-    rows.elements += beam.elements.size();
+    rows.elements += element_count(beam);
     rows.nodes += beam.node_s.size();
   }
   return rows;

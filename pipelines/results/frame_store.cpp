@@ -201,6 +201,7 @@ void FrameStore::write(std::span<const Snapshot> frames) {
   write_nodes(frames);
   write_steps(frames);
   for (const Snapshot& frame : frames) written_ += rows_of(frame);
+  ahead_ = 0;
 }
 
 void FrameStore::copy(const std::filesystem::path& file, const StoredRows& rows) {
@@ -286,7 +287,7 @@ void FrameStore::write_beams(const PerFrame& each) {
   each.write_integers(
       "element_count", {beam_count_},
       [](const Snapshot& f, Integers& x) {
-        for (const BeamRecord& beam : f.beams) x.push_back(static_cast<int>(beam.elements.size()));
+        for (const BeamRecord& beam : f.beams) x.push_back(static_cast<int>(element_count(beam)));
       });
   each.write_integers("node_count", {beam_count_}, [](const Snapshot& f, Integers& x) {
     for (const BeamRecord& beam : f.beams) x.push_back(static_cast<int>(beam.node_s.size()));
@@ -325,7 +326,7 @@ class FrameStore::ElementBlock {
         scalars_(std::size(element_fields)),
         fields_(store.sampled_fields_.size()),
         axes_(store.sections_ ? std::size(section_axes) : 0),
-        first_(store.written_.elements) {}
+        first_(store.written_.elements + store.ahead_) {}
 
   void add(const ElementRecord& e) {
     // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
@@ -370,6 +371,13 @@ void FrameStore::write_elements(std::span<const Snapshot> frames) {
   ElementBlock block(*this);
   for_each_element(frames, [&](const ElementRecord& e) { block.add(e); });
   block.put();
+}
+
+void FrameStore::write_ahead(std::span<const ElementRecord> elements) {
+  ElementBlock block(*this);
+  for (const ElementRecord& e : elements) block.add(e);
+  block.put();
+  ahead_ += elements.size();
 }
 
 void FrameStore::write_nodes(std::span<const Snapshot> frames) {

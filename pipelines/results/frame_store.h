@@ -38,6 +38,9 @@ class FrameStore {
              bool packed, const StoredRows& expected);
   /// Appends frames whose vectors fit the names.
   void write(std::span<const Snapshot> frames);
+  /// Appends elements of the next frame, in the order of its beams: those that were handed over before it. It
+  /// has no others, and is written alone.
+  void write_ahead(std::span<const ElementRecord> elements);
   /// Appends what another store of the same names has written, of which there is so much.
   void copy(const std::filesystem::path& file, const StoredRows& rows);
   void close() { file_.close(); }
@@ -71,6 +74,7 @@ class FrameStore {
   std::vector<BeamExtreme> beam_extremes_;
   std::vector<SampledField> sampled_fields_;
   StoredRows expected_, written_;
+  std::size_t ahead_ = 0;  // elements of the next frame
 };
 
 }  // namespace nurbeam

@@ -21,6 +21,10 @@ std::string numbered(const std::string& name, std::size_t index) {
   return name + "_" + std::to_string(index);
 }
 
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
 /// Writes named lists of numbers and of texts; an empty list is left out.
 class Writer {
  public:
@@ -29,11 +33,10 @@ class Writer {
     file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
   }
 
-  /// Takes them.
-  void numbers(const std::string& name, const std::string& meaning, std::vector<double>& values) {
-    if (values.empty()) return;
+  void numbers(const std::string& name, const std::string& meaning, Eigen::VectorXd values) {
+    if (values.size() == 0) return;
     const std::string dimension = name + "_count";
-    file_.define_dimension(dimension, values.size());
+    file_.define_dimension(dimension, static_cast<std::size_t>(values.size()));
     file_.define_plain(name, NetcdfFile::Type::real, {dimension}, "SI", meaning);
     numbers_.emplace_back(name, std::move(values));
   }
@@ -43,13 +46,14 @@ class Writer {
     for (std::size_t i = 0; i < values.size(); ++i) file_.put_attribute("", numbered(name, i), values[i]);
   }
   void close() {
-    for (const auto& [name, values] : numbers_) file_.put(name, {0}, {values.size()}, values.data());
+    for (const auto& [name, values] : numbers_)
+      file_.put(name, {0}, {static_cast<std::size_t>(values.size())}, values.data());
     file_.close();
   }
 
  private:
   NetcdfFile file_;
-  std::vector<std::pair<std::string, std::vector<double>>> numbers_;  ///< put when all are defined
+  std::vector<std::pair<std::string, Eigen::VectorXd>> numbers_;  ///< put when all are defined
 };
 
 class Reader {
@@ -112,7 +116,7 @@ void exchange_rows(Writer& archive, const std::string& name, const std::string& 
   std::vector<double> values;
   RowWriter slot(values);
   for (Row& row : rows) visit(row, slot);
-  archive.numbers(name, meaning, values);
+  archive.numbers(name, meaning, vector_of(values));
 }
 
 template <class Row, class Visit>
@@ -124,17 +128,17 @@ void exchange_rows(Reader& archive, const std::string& name, const std::string& 
   for (RowReader slot(values); !slot.at_end();) visit(rows.emplace_back(), slot);
 }
 
+// Long ones: the archive takes them.
 void exchange_vector(Writer& archive, const std::string& name, const std::string& meaning,
                      Eigen::VectorXd& x) {
-  std::vector<double> values(x.begin(), x.end());
-  archive.numbers(name, meaning, values);
+  archive.numbers(name, meaning, std::move(x));
 }
 
 void exchange_vector(Reader& archive, const std::string& name, const std::string& meaning,
                      Eigen::VectorXd& x) {
   std::vector<double> values;
   archive.numbers(name, meaning, values);
-  x = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  x = vector_of(values);
 }
 
 struct PresentNode {
@@ -222,7 +226,8 @@ void exchange_history(Archive& archive, IntegratorHistory& history) {
 // All that is a single number, as one row.
 template <class Archive>
 void exchange_numbers(Archive& archive, Checkpoint& p) {
-  std::vector<Checkpoint> row{p};
+  std::vector<Checkpoint> row;
+  row.push_back(std::move(p));
   exchange_rows(archive, "scalars", "time, frames, and what the run has counted", row,
                 [](Checkpoint& point, auto& slot) {
                   SimulationReport& r = point.report;
@@ -252,7 +257,7 @@ void exchange_numbers(Archive& archive, Checkpoint& p) {
                     slot(range->greatest);
                   }
                 });
-  p = row.at(0);
+  p = std::move(row.at(0));
 }
 
 template <class Archive>

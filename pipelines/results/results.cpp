@@ -20,9 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t batch = 64;  ///< frames that are copied at once
-/// A chunk is closed with this many elements: it bounds the memory.
-constexpr std::size_t most_open_elements = 50'000;
-
 void check_count(const char* what, std::size_t found, std::size_t expected) {
   if (found != expected) {
     throw std::invalid_argument(std::string("a frame with ") + std::to_string(found) + " " + what +
@@ -57,20 +54,50 @@ std::vector<fs::path> chunks_in(const fs::path& directory) {
 /// What is read again soon is not compressed.
 enum class Use { passing, lasting };
 
-/// Removes its file's temporary name, unless it has been published, when writing fails.
+/// The temporary name of a file, which is removed unless the file has been published.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(fs::path file) : file_(std::move(file)) {}
+  ~TemporaryFile() {
+    if (is_published_) return;
+    std::error_code ignored;
+    fs::remove(temporary_name(file_), ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  fs::path name() const { return temporary_name(file_); }
+  void publish() {
+    publish_durably(file_);
+    is_published_ = true;
+  }
+
+ private:
+  fs::path file_;
+  bool is_published_ = false;
+};
+
+/// A file of frames that is being written.
+struct OpenFile {
+  TemporaryFile file;
+  FrameStore store;
+
+  OpenFile(fs::path named, Use use, const SnapshotNames& names, const std::string& title,
+           const StoredRows& expected)
+      : file(std::move(named)), store(file.name(), names, title, use == Use::lasting, expected) {}
+
+  void publish() {
+    store.close();
+    file.publish();
+  }
+};
+
 template <class Write>
 void write_file(const fs::path& file, Use use, const SnapshotNames& names, const std::string& title,
                 const StoredRows& expected, Write write) {
-  try {
-    FrameStore store(temporary_name(file), names, title, use == Use::lasting, expected);
-    write(store);
-    store.close();
-  } catch (const std::runtime_error&) {
-    std::error_code ignored;
-    fs::remove(temporary_name(file), ignored);
-    throw;
-  }
-  publish_durably(file);
+  OpenFile open(file, use, names, title, expected);
+  write(open.store);
+  open.publish();
 }
 
 /// Calls visit(frames) for the frames [0, count) of a reader, a batch at a time.
@@ -93,6 +120,7 @@ struct ResultsWriter::Implementation {
   std::vector<StoredRows> chunk_rows;
   std::vector<Snapshot> open;
   StoredRows open_rows;
+  std::optional<OpenFile> ahead;  // with elements of the next frame
 
   Implementation(fs::path where, SnapshotNames of, std::string name)
       : directory(created(where)),
@@ -106,6 +134,23 @@ struct ResultsWriter::Implementation {
                [&](FrameStore& store) { store.write(open); });
     chunk_rows.push_back(std::exchange(open_rows, {}));
     open.clear();
+  }
+
+  void write_ahead(std::span<const ElementRecord> elements) {
+    if (!ahead) {
+      close_chunk();
+      ahead.emplace(chunk_file(directory, chunk_rows.size() + 1), Use::passing, names, title,
+                    StoredRows{.frames = 1, .elements = most_open_elements, .nodes = most_open_elements});
+    }
+    ahead->store.write_ahead(elements);
+  }
+
+  // The frame whose elements have been written before.
+  void close_with(const Snapshot& frame) {
+    ahead->store.write({&frame, 1});
+    ahead->publish();
+    ahead.reset();
+    chunk_rows.push_back(rows_of(frame));
   }
 
   StoredRows all_rows() const {
@@ -190,9 +235,14 @@ void ResultsWriter::write(Snapshot frame) {
   check_count("bodies", frame.bodies.size(), files.names.bodies.size());
   check_count("beams", frame.beams.size(), files.names.beams.size());
   files.histories.write(frame);
+  if (files.ahead) return files.close_with(frame);
   files.open_rows += rows_of(frame);
   files.open.push_back(std::move(frame));
   if (files.open_rows.elements >= most_open_elements) files.close_chunk();
+}
+
+void ResultsWriter::write_ahead(std::span<const ElementRecord> elements) {
+  implementation_->write_ahead(elements);
 }
 
 void ResultsWriter::close_chunk() { implementation_->close_chunk(); }

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,10 @@ struct StoredResults {
 /// the last close_chunk(). finish() merges the chunks.
 class ResultsWriter {
  public:
+  /// A chunk is closed with this many elements: it bounds the memory. A frame with as many had better be
+  /// written some elements at a time.
+  static constexpr std::size_t most_open_elements = 50'000;
+
   /// Throws std::runtime_error (file and reason) when a file cannot be written.
   ResultsWriter(std::filesystem::path directory, SnapshotNames names, std::string title);
   /// Goes on after the first `frames` frames that an earlier run, finished or killed, has left in the
@@ -36,6 +41,9 @@ class ResultsWriter {
   /// Throws std::invalid_argument unless the frame has as many probes, bodies and beams as there are names,
   /// and std::runtime_error (file and reason) when it cannot be written.
   void write(Snapshot frame);
+  /// Writes elements of the frame that is written next, which are handed over before it, as FrameStore has
+  /// it.
+  void write_ahead(std::span<const ElementRecord> elements);
   /// Puts all frames so far on the disk. Throws std::runtime_error (file and reason).
   void close_chunk();
   /// Gives the files their names; nothing may be written after it. Throws std::runtime_error.

@@ -110,19 +110,17 @@ Json to_json(const RunSummary& summary) {
 
 }  // namespace
 
-void Mismatch::look_at(const Snapshot& frame, const std::vector<std::string>& beams) {
-  for (std::size_t b = 0; b < frame.beams.size(); ++b)
-    for (const ElementRecord& e : frame.beams[b].elements)
-      if (e.axial_mismatch > value)
-        *this = {e.axial_mismatch, beams.at(b), (e.s_start + e.s_end) / 2, frame.time};
+void Mismatch::look_at(std::span<const ElementRecord> elements, const std::string& of_beam, double at_time) {
+  for (const ElementRecord& e : elements)
+    if (e.axial_mismatch > value) *this = {e.axial_mismatch, of_beam, (e.s_start + e.s_end) / 2, at_time};
 }
 
-void LeastStrain::look_at(const Snapshot& frame, const std::vector<std::string>& beams) {
-  for (std::size_t b = 0; b < frame.beams.size(); ++b)
-    for (const ElementRecord& e : frame.beams[b].elements)
-      for (int i = 0; i < 4; ++i)
-        if (e.strain[i] < value)
-          *this = {e.strain[i], beams.at(b), e.s_start + (e.s_end - e.s_start) * i / 3, frame.time};
+void LeastStrain::look_at(std::span<const ElementRecord> elements, const std::string& of_beam,
+                          double at_time) {
+  for (const ElementRecord& e : elements)
+    for (int i = 0; i < 4; ++i)
+      if (e.strain[i] < value)
+        *this = {e.strain[i], of_beam, e.s_start + (e.s_end - e.s_start) * i / 3, at_time};
 }
 
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct Mismatch {
   std::string beam;
   double s = 0, time = 0;  ///< the element's middle [m], [s]
 
-  void look_at(const Snapshot& frame, const std::vector<std::string>& beams);
+  void look_at(std::span<const ElementRecord> elements, const std::string& of_beam, double at_time);
 };
 
 /// The least axial strain that elements carry in a run.
@@ -42,7 +43,7 @@ struct LeastStrain {
   std::string beam;
   double s = 0, time = 0;  ///< [m], [s]
 
-  void look_at(const Snapshot& frame, const std::vector<std::string>& beams);
+  void look_at(std::span<const ElementRecord> elements, const std::string& of_beam, double at_time);
 };
 
 /// What run.json says about a run.

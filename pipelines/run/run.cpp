@@ -166,6 +166,10 @@ class Run {
       logged.update(step);
       if (options_.progress) options_.progress(step);
     };
+    if (outputs.takes_elements_ahead())
+      observer.elements = [&](double time, int beam, auto& elements) {
+        outputs.write_ahead(time, beam, elements);
+      };
     observer.snapshot = [&](Snapshot snapshot) { outputs.write(std::move(snapshot)); };
     observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
     observer.checkpoint = [&](Checkpoint point) { outputs.write(std::move(point)); };

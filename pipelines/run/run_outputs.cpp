@@ -30,7 +30,8 @@ std::vector<double> times_before(const std::filesystem::path& directory, const C
 
 RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
                        const std::filesystem::path& directory, std::string inputs, const Checkpoint* from)
-    : built_(built),
+    : case_(case_file),
+      built_(built),
       directory_(directory),
       inputs_(std::move(inputs)),
       results_(results_writer(case_file.name, built, directory, from)),
@@ -45,10 +46,15 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
 }
 
 void RunOutputs::look_at(const Snapshot& frame) {
-  const SnapshotNames names = snapshot_names(built_);
-  mismatch_.look_at(frame, names.beams);
-  least_strain_.look_at(frame, names.beams);
-  extremes_.look_at(frame, names);
+  for (int b = 0; b < static_cast<int>(frame.beams.size()); ++b)
+    look_at(frame.beams[b].elements, b, frame.time);
+  extremes_.look_at(frame, snapshot_names(built_));
+}
+
+void RunOutputs::look_at(std::span<const ElementRecord> elements, int beam, double time) {
+  const std::string& name = built_.model.beams[beam].name;
+  mismatch_.look_at(elements, name, time);
+  least_strain_.look_at(elements, name, time);
 }
 
 template <class Work>
@@ -56,6 +62,20 @@ void RunOutputs::timed(Work work) {
   const auto start = Clock::now();
   work();
   seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool RunOutputs::takes_elements_ahead() const {
+  std::size_t elements = 0;
+  for (const Beam& beam : built_.model.beams) elements += beam.home.size();
+  return elements > ResultsWriter::most_open_elements && case_.output.cad_formats.empty() && !paraview_;
+}
+
+void RunOutputs::write_ahead(double time, int beam, std::vector<ElementRecord>& local) {
+  timed([&] {
+    for (ElementRecord& element : local) put_into_world(built_.frame, element);
+    look_at(local, beam, time);
+    results_.write_ahead(local);
+  });
 }
 
 void RunOutputs::write(Snapshot local) {

@@ -22,6 +22,12 @@ class RunOutputs {
   RunOutputs(const CaseFile& case_file, const BuiltModel& built, const std::filesystem::path& directory,
              std::string inputs, const Checkpoint* from);
 
+  /// Whether elements are to be handed over before their frame (write_ahead): where a frame of them is large
+  /// and nothing asks for all at once.
+  bool takes_elements_ahead() const;
+  /// Writes elements of a beam, in the model's own coordinates, of the frame at that time, which is written
+  /// next.
+  void write_ahead(double time, int beam, std::vector<ElementRecord>& local);
   /// Writes one frame, in the model's own coordinates.
   void write(Snapshot local);
   /// Writes a frame that shows a shape, in the model's own coordinates: no extreme counts.
@@ -51,8 +57,10 @@ class RunOutputs {
   template <class Work>
   void timed(Work work);
   void look_at(const Snapshot& frame);
+  void look_at(std::span<const ElementRecord> elements, int beam, double time);
   void put(Checkpoint point);
 
+  const CaseFile& case_;
   const BuiltModel& built_;
   std::filesystem::path directory_;
   std::string inputs_;

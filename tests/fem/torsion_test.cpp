@@ -145,18 +145,18 @@ TEST(Torsion, IsInBalanceWithItsLoads) {
   const auto at_clamp = reaction(system, state, state.lambda, 0);
   EXPECT_LT((at_clamp.force + F).norm(), 1e-9);
   EXPECT_LT((at_clamp.couple + couple_beyond(0)).norm(), 1e-9);
-  const std::vector<SpanResultants> spans = stress_resultants(system, state);
-  for (std::size_t i = 0; i < spans.size(); ++i) {
+  const CarriedBySpans carried(system, state);
+  for (int i = 0; i < static_cast<int>(system.mesh().spans.size()); ++i) {
     const MeshSpan& span = system.mesh().spans[i];
     for (const double s : {span.s_a, span.s_b, 0.5 * (span.s_a + span.s_b)}) {
       const bool at_node = s == span.s_a || s == span.s_b;
-      const MaterialPoint<3> p = material_point_in(system, state, static_cast<int>(i), s);
-      const Vector3d couple = spans[i].at(s, p.r, p.rs).couple;
+      const MaterialPoint<3> p = material_point_in(system, state, i, s);
+      const Vector3d couple = carried[i].at(s, p.r, p.rs).couple;
       EXPECT_LT((couple - couple_beyond(s)).norm(), at_node ? 1e-9 : 1e-3) << s;
     }
   }
   // The torque of a record is that couple's part along the tangent; the section's own approaches it.
-  const ElementRecord record = record_element(system, state, 3, spans[3]);
+  const ElementRecord record = record_element(system, state, 3, carried[3]);
   const MaterialPoint<3> first = material_point_in(system, state, 3, record.s_start);
   EXPECT_NEAR(record.torque[0], couple_beyond(record.s_start).dot(first.rs.normalized()), 1e-9);
   EXPECT_NEAR(

@@ -164,8 +164,7 @@ TEST(GeneralizedAlpha, EndsWhereItsConstraintHoldsToRoundOff) {
 TEST(GeneralizedAlpha, TakesFewIterationsAndFewerMatrices) {
   struct CountingPendulum : CartesianPendulum {
     mutable int tangents = 0;
-    void tangent(const State& state, const TangentWeights& w,
-                 Eigen::SparseMatrix<double>& kkt) const override {
+    void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override {
       ++tangents;
       CartesianPendulum::tangent(state, w, kkt);
     }

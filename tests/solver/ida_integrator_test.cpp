@@ -254,7 +254,7 @@ class ThrowingPendulum : public CartesianPendulum {
     pass(Place::residual, state);
     CartesianPendulum::residual(state, dynamics, constraints);
   }
-  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
+  void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override {
     pass(Place::tangent, state);
     CartesianPendulum::tangent(state, w, kkt);
   }

@@ -10,11 +10,11 @@ class DenseSystem : public SecondOrderSystem {
  public:
   const SparsePattern& tangent_pattern() const override {
     const int size = coordinate_count() + constraint_count();
-    pattern_ = SparsePattern(Eigen::MatrixXd::Ones(size, size).sparseView());
+    if (pattern_.size() != size) pattern_ = SparsePattern(Eigen::MatrixXd::Ones(size, size).sparseView());
     return pattern_;
   }
 
-  void tangent(const State& state, const TangentWeights& w, Eigen::SparseMatrix<double>& kkt) const override {
+  void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override {
     const int n = coordinate_count();
     const int m = constraint_count();
     Eigen::Map<Eigen::MatrixXd> dense(kkt.valuePtr(), n + m, n + m);

@@ -64,6 +64,38 @@ TEST_P(RecordedElements, HaveTheirSamplesAtThirdsOfTheCubicAndTheVelocityOfTheMa
 INSTANTIATE_TEST_SUITE_P(OfEveryKind, RecordedElements,
                          ::testing::Values(WeightRule::material, WeightRule::constant, WeightRule::ones));
 
+// More elements than are handed over together.
+TEST(RecordedBeams, AreTheSameWhereTheirElementsAreHandedOver) {
+  BeamModel model =
+      testing::one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {300, 2, 0.7}, 5000, {{0, true}});
+  model.gravity = {0.1, -9.81, 0};
+  const BeamSystem system(model, initial_plan(model));
+  const State state = moved_state(system);
+  const BeamRecord whole = record_beams(system, state).at(0);
+  std::vector<ElementRecord> taken;
+  std::size_t most = 0;
+  const BeamRecord rest = record_beams(system, state, [&](int beam, const std::vector<ElementRecord>& some) {
+                            EXPECT_EQ(beam, 0);
+                            taken.insert(taken.end(), some.begin(), some.end());
+                            most = std::max(most, some.size());
+                          }).at(0);
+  EXPECT_LT(most, whole.elements.size());
+  EXPECT_TRUE(rest.elements.empty());
+  EXPECT_EQ(rest.handed_over, whole.elements.size());
+  ASSERT_EQ(taken.size(), whole.elements.size());
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    EXPECT_EQ(taken[i].control_points, whole.elements[i].control_points);
+    EXPECT_EQ(taken[i].shear_force, whole.elements[i].shear_force);
+    EXPECT_EQ(taken[i].velocity, whole.elements[i].velocity);
+  }
+  EXPECT_EQ(rest.length, whole.length);
+  EXPECT_EQ(rest.sag, whole.sag);
+  EXPECT_EQ(rest.shear_force_max.value, whole.shear_force_max.value);
+  EXPECT_EQ(rest.shear_force_max.s, whole.shear_force_max.s);
+  EXPECT_EQ(rest.displacement_max.value, whole.displacement_max.value);
+  EXPECT_EQ(rest.node_positions, whole.node_positions);
+}
+
 TEST(RecordedSections, OfADrawnArcCarryItsCurvatureAndNoForce) {
   BeamModel model = arc_with_slider(WeightRule::material);
   model.gravity.setZero();

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <netcdf.h>
 
+#include <algorithm>
+#include <span>
 #include <sstream>
+#include <utility>
 
 #include "tests/pipelines/case_text.h"
 #include "tests/pipelines/frames.h"
@@ -239,6 +242,39 @@ TEST(Results, FramesComeBackWholeFromChunksThatWereMerged) {
   EXPECT_EQ(stored.names.bodies, names.bodies);
   ASSERT_EQ(stored.frames.size(), five_frames.size());
   for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
+}
+
+// Hands the elements of a frame to a writer before it, two at a time.
+Snapshot written_ahead(ResultsWriter& writer, Snapshot frame) {
+  for (BeamRecord& beam : frame.beams) {
+    const std::vector<ElementRecord> elements = std::exchange(beam.elements, {});
+    for (std::size_t i = 0; i < elements.size(); i += 2)
+      writer.write_ahead(std::span(elements).subspan(i, std::min<std::size_t>(2, elements.size() - i)));
+    beam.handed_over = elements.size();
+  }
+  return frame;
+}
+
+TEST(Results, FramesComeBackWholeWhoseElementsWereWrittenAhead) {
+  const TemporaryDirectory directory;
+  ResultsWriter writer(directory.path(), names, "title");
+  writer.write(five_frames[0]);
+  for (std::size_t i = 1; i < five_frames.size(); ++i) writer.write(written_ahead(writer, five_frames[i]));
+  EXPECT_EQ(writer.frame_count(), five_frames.size());
+  writer.finish();
+  EXPECT_EQ(files_in(directory.path()), (std::vector<std::string>{"histories.csv", "results.nc"}));
+  const StoredResults stored = read_results(directory.path());
+  ASSERT_EQ(stored.frames.size(), five_frames.size());
+  for (std::size_t i = 0; i < five_frames.size(); ++i) expect_equal(stored.frames[i], five_frames[i]);
+}
+
+TEST(Results, ElementsWhoseFrameIsNotWrittenLeaveNoFile) {
+  const TemporaryDirectory directory;
+  {
+    ResultsWriter writer(directory.path(), names, "title");
+    writer.write_ahead(five_frames[0].beams[0].elements);
+  }
+  EXPECT_EQ(files_in(directory.path()), (std::vector<std::string>{"histories.csv.part"}));
 }
 
 TEST(Results, ConnectorsComeBackWithTheirEnds) {
