@@ -21,8 +21,8 @@ class NearSolver {
  public:
   /// x with A x = b, with factors of `A` itself where there are no others of its size that serve. `A`:
   /// compressed; `last`: as `part` of KktSolver::factorise. Returns false where A is not regular.
-  [[nodiscard]] bool solve(const SparseView& A, const std::vector<int>& last,
-                           const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  [[nodiscard]] bool solve(const SparseView& A, const std::vector<int>& last, const Eigen::VectorXd& b,
+                           Eigen::VectorXd& x);
 
  private:
   KktSolver solver_;

@@ -118,13 +118,13 @@ double derivative_step(const StudyVariable& variable, double value, bool settles
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
   const double greater = std::max(width, std::abs(value)), lesser = std::min(width, std::abs(value));
   const auto step = [&] {
-    // Neighbours that settle answer as their loads are, with an error of the square of this step.
+    // Not too small beside the value: that is lost in round-off. What moves the axis by no more than that:
+    // slender beams are stiff against what is of second order in it. Neighbours that settle answer as their
+    // loads are, with an error of the square of the step.
     constexpr double settled = 4e-4;
-    // Not too small beside the value: that is lost in round-off. What moves the axis of neighbours that do
-    // not settle by no more than that: slender beams are stiff against what is of second order in it.
     if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
       return std::max(settles ? settled * width : 0, 1e-6 * greater);
-    const double part = settles ? settled : targets<ControlPointWeight>(variable) ? 1e-5 : 1e-4;
+    const double part = targets<ControlPointWeight>(variable) && !settles ? 1e-5 : 1e-4;
     return part * std::max(lesser, 0.1 * greater);
   };
   return std::min(step(), 0.1 * width);  // as far as the range allows

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseLU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -44,8 +45,9 @@ class Chain final : public SecondOrderSystem {
   int constraint_count() const override { return 2; }
   void residual(const State&, Eigen::Ref<Eigen::VectorXd>, Eigen::Ref<Eigen::VectorXd>) const override {}
   const SparsePattern& tangent_pattern() const override { return pattern_; }
-  void tangent(const State& state, const TangentWeights&, Matrix& kkt) const override {
-    kkt = matrix(state.q);
+  void tangent(const State& state, const TangentWeights&, SparseValues kkt) const override {
+    const Matrix own = matrix(state.q);
+    std::copy_n(own.valuePtr(), own.nonZeros(), kkt.valuePtr());
   }
   Eigen::VectorXd constraint_rate(const State&) const override { return Eigen::VectorXd::Zero(2); }
   Eigen::VectorXd constraint_curvature(const State&) const override { return Eigen::VectorXd::Zero(2); }
