@@ -124,7 +124,7 @@ double derivative_step(const StudyVariable& variable, double value, bool settles
     constexpr double settled = 4e-4;
     if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
       return std::max(settles ? settled * width : 0, 1e-6 * greater);
-    const double part = targets<ControlPointWeight>(variable) && !settles ? 1e-5 : 1e-4;
+    const double part = !targets<ControlPointWeight>(variable) ? 1e-4 : settles ? settled : 1e-5;
     return part * std::max(lesser, 0.1 * greater);
   };
   return std::min(step(), 0.1 * width);  // as far as the range allows
