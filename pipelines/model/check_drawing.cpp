@@ -1,15 +1,18 @@
 #include "pipelines/model/check_drawing.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180, largest_turn = 60 * degrees;
+constexpr double degrees = std::numbers::pi / 180, largest_turn = 60 * degrees,
+                 largest_section_turn = 30 * degrees;
 
 // By how much the tangent turns between two places, which no corner lies between [rad].
 double turn_between(const ReferenceCurve& curve, double s_a, double s_b) {
@@ -24,6 +27,37 @@ double turn_between(const ReferenceCurve& curve, double s_a, double s_b) {
   return turn;
 }
 
+// By how much sections turn about it there, against sections that are carried along it [rad].
+double section_turn_between(const ReferenceCurve& curve, double s_a, double s_b) {
+  constexpr int parts = 4;  // of which each turns one way
+  double turn = 0;
+  for (int i = 0; i < parts; ++i)
+    turn += std::abs(curve.section_turn(s_a + (s_b - s_a) * i / parts, s_a + (s_b - s_a) * (i + 1) / parts));
+  return turn;
+}
+
+// The most that something turns within an element of a beam [rad], and where the middle of that is [m].
+struct Turn {
+  double angle = 0, s = 0;
+};
+template <class Between>
+Turn greatest_turn(const Beam& beam, const Between& between) {
+  Turn most;
+  for (std::size_t i = 1; i < beam.home.size(); ++i) {
+    const double s_a = beam.home[i - 1].s, s_b = beam.home[i].s, angle = between(beam.curve, s_a, s_b);
+    if (angle > most.angle) most = {angle, (s_a + s_b) / 2};
+  }
+  return most;
+}
+
+// Whether it hardly matters for bending how sections are turned.
+bool bends_alike(const SectionStiffness& section) {
+  constexpr double little = 0.05;
+  const double difference =
+      std::hypot(section.bending_1 - section.bending_2, 2 * section.bending_product);
+  return difference <= little * std::max(section.bending_1, section.bending_2);
+}
+
 }  // namespace
 
 void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, const ModelFrame& frame,
@@ -31,21 +65,25 @@ void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, con
   for (std::size_t b = 0; b < model.beams.size(); ++b) {
     const Beam& beam = model.beams[b];
     if (!beam.has_torsion()) continue;
-    double most = 0, s = 0;
-    for (std::size_t i = 1; i < beam.home.size(); ++i) {
-      const double s_a = beam.home[i - 1].s, s_b = beam.home[i].s;
-      const double turn = turn_between(beam.curve, s_a, s_b);
-      if (turn <= most) continue;
-      most = turn;
-      s = (s_a + s_b) / 2;
-    }
-    if (most > largest_turn)
-      findings.warn(beams[b].path + ".elements",
-                    "the axis turns by " + text_of(most / degrees, 3) +
-                        " degrees within the element about s = " + text_of(s, 6) + " m, " +
-                        text_of(frame.to_world(beam.curve.position(s))) +
-                        ": the sections of a beam with torsion are carried along it to few digits; divide it "
-                        "so that elements turn by less than 60 degrees");
+    const auto warn = [&](const Turn& turn, const std::string& what, const std::string& why) {
+      findings.warn(beams[b].path + ".elements", what + " by " + text_of(turn.angle / degrees, 3) +
+                                                     " degrees within the element about s = " +
+                                                     text_of(turn.s, 6) + " m, " +
+                                                     text_of(frame.to_world(beam.curve.position(turn.s))) +
+                                                     ": " + why);
+    };
+    if (const Turn turn = greatest_turn(beam, turn_between); turn.angle > largest_turn)
+      warn(turn, "the axis turns",
+           "the sections of a beam with torsion are carried along it to few digits; divide it so that elements "
+           "turn by less than 60 degrees");
+    if (bends_alike(*beam.properties.sections)) continue;
+    if (const Turn turn = greatest_turn(beam, section_turn_between); turn.angle > largest_section_turn)
+      warn(turn, "the section is drawn with a twist, and turns",
+           "an element of a section that bends more easily one way is then too stiff, by some percent from 45 "
+           "degrees on; divide it so that sections turn by less than 30 degrees in each, into some " +
+               std::to_string(static_cast<int>(std::ceil(turn.angle / largest_section_turn *
+                                                         static_cast<double>(beam.home.size() - 1)))) +
+               " elements where they are equal");
   }
 }
 

@@ -9,7 +9,9 @@
 namespace nurbeam {
 
 /// Warns of each beam with torsion whose drawn axis turns by more than 60 degrees within an element, with the
-/// place of the one that turns most: the quadrature of parallel transport in it loses digits there.
+/// place of the one that turns most: the quadrature of parallel transport in it loses digits there. Likewise
+/// where sections that bend more easily one way are drawn turning about it by more than 30 degrees: the axis
+/// of an element cannot bend first the one way and then the other.
 void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, const ModelFrame& frame,
                  Findings& findings);
 

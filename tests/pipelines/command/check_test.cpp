@@ -77,5 +77,21 @@ TEST(CheckCase, WarnsOfElementsThatTurnByMoreThan60Degrees) {
   EXPECT_EQ(fine.err.find("turns by"), std::string::npos) << fine.err;
 }
 
+TEST(CheckCase, WarnsOfSectionsThatTurnByMoreThan30DegreesInAnElement) {
+  const auto warnings = [](const std::string& section, int count) {
+    return checked_both({"beams[0].section=" + section, "beams[0].torsion=true",
+                         "beams[0].elements={\"count\": " + std::to_string(count) + "}",
+                         R"(beams[0].orientation={"start": [0, 0, 1], "twist": [[0, 0], [1, 350]]})"})
+        .err;
+  };
+  const std::string strip = R"({"rectangle": ["40 mm", "5 mm"]})";
+  const std::string coarse = warnings(strip, 5), fine = warnings(strip, 18);
+  EXPECT_NE(coarse.find("beams[0].elements: the section is drawn with a twist, and turns by 7"),
+            std::string::npos)
+      << coarse;
+  EXPECT_EQ(fine.find("turns by"), std::string::npos) << fine;
+  EXPECT_EQ(warnings(R"({"radius": "5 mm"})", 5).find("turns by"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace nurbeam
