@@ -23,8 +23,8 @@ struct StudyInterrupted {};
 /// Keeps OpenTURNS from writing to the terminal: what matters of its warnings stands in the answers.
 void silence_openturns();
 
-/// Of what is left of it between its ends.
-double mean_of(const StudyDistribution& distribution);
+/// Of what is left of it between its ends; empty where that is nothing, to its last digit.
+std::optional<double> mean_of(const StudyDistribution& distribution);
 
 /// The points of a plan.
 StudyPoints plan_points(const StudyFile& study, const StudyPlan& plan);

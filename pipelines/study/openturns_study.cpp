@@ -1,6 +1,7 @@
 #include "pipelines/study/openturns_study.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace nurbeam {
@@ -103,11 +104,12 @@ OT::Distribution joint_distribution(const StudyFile& study) {
   return OT::ComposedDistribution(marginals);
 }
 
-double mean_of(const StudyDistribution& distribution) {
+std::optional<double> mean_of(const StudyDistribution& distribution) {
   try {
-    return distribution_of(distribution).getMean()[0];
-  } catch (const OT::Exception&) {  // nothing is left, to its last digit
-    return distribution.lower.value_or(distribution.upper.value_or(0));
+    const double mean = distribution_of(distribution).getMean()[0];
+    return std::isfinite(mean) ? std::optional(mean) : std::nullopt;
+  } catch (const OT::Exception&) {
+    return std::nullopt;
   }
 }
 

@@ -93,17 +93,16 @@ class StudyReader : StudyPartReader {
   // Something of the distribution must lie between where it is cut off, and the nominal value within.
   void check_ends(const StudyVariable& variable) {
     using Law = StudyDistribution::Kind;
-    constexpr double none = std::numeric_limits<double>::infinity(), widest = 35;  // standard deviations
+    constexpr double none = std::numeric_limits<double>::infinity();
     const StudyDistribution& d = variable.distribution;
     const std::vector<double>& p = d.parameters;
     if (p.size() < 2) return;
     double from = -none, to = none;
     if (d.kind == Law::uniform || d.kind == Law::triangular) from = p.front(), to = p.back();
     if (d.kind == Law::lognormal || d.kind == Law::weibull) from = 0;
-    const bool narrow = d.kind == Law::normal;
     const double lower = std::max(d.lower.value_or(-none), from),
                  upper = std::min(d.upper.value_or(none), to);
-    if (!(lower < upper) || (narrow && (lower > p[0] + widest * p[1] || upper < p[0] - widest * p[1])))
+    if (!(lower < upper) || !mean_of(d))
       return findings_.error(child(variable.path, "distribution"),
                              "has nothing between \"lower\" and \"upper\"");
     if (variable.nominal < lower || variable.nominal > upper)
@@ -115,7 +114,7 @@ class StudyReader : StudyPartReader {
   // The middle, or the mean of what is left where that is cut off.
   static double within_ends(const StudyDistribution& d, double middle) {
     const bool is_left = !(d.lower && middle < *d.lower) && !(d.upper && middle > *d.upper);
-    return is_left ? middle : mean_of(d);
+    return is_left ? middle : mean_of(d).value_or(middle);
   }
 
   static double middle_of(const StudyDistribution& d) {
@@ -149,7 +148,12 @@ class StudyReader : StudyPartReader {
 
   CurveTransform read_transform(const Json& json, const std::string& path) {
     CurveTransform transform{.beam = text(json, "beam")};
-    for (const double index : numbers(json, "points")) transform.points.push_back(static_cast<int>(index));
+    for_each_item(json, "points", path, [&](const Json& item, const std::string& where) {
+      const int index = item.get<int>();
+      if (std::find(transform.points.begin(), transform.points.end(), index) != transform.points.end())
+        findings_.error(where, "is " + std::to_string(index) + " again; each control point moves once");
+      transform.points.push_back(index);
+    });
     std::string where;
     if (has(json, "translate")) {
       transform.direction = vector(json, "translate");
@@ -189,8 +193,10 @@ class StudyReader : StudyPartReader {
         check_increasing(d.parameters, where);
         continue;
       }
-      const double mean = measured(json[name]["mean"], dimension, child(where, "mean")).value_or(0);
-      const double sd = measured(json[name]["sd"], dimension, child(where, "sd")).value_or(0);
+      const Json& moments = json[name];
+      if (!has(moments, "mean") || !has(moments, "sd")) continue;
+      const double mean = measured(moments["mean"], dimension, child(where, "mean")).value_or(0);
+      const double sd = measured(moments["sd"], dimension, child(where, "sd")).value_or(0);
       d.parameters = {mean, sd};
       if (!(sd > 0))
         findings_.error(child(where, "sd"), "is " + text_of(sd, all_digits) + "; must be greater than 0");

@@ -102,8 +102,30 @@ TEST(StudyFile, RefusesEndsBetweenWhichNothingIs) {
             std::string::npos);
   EXPECT_NE(wrong(R"("range": [1, 2], "nominal": 3)").find("variables[0].nominal: is 3, outside of 1 to 2"),
             std::string::npos);
+  EXPECT_NE(wrong(normal + R"("lower": 4, "upper": 5})").find("variables[0].distribution: has nothing"),
+            std::string::npos);
   EXPECT_EQ(wrong(normal + R"("lower": 0.9, "upper": 1.3})"), "");
   EXPECT_EQ(wrong(normal + R"("lower": 1.2, "upper": 1.3})"), "");
+}
+
+TEST(StudyFile, NeedsBothMomentsOfADistribution) {
+  for (const char* law : {"normal", "lognormal", "gumbel", "weibull"})
+    for (const auto& [moments, missing] : {std::pair{R"({"mean": 1})", "sd"}, {R"({"sd": 1})", "mean"}}) {
+      const std::string wrong = wrong_with(
+          R"json({"nurbeam_study": 1, "variables": [{"name": "x", "distribution": {")json" + std::string(law) +
+          "\": " + moments + R"json(}}], "quantities": [{"name": "y", "value": "x"}],
+              "plan": {"monte_carlo": {"count": 10}}})json");
+      EXPECT_NE(wrong.find("variables[0].distribution." + std::string(law) + ": \"" + missing + "\""),
+                std::string::npos)
+          << wrong;
+    }
+}
+
+TEST(StudyFile, MovesAControlPointOnce) {
+  const std::string wrong = wrong_with(R"json({"nurbeam_study": 1, "case": "c.json", "variables": [{"name": "x",
+    "transform": {"beam": "b", "points": [2, 1, 2], "translate": [0, 0, 1]}, "range": [0, 1]}],
+    "quantities": [{"name": "y", "value": "x"}], "plan": {"monte_carlo": {"count": 10}}})json");
+  EXPECT_NE(wrong.find("variables[0].transform.points[2]: is 2 again"), std::string::npos) << wrong;
 }
 
 // Where the mean is cut off: the mean of what is left.
