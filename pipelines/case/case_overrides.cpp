@@ -118,7 +118,13 @@ AppliedOverride apply_override(Json& root, const std::string& path, const Json& 
       if (value->is_object()) value->erase(part);
       return {{}, walked};
     }
-    if (!value->is_object()) *value = Json::object();
+    if (value->is_string() && find_key(holder, "name")) {
+      *value = {{"name", *value}};  // a material of a standard, of which a part is another
+    } else if (!value->is_object()) {
+      if (!value->is_null())
+        return {here + " is " + value->dump() + ", which has no parts; set it as a whole", {}};
+      *value = Json::object();
+    }
     value = &(*value)[part];
   }
   *value = new_value;

@@ -428,6 +428,16 @@ TEST_F(CaseFileTest, OverridesNameItemsByNumberOrName) {
               {"there is no [troley]", "trolley"});
 }
 
+TEST_F(CaseFileTest, APartOfAStandardMaterialLeavesTheOthers) {
+  const std::vector<std::string> overrides = {"beams[0].material=steel",
+                                              "beams[0].material.youngs_modulus=190 GPa"};
+  const CaseMaterial steel = read_valid(smallest_case, {overrides[0]}).beams[0].material,
+                     other = read_valid(smallest_case, overrides).beams[0].material;
+  EXPECT_EQ(other.youngs_modulus, 1.9e11);
+  EXPECT_EQ(other.density, steel.density);
+  EXPECT_EQ(other.name, steel.name);
+}
+
 TEST_F(CaseFileTest, APartOfGravityThatIsOmittedIsThatOfItsDefault) {
   EXPECT_EQ(read_valid(smallest_case, {"gravity[0]=1"}).gravity, Eigen::Vector3d(1, 0, -9.81));
 }
@@ -440,6 +450,7 @@ TEST_F(CaseFileTest, OverridesOfUnknownPathsAreRefused) {
   refuse("beams[1].name=x", {"beams has 1 item(s)", "[1]"});
   refuse("beams[x].name=x", {"[x]"});
   refuse("name.x=1", {"name has no parts"});
+  refuse("supports[0].at.s=0.2", {"supports[0].at is \"start\", which has no parts"});
   refuse("gravity[3]=1", {"gravity has 3 item(s)", "[3]"});
   refuse("analysis", {"path=value"});
   refuse("=1", {"the case file"});
