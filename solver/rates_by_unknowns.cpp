@@ -1,5 +1,8 @@
 #include "solver/rates_by_unknowns.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nurbeam {
 
 Eigen::MatrixXd rates_by_unknowns(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& quantities,
@@ -18,6 +21,25 @@ Eigen::MatrixXd rates_by_unknowns(const std::function<Eigen::VectorXd(const Eige
     for (Eigen::Index i = first; i < end; ++i) other[i] += (1 + static_cast<double>(i % 7) / 8) * steps[i];
     return quantities(other) != present;
   };
+  // By how much of itself one of them changes, at most.
+  const auto change = [&](const Vector& found) {
+    double most = 0;
+    for (Eigen::Index j = 0; j < found.size(); ++j)
+      if (present[j] != 0) most = std::fmax(most, std::abs((found[j] - present[j]) / present[j]));
+    return most;
+  };
+  const auto rates = [&](Eigen::Index i) -> Vector {
+    constexpr double little = 1e-3, least = 1e-3;
+    double part = 1;
+    Vector more = where_one_changes(i, part);
+    for (double most = change(more); most > little && part > least; most = change(more)) {
+      part = std::max(least, std::min(0.5, little / most) * part);
+      more = where_one_changes(i, part);
+    }
+    return (8 * (more - where_one_changes(i, -part)) -
+            (where_one_changes(i, 2 * part) - where_one_changes(i, -2 * part))) /
+           (12 * part * steps[i]);
+  };
   const std::function<void(Eigen::Index, Eigen::Index)> find = [&](Eigen::Index first, Eigen::Index end) {
     if (!change_something(first, end)) return;
     constexpr Eigen::Index few = 4;
@@ -25,10 +47,7 @@ Eigen::MatrixXd rates_by_unknowns(const std::function<Eigen::VectorXd(const Eige
       find(first, (first + end) / 2);
       return find((first + end) / 2, end);
     }
-    for (Eigen::Index i = first; i < end; ++i)
-      by.row(i) = (8 * (where_one_changes(i, 1) - where_one_changes(i, -1)) -
-                   (where_one_changes(i, 2) - where_one_changes(i, -2))) /
-                  (12 * steps[i]);
+    for (Eigen::Index i = first; i < end; ++i) by.row(i) = rates(i);
   };
   if (x.size() > 0) find(0, x.size());
   return by;

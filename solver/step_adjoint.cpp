@@ -77,9 +77,9 @@ bool StepAdjoint::factorise() {
   return has_factors_ = solver_.factorise(transposed_);
 }
 
-// Factors take as long as some ten solutions.
+// Factors take as long as some twenty solutions.
 bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
-  constexpr Eigen::Index few = 3;
+  constexpr Eigen::Index few = 2;
   if (rhs.cols() > few) {
     if (!factorise()) return false;
     solver_.solve(rhs, x);
@@ -88,19 +88,21 @@ bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
   x.resizeLike(rhs);
   solved_.resize(static_cast<std::size_t>(rhs.cols()));
   for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
-    auto& [last, before] = solved_[static_cast<std::size_t>(k)];
-    if (!solve_from_last(rhs.col(k), last, before)) return false;
-    x.col(k) = last;
+    Solved& solved = solved_[static_cast<std::size_t>(k)];
+    if (!solve_from_last(rhs.col(k), solved)) return false;
+    x.col(k) = solved.last;
   }
   return true;
 }
 
-// Takes what a straight line through the last two solutions leads to, and corrects it.
-bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Eigen::VectorXd& last,
-                                  Eigen::VectorXd& before) {
+// Takes what a parabola through the last three solutions leads to, and corrects it.
+bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
   constexpr double tolerance = 1e-12;
+  auto& [last, before, earlier] = solved;
   if (before.size() == 0) before = last;
-  before = 2 * last - before;
+  if (earlier.size() == 0) earlier = before;
+  earlier += 3 * (last - before);
+  std::swap(before, earlier);
   std::swap(last, before);
   const auto open = [&](const Eigen::VectorXd& x, Eigen::VectorXd& left) {
     left = rhs;

@@ -1,5 +1,4 @@
 #pragma once
-#include <utility>
 #include <vector>
 
 #include "solver/step_tangent.h"
@@ -35,15 +34,17 @@ class StepAdjoint {
  private:
   bool factorise();
   bool solve(const Matrix& rhs, Matrix& x);
-  bool solve_from_last(const Eigen::VectorXd& rhs, Eigen::VectorXd& last, Eigen::VectorXd& before);
+  struct Solved {
+    Eigen::VectorXd last, before, earlier;
+  };
+  bool solve_from_last(const Eigen::VectorXd& rhs, Solved& solved);
 
   LinearStep step_;
   Eigen::SparseMatrix<double> transposed_;
   std::vector<int> values_;  // of each value in transposed_, that of the matrix
   KktSolver solver_;
-  bool has_factors_ = false;  // of this step or of one gone over before
-  // Of each quantity, where they are few: what has been solved for it, last and before that.
-  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> solved_;
+  bool has_factors_ = false;    // of this step or of one gone over before
+  std::vector<Solved> solved_;  // of each quantity, where they are few: for it, one after the other
 };
 
 }  // namespace nurbeam

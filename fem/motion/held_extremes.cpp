@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "fem/motion/beam_extremes.h"
-#include "fem/motion/sag.h"
 #include "fem/system/observables.h"
 
 namespace nurbeam {
@@ -38,12 +37,14 @@ double value_in(const BeamSystem& system, const State& state, int span, int samp
 HeldExtremes::HeldExtremes(const BeamSystem& system, const State& state, const std::vector<BeamPart>& parts) {
   const std::vector<BeamRecord> records = record_beams(system, state);
   for (const BeamPart& part : parts) {
-    std::vector<Place>& places = held_.emplace_back(Held{part}).places;
+    Held& held = held_.emplace_back(Held{part});
+    std::vector<Place>& places = held.places;
     const BeamRecord& record = records[part.beam];
     if (system.model().beams[part.beam].rigid) continue;
     const int first = system.mesh().first_span[part.beam], count = static_cast<int>(record.elements.size());
     if (!part.extreme) {
-      places.push_back({first + lowest_element(record.elements, system.model().gravity)});
+      const int lowest = first + lowest_element(record.elements, system.model().gravity);
+      held.lowest = sag_near(system, state, part.beam, lowest);
     } else if (part.extreme == &BeamRecord::displacement_max) {
       for (int i = 0; i < static_cast<int>(record.node_s.size()); ++i)
         if (are_equal(node_displacement(system, state, part.beam, i), record.displacement_max.value))
@@ -60,13 +61,13 @@ HeldExtremes::HeldExtremes(const BeamSystem& system, const State& state, const s
 
 std::vector<BeamRecord> HeldExtremes::at(const BeamSystem& system, const State& state) const {
   std::vector<BeamRecord> records(system.model().beams.size());
-  for (const auto& [part, places] : held_) {
+  for (const auto& [part, places, lowest] : held_) {
     BeamRecord& record = records[part.beam];
     if (system.model().beams[part.beam].rigid) {
       record = record_beam(system, state, part.beam);
     } else if (!part.extreme) {
       record.length = beam_length(system, state, part.beam);
-      record.sag = sag_near(system, state, part.beam, places.front().index);
+      record.sag = sag_at(system, state, part.beam, lowest);
     } else if (part.extreme == &BeamRecord::displacement_max) {
       for (const Place& place : places)
         keep(record.displacement_max, node_displacement(system, state, part.beam, place.index), 0,

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "fem/motion/sag.h"
 #include "fem/motion/snapshot.h"
 
 namespace nurbeam {
@@ -29,6 +30,7 @@ class HeldExtremes {
   struct Held {
     BeamPart part;
     std::vector<Place> places = {};
+    Lowest lowest = {};  ///< of a sag, in the mesh
   };
   std::vector<Held> held_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include "nurbs/golden_section.h"
 
@@ -10,15 +9,38 @@ namespace nurbeam {
 
 namespace {
 
-RationalCubic cubic_of(const ElementRecord& element) { return RationalCubic(element.control_points); }
-
 Chord chord_of(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity) {
   return {elements.front().control_points, elements.back().control_points, gravity};
 }
 
+Chord chord_of(const BeamSystem& system, const State& state, int beam) {
+  const std::vector<int>& first_span = system.mesh().first_span;
+  return {span_control_points(system, state, first_span[beam]),
+          span_control_points(system, state, first_span[beam + 1] - 1), system.model().gravity};
+}
+
+// What has no sag, as it has no downwards or no line to be below.
+bool has_none(const Chord& chord, const Eigen::Vector3d& gravity) {
+  return gravity.norm() == 0 || chord.is_vertical();
+}
+
+constexpr double no_sag = std::numeric_limits<double>::quiet_NaN();
+
 int lowest_of(const std::vector<ElementRecord>& elements, Chord chord) {
   for (const ElementRecord& element : elements) chord.look_at(element.control_points);
   return chord.lowest();
+}
+
+// Of that element and its neighbours, among those from `first` to `end`; none below: depth 0.
+template <class ControlPoints>
+Lowest lowest_near(int element, int first, int end, const Chord& chord, const ControlPoints& control_points) {
+  Lowest found{.element = element};
+  for (int i = std::max(first, element - 1); i < std::min(element + 2, end); ++i) {
+    const RationalCubic cubic(control_points(i));
+    const double u = minimum_place([&](double v) { return -chord.depth(cubic, v); }, 0, 1, 30);
+    if (const double depth = chord.depth(cubic, u); depth > found.depth) found = {i, u, depth};
+  }
+  return found;
 }
 
 }  // namespace
@@ -47,27 +69,26 @@ int lowest_element(const std::vector<ElementRecord>& elements, const Eigen::Vect
 }
 
 double sag(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Chord chord = chord_of(elements, gravity);
-  if (gravity.norm() == 0 || chord.is_vertical()) return none;
-  const int lowest = lowest_of(elements, chord), count = static_cast<int>(elements.size());
-  double most = 0;
-  for (int i = std::max(0, lowest - 1); i < std::min(lowest + 2, count); ++i) {
-    const RationalCubic cubic = cubic_of(elements[static_cast<std::size_t>(i)]);
-    const double u = minimum_place([&](double v) { return -chord.depth(cubic, v); }, 0, 1, 30);
-    most = std::max(most, chord.depth(cubic, u));
-  }
-  return most;
+  if (has_none(chord, gravity)) return no_sag;
+  return lowest_near(lowest_of(elements, chord), 0, static_cast<int>(elements.size()), chord,
+                     [&](int i) { return elements[static_cast<std::size_t>(i)].control_points; })
+      .depth;
 }
 
-double sag_near(const BeamSystem& system, const State& state, int beam, int lowest) {
-  const Mesh& mesh = system.mesh();
-  const int first = mesh.first_span[beam], last = mesh.first_span[beam + 1] - 1;
-  std::vector<ElementRecord> elements;
-  for (const int span :
-       std::set{first, std::max(first, lowest - 1), lowest, std::min(last, lowest + 1), last})
-    elements.emplace_back().control_points = span_control_points(system, state, span);
-  return sag(elements, system.model().gravity);
+Lowest sag_near(const BeamSystem& system, const State& state, int beam, int lowest) {
+  const Chord chord = chord_of(system, state, beam);
+  if (has_none(chord, system.model().gravity)) return {.element = lowest, .depth = no_sag};
+  const std::vector<int>& first_span = system.mesh().first_span;
+  return lowest_near(lowest, first_span[beam], first_span[beam + 1], chord,
+                     [&](int i) { return span_control_points(system, state, i); });
+}
+
+double sag_at(const BeamSystem& system, const State& state, int beam, const Lowest& place) {
+  const Chord chord = chord_of(system, state, beam);
+  if (has_none(chord, system.model().gravity)) return no_sag;
+  return std::max(0.0,
+                  chord.depth(RationalCubic(span_control_points(system, state, place.element)), place.u));
 }
 
 }  // namespace nurbeam

@@ -29,13 +29,22 @@ class Chord {
   double deepest_ = 0;
 };
 
+/// A place in the element of that number, of a beam or of the mesh, and how far it is below the chord [m].
+struct Lowest {
+  int element = 0;
+  double u = 0, depth = 0;
+};
+
 /// The element whose middle is the lowest so, of those that sag looks at first.
 int lowest_element(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity);
 /// How far a beam hangs below the straight line between its ends, at most, along `gravity` [m]; 0 where it is
 /// nowhere below. NaN without gravity, and where the ends lie above each other, as those of a ring do.
 /// Precondition: there are elements.
 double sag(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity);
-/// The same of a state, from the spans around that with the lowest middle, and those at the ends.
-double sag_near(const BeamSystem& system, const State& state, int beam, int lowest);
+/// The same of a state, and where it is, from the spans around that with the lowest middle, and those at the
+/// ends.
+Lowest sag_near(const BeamSystem& system, const State& state, int beam, int lowest);
+/// At a place of the mesh, 0 where that is not below; NaN as sag.
+double sag_at(const BeamSystem& system, const State& state, int beam, const Lowest& place);
 
 }  // namespace nurbeam

@@ -88,7 +88,7 @@ void record_in_stretches(const CarriedBySpans& carried, const BeamSystem& system
     for (const ElementRecord& element : record.elements) chord.look_at(element.control_points);
     hand_over(b, take, record);
   }
-  record.sag = sag_near(system, state, b, first + chord.lowest());
+  record.sag = sag_near(system, state, b, first + chord.lowest()).depth;
 }
 
 BeamRecord record_with(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
@@ -187,6 +187,15 @@ std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& stat
   return records;
 }
 
+EnergyRecord record_energy(const SystemEnergy& energy) {
+  return {.kinetic = energy.kinetic,
+          .gravity = energy.gravity,
+          .axial = energy.axial,
+          .bending = energy.bending + energy.torsion,
+          .total = energy.mechanical(),
+          .spring = energy.spring};
+}
+
 Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
                          const SnapshotContents& contents, const TakeElements& take) {
   const BeamModel& model = system.model();
@@ -216,14 +225,7 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
     const auto [from, to] = connector_ends(system, state, i);
     snapshot.connectors.push_back({length, force, from, to});
   }
-  if (!contents.energy) return snapshot;
-  const SystemEnergy e = energy(system, state);
-  snapshot.energy = {.kinetic = e.kinetic,
-                     .gravity = e.gravity,
-                     .axial = e.axial,
-                     .bending = e.bending + e.torsion,
-                     .total = e.mechanical(),
-                     .spring = e.spring};
+  if (contents.energy) snapshot.energy = record_energy(energy(system, state));
   return snapshot;
 }
 

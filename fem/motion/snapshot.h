@@ -138,6 +138,9 @@ BeamRecord record_beam(const BeamSystem& system, const State& state, int beam);
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state,
                                      const TakeElements& take = nullptr);
 
+/// As a snapshot has it (dissipated: none).
+EnergyRecord record_energy(const SystemEnergy& energy);
+
 /// A state with its beams, bodies, probes and energies (dissipated: none), in the model's own coordinates;
 /// what is known of steps is left empty, as is what is not among `contents`. `take`: as
 /// record_beams has it.

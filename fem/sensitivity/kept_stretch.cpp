@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "fem/sensitivity/sensitivities_parts.h"
+#include "fem/system/observables.h"
 #include "solver/rates_by_unknowns.h"
 #include "solver/side_by_side.h"
 #include "solver/step_adjoint.h"
@@ -102,21 +104,24 @@ void Sensitivities::ask(Asked asked) {
   arrive();
   for (const std::size_t record : asked_.records) hold_extremes(records_[record]);
   if (!stretch_) return;
-  // In what a parameter takes over a step: a quantity back over one, which is the smaller part of as many
-  // that go side by side; the derivatives of quantities by one state.
-  constexpr double of_a_quantity = 5, of_a_record = 50;
+  // In what a parameter takes over a step: factors; a quantity back over one, without and with factors of its
+  // own; the derivatives of quantities by one state.
+  constexpr double of_factors = 20, without = 8, with = 2, of_a_record = 50;
   std::size_t last = 0, count = 0;
   for (const std::size_t record : asked_.records)
     if (!records_[record].tangents) last = records_[record].position, ++count;
-  const double forward = static_cast<double>(parameters_.size() * stretch_->steps.size());
-  const double back = of_a_quantity * static_cast<double>(asked_.quantities * last) +
-                      of_a_record * static_cast<double>(count);
+  const double forward =
+      (of_factors + static_cast<double>(parameters_.size())) * static_cast<double>(stretch_->steps.size());
+  const auto quantities = static_cast<double>(asked_.quantities);
+  const double back =
+      std::min(without * quantities, of_factors + with * quantities) * static_cast<double>(last) +
+      of_a_record * static_cast<double>(count);
   if (back >= forward) carry();
 }
 
 MotionTangents::Matrix Sensitivities::through_states(const Quantities& quantities) {
   const auto at_record = [&](std::size_t record, const BeamSystem& system, const State& state) {
-    return quantities(record, snapshot(records_[record], system, state, records_[record].probes));
+    return snapshot(records_[record], system, state, records_[record].probes);
   };
   MotionTangents::Matrix sum = MotionTangents::Matrix::Zero(static_cast<Eigen::Index>(asked_.quantities),
                                                             static_cast<Eigen::Index>(parameters_.size()));
@@ -124,8 +129,8 @@ MotionTangents::Matrix Sensitivities::through_states(const Quantities& quantitie
   for (const std::size_t record : asked_.records)
     if (const Rest* rest = records_[record].rest.get())
       sum += rest->adjoint.through_rest(
-          [&](const State& state) { return at_record(record, *rest->system, state); }, rest->dynamics,
-          rest->constraints);
+          [&](const State& state) { return quantities(record, at_record(record, *rest->system, state)); },
+          rest->dynamics, rest->constraints);
     else if (!records_[record].tangents)
       of_steps.push_back(record);
   if (of_steps.empty()) return sum;
@@ -135,10 +140,14 @@ MotionTangents::Matrix Sensitivities::through_states(const Quantities& quantitie
       of_steps,
       [&](std::size_t record) {
         const State& recorded = records_[record].state;
+        const SystemEnergy known = asked_.contents.energy ? energy(*system_, recorded) : SystemEnergy{};
         const auto at = [&](const Vector& x) {
           State state = recorded;
           set_unknowns(x, state);
-          return at_record(record, *system_, state);
+          Snapshot snapshot = at_record(record, *system_, state);
+          if (asked_.contents.energy)
+            snapshot.energy = record_energy(carried_energy(known, *system_, recorded, state));
+          return quantities(record, snapshot);
         };
         return rates_by_unknowns(at, unknowns_of(recorded), steps_of_unknowns(recorded, scale, h));
       },
@@ -174,8 +183,10 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
     if (!regular) singular_step();
     work_.solves += mu.cols();
     take_off(shifts, adjoint.stiffness());
-    sum.noalias() -= mu.topRows(n).transpose() * dynamics_;
-    sum.noalias() -= mu.bottomRows(m).transpose() * constraints_;
+    for (Eigen::Index i = 0; i < sum.rows(); ++i) {
+      sum.row(i).noalias() -= mu.col(i).head(n).transpose() * dynamics_;
+      sum.row(i).noalias() -= mu.col(i).tail(m).transpose() * constraints_;
+    }
     Vector later;
     if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);
     adjoints = adjoint.start(adjoints, mu, stretch_->by_time[i], later);

@@ -11,6 +11,7 @@
 #include "fem/motion/kinks.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
 #include "fem/sensitivity/sensitivities_parts.h"
+#include "fem/system/observables.h"
 #include "nurbs/number_text.h"
 #include "solver/consistent.h"
 #include "solver/equilibrated_kkt.h"
@@ -316,11 +317,11 @@ void Sensitivities::hold_extremes(Record& record) {
                             asked_.of_beams);
 }
 
-// What is asked of one: extremes where the run has them.
+// What is asked of one but for energies: extremes where the run has them.
 Snapshot Sensitivities::snapshot(const Record& record, const BeamSystem& system, const State& state,
                                  const std::vector<ProbePlace>& probes) const {
   SnapshotContents contents = asked_.contents;
-  contents.beams = false;
+  contents.beams = contents.energy = false;
   Snapshot snapshot = record_snapshot(system, state, probes, contents);
   if (record.extremes) snapshot.beams = record.extremes->at(system, state);
   return snapshot;
@@ -340,7 +341,9 @@ std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std:
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
     std::vector<ProbePlace> probes = neighbour.probes;
     for (std::size_t i = 0; i < probes.size(); ++i) probes[i].span = of.probes[i].span;
-    return snapshot(of, *system, state, probes);
+    Snapshot found = snapshot(of, *system, state, probes);
+    if (asked_.contents.energy) found.energy = record_energy(energy(*system, state));
+    return found;
   };
   return {moved_by(pair.more, true), moved_by(pair.less, false)};
 }

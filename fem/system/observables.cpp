@@ -141,15 +141,18 @@ MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std
   return sums;
 }
 
+void add(const SystemEnergy& other, double factor, SystemEnergy& energy) {
+  energy.kinetic += factor * other.kinetic;
+  energy.gravity += factor * other.gravity;
+  energy.axial += factor * other.axial;
+  energy.bending += factor * other.bending;
+  energy.torsion += factor * other.torsion;
+  energy.spring += factor * other.spring;
+  energy.dissipation += factor * other.dissipation;
+}
+
 void add(const MotionSums& other, double factor, MotionSums& sums) {
-  SystemEnergy& energy = sums.energy;
-  energy.kinetic += factor * other.energy.kinetic;
-  energy.gravity += factor * other.energy.gravity;
-  energy.axial += factor * other.energy.axial;
-  energy.bending += factor * other.energy.bending;
-  energy.torsion += factor * other.energy.torsion;
-  energy.spring += factor * other.energy.spring;
-  energy.dissipation += factor * other.energy.dissipation;
+  add(other.energy, factor, sums.energy);
   sums.momentum += factor * other.momentum;
   sums.length += factor * other.length;
 }
@@ -185,6 +188,20 @@ std::array<std::vector<bool>, 2> unlike_motion(const Assembly<D>& a, const State
 SystemEnergy energy(const BeamSystem& system, const State& state) {
   return with_assembly(
       system, [&](const auto& a) { return energy_of(a, state); });
+}
+
+SystemEnergy carried_energy(const SystemEnergy& known, const BeamSystem& system, const State& first,
+                            const State& other) {
+  return with_assembly(
+      system,
+      [&]<int D>(const Assembly<D>& a) {
+        std::vector<bool> moves;
+        for (const MeshElement<D>& e : a.elements()) moves.push_back(!moves_alike(e, first, e, other));
+        SystemEnergy carried = known;
+        add(energy_of(a, other, &moves), 1, carried);
+        add(energy_of(a, first, &moves), -1, carried);
+        return carried;
+      });
 }
 
 double input_work(const BeamSystem& system, const State& from, const State& to) {

@@ -9,6 +9,10 @@
 namespace nurbeam {
 
 SystemEnergy energy(const BeamSystem& system, const State& state);
+/// That of another state of the system, from `known`, that of a first one: to round-off, and of elements that
+/// move alike in both nothing is found anew.
+SystemEnergy carried_energy(const SystemEnergy& known, const BeamSystem& system, const State& first,
+                            const State& other);
 /// Work of all forces but weight, and of all prescribed motions, between two states of the system [J]: by the
 /// mean force, of second order in the time between them, exact for dead forces that stay at their place.
 double input_work(const BeamSystem& system, const State& from, const State& to);

@@ -53,8 +53,7 @@ Turn greatest_turn(const Beam& beam, const Between& between) {
 // Whether it hardly matters for bending how sections are turned.
 bool bends_alike(const SectionStiffness& section) {
   constexpr double little = 0.05;
-  const double difference =
-      std::hypot(section.bending_1 - section.bending_2, 2 * section.bending_product);
+  const double difference = std::hypot(section.bending_1 - section.bending_2, 2 * section.bending_product);
   return difference <= little * std::max(section.bending_1, section.bending_2);
 }
 
@@ -66,24 +65,25 @@ void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, con
     const Beam& beam = model.beams[b];
     if (!beam.has_torsion()) continue;
     const auto warn = [&](const Turn& turn, const std::string& what, const std::string& why) {
-      findings.warn(beams[b].path + ".elements", what + " by " + text_of(turn.angle / degrees, 3) +
-                                                     " degrees within the element about s = " +
-                                                     text_of(turn.s, 6) + " m, " +
-                                                     text_of(frame.to_world(beam.curve.position(turn.s))) +
-                                                     ": " + why);
+      findings.warn(beams[b].path + ".elements",
+                    what + " by " + text_of(turn.angle / degrees, 3) +
+                        " degrees within the element about s = " + text_of(turn.s, 6) + " m, " +
+                        text_of(frame.to_world(beam.curve.position(turn.s))) + ": " + why);
     };
     if (const Turn turn = greatest_turn(beam, turn_between); turn.angle > largest_turn)
-      warn(turn, "the axis turns",
-           "the sections of a beam with torsion are carried along it to few digits; divide it so that elements "
-           "turn by less than 60 degrees");
+      warn(
+          turn, "the axis turns",
+          "the sections of a beam with torsion are carried along it to few digits; divide it so that elements "
+          "turn by less than 60 degrees");
     if (bends_alike(*beam.properties.sections)) continue;
     if (const Turn turn = greatest_turn(beam, section_turn_between); turn.angle > largest_section_turn)
-      warn(turn, "the section is drawn with a twist, and turns",
-           "an element of a section that bends more easily one way is then too stiff, by some percent from 45 "
-           "degrees on; divide it so that sections turn by less than 30 degrees in each, into some " +
-               std::to_string(static_cast<int>(std::ceil(turn.angle / largest_section_turn *
-                                                         static_cast<double>(beam.home.size() - 1)))) +
-               " elements where they are equal");
+      warn(
+          turn, "the section is drawn with a twist, and turns",
+          "an element of a section that bends more easily one way is then too stiff, by some percent from 45 "
+          "degrees on; divide it so that sections turn by less than 30 degrees in each, into some " +
+              std::to_string(static_cast<int>(
+                  std::ceil(turn.angle / largest_section_turn * static_cast<double>(beam.home.size() - 1)))) +
+              " elements where they are equal");
   }
 }
 

@@ -228,16 +228,12 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
 VariantGradient::~VariantGradient() = default;
 
 // Not where single unknowns of a state change what is asked for by much more than all together: energies and
-// forces of a rest; nor what is not smooth as far as these go, such as sizes of vectors and the lowest place.
+// forces of a rest.
 bool VariantGradient::pays_by_adjoint(std::size_t variables, const Histories& histories,
                                       bool is_static) const {
   const SnapshotContents contents = histories.contents();
-  const std::vector<BeamPart> parts = histories.parts_of_beams();
-  const bool are_smooth = std::all_of(parts.begin(), parts.end(), [](const BeamPart& part) {
-    return part.extreme == &BeamRecord::axial_force_min || part.extreme == &BeamRecord::axial_force_max;
-  });
-  return variables > study_.quantities.size() && are_smooth && !contents.sections &&
-         !(is_static && (contents.beams || contents.energy));
+  return variables > study_.quantities.size() &&
+         !(is_static && (contents.beams || contents.sections || contents.energy));
 }
 
 // (quantities x parameters) What states at the times that count, which change with the parameters, do to the

@@ -112,8 +112,8 @@ TEST(StudyFile, NeedsBothMomentsOfADistribution) {
   for (const char* law : {"normal", "lognormal", "gumbel", "weibull"})
     for (const auto& [moments, missing] : {std::pair{R"({"mean": 1})", "sd"}, {R"({"sd": 1})", "mean"}}) {
       const std::string wrong = wrong_with(
-          R"json({"nurbeam_study": 1, "variables": [{"name": "x", "distribution": {")json" + std::string(law) +
-          "\": " + moments + R"json(}}], "quantities": [{"name": "y", "value": "x"}],
+          R"json({"nurbeam_study": 1, "variables": [{"name": "x", "distribution": {")json" +
+          std::string(law) + "\": " + moments + R"json(}}], "quantities": [{"name": "y", "value": "x"}],
               "plan": {"monte_carlo": {"count": 10}}})json");
       EXPECT_NE(wrong.find("variables[0].distribution." + std::string(law) + ": \"" + missing + "\""),
                 std::string::npos)
@@ -122,7 +122,8 @@ TEST(StudyFile, NeedsBothMomentsOfADistribution) {
 }
 
 TEST(StudyFile, MovesAControlPointOnce) {
-  const std::string wrong = wrong_with(R"json({"nurbeam_study": 1, "case": "c.json", "variables": [{"name": "x",
+  const std::string wrong =
+      wrong_with(R"json({"nurbeam_study": 1, "case": "c.json", "variables": [{"name": "x",
     "transform": {"beam": "b", "points": [2, 1, 2], "translate": [0, 0, 1]}, "range": [0, 1]}],
     "quantities": [{"name": "y", "value": "x"}], "plan": {"monte_carlo": {"count": 10}}})json");
   EXPECT_NE(wrong.find("variables[0].transform.points[2]: is 2 again"), std::string::npos) << wrong;
