@@ -118,9 +118,8 @@ NURBEAM_WITHIN void copy(const double* from, int count, double* to) {
   for (int j = 0; j < count; j += block) four(to + j) = four(from + j);
 }
 
-// Numbers of four rows of U, or columns of L, from place k on: with what is taken out of the next block. Of L
-// those within the block stand where U has none.
-int rounded_length(int k, int end) { return std::max(2 * block, (end - k + block - 1) / block * block); }
+// Numbers of four rows of U, or columns of L, from place k up to an end, that lie beyond the next block.
+int length_beyond(int k, int end) { return std::max(0, (end - k - block - 1) / block * block); }
 
 }  // namespace
 
@@ -139,8 +138,8 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   std::size_t upper = 0, lower = 0;
   for (int k = 0, row = 0, longest = 0; k < padded_; k += block) {
     for (; row < std::min(k + block, n); ++row) longest = std::max(longest, order_->ends[row]);
-    upper += static_cast<std::size_t>(block * rounded_length(k, longest));
-    lower += static_cast<std::size_t>(block * (rounded_length(k, order_->below[row - 1] + 1) - block));
+    upper += static_cast<std::size_t>(block * length_beyond(k, longest));
+    lower += static_cast<std::size_t>(block * length_beyond(k, order_->below[row - 1] + 1));
   }
   upper_.resize(upper + upper / 8);
   lower_.resize(lower + lower / 8);
@@ -233,27 +232,27 @@ std::ptrdiff_t BandedLu::append(int count, std::size_t& end, std::vector<double>
   return static_cast<std::ptrdiff_t>(begin);
 }
 
-// Puts the block's rows of U and columns of L away.
+// Puts the block's rows of U and columns of L away, but for what its inverses are made of.
 NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
   Block& own = blocks_[k / block];
   int end = 0;
   for (int r = 0; r < block; ++r) end = std::max(end, window.end(k + r));
-  const int upper = own.upper_length = rounded_length(k, end),
-            lower = own.lower_length = rounded_length(k, own.reach + 1) - block;
+  const int upper = own.upper_length = length_beyond(k, end),
+            lower = own.lower_length = length_beyond(k, own.reach + 1);
   own.upper_begin = append(block * upper, upper_end_, upper_);
   own.lower_begin = append(block * lower, lower_end_, lower_);
   double *of_upper = upper_.data() + own.upper_begin, *of_lower = lower_.data() + own.lower_begin;
   for (int r = 0; r < block; ++r, of_upper += upper, of_lower += lower) {
-    copy(window.diagonal(k + r) - r, upper, of_upper);
-    for (int c = 0; c < r; ++c) of_upper[c] = window.multipliers(c)[r];
-    copy(window.multipliers(r) + block, lower, of_lower);
+    copy(window.diagonal(k + r) - r + 2 * block, upper, of_upper);
+    copy(window.multipliers(r) + 2 * block, lower, of_lower);
   }
 }
 
-NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
+// D^-1 and D^-1 E.
+NURBEAM_WITHIN void BandedLu::invert_upper(int k, Window& window) {
   std::array<const double*, block> u;  // from column k on
-  for (int r = 0; r < block; ++r) u[r] = upper_row(k + r) + k;
-  Square &inverse = blocks_[k / block].upper, &next = blocks_[k / block].from_next;
+  for (int r = 0; r < block; ++r) u[r] = window.diagonal(k + r) - r;
+  Square &inverse = blocks_[k / block].inverses, &next = blocks_[k / block].from_next;
   for (int j = 0; j < block; ++j) {
     inverse[j] = {};
     inverse[j][j] = 1 / u[j][j];
@@ -270,20 +269,25 @@ NURBEAM_WITHIN void BandedLu::invert_upper(int k) {
   }
 }
 
-NURBEAM_WITHIN void BandedLu::invert_lower(int k) {
+// C^-1 and C^-1 B of a block that has its B; the next one gets its own.
+NURBEAM_WITHIN void BandedLu::invert_lower(int k, Window& window) {
   Block& own = blocks_[k / block];
   own.exchanged = false;
   for (int c = 0; c < block; ++c) own.exchanged |= pivots_[k + c] != k + c;
-  if (own.exchanged) return;
+  Square lower = {};
   for (int j = 0; j < block; ++j) {
-    own.lower[j] = {};
-    own.lower[j][j] = 1;
+    lower[j][j] = 1;
     for (int i = j + 1; i < block; ++i)
-      for (int l = j; l < i; ++l) own.lower[j][i] -= multiplier(k + i, k + l) * own.lower[j][l];
+      for (int l = j; l < i; ++l) lower[j][i] -= window.multipliers(l)[i] * lower[j][l];
   }
-  if (k == 0 || blocks_[k / block - 1].exchanged) return;
-  const std::array<const double*, block> before = multipliers_below(k - block);
-  for (int j = 0; j < block; ++j) four(own.from_previous[j].data()) = product(own.lower, four(before[j]));
+  for (int j = 0; j < block; ++j) {
+    const double* kept = own.exchanged ? window.multipliers(j) : lower[j].data();
+    std::copy(kept + j + 1, kept + block, own.inverses[j].begin() + j + 1);
+    if (k + block < padded_)
+      four(blocks_[k / block + 1].from_previous[j].data()) = four(window.multipliers(j) + block);
+  }
+  if (k == 0 || own.exchanged || blocks_[k / block - 1].exchanged) return;
+  for (auto& column : own.from_previous) four(column.data()) = product(lower, four(column.data()));
 }
 
 NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const SparseView& matrix) {
@@ -310,8 +314,8 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const SparseView& ma
     }
     take_out_beyond(window, begin, std::max(reach, brought));
     keep_block(begin, window);
-    invert_upper(begin);
-    invert_lower(begin);
+    invert_upper(begin, window);
+    invert_lower(begin, window);
   }
   return largest > 0 ? smallest / largest : 0;
 }

@@ -49,16 +49,18 @@ class BandedLu {
   double eliminate_rows(const SparseView& matrix);
   static std::ptrdiff_t append(int count, std::size_t& end, std::vector<double>& numbers);
   void keep_block(int k, Window& window);
-  void invert_upper(int k);
-  void invert_lower(int k);
-  double inverse_pivot(int k) const;
-  const double* upper_row(int k) const;
-  double multiplier(int row, int column) const;
-  std::array<const double*, 4> multipliers_below(int k) const;
-  void take_out(int k, const Four& x, int first, double* y) const;
-  void eliminate(int k, double* all) const;
+  void invert_upper(int k, Window& window);
+  void invert_lower(int k, Window& window);
+  std::array<const double*, 4> upper_beyond(int k) const;
+  std::array<const double*, 4> multipliers_beyond(int k) const;
+  void take_out(int k, const Four& x, double* y) const;
+  template <class Exchange, class TakeOff>
+  void eliminate_exchanged(int k, const Exchange& exchange, const TakeOff& take_off) const;
+  class Elimination;
   template <int times>
-  void solve_beside(double* y) const;
+  void lower_beside(double* y) const;
+  template <int times>
+  void upper_beside(double* y) const;
   void solve_fours(int times, double* y) const;
 
   std::shared_ptr<const BandOrder> order_;
@@ -67,18 +69,21 @@ class BandedLu {
   /// Of a block of four on the diagonals, D of U and C of L, and what stands beside it, E of U to its right
   /// and B of L to its left: columns of inverses and of these times what it takes from the blocks next to it,
   /// so that one waits for the other no longer than one product takes.
+  /// Where rows are exchanged with others what is eliminated waits for every one of them: there C and B stand
+  /// for C^-1 and C^-1 B, and B in the next block too.
   struct Block {
-    std::array<std::array<double, 4>, 4> upper, from_next;      ///< D^-1, D^-1 E
-    std::array<std::array<double, 4>, 4> lower, from_previous;  ///< C^-1, C^-1 B where rows stay
-    std::ptrdiff_t upper_begin, lower_begin;                    ///< of its rows of U and its columns of L
-    int upper_length, lower_length;                             ///< of each of these
-    int reach;                                                  ///< last row that its multipliers change
-    bool exchanged;  ///< rows with others: then no from_previous, here and in the next one
+    using Square = std::array<std::array<double, 4>, 4>;
+    Square inverses;                          ///< D^-1, and below its diagonal C^-1, whose own is of ones
+    Square from_next;                         ///< D^-1 E
+    Square from_previous;                     ///< C^-1 B
+    std::ptrdiff_t upper_begin, lower_begin;  ///< of its rows of U and its columns of L
+    int upper_length, lower_length;           ///< of each of these
+    int reach;                                ///< last row that its multipliers change
+    bool exchanged;                           ///< rows with others
   };
   std::vector<Block> blocks_;
-  std::vector<double> upper_;  ///< four rows of U at a time, from the first one's diagonal on, and those
-                               ///< multipliers that stand left of the others' diagonals
-  std::vector<double> lower_;  ///< four columns of multipliers at a time, from below their block on
+  std::vector<double> upper_;  ///< four rows of U at a time, from beyond the next block on
+  std::vector<double> lower_;  ///< four columns of multipliers at a time, from beyond the next block on
   std::size_t upper_end_ = 0, lower_end_ = 0;  ///< of the numbers of these two
   std::vector<double> scale_;                  ///< of each row of the matrix
   std::vector<int> pivots_;                    ///< row that was brought to each place

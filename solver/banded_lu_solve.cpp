@@ -15,30 +15,64 @@ NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3
 
 }  // namespace
 
-// Takes a block of unknowns whose rows stay out of the right-hand sides below it, from the `first` one on.
-NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, int first, double* y) const {
-  const std::array<const double*, block> m = multipliers_below(k);
-  for (int i = first; k + block + i <= blocks_[k / block].reach; i += block)
-    four(y + block + i) -=
+// Takes a block of unknowns out of the right-hand sides beyond the next block.
+NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, double* y) const {
+  const std::array<const double*, block> m = multipliers_beyond(k);
+  for (int i = 0; k + 2 * block + i <= blocks_[k / block].reach; i += block)
+    four(y + 2 * block + i) -=
         four(m[0] + i) * x[0] + four(m[1] + i) * x[1] + four(m[2] + i) * x[2] + four(m[3] + i) * x[3];
 }
 
-// Finds a block of unknowns and takes it out of the right-hand sides below it.
-NURBEAM_WITHIN void BandedLu::eliminate(int k, double* all) const {
-  double* y = all + k;
-  if (!blocks_[k / block].exchanged) {
-    const Four x = product(blocks_[k / block].lower, four(y));
-    four(y) = x;
-    return take_out(k, x, 0, y);
-  }
-  const std::array<const double*, block> m = multipliers_below(k);
-  const int last = blocks_[k / block].reach - k;
+// Finds a block of unknowns that are exchanged with others, and takes them out of the right-hand sides below
+// them: at(place) is what stands there, and take_off(place, factor, other) takes off what stands at another.
+template <class Exchange, class TakeOff>
+NURBEAM_WITHIN void BandedLu::eliminate_exchanged(int k, const Exchange& exchange,
+                                                  const TakeOff& take_off) const {
+  const Block& own = blocks_[k / block];
+  const std::array<const double*, block> beyond = multipliers_beyond(k);
   for (int c = 0; c < block; ++c) {
-    std::swap(y[c], all[pivots_[k + c]]);
-    for (int i = c + 1; i < std::min(block, last + 1); ++i) y[i] -= multiplier(k + i, k + c) * y[c];
-    for (int i = block; i <= last; ++i) y[i] -= m[c][i - block] * y[c];
+    if (pivots_[k + c] != k + c) exchange(k + c, pivots_[k + c]);
+    for (int i = c + 1; i < block; ++i) take_off(k + i, own.inverses[c][i], k + c);
+    for (int i = k + block; i <= own.reach; ++i) {
+      const int below = i - k - block;
+      take_off(i, below < block ? blocks_[k / block + 1].from_previous[c][below] : beyond[c][below - block],
+               k + c);
+    }
   }
 }
+
+// Finds the unknowns block by block, each taken out of those after it: of the next one when its turn comes.
+class BandedLu::Elimination {
+ public:
+  NURBEAM_WITHIN Elimination(const BandedLu& lu, double* all) : lu_(lu), all_(all) {}
+
+  NURBEAM_WITHIN void eliminate(int k) {
+    const Block& own = lu_.blocks_[k / block];
+    double* y = all_ + k;
+    if (own.exchanged) {
+      if (is_waiting_)
+        for (int c = 0; c < block; ++c) four(y) -= four(own.from_previous[c].data()) * before_[c];
+      lu_.eliminate_exchanged(
+          k, [&](int i, int j) { std::swap(all_[i], all_[j]); },
+          [&](int i, double factor, int j) { all_[i] -= factor * all_[j]; });
+    } else {
+      Four x = lower_product(own.inverses, four(y));
+      if (is_waiting_) x -= product(own.from_previous, before_);
+      four(y) = before_ = x;
+      lu_.take_out(k, x, y);
+    }
+    is_waiting_ = !own.exchanged;
+  }
+  // Goes past a block of zeros.
+  NURBEAM_WITHIN void pass() { is_waiting_ = false; }
+  NURBEAM_WITHIN bool is_waiting() const { return is_waiting_; }
+
+ private:
+  const BandedLu& lu_;
+  double* all_;
+  Four before_ = {};
+  bool is_waiting_ = false;  // the block before, to be taken out of the next one
+};
 
 void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
   const std::size_t n = order_->unknown.size();
@@ -49,36 +83,22 @@ void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
   std::fill(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), 0);
 }
 
-// Block by block, each taken out of those after it: of the next one when its turn comes.
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& all) const {
-  Four before = {};
-  bool is_waiting = false;
-  for (int k = 0; k < padded_; k += block) {
-    double* y = all.data() + k;
-    const Block& own = blocks_[k / block];
-    if (own.exchanged) {
-      if (is_waiting) {
-        const std::array<const double*, block> m = multipliers_below(k - block);
-        for (int c = 0; c < block; ++c) four(y) -= four(m[c]) * before[c];
-      }
-      eliminate(k, all.data());
-    } else {
-      Four x = product(own.lower, four(y));
-      if (is_waiting) x -= product(own.from_previous, before);
-      four(y) = before = x;
-      take_out(k, x, block, y);
-    }
-    is_waiting = !own.exchanged;
-  }
+  Elimination elimination(*this, all.data());
+  for (int k = 0; k < padded_; k += block) elimination.eliminate(k);
 }
 
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last) const {
+  Elimination elimination(*this, y.data());
   // An exchange brings a row up by no more than the band.
   for (int k = std::max(0, first - half_bandwidth_) / block * block; k <= last; k += block) {
     const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
-    if (is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3)) continue;
-    eliminate(k, y.data());
-    last = std::max({last, blocks_[k / block].reach, *std::max_element(&pivots_[k], &pivots_[k] + block)});
+    if (!elimination.is_waiting() && is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3))
+      continue;
+    elimination.eliminate(k);
+    const int reach = std::max(blocks_[k / block].reach, *std::max_element(&pivots_[k], &pivots_[k] + block));
+    if (reach < k + block) elimination.pass();
+    last = std::max(last, reach);
   }
 }
 
@@ -91,78 +111,99 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
     double* y = all.data() + k;
     const int length = own.upper_length;
     Four sums[block] = {};
-    for (int j = 2 * block; j < length; j += block)
-      for (int r = 0; r < block; ++r) sums[r] += four(u + r * length + j) * four(y + j);
+    for (int j = 0; j < length; j += block)
+      for (int r = 0; r < block; ++r) sums[r] += four(u + r * length + j) * four(y + 2 * block + j);
     const Four rest = four(y) - Four{sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]), sum_of(sums[3])};
-    after = product(own.upper, rest) - product(own.from_next, after);
+    after = upper_product(own.inverses, rest) - product(own.from_next, after);
     four(y) = after;
   }
 }
 
-NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& y, int first, int& last) const {
-  for (int k = first; k <= last; ++k) {
-    if (y[k] == 0) continue;
-    y[k] *= inverse_pivot(k);
-    const double* u = upper_row(k);
-    const int end = std::min(k - k % block + blocks_[k / block].upper_length, padded_);
-    for (int i = k + 1; i < end; ++i) y[i] -= u[i] * y[k];
-    last = std::max(last, end - 1);
+NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& all, int first, int& last) const {
+  for (int k = first / block * block; k <= last; k += block) {
+    const Block& own = blocks_[k / block];
+    double* y = all.data() + k;
+    const Four rest = four(y);
+    if (rest[0] == 0 && rest[1] == 0 && rest[2] == 0 && rest[3] == 0) continue;
+    for (int c = 0; c < block; ++c) {
+      y[c] = 0;
+      for (int r = 0; r <= c; ++r) y[c] += own.inverses[c][r] * rest[r];
+      y[block + c] -= sum_of(four(own.from_next[c].data()) * rest);
+    }
+    const Four x = four(y);
+    const std::array<const double*, block> u = upper_beyond(k);
+    for (int j = 0; j < own.upper_length; j += block)
+      for (int r = 0; r < block; ++r) four(y + 2 * block + j) -= four(u[r] + j) * x[r];
+    last = std::max(last, std::min(k + 2 * block + own.upper_length, padded_) - 1);
   }
 }
 
-// Of so many times four right-hand sides, side by side at each place.
+// y <- (P L)^-1 y of so many times four right-hand sides, side by side at each place.
 template <int times>
-NURBEAM_WITHIN void BandedLu::solve_beside(double* y) const {
+NURBEAM_WITHIN void BandedLu::lower_beside(double* y) const {
   const auto at = [&](int place) { return reinterpret_cast<Four*>(y) + place * times; };
-  const auto take_off = [&](Four* from, double factor, const Four* x) {
-    for (int c = 0; c < times; ++c) from[c] -= factor * x[c];
+  const auto take_off = [&](int place, double factor, int other) {
+    for (int c = 0; c < times; ++c) at(place)[c] -= factor * at(other)[c];
   };
-  for (int begin = 0; begin < padded_; begin += block) {
-    const std::array<const double*, block> m = multipliers_below(begin);
-    const int below = begin + block, reach = blocks_[begin / block].reach;
-    const bool exchanged = blocks_[begin / block].exchanged;
-    for (int k = begin; k < below; ++k) {
-      if (pivots_[k] != k) std::swap_ranges(at(k), at(k + 1), at(pivots_[k]));
-      for (int i = k + 1; i < std::min(below, reach + 1); ++i) take_off(at(i), multiplier(i, k), at(k));
-      if (exchanged)  // rows that stay wait for all four
-        for (int i = below; i <= reach; ++i) take_off(at(i), m[k - begin][i - below], at(k));
+  bool is_waiting = false;
+  for (int k = 0; k < padded_; k += block) {
+    const Block& own = blocks_[k / block];
+    // Within the block from below, as its own are asked for.
+    if (!own.exchanged)
+      for (int i = block - 1; i > 0; --i)
+        for (int l = 0; l < i; ++l) take_off(k + i, -own.inverses[l][i], k + l);
+    for (int i = 0; is_waiting && i < block; ++i)
+      for (int l = 0; l < block; ++l) take_off(k + i, own.from_previous[l][i], k - block + l);
+    if (own.exchanged) {
+      eliminate_exchanged(
+          k, [&](int i, int j) { std::swap_ranges(at(i), at(i + 1), at(j)); }, take_off);
+    } else {
+      const std::array<const double*, block> m = multipliers_beyond(k);
+      for (int i = 0; k + 2 * block + i <= own.reach; ++i)
+        for (int l = 0; l < block; ++l) take_off(k + 2 * block + i, m[l][i], k + l);
     }
-    if (exchanged) continue;
-    for (int i = below; i <= reach; ++i) {
-      Four* row = at(i);
-      const Four* x = at(begin);
-      for (int c = 0; c < times; ++c) {
-        Four rest = row[c];
-        for (int r = 0; r < block; ++r) rest -= m[r][i - below] * x[r * times + c];
-        row[c] = rest;
-      }
-    }
+    is_waiting = !own.exchanged;
   }
-  for (int k = padded_ - 1; k >= 0; --k) {
-    const double* upper = upper_row(k);
-    Four* own = at(k);
-    const double inverse = inverse_pivot(k);
-    Four x[times];
-    for (int c = 0; c < times; ++c) x[c] = own[c];
-    const int end = std::min(k - k % block + blocks_[k / block].upper_length, padded_);
-    for (int j = k + 1; j < end; ++j)
-      for (int c = 0; c < times; ++c) x[c] -= upper[j] * at(j)[c];
-    for (int c = 0; c < times; ++c) own[c] = inverse * x[c];
+}
+
+// y <- U^-1 y of these.
+template <int times>
+NURBEAM_WITHIN void BandedLu::upper_beside(double* y) const {
+  const auto at = [&](int place) { return reinterpret_cast<Four*>(y) + place * times; };
+  for (int k = padded_ - block; k >= 0; k -= block) {
+    const Block& own = blocks_[k / block];
+    const std::array<const double*, block> u = upper_beyond(k);
+    const int length = std::min(own.upper_length, padded_ - k - 2 * block);
+    for (int r = 0; r < block; ++r)
+      for (int j = 0; j < length; ++j)
+        for (int c = 0; c < times; ++c) at(k + r)[c] -= u[r][j] * at(k + 2 * block + j)[c];
+    for (int r = 0; r < block; ++r)
+      for (int c = 0; c < times; ++c) {
+        Four x = own.inverses[r][r] * at(k + r)[c];
+        for (int l = r + 1; l < block; ++l) x += own.inverses[l][r] * at(k + l)[c];
+        for (int l = 0; k + block < padded_ && l < block; ++l)
+          x -= own.from_next[l][r] * at(k + block + l)[c];
+        at(k + r)[c] = x;
+      }
   }
 }
 
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::solve_fours(int times, double* y) const {
+  const auto solve = [&]<int count>() {
+    lower_beside<count>(y);
+    upper_beside<count>(y);
+  };
   switch (times) {
     case 1:
-      return solve_beside<1>(y);
+      return solve.template operator()<1>();
     case 2:
-      return solve_beside<2>(y);
+      return solve.template operator()<2>();
     case 3:
-      return solve_beside<3>(y);
+      return solve.template operator()<3>();
     case 4:
-      return solve_beside<4>(y);
+      return solve.template operator()<4>();
     default:
-      return solve_beside<5>(y);
+      return solve.template operator()<5>();
   }
 }
 

@@ -109,6 +109,8 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
                                                        const SecondOrderSystem& system, State start)
     : GeneralizedAlphaIntegrator(settings, system, std::move(start), 1) {
   mass_scale_ = nurbeam::mass_scale(system, state_, matrix());
+  // The first step asks for that room again: what comes before it may have to do with as much.
+  kkt_.resize(0);
 }
 
 GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
@@ -122,11 +124,9 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   parameters_ = parameters(settings_.rho_infinity);
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
-  kkt_.resize(static_cast<Eigen::Index>(system.tangent_pattern().rows().size()));
-  scale_ = system.coordinate_scale();
-  inverse_scale_ = scale_.cwiseInverse();
+  inverse_scale_ = system.coordinate_scale().cwiseInverse();
   trial_ = state_;
-  start_algorithmic_ = trial_algorithmic_ = state_.a;
+  trial_algorithmic_ = state_.a;
   residual_.resize(n + m);
   reference_.resize(n + m);
 }
@@ -204,8 +204,8 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
   for (int i = 0; i < settings_.max_iterations; ++i) {
     evaluate_residual();
     ++report.newton_iterations;
-    const bool is_kept = linearisation_ && linearise(linearisation_) && (i > 0 || renew_moving_part());
-    if (!is_kept && !linearise(trial_point(step)))
+    const bool is_kept = linearisation_ && linearise_again() && (i > 0 || renew_moving_part());
+    if (!is_kept && !linearise(trial_point(step), trial_))
       return all_finite(residual_) ? StepStatus::singular_matrix : StepStatus::not_converged;
     report.residual_norm = scale_residual(step);
     if (!std::isfinite(report.residual_norm)) return StepStatus::not_converged;
@@ -238,7 +238,9 @@ bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
 }
 
 Eigen::Map<Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::matrix() {
-  return system_->tangent_pattern().matrix_of(kkt_.data());
+  const SparsePattern& pattern = system_->tangent_pattern();
+  kkt_.resize(static_cast<Eigen::Index>(pattern.rows().size()));
+  return pattern.matrix_of(kkt_.data());
 }
 
 Eigen::Map<const Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::iteration_matrix() const {
@@ -247,10 +249,10 @@ Eigen::Map<const Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::iterat
           pattern.rows().data(), kkt_.data()};
 }
 
-/// Makes the matrix of that place the one that corrects, if it is not. False where it is singular.
-bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> at) {
+/// Makes the matrix of that place the one that corrects. `still`: a copy of its state, which is worked in and
+/// comes back as it was. False where the matrix is singular.
+bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> at, State& still) {
   linearisation_ = std::move(at);
-  if (factorised_ == linearisation_) return true;
   factorised_ = nullptr;
   const TangentWeights weights = weights_of(linearisation_->step);
   system_->tangent(linearisation_->state, weights, matrix());
@@ -259,9 +261,16 @@ bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> 
     return false;
   }
   system_->moving_tangent(linearisation_->state, weights, moving_part_);
-  measure_reference();
+  measure_reference(still);
   factorised_ = linearisation_;
   return true;
+}
+
+/// The same for the matrix that the next iteration takes, if another one was factorised since.
+bool GeneralizedAlphaIntegrator::linearise_again() {
+  if (factorised_ == linearisation_) return true;
+  State still = linearisation_->state;
+  return linearise(linearisation_, still);
 }
 
 /// The trial state as the place of a new matrix.
@@ -288,22 +297,27 @@ TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
           .stiffness = beta * step * step / mass_scale_};
 }
 
+/// Calls use(alg) with that part of the method's acceleration variable moved to the step of the attempt.
+template <class Use>
+auto GeneralizedAlphaIntegrator::with_start(long first, long end, const Use& use) const {
+  if (starts_anew_) return use(part(state_.a, first, end));
+  return use(part(algorithmic_acceleration_, first, end) + of_jerk_ * part(jerk_, first, end));
+}
+
 /// The trial state whose true acceleration and multipliers are those of the last state; whether it is finite.
 bool GeneralizedAlphaIntegrator::predict(double step) {
   const double alpha_m = parameters_.alpha_m, beta = parameters_.beta, gamma = parameters_.gamma;
   const double h = step;
-  const bool starts_anew = last_step_ > 0 && step > largest_rescaling * last_step_;
-  const double of_jerk = last_step_ > 0 ? (alpha_m - parameters_.alpha_f) * (h - last_step_) : 0;
+  starts_anew_ = last_step_ > 0 && step > largest_rescaling * last_step_;
+  of_jerk_ = last_step_ > 0 ? (alpha_m - parameters_.alpha_f) * (h - last_step_) : 0;
   const double not_finite = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
     const auto of = [&](auto& vector) { return part(vector, first, end); };
-    auto alg = of(start_algorithmic_), after = of(trial_algorithmic_);
-    if (starts_anew)
-      alg = of(state_.a);
-    else
-      alg = of(algorithmic_acceleration_) + of_jerk * of(jerk_);
-    after = (of(state_.a) - alpha_m * alg) / (1 - alpha_m);
-    of(trial_.q) = of(state_.q) + h * of(state_.v) + h * h * ((0.5 - beta) * alg + beta * after);
-    of(trial_.v) = of(state_.v) + h * ((1 - gamma) * alg + gamma * after);
+    auto after = of(trial_algorithmic_);
+    with_start(first, end, [&](const auto& alg) {
+      after = (of(state_.a) - alpha_m * alg) / (1 - alpha_m);
+      of(trial_.q) = of(state_.q) + h * of(state_.v) + h * h * ((0.5 - beta) * alg + beta * after);
+      of(trial_.v) = of(state_.v) + h * ((1 - gamma) * alg + gamma * after);
+    });
     of(trial_.a) = of(state_.a);
     const bool is_finite = all_finite(of(trial_.q)) && all_finite(of(trial_.v)) && all_finite(of(trial_.a));
     return is_finite ? 0.0 : 1.0;
@@ -338,21 +352,22 @@ double GeneralizedAlphaIntegrator::scale_residual(double step) {
 /// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
 /// rows: what the accelerations move the constraint in the step. Both: the round-off of the matrix times the
 /// unknowns, weighted so that it passes the tolerance. All where the matrix was taken; its inverse.
-void GeneralizedAlphaIntegrator::measure_reference() {
+void GeneralizedAlphaIntegrator::measure_reference(State& still) {
   const State& at = linearisation_->state;
   const Eigen::Index n = at.q.size();
   const Eigen::Index m = at.lambda.size();
   const double scaling = parameters_.beta * linearisation_->step * linearisation_->step;
   const double floor = round_off / settings_.newton_tolerance;
-  unaccelerated_ = at;
-  unaccelerated_.a.setZero();
-  unaccelerated_.lambda.setZero();
+  still.a.setZero();
+  still.lambda.setZero();
   // In the room of the correction, which is not known yet: one kind of force after the other.
   correction_.resize(n + m);
   const auto largest_work = [&] {
-    return scale_.cwiseProduct(correction_.head(n).cwiseAbs()).lpNorm<Eigen::Infinity>();
+    return correction_.head(n).cwiseAbs().cwiseQuotient(inverse_scale_).lpNorm<Eigen::Infinity>();
   };
-  system_->residual(unaccelerated_, correction_.head(n), correction_.tail(m));
+  system_->residual(still, correction_.head(n), correction_.tail(m));
+  still.a = at.a;
+  still.lambda = at.lambda;
   const double of_forces = largest_work();
   correction_.setZero();
   reference_.setConstant(std::numeric_limits<double>::min());
@@ -361,7 +376,7 @@ void GeneralizedAlphaIntegrator::measure_reference() {
   const SparsePattern& pattern = system_->tangent_pattern();
   const int *rows = pattern.rows().data(), *starts = pattern.column_starts().data();
   for (Eigen::Index column = 0; column < n; ++column) {
-    const double rounding = floor * (std::abs(at.q[column]) + scale_[column]);
+    const double rounding = floor * (std::abs(at.q[column]) + 1 / inverse_scale_[column]);
     const double moved = rounding + scaling * std::abs(at.a[column]);
     for (int k = starts[column]; k < starts[column + 1]; ++k)
       reference[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
@@ -409,8 +424,10 @@ void GeneralizedAlphaIntegrator::correct(double step) {
 /// scale.
 double GeneralizedAlphaIntegrator::local_error(double step) const {
   const double greatest = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
-    const auto moved = part(trial_algorithmic_, first, end) - part(start_algorithmic_, first, end);
-    return largest(moved.cwiseProduct(part(inverse_scale_, first, end)));
+    return with_start(first, end, [&](const auto& start) {
+      const auto moved = part(trial_algorithmic_, first, end) - start;
+      return largest(moved.cwiseProduct(part(inverse_scale_, first, end)));
+    });
   });
   return std::abs(parameters_.position_error) * step * step * greatest;
 }
@@ -427,8 +444,9 @@ double GeneralizedAlphaIntegrator::next_step(double step, double tolerance, cons
 
 void GeneralizedAlphaIntegrator::accept(double step) {
   by_pieces(state_.q.size(), piece, [&](long first, long end) {
-    part(jerk_, first, end) =
-        (part(trial_algorithmic_, first, end) - part(start_algorithmic_, first, end)) / step;
+    with_start(first, end, [&](const auto& start) {
+      part(jerk_, first, end) = (part(trial_algorithmic_, first, end) - start) / step;
+    });
   });
   std::swap(state_, trial_);
   std::swap(algorithmic_acceleration_, trial_algorithmic_);

@@ -66,6 +66,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
                                   double step) override;
   /// (n+m) x (n+m) the scaled matrix of the last Newton iteration, whichever step it was taken in.
+  /// Precondition: there was one.
   Eigen::Map<const Eigen::SparseMatrix<double>> iteration_matrix() const;
 
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
@@ -78,12 +79,15 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   bool has_matrix_for(double step) const;
   Eigen::Map<Eigen::SparseMatrix<double>> matrix();
   TangentWeights weights_of(double step) const;
-  bool linearise(std::shared_ptr<const Linearisation> at);
+  bool linearise(std::shared_ptr<const Linearisation> at, State& still);
+  bool linearise_again();
   std::shared_ptr<const Linearisation> trial_point(double step);
   bool renew_moving_part();
   void evaluate_residual();
   double scale_residual(double step);
-  void measure_reference();
+  void measure_reference(State& still);
+  template <class Use>
+  auto with_start(long first, long end, const Use& use) const;
   double find_correction();
   void correct(double step);
   double local_error(double step) const;
@@ -105,20 +109,20 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
   KktSolver solver_;
-  Eigen::VectorXd kkt_;          ///< values of the system's pattern
+  Eigen::VectorXd kkt_;          ///< values of the system's pattern; empty before the first step
   Eigen::MatrixXd moving_part_;  ///< that in kkt_
 
   // The attempt under way.
   State trial_;
-  Eigen::VectorXd start_algorithmic_;  ///< algorithmic_acceleration_ moved to the step of the attempt
+  bool starts_anew_ = false;  ///< from the true acceleration, not its own
+  double of_jerk_ = 0;        ///< what moves algorithmic_acceleration_ to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
-  State unaccelerated_;         ///< of measure_reference
   Eigen::VectorXd residual_;    ///< (n+m) scaled
   Eigen::VectorXd correction_;  ///< (n+m) scaled
   Eigen::VectorXd
       reference_;  ///< (n+m) inverse of what the scaled residual is compared with, where factorised_ is
-  Eigen::VectorXd scale_, inverse_scale_;  ///< (n) of the coordinates
-  Eigen::MatrixXd moved_part_;             ///< what the moving part is by now more than in kkt_
+  Eigen::VectorXd inverse_scale_;  ///< (n) of the coordinates
+  Eigen::MatrixXd moved_part_;     ///< what the moving part is by now more than in kkt_
 };
 
 }  // namespace nurbeam

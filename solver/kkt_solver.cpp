@@ -37,41 +37,63 @@ Cut cut_of(const BandOrder& order) {
   return best;
 }
 
-// Where a matrix has entries, in rows that follow one another: of a chain in a tenth of the room of its
-// indices.
+// Where a matrix has entries, in rows that follow one another, once for columns that follow one another with
+// the same rows: of a chain in a thirtieth of the room of its indices.
 class PatternInRuns {
  public:
-  explicit PatternInRuns(const SparseView& matrix)
-      : column_ends_(matrix.outerIndexPtr() + 1, matrix.outerIndexPtr() + matrix.cols() + 1) {
-    const int* rows = matrix.innerIndexPtr();
-    for (int k = 0; const int end : column_ends_)
-      while (k < end) {
-        const int first = k++;
-        while (k < end && rows[k] == rows[k - 1] + 1) ++k;
-        runs_.push_back({rows[first], k - first});
-      }
+  explicit PatternInRuns(const SparseView& matrix) : size_(matrix.cols()) {
+    for (int column = 0; column < matrix.cols(); ++column) add(matrix, column);
+    columns_.shrink_to_fit();
     runs_.shrink_to_fit();
   }
 
   bool is_of(const SparseView& matrix) const {
-    if (static_cast<std::size_t>(matrix.cols()) != column_ends_.size() ||
-        !std::equal(column_ends_.begin(), column_ends_.end(), matrix.outerIndexPtr() + 1))
-      return false;
-    // The rows of a column rise: those of a run are there where its first and its last one are.
-    const int* row = matrix.innerIndexPtr();
-    return std::all_of(runs_.begin(), runs_.end(), [&](const Run& run) {
-      const bool is_there = row[0] == run.first && row[run.count - 1] == run.first + run.count - 1;
-      row += run.count;
-      return is_there;
-    });
+    if (matrix.cols() != size_) return false;
+    const int *end = matrix.outerIndexPtr(), *row = matrix.innerIndexPtr();
+    auto first = runs_.begin();
+    for (const auto& [count, runs, entries] : columns_) {
+      const auto last = first + runs;
+      for (int column = 0; column < count; ++column, ++end) {
+        if (end[1] - end[0] != entries) return false;
+        // The rows of a column rise: those of a run are there where its first and its last one are.
+        for (auto run = first; run != last; row += run->count, ++run)
+          if (row[0] != run->first || row[run->count - 1] != run->first + run->count - 1) return false;
+      }
+      first = last;
+    }
+    return true;
   }
 
  private:
   struct Run {
     int first, count;
+    bool operator==(const Run&) const = default;
+  };
+  struct Columns {
+    int count, runs, entries;
   };
 
-  std::vector<int> column_ends_;
+  void add(const SparseView& matrix, int column) {
+    const int begin = matrix.outerIndexPtr()[column], end = matrix.outerIndexPtr()[column + 1];
+    const int* rows = matrix.innerIndexPtr();
+    const auto before = static_cast<std::ptrdiff_t>(runs_.size());
+    for (int k = begin; k < end;) {
+      const int first = k++;
+      while (k < end && rows[k] == rows[k - 1] + 1) ++k;
+      runs_.push_back({rows[first], k - first});
+    }
+    const auto own = runs_.begin() + before;
+    const int count = static_cast<int>(runs_.end() - own);
+    if (!columns_.empty() && columns_.back().runs == count && std::equal(own, runs_.end(), own - count)) {
+      runs_.erase(own, runs_.end());
+      ++columns_.back().count;
+    } else {
+      columns_.push_back({1, count, end - begin});
+    }
+  }
+
+  Eigen::Index size_;
+  std::vector<Columns> columns_;
   std::vector<Run> runs_;
 };
 

@@ -1,6 +1,8 @@
 #include "fem/mesh/mesh_elements.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace nurbeam {
@@ -142,6 +144,19 @@ class SameElements {
   std::size_t next_ = 0;
 };
 
+// The ends of a fixed element, or of the first one of the equal parts of a line that is drawn evenly, if it
+// is one of these: all that is computed of them is the same, but for the round-off of where they are.
+std::array<double, 2> first_alike(const ReferenceCurve& curve, const Chart& chart, const MeshSpan& span) {
+  const int j = chart.segment;
+  if (j < 0 || chart.constant_weights || curve.metric() != Metric::arc_length || !curve.is_uniform_line(j))
+    return {span.s_a, span.s_b};
+  const double round_off = 16 * std::numeric_limits<double>::epsilon() * curve.length();
+  const double start = curve.breaks()[j], line = curve.breaks()[j + 1] - start, length = span.s_b - span.s_a;
+  const double part = line / std::round(line / length);
+  if (!(std::abs(part - length) <= round_off)) return {span.s_a, span.s_b};
+  return {start, start + part};
+}
+
 // Puts the numbers of elements side by side, eight of a beam at a time as they follow one another, in the
 // order of their batch. Where they are so in another mesh they stay there.
 template <int D>
@@ -150,8 +165,15 @@ class ByEights {
   /// The elements must stay where they are until close().
   void add(MeshElement<D>& e) {
     if (e.twist || !e.element.is_one_part()) return;
-    if (!group_.empty() && (group_.size() == FixedLanes::lanes || group_.front()->beam != e.beam)) close();
+    if (!group_.empty() && group_.front()->beam != e.beam) close();
     group_.push_back(&e);
+    if (group_.size() == FixedLanes::lanes) close();
+  }
+
+  /// The element of the eight before the present ones that the next one of that beam stands as; null: none.
+  const MeshElement<D>* counterpart(int beam) const {
+    const std::size_t lane = group_.size();
+    return lane < last_.size() && last_[lane]->beam == beam ? last_[lane] : nullptr;
   }
 
   void close() {
@@ -161,12 +183,26 @@ class ByEights {
       stand_so = stand_so && group_[i]->element.stands_beside(group_[0]->element, i);
     const auto numbers = stand_so ? nullptr : std::make_shared<FixedLanes>();
     for (int i = 0; i < count && numbers; ++i) group_[i]->element.stand_beside(numbers, i);
+    last_.swap(group_);
     group_.clear();
   }
 
  private:
-  std::vector<MeshElement<D>*> group_;
+  std::vector<MeshElement<D>*> group_, last_;
 };
+
+// The element of a span, with the numbers of another one of its beam, `counterpart`, if they are the same, or
+// of `same`, as twist_of has it; both may be null.
+template <int D>
+BeamElement<D> fixed_element(const Beam& beam, Chart chart, const MeshSpan& span,
+                             const MeshElement<D>* counterpart, const MeshElement<D>* same) {
+  const std::array<double, 2> ends = first_alike(beam.curve, chart, span);
+  if (counterpart && counterpart->element.fixed() && counterpart->element.chart() == chart &&
+      first_alike(beam.curve, chart, *counterpart) == ends)
+    return counterpart->element;
+  if (same) return same->element.on(beam.curve, beam.properties);
+  return {beam.curve, beam.properties, std::move(chart), ends[0], ends[1], Ends::fixed};
+}
 
 }  // namespace
 
@@ -193,8 +229,9 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
     elements.push_back(
         {span, dofs_of<D>(mesh, span),
          of_model ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
-         same ? same->element.on(beam.curve, beam.properties)
-              : BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
+         ends == Ends::fixed
+             ? fixed_element(beam, std::move(chart), span, by_eights.counterpart(span.beam), same)
+             : BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
     if constexpr (D == 3)
       elements.back().twist =
           make_twist(mesh, elements.back(), beam, others.mesh(), of_model ? same : nullptr);

@@ -47,6 +47,12 @@ bool has_events(const BeamModel& model) {
              model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.rigid; });
 }
 
+// Whether a step may be taken back: to where a place is reached or an event happens, by error control, or for
+// neighbours that follow.
+bool may_be_repeated(const Run& run) {
+  return !run.options.step || run.observer.follower || !run.model->joints.empty() || has_events(*run.model);
+}
+
 std::size_t kinds_of_event(const BeamModel& model) {
   return model.joints.size() + model.stops.size() + model.connectors.size();
 }
@@ -185,7 +191,7 @@ bool pass(Run& run, const Landing& landing, const State& before) {
 bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   MeshedState& at = run.at;
   const State before = at.state;
-  const IntegratorHistory history = run.integrator->history();
+  const IntegratorHistory history = may_be_repeated(run) ? run.integrator->history() : IntegratorHistory();
   const double asked = run.transient > 0 ? std::min(step, run.transient) : step;
   const StepReport taken = step_keeping_energy(run, before, history, asked);
   run.report.newton_iterations += taken.newton_iterations;

@@ -33,12 +33,16 @@ class Writer {
     file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
   }
 
-  void numbers(const std::string& name, const std::string& meaning, Eigen::VectorXd values) {
-    if (values.size() == 0) return;
+  void numbers(const std::string& name, const std::string& meaning,
+               std::shared_ptr<const Eigen::VectorXd> values) {
+    if (values->size() == 0) return;
     const std::string dimension = name + "_count";
-    file_.define_dimension(dimension, static_cast<std::size_t>(values.size()));
+    file_.define_dimension(dimension, static_cast<std::size_t>(values->size()));
     file_.define_plain(name, NetcdfFile::Type::real, {dimension}, "SI", meaning);
     numbers_.emplace_back(name, std::move(values));
+  }
+  void numbers(const std::string& name, const std::string& meaning, Eigen::VectorXd values) {
+    numbers(name, meaning, std::make_shared<const Eigen::VectorXd>(std::move(values)));
   }
   void texts(const std::string& name, std::vector<std::string>& values) {
     if (values.empty()) return;
@@ -47,13 +51,14 @@ class Writer {
   }
   void close() {
     for (const auto& [name, values] : numbers_)
-      file_.put(name, {0}, {static_cast<std::size_t>(values.size())}, values.data());
+      file_.put(name, {0}, {static_cast<std::size_t>(values->size())}, values->data());
     file_.close();
   }
 
  private:
   NetcdfFile file_;
-  std::vector<std::pair<std::string, Eigen::VectorXd>> numbers_;  ///< put when all are defined
+  /// Put when all are defined.
+  std::vector<std::pair<std::string, std::shared_ptr<const Eigen::VectorXd>>> numbers_;
 };
 
 class Reader {
@@ -141,6 +146,17 @@ void exchange_vector(Reader& archive, const std::string& name, const std::string
   x = vector_of(values);
 }
 
+// The same where others look at the whole, which is not changed where it is written.
+void exchange_vector(Writer& archive, const std::string& name, const std::string& meaning,
+                     const std::shared_ptr<Linearisation>& whole, Eigen::VectorXd& x) {
+  archive.numbers(name, meaning, std::shared_ptr<const Eigen::VectorXd>(whole, &x));
+}
+
+void exchange_vector(Reader& archive, const std::string& name, const std::string& meaning,
+                     const std::shared_ptr<Linearisation>&, Eigen::VectorXd& x) {
+  exchange_vector(archive, name, meaning, x);
+}
+
 struct PresentNode {
   int beam = 0;
   bool present = false;
@@ -188,26 +204,34 @@ void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
       });
 }
 
+// Of a step's matrix: when it was taken, and for which step.
+struct MatrixTime {
+  double time = 0, step = 0;
+};
+
 template <class Archive>
 void exchange_linearisation(Archive& archive, std::shared_ptr<const Linearisation>& linearisation) {
-  std::vector<Linearisation> at;
-  if (linearisation) at.push_back(*linearisation);
-  exchange_rows(archive, "matrix_step", "time and step of the matrix that the next step begins with", at,
-                [](Linearisation& each, auto& slot) {
-                  slot(each.state.t);
+  std::vector<MatrixTime> times;
+  if (linearisation) times.push_back({linearisation->state.t, linearisation->step});
+  exchange_rows(archive, "matrix_step", "time and step of the matrix that the next step begins with", times,
+                [](MatrixTime& each, auto& slot) {
+                  slot(each.time);
                   slot(each.step);
                 });
-  if (at.empty()) {
-    linearisation = nullptr;
-    return;
-  }
-  State& state = at[0].state;
-  exchange_vector(archive, "matrix_q", "generalised positions of that matrix", state.q);
-  exchange_vector(archive, "matrix_v", "generalised velocities of that matrix", state.v);
-  exchange_vector(archive, "matrix_a", "generalised accelerations of that matrix", state.a);
-  exchange_vector(archive, "matrix_lambda", "Lagrange multipliers of that matrix", state.lambda);
-  exchange_vector(archive, "matrix_memory", "memory of forces at that matrix", state.memory);
-  linearisation = std::make_shared<const Linearisation>(std::move(at[0]));
+  if (times.empty()) return;
+  const auto whole =
+      linearisation ? std::const_pointer_cast<Linearisation>(linearisation)
+                    : std::make_shared<Linearisation>(Linearisation{{.t = times[0].time}, times[0].step});
+  State& state = whole->state;
+  const auto exchange = [&](const char* name, const char* meaning, Eigen::VectorXd& x) {
+    exchange_vector(archive, name, meaning, whole, x);
+  };
+  exchange("matrix_q", "generalised positions of that matrix", state.q);
+  exchange("matrix_v", "generalised velocities of that matrix", state.v);
+  exchange("matrix_a", "generalised accelerations of that matrix", state.a);
+  exchange("matrix_lambda", "Lagrange multipliers of that matrix", state.lambda);
+  exchange("matrix_memory", "memory of forces at that matrix", state.memory);
+  linearisation = whole;
 }
 
 template <class Archive>
