@@ -16,22 +16,47 @@ namespace nurbeam {
 
 namespace {
 
-// Position, slopes, sections and place of a node that the old mesh had too.
-void keep_node(const MeshNode& kept, const State& state, const MeshNode& node, int D, State& next) {
-  const auto copy = [&](int target, int source, int n) {
-    next.q.segment(target, n) = state.q.segment(source, n);
-    next.v.segment(target, n) = state.v.segment(source, n);
-    next.a.segment(target, n) = state.a.segment(source, n);
-  };
-  copy(node.r, kept.r, D);
-  copy(node.slope_left, kept.slope_left, D);
-  copy(node.slope_right, kept.slope_right, D);
-  if (node.angle_left >= 0) {
-    copy(node.angle_left, kept.angle_left, 1);
-    copy(node.angle_right, kept.angle_right, 1);
+// Takes coordinates and their rates over from another mesh, those that follow one another in both at once.
+class KeptCoordinates {
+ public:
+  KeptCoordinates(const State& from, State& to) : from_(from), to_(to) {}
+  ~KeptCoordinates() { copy(); }
+  KeptCoordinates(const KeptCoordinates&) = delete;
+  KeptCoordinates& operator=(const KeptCoordinates&) = delete;
+
+  void take(int target, int source, int count) {
+    if (target != target_ + count_ || source != source_ + count_) {
+      copy();
+      target_ = target;
+      source_ = source;
+      count_ = 0;
+    }
+    count_ += count;
   }
-  if (node.place >= 0) copy(node.place, kept.place, 1);
-}
+  // Position, slopes, sections and place of a node.
+  void take(const MeshNode& node, const MeshNode& kept, int D) {
+    take(node.r, kept.r, D);
+    take(node.slope_left, kept.slope_left, D);
+    if (node.slope_right != node.slope_left || kept.slope_right != kept.slope_left)
+      take(node.slope_right, kept.slope_right, D);
+    if (node.angle_left >= 0) {
+      take(node.angle_left, kept.angle_left, 1);
+      take(node.angle_right, kept.angle_right, 1);
+    }
+    if (node.place >= 0) take(node.place, kept.place, 1);
+  }
+
+ private:
+  void copy() {
+    to_.q.segment(target_, count_) = from_.q.segment(source_, count_);
+    to_.v.segment(target_, count_) = from_.v.segment(source_, count_);
+    to_.a.segment(target_, count_) = from_.a.segment(source_, count_);
+  }
+
+  const State& from_;
+  State& to_;
+  int target_ = 0, source_ = 0, count_ = 0;  // not yet copied
+};
 
 // `i`: of the nodes of the beam in the new mesh.
 void place_node(const BeamSystem& from, const State& state, const BeamSystem& to, int beam, int i,
@@ -62,6 +87,33 @@ void place_node(const BeamSystem& from, const State& state, const BeamSystem& to
   if (node.place < 0) return;
   next.q[node.place] = s;
   next.v[node.place] = rate;
+}
+
+// Takes those that both meshes have, and returns the others: beams and indices.
+std::vector<std::pair<int, int>> take_nodes(const State& state, const Mesh& old, const Mesh& mesh,
+                                            State& next) {
+  const int D = mesh.dimension;
+  std::vector<std::pair<int, int>> added;
+  KeptCoordinates kept(state, next);
+  for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
+    for (int i = 0; i < static_cast<int>(mesh.nodes[b].size()); ++i) {
+      const MeshNode& node = mesh.nodes[b][i];
+      if (const int same = same_node(old.nodes[b], node); same >= 0)
+        kept.take(node, old.nodes[b][same], D);
+      else
+        added.emplace_back(b, i);
+    }
+  return added;
+}
+
+void take_bodies(const State& state, const Mesh& old, const Mesh& mesh, State& next) {
+  const int D = mesh.dimension;
+  KeptCoordinates kept(state, next);
+  for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
+    kept.take(mesh.bodies[body], old.bodies[body], D);
+  for (std::size_t j = 0; j < mesh.joints.size(); ++j)
+    if (mesh.joints[j].place >= 0 && old.joints[j].place >= 0)
+      kept.take(mesh.joints[j].place, old.joints[j].place, 1);
 }
 
 // The bubbles of twist: those of elements that the old mesh had too, or its twist.
@@ -95,31 +147,10 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   next.v = next.a = Eigen::VectorXd::Zero(to.coordinate_count());
   next.lambda = state.lambda;
   if (next.lambda.size() != to.constraint_count()) next.lambda.setZero(to.constraint_count());
-  const int D = to.dimension();
   const Mesh &old = from.mesh(), &mesh = to.mesh();
-  std::vector<std::pair<int, int>> added;  // beam, node
-  for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
-    for (int i = 0; i < static_cast<int>(mesh.nodes[b].size()); ++i) {
-      const MeshNode& node = mesh.nodes[b][i];
-      const int kept = same_node(old.nodes[b], node);
-      if (kept >= 0) {
-        keep_node(old.nodes[b][kept], state, node, D, next);
-      } else {
-        place_node(from, state, to, b, i, next);
-        added.emplace_back(b, i);
-      }
-    }
-  for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
-    next.q.segment(mesh.bodies[body], D) = state.q.segment(old.bodies[body], D);
-    next.v.segment(mesh.bodies[body], D) = state.v.segment(old.bodies[body], D);
-    next.a.segment(mesh.bodies[body], D) = state.a.segment(old.bodies[body], D);
-  }
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    if (mesh.joints[j].place < 0 || old.joints[j].place < 0) continue;
-    next.q[mesh.joints[j].place] = state.q[old.joints[j].place];
-    next.v[mesh.joints[j].place] = state.v[old.joints[j].place];
-    next.a[mesh.joints[j].place] = state.a[old.joints[j].place];
-  }
+  const std::vector<std::pair<int, int>> added = take_nodes(state, old, mesh, next);
+  for (const auto& [beam, node] : added) place_node(from, state, to, beam, node, next);
+  take_bodies(state, old, mesh, next);
   set_bubbles(from, state, to, next);
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);
   carry_bodies(to, next);

@@ -40,12 +40,16 @@ class JointRules {
     const auto s = place(system, state, joint);
     if (s) s_ = *s;
     if (mesh_.plan.modes[joint_] == JointMode::node) look_around(state.q);
+    if (mesh_.plan.modes[joint_] != JointMode::free) watch_neighbours();
   }
+
+  // Where the joint may be for apply() to find nothing, whichever way it moves, as it has found nothing.
+  const PlaceRange& quiet() const { return quiet_; }
 
   bool apply() {
     if (mesh_.plan.modes[joint_] == JointMode::point) return leave_point();
     if (mesh_.plan.modes[joint_] != JointMode::node) return false;
-    if (near_end() || near_as_point(model_, model_.joints[joint_], s_, passing_zone)) return become_point();
+    if (near_end() || is_near_as_point(passing_zone)) return become_point();
     return move_breaks() || exchange_nodes();
   }
 
@@ -69,17 +73,45 @@ class JointRules {
                                               : mesh_.spans[first + i - 1].end(q);
     };
     const int turns = beam_.is_ring() ? static_cast<int>(std::round((s_ - now(own)) / L)) : 0;
-    for (int around = 0, k = own - on_each_side; k <= own + on_each_side; ++k) {
+    for (int k = own - on_each_side; k <= own + on_each_side; ++k) {
       if (!beam_.is_ring() && (k < 0 || k >= count)) continue;
       const int turn = k < 0 ? -((count - 1 - k) / count) : k / count, i = k - turn * count;
-      if (k == own) left_ = around - 1;
+      if (k == own) left_ = node_count_ - 1;
       const int home = nodes[i].home >= 0 ? nodes[i].home + (turns + turn) * beam_.home_intervals() : -1;
-      nodes_[around++] = {now(i) + (turns + turn) * L, home, nodes[i].joint};
+      nodes_[node_count_++] = {now(i) + (turns + turn) * L, home, nodes[i].joint};
     }
     right_ = left_ + 2;
     // The home nodes from the left neighbour to the right one, of those that can come and go.
     lowest_ = std::max(lowest(), beam_.home_interval(nodes_[left_].s));
     highest_ = std::min(highest(), beam_.home_interval(nodes_[right_].s) + 1);
+  }
+
+  // Between two home nodes, and with other joints further away, nothing but distances from them counts, each
+  // of which is watched before it is asked for.
+  void watch_neighbours() {
+    const int h = beam_.home_interval(s_);
+    watch(at(h));
+    watch(at(h + 1));
+    if (left_ >= 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_,
+                                  [&](const Node& node) { return node.joint >= 0 && node.joint != joint_; }))
+      watch_closely();
+  }
+  void watch(double place) {
+    const double round_off = 1e-12 * beam_.curve.length();
+    if (place <= s_) quiet_.low = std::max(quiet_.low, place + round_off);
+    if (place >= s_) quiet_.high = std::min(quiet_.high, place - round_off);
+  }
+  void watch(double place, double distance) {
+    watch(place - distance);
+    watch(place + distance);
+  }
+  // What else counts may change at any time.
+  void watch_closely() { quiet_ = {s_, s_}; }
+  bool is_near_as_point(double reach) {
+    const int before = beam_.home_interval(s_);
+    for (const int h : {before, before + 1})
+      if (home(h).permanent) watch(at(h), reach * (at(before + 1) - at(before)));
+    return near_as_point(model_, model_.joints[joint_], s_, reach);
   }
 
   double at(int h) const { return beam_.home_place(h); }
@@ -108,21 +140,31 @@ class JointRules {
   void remove(int h) { plan().beams[index_].present[beam_.home_index(h)] = false; }
 
   bool leave_point() {
-    const double from_end = std::min(s_, at(last()) - s_);
-    if (!beam_.is_ring() && from_end < 2 * end_zone * spacing(s_)) return false;
-    if (near_as_point(model_, model_.joints[joint_], s_, passing_zone_left)) return false;
+    const double from_end = std::min(s_, at(last()) - s_), zone = 2 * end_zone * spacing(s_);
+    if (!beam_.is_ring()) {
+      watch(zone);
+      watch(at(last()) - zone);
+    }
+    if (!beam_.is_ring() && from_end < zone) return false;
+    if (is_near_as_point(passing_zone_left)) return false;
     plan().modes[joint_] = JointMode::node;
     return change(MeshChange::becomes_node);
   }
 
-  bool near_end() const {
+  bool near_end() {
     const auto near = [&](int neighbour) {
       const Node& node = nodes_[neighbour];
-      const bool approaching = (neighbour == right_) == (rate_ > 0);
-      return node.joint < 0 && is_end(node.home) && approaching &&
-             std::abs(node.s - s_) <= end_zone * spacing(s_);
+      if (node.joint >= 0 || !is_end(node.home)) return false;
+      const double zone = end_zone * spacing(s_);
+      watch(node.s, zone);
+      return std::abs(node.s - s_) <= zone && is_approaching(node.s);
     };
     return near(left_) || near(right_);
+  }
+
+  bool is_approaching(double place) {
+    watch_closely();
+    return (place > s_) == (rate_ > 0);
   }
 
   // All hidden nodes around it return, but for those that another joint hides.
@@ -156,6 +198,8 @@ class JointRules {
       if (!gives_way(h)) continue;
       const double distance = std::abs(at(h) - s_);
       const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      watch(at(h), passing_zone_left * gap);
+      watch(at(h), passing_zone * gap);
       if (hidden(h) && distance > passing_zone_left * gap && !another_joint_near(h, passing_zone_left)) {
         insert(h);
         return change(MeshChange::merge);  // charts change too: velocities are projected
@@ -163,8 +207,7 @@ class JointRules {
       const auto is_here = [&](int neighbour) {
         return nodes_[neighbour].joint < 0 && nodes_[neighbour].home == h;
       };
-      const bool approaching = (at(h) > s_) == (rate_ > 0);
-      if ((is_here(left_) || is_here(right_)) && approaching && distance < passing_zone * gap) {
+      if ((is_here(left_) || is_here(right_)) && distance < passing_zone * gap && is_approaching(at(h))) {
         remove(h);
         return change(MeshChange::merge);
       }
@@ -178,7 +221,9 @@ class JointRules {
     if (far.joint >= 0) return insert_between_joints(far);
     for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
-      if (std::abs(far.s - s_) <= control_.max * std::abs(far.s - at(h))) continue;
+      const double longest = control_.max * std::abs(far.s - at(h));
+      watch(far.s, longest);
+      if (std::abs(far.s - s_) <= longest) continue;
       insert(h);
       return true;
     }
@@ -207,10 +252,12 @@ class JointRules {
     const double distance = std::abs(near.s - s_);
     const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
                  behind = std::abs(at(near.s < s_ ? h - 1 : h + 1) - at(h));
+    constexpr double last_moment = 0.1;
+    for (const double threshold : {control_.min * here, (control_.max - 1) * behind, last_moment * here})
+      watch(near.s, threshold);
     if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
     // Another hidden node comes back first, unless it is too near to a second joint and this one too near
     // here.
-    constexpr double last_moment = 0.1;
     for (int k = lowest_; k <= highest_ && distance > last_moment * here; ++k)
       if (hidden(k) && !home(k).permanent) return false;
     remove(h);
@@ -234,7 +281,9 @@ class JointRules {
   NextPlan& next_;
   bool is_planned_ = false;
   double s_ = 0, rate_;
+  PlaceRange quiet_;
   std::array<Node, 2 * on_each_side + 1> nodes_;
+  int node_count_ = 0;
   int left_ = -1, right_ = -1;     // of nodes_
   int lowest_ = 0, highest_ = -1;  // of home nodes
 };
@@ -262,13 +311,32 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
 NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control,
                    int first_joint) {
   NextPlan next;
-  for (int j = first_joint; j < static_cast<int>(system.mesh().plan.places.size()); ++j)
-    if (JointRules(system, state, control, j, next).apply()) {
-      carry_weights(system, state, next.plan);
-      carry_sections(system, state, next.plan);
-      return next;
+  for (int j = first_joint; j < static_cast<int>(system.mesh().plan.places.size()); ++j) {
+    JointRules rules(system, state, control, j, next);
+    if (!rules.apply()) {
+      next.quiet.push_back(rules.quiet());
+      continue;
     }
+    carry_weights(system, state, next.plan);
+    carry_sections(system, state, next.plan);
+    return next;
+  }
   return next;
+}
+
+bool MeshWatch::is_quiet(const std::shared_ptr<const BeamSystem>& system, const State& state) const {
+  if (system_.owner_before(system) || system.owner_before(system_)) return false;
+  const std::vector<MeshJoint>& joints = system->mesh().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].place >= 0 && !quiet_[j].holds(state.q[joints[j].place])) return false;
+  return true;
+}
+
+void MeshWatch::look(const std::shared_ptr<const BeamSystem>& system, const NextPlan& next) {
+  system_.reset();
+  if (next.change != MeshChange::none || next.quiet.size() != system->mesh().joints.size()) return;
+  system_ = system;
+  quiet_ = next.quiet;
 }
 
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {

@@ -1,4 +1,8 @@
 #pragma once
+#include <limits>
+#include <memory>
+#include <vector>
+
 #include "fem/system/beam_system.h"
 
 namespace nurbeam {
@@ -18,11 +22,21 @@ enum class MeshChange {
   becomes_node    ///< a joint has come away from there
 };
 
+/// Places strictly between two [m].
+struct PlaceRange {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+
+  bool holds(double s) const { return low < s && s < high; }
+};
+
 /// What the mesh should be now; `change` is none when it may stay, and there is no plan then.
 struct NextPlan {
   MeshChange change = MeshChange::none;
   int joint = -1;
-  MeshPlan plan;
+  MeshPlan plan = {};
+  /// Of the joints that ask for nothing, up to one that does: where each may be, the mesh being the same, for
+  /// none to ask for anything.
+  std::vector<PlaceRange> quiet = {};
 };
 
 /// The plan of the present mesh with the joints where they are now.
@@ -45,5 +59,18 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
 /// until it is almost there, a node before it stay until then, and stay away until the element beside the
 /// joint is half as long again as it is drawn.
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next);
+
+/// Knows for how long no change of the mesh can be due.
+class MeshWatch {
+ public:
+  /// Whether the next plan is known to be none. False: it must be looked for.
+  bool is_quiet(const std::shared_ptr<const BeamSystem>& system, const State& state) const;
+  /// `next`: for all joints of the system.
+  void look(const std::shared_ptr<const BeamSystem>& system, const NextPlan& next);
+
+ private:
+  std::weak_ptr<const BeamSystem> system_;
+  std::vector<PlaceRange> quiet_;  // of each of its joints
+};
 
 }  // namespace nurbeam

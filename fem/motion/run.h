@@ -22,6 +22,7 @@ struct Run {
   bool restarted = false;  ///< and no step since
   EnergyAccount account = {};
   SimulationReport report = {};
+  MeshWatch watch = {};
   std::size_t events_at_once = 0;  ///< since time has last gone on
   double last_step = 0;            ///< [s]
   StepRecord last_record = {};

@@ -49,9 +49,11 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
 // Applies one change of the mesh if one is due and can be; one that would cost energy waits as long as it
 // can.
 bool change_due_mesh(Run& run) {
+  if (run.watch.is_quiet(run.at.system, run.at.state)) return false;
   const auto start = std::chrono::steady_clock::now();
   for (int first = 0;;) {
     const NextPlan next = next_plan(*run.at.system, run.at.state, run.options.length_control, first);
+    run.watch.look(run.at.system, next);
     if (next.change == MeshChange::none) return false;
     MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->joints[next.joint].beam);
     RunEvent event = event_before(run.at, kind_of(next.change), next.joint, sums);

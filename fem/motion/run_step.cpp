@@ -109,7 +109,7 @@ void land_on_change(Run& run, const StepTaken& taken) {
   const auto due = [&](const State& state) {
     return next_plan(*run.at.system, state, run.options.length_control).change != MeshChange::none;
   };
-  if (!due(taken.after)) return;
+  if (run.watch.is_quiet(run.at.system, taken.after) || !due(taken.after)) return;
   double before = 0, after = 1;  // in parts of the step
   while (after - before > 1e-9) {
     const double middle = (before + after) / 2;

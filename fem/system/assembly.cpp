@@ -45,7 +45,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
       take_pattern(*other);
       return;
     }
-  build_pattern();
+  if (!like || !shift_pattern(*like)) build_pattern();
   choose_moving_part();
 }
 

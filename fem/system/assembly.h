@@ -13,6 +13,7 @@
 #include "fem/element/element_batch.h"
 #include "fem/forces/force.h"
 #include "fem/model/beam_model.h"
+#include "fem/system/pattern_shift.h"
 #include "solver/second_order_system.h"
 #include "solver/side_by_side.h"
 
@@ -142,6 +143,14 @@ class Assembly final : public SecondOrderSystem {
     std::vector<int> starts = {0};  // of each element, and the end
 
     Runs operator[](int i) const { return {runs.data() + starts[i], runs.data() + starts[i + 1]}; }
+    /// Those of elements from one to before another, whose entries are so much further on.
+    void append(const ElementRuns& other, int first, int end, int by) {
+      const int before = static_cast<int>(runs.size()) - other.starts[first];
+      for (int i = first; i < end; ++i) starts.push_back(other.starts[i + 1] + before);
+      const auto of = other.runs.begin();
+      const auto added = runs.insert(runs.end(), of + other.starts[first], of + other.starts[end]);
+      std::for_each(added, runs.end(), [&](Run& run) { run.value += by; });
+    }
   };
   struct ConstraintBlock {
     int row, rows;
@@ -173,12 +182,19 @@ class Assembly final : public SecondOrderSystem {
   void list_blocks();
   bool couples_as(const Assembly& other) const;
   void take_pattern(const Assembly& other);
+  bool shift_pattern(const Assembly& other);
   void build_pattern();
+  void locate_blocks();
+  CoupledGroups coupled_groups() const;
   void mark_constrained(std::vector<bool>& marked) const;
   void choose_moving_part();
   template <class Matrix>
   static void scatter(Runs runs, const Matrix& matrix, double* values);
-  std::span<const int> twist_dofs(int element) const;
+  // None without torsion.
+  std::span<const int> twist_dofs(int element) const {
+    if (!elements_[element].twist) return {};
+    return elements_[element].twist->dofs;
+  }
   template <class IndexOf>
   static void locate(std::span<const int> dofs, const IndexOf& index_of, std::vector<Run>& runs);
   template <class IndexOf>

@@ -1,54 +1,12 @@
-// The tangents of an assembly and where their entries are.
+// The tangents of an assembly.
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "fem/comparison/virtual_work.h"
 #include "fem/system/assembly.h"
-#include "fem/system/coupling.h"
 
 namespace nurbeam {
-
-namespace {
-
-// Where the entries of a sparse matrix are among its values.
-struct SparsePlaces {
-  const SparsePattern& of;
-
-  int start(int column) const { return of.column_starts()[column]; }
-  /// `guess`: how far it may be from the start of its column.
-  int operator()(int row, int column, int guess) const {
-    const int* const all = of.rows().data();
-    const int begin = start(column), end = start(column + 1);
-    if (guess < end - begin && all[begin + guess] == row) return begin + guess;
-    return static_cast<int>(std::lower_bound(all + begin, all + end, row) - all);
-  }
-};
-
-// The same of the dense matrix of some unknowns, in order.
-struct DensePlaces {
-  const std::vector<int>& unknowns;
-
-  int place(int unknown) const {
-    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
-  }
-  int start(int column) const { return place(column) * static_cast<int>(unknowns.size()); }
-  int operator()(int row, int column, int) const { return start(column) + place(row); }
-};
-
-// The coordinates of a bound force in its own block, where it has one.
-template <class Force>
-std::vector<int> own_dofs(const Force& force) {
-  if constexpr (requires { force.dofs(); })
-    return force.dofs();
-  else
-    return {};
-}
-
-}  // namespace
 
 // Adds a matrix in the coordinates of a contribution.
 template <int D>
@@ -106,200 +64,6 @@ struct Assembly<D>::Sink {
     if (wanted(own_block)) scatter(own_block.runs, K, values);
   }
 };
-
-// None without torsion.
-template <int D>
-std::span<const int> Assembly<D>::twist_dofs(int element) const {
-  if (!elements_[element].twist) return {};
-  return elements_[element].twist->dofs;
-}
-
-template <int D>
-void Assembly<D>::list_blocks() {
-  for (const BoundForce<D>& force : forces_)
-    force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
-}
-
-// Whether both couple the same coordinates and move the same of them.
-template <int D>
-bool Assembly<D>::couples_as(const Assembly& other) const {
-  const auto same_dofs = [](const std::vector<Block>& blocks, const std::vector<Block>& others) {
-    return std::equal(
-        blocks.begin(), blocks.end(), others.begin(), others.end(),
-        [](const Block& a, const Block& b) { return a.dofs == b.dofs; });
-  };
-  const auto same_elements = [](const MeshElement<D>& a, const MeshElement<D>& b) {
-    return a.dofs == b.dofs && !a.twist == !b.twist && (!a.twist || a.twist->dofs == b.twist->dofs);
-  };
-  return mesh_.coordinate_count == other.mesh_.coordinate_count &&
-         std::equal(elements_.begin(), elements_.end(), other.elements_.begin(), other.elements_.end(),
-                    same_elements) &&
-         same_dofs(force_blocks_, other.force_blocks_) && over_mesh_ == other.over_mesh_ &&
-         std::equal(constraint_blocks_.begin(), constraint_blocks_.end(), other.constraint_blocks_.begin(),
-                    other.constraint_blocks_.end(),
-                    [](const ConstraintBlock& a, const ConstraintBlock& b) {
-                      return a.row == b.row && a.rows == b.rows && a.block.dofs == b.block.dofs;
-                    }) &&
-         std::equal(constraints_.begin(), constraints_.end(), other.constraints_.begin(),
-                    [](const auto& a, const auto& b) { return a.index() == b.index(); });
-}
-
-template <int D>
-void Assembly<D>::take_pattern(const Assembly& other) {
-  element_runs_ = other.element_runs_;
-  twist_runs_ = other.twist_runs_;
-  force_blocks_ = other.force_blocks_;
-  constraint_blocks_ = other.constraint_blocks_;
-  moving_ = other.moving_;
-  pattern_ = other.pattern_;
-}
-
-template <int D>
-void Assembly<D>::build_pattern() {
-  const int n = mesh_.coordinate_count;
-  Coupling coupling(n + constraint_count_);
-  const auto couple = [&](std::span<const int> dofs) {
-    coupling.add(dofs);
-    coupling.close();
-  };
-  for (const MeshElement<D>& e : elements_)
-    couple(e.twist ? std::span<const int>(e.twist->dofs) : std::span<const int>(e.dofs));
-  for (const Block& force : force_blocks_) couple(force.dofs);
-  for (const ConstraintBlock& constraint : constraint_blocks_) {
-    coupling.add(constraint.block.dofs);
-    coupling.add(n + constraint.row, constraint.rows);
-    coupling.close();
-  }
-  pattern_ = coupling.pattern();
-
-  const SparsePlaces index_of{pattern_};
-  std::vector<int> all(elements_.size());
-  std::iota(all.begin(), all.end(), 0);
-  locate_elements(all, index_of, element_runs_, twist_runs_);
-  for (Block& block : force_blocks_) locate(block.dofs, index_of, block.runs);
-  for (ConstraintBlock& block : constraint_blocks_) locate(block, index_of);
-}
-
-// Adds where the entries of a contribution are; `index_of` gives that of a row and a column. Rows that follow
-// one another do so among all entries, which hold each of them. In the columns of one node they are as far
-// from the start.
-template <int D>
-template <class IndexOf>
-void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std::vector<Run>& runs) {
-  struct Rows {
-    int first;
-    std::uint8_t at, count;
-  };
-  constexpr std::size_t most = 64;  // coordinates of a contribution
-  assert(dofs.size() <= most);
-  std::array<Rows, most> in_column;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (dofs[i] < 0) continue;
-    if (i > 0 && dofs[i - 1] >= 0 && dofs[i] == dofs[i - 1] + 1)
-      ++in_column[count - 1].count;
-    else
-      in_column[count++] = {dofs[i], static_cast<std::uint8_t>(i), 1};
-  }
-  int previous = -1;  // start of the column before
-  for (std::size_t j = 0; j < dofs.size(); ++j) {
-    if (dofs[j] < 0) continue;
-    for (std::size_t k = 0; k < count; ++k) {
-      const int guess = previous < 0 ? 0 : runs[runs.size() - count].value - previous;
-      runs.push_back({index_of(in_column[k].first, dofs[j], guess), static_cast<std::uint8_t>(j),
-                      in_column[k].at, in_column[k].count});
-    }
-    previous = index_of.start(dofs[j]);
-  }
-}
-
-// Of these elements, one after the other.
-template <int D>
-template <class IndexOf>
-void Assembly<D>::locate_elements(const std::vector<int>& elements, const IndexOf& index_of,
-                                  ElementRuns& element_runs, ElementRuns& twist_runs) const {
-  element_runs.runs.reserve(elements.size() * ElementLayout<D>::nodal);
-  for (ElementRuns* each : {&element_runs, &twist_runs}) each->starts.reserve(elements.size() + 1);
-  const auto add = [&](std::span<const int> dofs, ElementRuns& to) {
-    locate(dofs, index_of, to.runs);
-    to.starts.push_back(static_cast<int>(to.runs.size()));
-  };
-  for (const int i : elements) {
-    add(elements_[i].dofs, element_runs);
-    add(twist_dofs(i), twist_runs);
-  }
-}
-
-template <int D>
-template <class IndexOf>
-void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const {
-  const int n = mesh_.coordinate_count;
-  block.block.runs.clear();
-  locate(block.block.dofs, index_of, block.block.runs);
-  block.gradient_values.clear();
-  block.transposed_values.clear();
-  for (int dof : block.block.dofs)
-    for (int r = block.row; r < block.row + block.rows; ++r) {
-      block.gradient_values.push_back(dof >= 0 ? index_of(n + r, dof, 0) : -1);
-      block.transposed_values.push_back(dof >= 0 ? index_of(dof, n + r, 0) : -1);
-    }
-}
-
-// Marks all unknowns of constraints that hold one that is marked, and of those that hold one of these: what
-// is left is constrained by itself.
-template <int D>
-void Assembly<D>::mark_constrained(std::vector<bool>& marked) const {
-  const auto touches = [&](const ConstraintBlock& block) {
-    return std::any_of(block.block.dofs.begin(), block.block.dofs.end(),
-                       [&](int dof) { return dof >= 0 && marked[dof]; });
-  };
-  for (bool grows = true; std::exchange(grows, false);)
-    for (const ConstraintBlock& block : constraint_blocks_) {
-      const int first = mesh_.coordinate_count + block.row;
-      if (marked[first] || !touches(block)) continue;
-      grows = true;
-      std::fill_n(marked.begin() + first, block.rows, true);
-      for (const int dof : block.block.dofs)
-        if (dof >= 0) marked[dof] = true;
-    }
-}
-
-template <int D>
-void Assembly<D>::choose_moving_part() {
-  std::vector<bool> marked(static_cast<std::size_t>(mesh_.coordinate_count + constraint_count_), false);
-  const auto mark = [&](std::span<const int> dofs) {
-    for (const int dof : dofs)
-      if (dof >= 0) marked[dof] = true;
-  };
-  for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
-    if (elements_[i].element.fixed()) continue;
-    moving_.elements.push_back(i);
-    mark(elements_[i].dofs);
-    mark(twist_dofs(i));
-  }
-  for (const int i : over_mesh_) {
-    if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
-      continue;
-    moving_.constraints.push_back(i);
-    moving_.constraint_blocks.push_back(constraint_blocks_[i]);
-    mark(constraint_blocks_[i].block.dofs);
-  }
-  mark_constrained(marked);
-  std::vector<int>& unknowns = moving_.unknowns;
-  for (int i = 0; i < static_cast<int>(marked.size()); ++i)
-    if (marked[i]) unknowns.push_back(i);
-  // A part is kept apart where it is a small share of all unknowns, so that another correction costs more
-  // than to renew it, and where dense work on it takes less than the elimination of all.
-  constexpr double smallest_share = 4, most_work = 500;
-  const double part = static_cast<double>(unknowns.size()), whole = static_cast<double>(marked.size());
-  if (smallest_share * part > whole || part * part * part > most_work * whole) {
-    moving_ = {};
-    return;
-  }
-  const DensePlaces index_of{unknowns};
-  locate_elements(moving_.elements, index_of, moving_.element_runs, moving_.twist_runs);
-  for (ConstraintBlock& block : moving_.constraint_blocks) locate(block, index_of);
-}
 
 template <int D>
 void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& load, const TangentWeights& w,
@@ -444,12 +208,6 @@ void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Ei
     add_constraint_tangent(moving_.constraints[k], state, w, moving_.constraint_blocks[k], part.data());
 }
 
-template void Assembly<2>::list_blocks();
-template void Assembly<3>::list_blocks();
-template bool Assembly<2>::couples_as(const Assembly&) const;
-template bool Assembly<3>::couples_as(const Assembly&) const;
-template void Assembly<2>::take_pattern(const Assembly&);
-template void Assembly<3>::take_pattern(const Assembly&);
 template <int D>
 bool Assembly<D>::has_constant_inertia() const {
   const auto is_constant = [](const auto& force) {
@@ -465,10 +223,6 @@ bool Assembly<D>::has_constant_inertia() const {
 
 template bool Assembly<2>::has_constant_inertia() const;
 template bool Assembly<3>::has_constant_inertia() const;
-template void Assembly<2>::build_pattern();
-template void Assembly<3>::build_pattern();
-template void Assembly<2>::choose_moving_part();
-template void Assembly<3>::choose_moving_part();
 template void Assembly<2>::tangent(const State&, const TangentWeights&, SparseValues) const;
 template void Assembly<3>::tangent(const State&, const TangentWeights&, SparseValues) const;
 template void Assembly<2>::tangents(const State&, const std::array<TangentWeights, 2>&,

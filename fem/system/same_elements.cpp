@@ -10,26 +10,30 @@ namespace {
 
 bool is_same(const MeshNode& a, const MeshNode& b) { return a.home == b.home && a.joint == b.joint; }
 
-// The spans of one beam by the nodes where they begin.
+// The spans of one beam by the nodes where they begin, which are asked for in order along the beam.
 class SpansByStart {
  public:
-  SpansByStart(const Structure& structure, const Mesh& mesh, int beam)
-      : mesh_(mesh), of_home_(structure.beams[beam].home.size(), -1), of_joint_(structure.joints.size(), -1) {
-    for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i)
-      of(mesh.node_a(mesh.spans[i])) = i;
-  }
+  SpansByStart(const Mesh& mesh, int beam) : mesh_(mesh), beam_(beam) {}
 
   /// -1 where there is none.
   int span_between(const MeshNode& a, const MeshNode& b) {
-    const int span = of(a);
-    return span >= 0 && is_same(mesh_.node_b(mesh_.spans[span]), b) ? span : -1;
+    const int node = a.home >= 0 ? at_home(a.home) : mesh_.joints[a.joint].node;
+    const int span = node < 0 ? -1 : mesh_.first_span[beam_] + node;
+    return span >= 0 && span < mesh_.first_span[beam_ + 1] && is_same(mesh_.node_b(mesh_.spans[span]), b)
+               ? span
+               : -1;
   }
 
  private:
-  int& of(const MeshNode& node) { return node.home >= 0 ? of_home_[node.home] : of_joint_[node.joint]; }
+  int at_home(int home) {
+    const std::vector<MeshNode>& nodes = mesh_.nodes[beam_];
+    while (next_ < nodes.size() && nodes[next_].home < home) ++next_;  // that of a moving node is -1
+    return next_ < nodes.size() && nodes[next_].home == home ? static_cast<int>(next_) : -1;
+  }
 
   const Mesh& mesh_;
-  std::vector<int> of_home_, of_joint_;
+  int beam_;
+  std::size_t next_ = 0;
 };
 
 template <int D>
@@ -59,7 +63,7 @@ std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const As
   const Mesh& mesh = to.mesh();
   std::vector<const MeshElement<D>*> same(to.elements().size(), nullptr);
   for (int beam = 0; beam + 1 < static_cast<int>(mesh.first_span.size()); ++beam) {
-    SpansByStart spans(*to.model(), from.mesh(), beam);
+    SpansByStart spans(from.mesh(), beam);
     for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i) {
       const MeshElement<D>& e = to.elements()[i];
       const int span = spans.span_between(mesh.node_a(e), mesh.node_b(e));

@@ -1,0 +1,169 @@
+#include "fem/system/pattern_shift.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "fem/system/coupling.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Dofs = std::span<const int>;
+
+template <class Is>
+bool any_dof(Dofs dofs, const Is& is) {
+  return std::any_of(
+      dofs.begin(), dofs.end(), [&](int dof) { return dof >= 0 && is(dof); });
+}
+
+// Calls is(now, old) for each of both.
+template <class Is>
+bool all_dofs(Dofs now, Dofs old, const Is& is) {
+  return std::equal(
+      now.begin(), now.end(), old.begin(), old.end(),
+      [&](int a, int b) { return a < 0 ? b < 0 : b >= 0 && is(a, b); });
+}
+
+void widen(Dofs dofs, int& begin, int& end) {
+  for (const int dof : dofs) {
+    if (dof < 0) continue;
+    begin = std::min(begin, dof);
+    end = std::max(end, dof + 1);
+  }
+}
+
+// The rows of the columns from `begin` to `end`, one after the other, from all groups that hold one of them.
+template <class IsRenewed>
+SparsePattern renewed_columns(const CoupledGroups& now, int begin, int end, const IsRenewed& is_renewed) {
+  std::vector<Dofs> groups;
+  for (const Dofs group : now.elements)
+    if (any_dof(group, is_renewed)) groups.push_back(group);
+  for (const std::vector<int>& group : now.others)
+    if (any_dof(group, is_renewed)) groups.emplace_back(group);
+  std::vector<int> unknowns;
+  for (const Dofs group : groups)
+    std::copy_if(group.begin(), group.end(), std::back_inserter(unknowns), [](int dof) { return dof >= 0; });
+  for (int column = begin; column < end; ++column) unknowns.push_back(column);
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  const auto place = [&](int unknown) {
+    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  };
+  Coupling coupling(static_cast<int>(unknowns.size()));
+  for (const Dofs group : groups) {
+    for (const int dof : group)
+      if (dof >= 0) coupling.add(place(dof), 1);
+    coupling.close();
+  }
+  const SparsePattern own = coupling.pattern();
+  std::vector<int> starts{0}, rows;
+  for (int column = begin; column < end; ++column) {
+    const int at = place(column);
+    for (int k = own.column_starts()[at]; k < own.column_starts()[at + 1]; ++k)
+      rows.push_back(unknowns[own.rows()[k]]);
+    starts.push_back(static_cast<int>(rows.size()));
+  }
+  return {std::move(starts), std::move(rows)};
+}
+
+}  // namespace
+
+std::optional<PatternShift> PatternShift::between(const CoupledGroups& old, const CoupledGroups& now) {
+  PatternShift shift;
+  shift.by_ = now.unknowns - old.unknowns;
+  if (!shift.find_changed(old, now)) return {};
+  shift.find_renewed(now);
+  if (!shift.holds_elements(old, now) || !shift.holds_others(old, now)) return {};
+  return shift;
+}
+
+// The elements between those that may be the same, and their unknowns; whether there are any.
+bool PatternShift::find_changed(const CoupledGroups& old, const CoupledGroups& now) {
+  const int count = static_cast<int>(now.elements.size()), old_count = static_cast<int>(old.elements.size());
+  const int most = std::min(count, old_count);
+  const auto is_same = [&](int i, int old_i, int by) {
+    return all_dofs(now.elements[i], old.elements[old_i],
+                    [&](int a, int b) { return a == b || a == b + by; });
+  };
+  while (same_left_ < most && is_same(same_left_, same_left_, 0)) ++same_left_;
+  while (same_right_ < most - same_left_ &&
+         is_same(count - 1 - same_right_, old_count - 1 - same_right_, by_))
+    ++same_right_;
+  changed_begin_ = std::numeric_limits<int>::max();
+  int old_end = 0;
+  for (int i = same_left_; i < count - same_right_; ++i) widen(now.elements[i], changed_begin_, changed_end_);
+  for (int i = same_left_; i < old_count - same_right_; ++i) widen(old.elements[i], changed_begin_, old_end);
+  changed_end_ = std::max(changed_end_, old_end + by_);
+  return changed_begin_ < changed_end_ && changed_begin_ < changed_end_ - by_;
+}
+
+void PatternShift::find_renewed(const CoupledGroups& now) {
+  begin_ = changed_begin_;
+  end_ = changed_end_;
+  for (const Dofs element : now.elements)
+    if (any_dof(element, [&](int dof) { return is_changed(dof); })) widen(element, begin_, end_);
+  const auto is_before = [&](int dof) { return dof < begin_; };
+  const auto is_behind = [&](int dof) { return dof >= end_; };
+  const auto none_but = [&](Dofs element, const auto& is) {
+    return !any_dof(element, [&](int dof) { return !is(dof); });
+  };
+  const int count = static_cast<int>(now.elements.size());
+  while (left_ < same_left_ && none_but(now.elements[left_], is_before)) ++left_;
+  while (right_ < same_right_ && none_but(now.elements[count - 1 - right_], is_behind)) ++right_;
+}
+
+bool PatternShift::holds_elements(const CoupledGroups& old, const CoupledGroups& now) const {
+  const auto holds = [&](int i, int old_i) {
+    return all_dofs(now.elements[i], old.elements[old_i],
+                    [&](int a, int b) { return is_changed(a) || is_kept(a, b); });
+  };
+  const int count = static_cast<int>(now.elements.size()), old_count = static_cast<int>(old.elements.size());
+  for (int i = 0; i < same_left_; ++i)
+    if (!holds(i, i)) return false;
+  for (int i = 1; i <= same_right_; ++i)
+    if (!holds(count - i, old_count - i)) return false;
+  return true;
+}
+
+// Each couples what has been kept, or what is renewed alone.
+bool PatternShift::holds_others(const CoupledGroups& old, const CoupledGroups& now) const {
+  return std::equal(
+      now.others.begin(), now.others.end(), old.others.begin(), old.others.end(),
+      [&](const std::vector<int>& a, const std::vector<int>& b) {
+        return all_dofs(
+                   a, b, [&](int i, int j) { return is_kept(i, j); }) ||
+               (!any_dof(
+                    a, [&](int i) { return !is_renewed(i); }) &&
+                !any_dof(
+                    b, [&](int j) { return j < begin_ || j >= end_ - by_; }));
+      });
+}
+
+SparsePattern PatternShift::pattern(const SparsePattern& old, const CoupledGroups& now) const {
+  const SparsePattern renewed = renewed_columns(now, begin_, end_, [&](int dof) { return is_renewed(dof); });
+  const std::vector<int>&old_starts = old.column_starts(), &old_rows = old.rows();
+  const int old_end = end_ - by_, first = old_starts[begin_], last = old_starts[old_end];
+  const int renewed_count = static_cast<int>(renewed.rows().size());
+  std::vector<int> starts(static_cast<std::size_t>(now.unknowns) + 1),
+      rows(old_rows.size() - static_cast<std::size_t>(last - first) + renewed.rows().size());
+  std::copy_n(old_starts.begin(), begin_, starts.begin());
+  std::transform(
+      renewed.column_starts().begin(), renewed.column_starts().end(), starts.begin() + begin_,
+      [&](int start) { return first + start; });
+  std::transform(old_starts.begin() + old_end, old_starts.end(), starts.begin() + end_,
+                 [&](int start) { return start - last + first + renewed_count; });
+  std::copy_n(old_rows.begin(), first, rows.begin());
+  const auto behind = std::copy(renewed.rows().begin(), renewed.rows().end(), rows.begin() + first);
+  std::transform(old_rows.begin() + last, old_rows.end(), behind, [by = by_](int row) { return row + by; });
+  // The few rows of a column that are on the other side.
+  for (int column = 0; column < begin_; ++column)
+    for (int k = starts[column + 1] - 1; rows[k] >= changed_begin_; --k) rows[k] += by_;
+  for (int column = end_; column < now.unknowns; ++column)
+    for (int k = starts[column]; rows[k] - by_ < changed_begin_; ++k) rows[k] -= by_;
+  return {std::move(starts), std::move(rows)};
+}
+
+}  // namespace nurbeam
