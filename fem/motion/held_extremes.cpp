@@ -59,6 +59,16 @@ HeldExtremes::HeldExtremes(const BeamSystem& system, const State& state, const s
   }
 }
 
+bool HeldExtremes::are_shared() const {
+  return std::any_of(
+      held_.begin(), held_.end(),
+      [](const Held& held) {
+        return std::any_of(
+            held.places.begin(), held.places.end(),
+            [&](const Place& place) { return place.index != held.places.front().index; });
+      });
+}
+
 std::vector<BeamRecord> HeldExtremes::at(const BeamSystem& system, const State& state) const {
   std::vector<BeamRecord> records(system.model().beams.size());
   for (const auto& [part, places, lowest] : held_) {

@@ -20,6 +20,9 @@ class HeldExtremes {
 
   /// Of another state or model of the same mesh, with nothing but these parts.
   std::vector<BeamRecord> at(const BeamSystem& system, const State& state) const;
+  /// Whether an extreme is in several elements, or at several nodes, as in a symmetrical shape: it changes
+  /// with a single coordinate only where that makes one of them outdo the others.
+  bool are_shared() const;
 
  private:
   struct Place {

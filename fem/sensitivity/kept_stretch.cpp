@@ -104,6 +104,11 @@ void Sensitivities::ask(Asked asked) {
   arrive();
   for (const std::size_t record : asked_.records) hold_extremes(records_[record]);
   if (!stretch_) return;
+  const bool are_shared =
+      std::any_of(asked_.records.begin(), asked_.records.end(), [this](std::size_t record) {
+        return records_[record].extremes && records_[record].extremes->are_shared();
+      });
+  if (are_shared) return carry();
   // In what a parameter takes over a step: factors; a quantity back over one, without and with factors of its
   // own; the derivatives of quantities by one state.
   constexpr double of_factors = 20, without = 8, with = 2, of_a_record = 50;
