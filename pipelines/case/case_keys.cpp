@@ -20,7 +20,7 @@ Range element_count() {
 }
 /// Of a point of a section.
 Shape offset() {
-  Shape shape = array(Shape{.kind = Kind::quantity, .dimension = Dimension::length}, 2);
+  Shape shape = array(quantity(Dimension::length, plausible(-1e4, 1e4)), 2);
   shape.most_items = 2;
   return shape;
 }
@@ -139,7 +139,7 @@ Shape orientation() {
         "it does at the start, and from there sections do not twist; z, or x where the beam starts along z, when "
         "nothing is said"},
        {"frenet", boolean(), "it points to the centre of curvature everywhere"},
-       {"twist", table_over_length(Dimension::number),
+       {"twist", table_over_length(Dimension::number, {.lower = -1e6, .upper = 1e6}),
         "turned about the axis besides: [s, angle in degrees], smooth between rows, constant outside"}},
       {{{"up", "start", "frenet"}, false}});
 }
@@ -166,9 +166,10 @@ Range temperature_range() { return {.lower = -1e4, .upper = 1e4, .reason = "a di
 
 Shape initial() {
   const Shape velocity =
-      object({{"translation", vector(Dimension::speed), "of the whole beam"},
-              {"rotation", vector(Dimension::angular_speed), "angular velocity of the whole beam"},
-              {"about", vector(Dimension::length),
+      object({{"translation", vector(Dimension::speed, plausible(-1e9, 1e9)), "of the whole beam"},
+              {"rotation", vector(Dimension::angular_speed, plausible(-1e9, 1e9)),
+               "angular velocity of the whole beam"},
+              {"about", vector(Dimension::length, plausible(-1e9, 1e9)),
                "a point of the axis of the rotation; the origin when omitted", false, "rotation"},
               {"along", quantity(Dimension::speed, plausible(-1e9, 1e9)),
                "of the material along the drawn axis, towards its end"}});
@@ -267,17 +268,20 @@ Shape load() {
   return object(
       {{"beam", name(), "the loaded beam", required},
        {"at", place(), "where the force or moment acts"},
-       {"force", vector(Dimension::force), "point force, fixed in space", false, "at"},
-       {"moment", vector(Dimension::moment), "point moment", false, "at"},
-       {"force_per_length", vector(Dimension::force_per_length), "per metre of reference arc length"},
-       {"torque_per_length", quantity(Dimension::torque_per_length),
+       {"force", vector(Dimension::force, plausible(-1e12, 1e12)), "point force, fixed in space", false,
+        "at"},
+       {"moment", vector(Dimension::moment, plausible(-1e12, 1e12)), "point moment", false, "at"},
+       {"force_per_length", vector(Dimension::force_per_length, plausible(-1e12, 1e12)),
+        "per metre of reference arc length"},
+       {"torque_per_length", quantity(Dimension::torque_per_length, plausible(-1e12, 1e12)),
         "about the tangent of a beam with torsion, per metre of reference arc length"},
        {"offset", offset(),
         "[x, y] of where the force acts, from the axis along the axes of the section of a beam with torsion",
         false, "force"},
        {"follower", boolean(), "force or moment turns with the section; false when omitted", false, "at"},
        {"moves", moves, "a force that moves along the beam", false, "force"},
-       {"time", table(Dimension::number), "factor over time, linear between rows, constant outside"}},
+       {"time", table(Dimension::number, {.lower = -1e12, .upper = 1e12}),
+        "factor over time, linear between rows, constant outside"}},
       {{{"force", "moment", "force_per_length", "torque_per_length"}, required},
        {{"at", "force_per_length", "torque_per_length"}, false}});
 }
@@ -299,7 +303,7 @@ Shape support() {
        {"axis", vector(Dimension::number),
         "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"},
        {"name", name(), "heads the columns of its reaction"},
-       {"motion", vector_table(Dimension::length),
+       {"motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
         "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the first "
         "and the last"}});
 }

@@ -53,12 +53,13 @@ inline Shape table(Dimension dimension, Range range = {}) {
   return {.kind = Kind::table, .dimension = dimension, .range = std::move(range)};
 }
 /// Rows [time, x, y, z].
-inline Shape vector_table(Dimension dimension) {
-  return {.kind = Kind::table, .dimension = dimension, .values = 3};
+inline Shape vector_table(Dimension dimension, Range of_components) {
+  return {.kind = Kind::table, .dimension = dimension, .range = std::move(of_components), .values = 3};
 }
 /// Rows [s, value].
-inline Shape table_over_length(Dimension dimension) {
-  return {.kind = Kind::table, .dimension = dimension, .argument = Dimension::length};
+inline Shape table_over_length(Dimension dimension, Range range) {
+  return {
+      .kind = Kind::table, .dimension = dimension, .range = std::move(range), .argument = Dimension::length};
 }
 
 }  // namespace nurbeam::shapes
