@@ -1,10 +1,13 @@
 #include "cad_import/step/curve_replica.h"
 
 #include <Eigen/Geometry>
+#include <GeomConvert.hxx>
 #include <GeomToStep_MakeCurve.hxx>
 #include <Geom_CartesianPoint.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Direction.hxx>
+#include <Geom_OffsetCurve.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Curve.hxx>
@@ -72,6 +75,13 @@ Handle(Operator) identity() {
   return operation;
 }
 
+/// OpenCASCADE writes a piece of a conic as the whole; as a rational quadratic it stays what it is.
+Handle(Geom_Curve) without_trims(const Handle(Geom_Curve) & curve) {
+  const auto piece = Handle(Geom_TrimmedCurve)::DownCast(curve);
+  if (piece.IsNull() || piece->BasisCurve()->IsKind(STANDARD_TYPE(Geom_OffsetCurve))) return curve;
+  return GeomConvert::CurveToBSplineCurve(piece, Convert_TgtThetaOver2);
+}
+
 }  // namespace
 
 void restate_replica(StepGeom_CurveReplica& replica) {
@@ -81,8 +91,10 @@ void restate_replica(StepGeom_CurveReplica& replica) {
   if (curve.IsNull())
     throw std::runtime_error("OpenCASCADE makes no curve of its parent; draw the curve itself at this place");
   curve->Transform(transformation_of(*transformation));
-  const GeomToStep_MakeCurve moved(curve);
-  if (!moved.IsDone() || moved.Value().IsNull())
+  const Handle(Geom_Curve) whole = without_trims(curve);
+  const bool is_written = !whole->IsKind(STANDARD_TYPE(Geom_TrimmedCurve));
+  const GeomToStep_MakeCurve moved(whole);
+  if (!is_written || !moved.IsDone() || moved.Value().IsNull())
     throw std::runtime_error("replicas of such curves are not read; draw the curve itself at this place");
   replica.SetParentCurve(moved.Value());
   replica.SetTransformation(identity());

@@ -5,12 +5,10 @@
 #include <Geom_Parabola.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <StepGeom_CartesianPoint.hxx>
-#include <StepGeom_Circle.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepGeom_CurveReplica.hxx>
-#include <StepGeom_Ellipse.hxx>
 #include <StepGeom_HArray1OfTrimmingSelect.hxx>
-#include <StepGeom_Line.hxx>
+#include <StepGeom_Hyperbola.hxx>
 #include <StepGeom_Parabola.hxx>
 #include <StepGeom_SurfaceCurve.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
@@ -85,7 +83,7 @@ void add_vertices(const StepGeom_TrimmedCurve& trimmed, const Interface_Graph& g
     if (start.IsNull() || end.IsNull()) continue;
     trims[0].point = place_of(Handle(StepGeom_CartesianPoint)::DownCast(start->VertexGeometry()));
     trims[1].point = place_of(Handle(StepGeom_CartesianPoint)::DownCast(end->VertexGeometry()));
-    if (!edge->SameSense()) std::swap(trims[0], trims[1]);
+    if (!edge->SameSense()) std::swap(trims[0].point, trims[1].point);
     return;
   }
 }
@@ -176,10 +174,8 @@ std::optional<std::string> restate_trims(StepGeom_TrimmedCurve& trimmed, const I
   if (basis.IsNull()) return std::nullopt;
   if (const auto parabola = Handle(StepGeom_Parabola)::DownCast(basis))
     return restate_parabola(trimmed, parabola, graph, by_open_cascade);
-  const bool has_own_parameter = basis->IsKind(STANDARD_TYPE(StepGeom_Line)) ||
-                                 basis->IsKind(STANDARD_TYPE(StepGeom_Circle)) ||
-                                 basis->IsKind(STANDARD_TYPE(StepGeom_Ellipse));
-  if (has_own_parameter && basis != trimmed.BasisCurve() && !is_trimmed_by_points(trimmed))
+  if (basis != trimmed.BasisCurve() && !basis->IsKind(STANDARD_TYPE(StepGeom_Hyperbola)) &&
+      !is_trimmed_by_points(trimmed))
     throw std::runtime_error(
         "it trims a replica of a curve by parameters, which is not read; trim the curve "
         "itself, or by cartesian points");
