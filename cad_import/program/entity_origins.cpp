@@ -19,7 +19,6 @@
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include "cad_import/files/tolerant_text.h"
@@ -70,11 +69,9 @@ bool names_its_edges(const Handle(Standard_Transient) & entity, const TopoDS_Sha
   return result.ShapeType() >= TopAbs_WIRE || entity->IsKind(STANDARD_TYPE(StepShape_GeometricSet));
 }
 
-using Entities = std::unordered_set<const Standard_Transient*>;
-
 // The B-spline curves of the file that cannot be, with a warning for each.
-Entities defective_splines(const Interface_InterfaceModel& model, ImportReport& report) {
-  Entities defective;
+EntitySet defective_splines(const Interface_InterfaceModel& model, ImportReport& report) {
+  EntitySet defective;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Handle(Standard_Transient) entity = model.Value(i);
     const std::optional<std::string> defect = spline_defect(*entity);
@@ -87,10 +84,10 @@ Entities defective_splines(const Interface_InterfaceModel& model, ImportReport& 
 }
 
 // Whether the entity is one of `wanted`, or refers to one, directly or not.
-bool refers_to(const Handle(Standard_Transient) & start, const Entities& wanted,
+bool refers_to(const Handle(Standard_Transient) & start, const EntitySet& wanted,
                const Interface_Graph& graph) {
   if (wanted.empty()) return false;
-  Entities seen;
+  EntitySet seen;
   std::vector<Handle(Standard_Transient)> open{start};
   while (!open.empty()) {
     const Handle(Standard_Transient) entity = open.back();
@@ -104,8 +101,8 @@ bool refers_to(const Handle(Standard_Transient) & start, const Entities& wanted,
 }
 
 // What circular arrays (414) repeat, which OpenCASCADE takes for curves of the file besides.
-Entities repeated_entities(const Interface_InterfaceModel& model, const Interface_Graph& graph) {
-  Entities repeated;
+EntitySet repeated_entities(const Interface_InterfaceModel& model, const Interface_Graph& graph) {
+  EntitySet repeated;
   std::vector<Handle(Standard_Transient)> open;
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto array = Handle(IGESDraw_CircArraySubfigure)::DownCast(model.Value(i)))
@@ -171,11 +168,13 @@ std::vector<Handle(Standard_Transient)> references_of(const Handle(Standard_Tran
   return references;
 }
 
-Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report) {
+Origins origins_of_edges_and_faces(const XSControl_Reader& reader, const EntitySet& refused,
+                                   ImportReport& report) {
   Origins origins;
-  const Entities defective = defective_splines(*reader.Model(), report);
+  EntitySet defective = defective_splines(*reader.Model(), report);
+  defective.insert(refused.begin(), refused.end());
   const Interface_Graph& graph = reader.WS()->Graph();
-  const Entities repeated = repeated_entities(*reader.Model(), graph);
+  const EntitySet repeated = repeated_entities(*reader.Model(), graph);
   const Appearances appearances = appearances_of(*reader.WS());
   for (const auto& [entity, shape] : translated_entities(reader)) {
     const auto shown = appearances.find(entity.get());

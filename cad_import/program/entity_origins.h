@@ -6,6 +6,7 @@
 #include <XSControl_Reader.hxx>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "cad_import/occt/appearance.h"
@@ -25,6 +26,9 @@ struct Origin {
 // By the shared geometry of the edge; only ever looked up, so that no order depends on addresses.
 using Origins = std::unordered_map<const TopoDS_TShape*, Origin>;
 
+/// Entities of a model; only ever looked up, too.
+using EntitySet = std::unordered_set<const Standard_Transient*>;
+
 /// Without the blanks around it; "" of null.
 std::string trimmed_text(const opencascade::handle<TCollection_HAsciiString>& value);
 
@@ -40,8 +44,10 @@ std::vector<opencascade::handle<Standard_Transient>> references_of(
     const opencascade::handle<Standard_Transient>& entity, const Interface_Graph& graph);
 
 /// Of an edge's own entity first, then of the smallest of those that hold it: wire or set, face, solid. Of a
-/// face's own entity, then of its shell or solid. B-spline curves of the file that cannot be are warned of.
-Origins origins_of_edges_and_faces(const XSControl_Reader& reader, ImportReport& report);
+/// face's own entity, then of its shell or solid. B-spline curves of the file that cannot be are warned of
+/// and left out, as are those that were `refused` before.
+Origins origins_of_edges_and_faces(const XSControl_Reader& reader, const EntitySet& refused,
+                                   ImportReport& report);
 
 /// Adds a diagnostic about an entity, "" for the whole file.
 void add_diagnostic(ImportReport& report, Severity severity, const std::string& entity,

@@ -27,6 +27,7 @@
 #include "cad_import/program/drawing_text.h"
 #include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
+#include "cad_import/program/restated_curves.h"
 #include "cad_import/step/bspline_text.h"
 #include "cad_import/step/encoded_text.h"
 #include "cad_import/step/representations.h"
@@ -85,12 +86,13 @@ std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const STEPControl_R
 }
 
 /// One that OpenCASCADE makes no edge of.
-std::optional<FoundCurve> find_lost(const NurbsCurve& drawn, const STEPControl_Reader& reader) {
+std::optional<FoundCurve> find_lost(const NurbsCurve& drawn, const RestatedCurves& restated,
+                                    const STEPControl_Reader& reader) {
   const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
   const std::set<double> units = length_units_of(*model);
   ImportReport report;
   report.unit_in_metres = units.empty() ? metres_per_millimetre : *units.begin();
-  const auto recovered = add_lost_curves(reader, import_tolerance, report).recovered;
+  const auto recovered = add_lost_curves(reader, restated, import_tolerance, report).recovered;
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const auto known = recovered.find(model->Value(i).get());
     if (known == recovered.end()) continue;
@@ -239,11 +241,11 @@ std::vector<std::string> place_on_top(const DeformedCurve& wanted, const std::st
   return {"'" + wanted.name + "': " + reason + "; the deformed curve was added to the topmost part"};
 }
 
-std::vector<std::string> place(const DeformedCurve& wanted, const STEPControl_Reader& reader,
-                               StepInstances& step) {
+std::vector<std::string> place(const DeformedCurve& wanted, const RestatedCurves& restated,
+                               const STEPControl_Reader& reader, StepInstances& step) {
   const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
   std::optional<FoundCurve> found = find_edge(wanted.drawn, reader);
-  if (!found) found = find_lost(wanted.drawn, reader);
+  if (!found) found = find_lost(wanted.drawn, restated, reader);
   if (found) return place_found(wanted, *found, *model, step);
   if (const auto reason = absence(wanted.drawn, reader)) return place_on_top(wanted, *reason, *model, step);
   throw std::runtime_error("the curve '" + wanted.name +
@@ -264,11 +266,13 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     if (reader.ReadFile(MemoryFile(content).path().c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");
     join_supplemental_geometry(reader);
+    ImportReport remarks;  // given when it was imported
+    const RestatedCurves restated = restate_curves(reader, remarks);
     reader.TransferRoots();
     StepInstances step(content);
     Exchanged result;
     for (const DeformedCurve& curve : curves) {
-      const std::vector<std::string> warnings = place(curve, reader, step);
+      const std::vector<std::string> warnings = place(curve, restated, reader, step);
       result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     }
     result.text = step.text();

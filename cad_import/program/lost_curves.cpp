@@ -4,7 +4,6 @@
 #include <IGESData_IGESEntity.hxx>
 #include <IGESDraw_CircArraySubfigure.hxx>
 #include <IGESDraw_RectArraySubfigure.hxx>
-#include <IGESGeom_ConicArc.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
@@ -34,7 +33,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "cad_import/iges/hyperbola.h"
 #include "cad_import/occt/placed_curve.h"
 #include "cad_import/occt/spline_defect.h"
 #include "cad_import/program/array_curves.h"
@@ -50,7 +48,6 @@ namespace {
 constexpr int most_named = 20;
 
 using Entity = Handle(Standard_Transient);
-using Entities = std::unordered_set<const Standard_Transient*>;
 
 bool names_a_curve(std::string_view keyword) {
   for (const std::string_view part : {"CURVE", "CLOTHOID", "SPIRAL", "POLYLINE", "SEGMENT"})
@@ -75,7 +72,7 @@ bool is_curve(const Entity& entity) {
 
 // All that these entities refer to, directly or not, is added; they themselves are only where `with_itself`.
 void add_references(const std::vector<Entity>& from, bool with_itself, const Interface_Graph& graph,
-                    Entities& seen) {
+                    EntitySet& seen) {
   std::vector<Entity> open = from;
   if (!with_itself) {
     open.clear();
@@ -107,12 +104,6 @@ std::vector<Entity> origins_of_shapes(const XSControl_Reader& reader) {
   return found;
 }
 
-// Of which there is a curve all the same.
-Handle(IGESGeom_ConicArc) hyperbola_of(const Entity& entity) {
-  const auto conic = Handle(IGESGeom_ConicArc)::DownCast(entity);
-  return !conic.IsNull() && conic->IsFromHyperbola() ? conic : nullptr;
-}
-
 bool is_array(const Entity& entity) {
   return entity->IsKind(STANDARD_TYPE(IGESDraw_RectArraySubfigure)) ||
          entity->IsKind(STANDARD_TYPE(IGESDraw_CircArraySubfigure));
@@ -123,21 +114,22 @@ bool failed_to_translate(const Entity& entity, const XSControl_Reader& reader) {
   return !result.IsNull() && result->Check()->HasFailed();
 }
 
-// The curves that no shape was made of, without those that another of them refers to.
-std::vector<Entity> lost_curves(const XSControl_Reader& reader) {
+// The curves that no shape was made of, without those that another of them refers to, or that were told of.
+std::vector<Entity> lost_curves(const XSControl_Reader& reader, const RestatedCurves& restated) {
   const Interface_InterfaceModel& model = *reader.Model();
   const Interface_Graph& graph = reader.WS()->Graph();
-  Entities used;
+  EntitySet used;
   add_references(origins_of_shapes(reader), true, graph, used);
+  add_references({restated.parents.begin(), restated.parents.end()}, true, graph, used);
   std::vector<Entity> lost;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Entity entity = model.Value(i);
-    const bool told =
-        spline_defect(*entity) || model.Check(i, /*syntactic=*/Standard_True)->HasFailed() ||
-        (failed_to_translate(entity, reader) && hyperbola_of(entity).IsNull() && !is_array(entity));
+    const bool told = restated.refused.contains(entity.get()) || spline_defect(*entity) ||
+                      model.Check(i, /*syntactic=*/Standard_True)->HasFailed() ||
+                      (failed_to_translate(entity, reader) && !is_array(entity));
     if (is_curve(entity) && !used.contains(entity.get()) && !told) lost.push_back(entity);
   }
-  Entities below;
+  EntitySet below;
   add_references(lost, false, graph, below);
   std::erase_if(lost, [&](const Entity& entity) { return below.contains(entity.get()); });
   return lost;
@@ -155,7 +147,7 @@ bool has_one_part(const Interface_InterfaceModel& model) {
 
 // The part of an IGES file that other ones place: a subfigure (308) that instances (408) refer to.
 bool is_in_subfigure(const Entity& start, const Interface_Graph& graph) {
-  Entities seen;
+  EntitySet seen;
   std::vector<Entity> open{start};
   while (!open.empty()) {
     const Entity entity = open.back();
@@ -171,7 +163,7 @@ bool is_in_subfigure(const Entity& start, const Interface_Graph& graph) {
 // Why there is no curve of the entity; nothing if there may be.
 std::optional<std::string> obstacle(const Entity& entity, const Interface_Graph& graph) {
   if (entity->IsKind(STANDARD_TYPE(IGESData_IGESEntity))) {
-    if (hyperbola_of(entity).IsNull() && !is_array(entity)) return "OpenCASCADE makes nothing of its kind";
+    if (!is_array(entity)) return "OpenCASCADE makes nothing of its kind";
     if (is_in_subfigure(entity, graph)) return "it stands in a subfigure (308), which others place";
     return std::nullopt;
   }
@@ -198,10 +190,7 @@ std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reade
                                      double tolerance) {
   if (is_array(entity))
     return array_curves(Handle(IGESData_IGESEntity)::DownCast(entity), reader, unit, tolerance);
-  const Handle(IGESGeom_ConicArc) hyperbola = hyperbola_of(entity);
-  ImportedCurve curve = hyperbola.IsNull()
-                            ? step_curve(entity, unit, tolerance)
-                            : ImportedCurve{.entity = "hyperbola", .curve = hyperbola_arc(*hyperbola, unit)};
+  ImportedCurve curve = step_curve(entity, unit, tolerance);
   curve.name = entity_name(entity);
   return {std::move(curve)};
 }
@@ -276,12 +265,13 @@ class Whole {
 
 }  // namespace
 
-LostCurves add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves& restated, double tolerance,
+                           ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
   Whole whole(reader, report.unit_in_metres);
   int named = 0;
   LostCurves found;
-  for (const Entity& entity : lost_curves(reader)) {
+  for (const Entity& entity : lost_curves(reader, restated)) {
     const std::size_t first = report.curves.size();
     const Coordinates in = whole.of(entity);
     const auto why = add_curves_of(entity, reader, in.places, in.unit, tolerance, report);

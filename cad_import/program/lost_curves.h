@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <gp_Trsf.hxx>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "cad_import/program/entity_origins.h"
+#include "cad_import/program/restated_curves.h"
 #include "cad_import/report/import_report.h"
 
 namespace nurbeam {
@@ -21,7 +21,7 @@ struct RecoveredCurve {
 /// addresses.
 struct LostCurves {
   std::unordered_map<const Standard_Transient*, RecoveredCurve> recovered;
-  std::unordered_set<const Standard_Transient*> named;  ///< in a warning
+  EntitySet named;  ///< in a warning
 
   bool contain(const Standard_Transient* entity) const {
     return recovered.contains(entity) || named.contains(entity);
@@ -31,8 +31,9 @@ struct LostCurves {
 /// Looks for the curves of the file that are in no edge and no face that OpenCASCADE made: supplemental
 /// geometry, wireframes, rational Bezier curves, degrees above 25, negative radii, poly loops. In STEP those
 /// are added to the report that have a value of their own, in an assembly at each place of the part whose
-/// shape they are in, in its unit, and in IGES hyperbolas (104) and the copies of arrays (412, 414); a
-/// warning names each of the others.
-LostCurves add_lost_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report);
+/// shape they are in, in its unit, and in IGES the copies of arrays (412, 414); a warning names each of the
+/// others, but for those that restate_curves() refused.
+LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves& restated, double tolerance,
+                           ImportReport& report);
 
 }  // namespace nurbeam

@@ -31,6 +31,7 @@
 #include "cad_import/program/memory_file.h"
 #include "cad_import/program/model_checks.h"
 #include "cad_import/program/part_names.h"
+#include "cad_import/program/restated_curves.h"
 #include "cad_import/program/shape_curves.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
@@ -51,13 +52,14 @@ void note_hidden(ImportReport& report) {
         std::to_string(hidden) + " curve(s) are hidden in the file and are taken only by name or number");
 }
 
-LostCurves add_curves(const XSControl_Reader& reader, double tolerance, ImportReport& report) {
+LostCurves add_curves(const XSControl_Reader& reader, const RestatedCurves& restated, double tolerance,
+                      ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
-  if (shape.IsNull()) return add_lost_curves(reader, tolerance, report);
-  const Origins origins = origins_of_edges_and_faces(reader, report);
+  if (shape.IsNull()) return add_lost_curves(reader, restated, tolerance, report);
+  const Origins origins = origins_of_edges_and_faces(reader, restated.refused, report);
   const PartNames parts = part_names(reader, shape);
   add_edges(shape, origins, parts, tolerance, report);
-  LostCurves lost = add_lost_curves(reader, tolerance, report);
+  LostCurves lost = add_lost_curves(reader, restated, tolerance, report);
   add_centre_lines(shape, origins, parts, tolerance, report);
   return lost;
 }
@@ -82,8 +84,10 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
 }
 
 void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
+  const RestatedCurves restated = restate_curves(reader, report);
   reader.TransferRoots();
-  const LostCurves lost = add_curves(reader, tolerance, report);
+  LostCurves lost = add_curves(reader, restated, tolerance, report);
+  lost.named.insert(restated.refused.begin(), restated.refused.end());
   const Handle(XSControl_WorkSession) session = reader.WS();
   add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(), lost,
                report);

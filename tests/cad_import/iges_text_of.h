@@ -24,14 +24,15 @@ inline std::string iges_line(const std::string& content, char section, int numbe
   return line.str();
 }
 
-/// A file, in millimetres, of these entities; the parameters of each fit a line of 64 columns.
-inline std::string iges_text_of(const std::vector<IgesEntity>& entities) {
+/// A file of these entities; the parameters of each fit a line of 64 columns. `unit`: its flag and name.
+inline std::string iges_text_of(const std::vector<IgesEntity>& entities, const std::string& unit = "2,2HMM") {
   const auto fields = [](const std::vector<int>& values) {
     std::ostringstream text;
     for (int value : values) text << std::setw(8) << value;
     return text.str();
   };
-  const std::string global = "1H,,1H;,4Htest,4Htest,4Htest,4Htest,32,38,6,308,15,4Htest,1.0,2,2HMM,1,1.0,";
+  const std::string global =
+      "1H,,1H;,4Htest,4Htest,4Htest,4Htest,32,38,6,308,15,4Htest,1.0," + unit + ",1,1.0,";
   std::string text = iges_line("test", 'S', 1) + iges_line(global.substr(0, 72), 'G', 1) +
                      iges_line(global.substr(72) + "13H240101.000000,1D-3,10.,4Htest,4Htest,11,0;", 'G', 2);
   int line = 0;

@@ -26,12 +26,6 @@ ImportReport import_beside_a_circle(const std::string& entities, const std::stri
   return import_text(step_text_of("#100" + in_set, "#100 = CIRCLE('good',#11,1.);\n" + entities, "", unit));
 }
 
-const std::string inch =
-    "( CONVERSION_BASED_UNIT('INCH',#31) LENGTH_UNIT() NAMED_UNIT(#33) );\n"
-    "#31 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#32);\n"
-    "#32 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\n"
-    "#33 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)";
-
 std::string points(const std::string& first_number, const std::vector<Eigen::Vector3d>& places) {
   std::string text;
   int number = std::stoi(first_number);
@@ -54,7 +48,7 @@ TEST(LostCurves, ARationalBezierCurveIsReadExactly) {
       "#110 = ( BEZIER_CURVE() BOUNDED_CURVE() B_SPLINE_CURVE(2,(#200,#201,#202),.UNSPECIFIED.,.F.,.F.) CURVE() "
       "GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((1.,0.70710678118654752,1.)) "
       "REPRESENTATION_ITEM('arc') );\n";
-  for (const auto& [unit, size] : {std::pair{millimetres, 1e-3}, {inch, 0.0254}}) {
+  for (const auto& [unit, size] : {std::pair{millimetres, 1e-3}, {inches, 0.0254}}) {
     const ImportReport report = import_beside_a_circle(arc, ",#110", unit);
     EXPECT_TRUE(report.diagnostics.empty());
     const ImportedCurve* curve = named(report, "arc");
@@ -144,7 +138,7 @@ std::string assembly_with(const std::string& references, const std::string& enti
           "#59 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#55,#58);\n"
           "#140 = ( GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNIT_ASSIGNED_CONTEXT((#141,#28,#29)) "
           "REPRESENTATION_CONTEXT('','3D') );\n#141 = " +
-          inch + ";\n" + occurrence(60, "left", 100) + occurrence(80, "right", 300) + entities);
+          inches + ";\n" + occurrence(60, "left", 100) + occurrence(80, "right", 300) + entities);
 }
 
 TEST(LostCurves, OfPartsOfAnAssemblyStandAtTheirPlacesInTheirUnit) {

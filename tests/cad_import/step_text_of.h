@@ -4,6 +4,11 @@
 namespace nurbeam {
 
 inline const std::string millimetres = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )";
+inline const std::string inches =
+    "( CONVERSION_BASED_UNIT('INCH',#31) LENGTH_UNIT() NAMED_UNIT(#33) );\n"
+    "#31 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#32);\n"
+    "#32 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\n"
+    "#33 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)";
 
 /// A STEP file (AP214) whose geometric curve set, of the given name, holds the entities `references`
 /// ("#100,#101") among `entities` (numbers from 100; #11 is the placement at the origin, #13 is z, #14 is x).

@@ -1,0 +1,178 @@
+#include "cad_import/program/restated_curves.h"
+
+#include <HeaderSection_FileName.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESGeom_CircularArc.hxx>
+#include <IGESGeom_ConicArc.hxx>
+#include <IGESGeom_OffsetCurve.hxx>
+#include <Standard_ErrorHandler.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_CurveReplica.hxx>
+#include <StepGeom_OffsetCurve3d.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "cad_import/iges/conic_position.h"
+#include "cad_import/iges/offset_curve.h"
+#include "cad_import/program/part_places.h"
+#include "cad_import/report/length_unit.h"
+#include "cad_import/step/curve_replica.h"
+#include "cad_import/step/step_units.h"
+#include "cad_import/step/trimmed_conic.h"
+
+namespace nurbeam {
+namespace {
+
+using Entity = Handle(Standard_Transient);
+
+/// What is said of the curves of one model.
+class Remarks {
+ public:
+  Remarks(const Interface_InterfaceModel& model, ImportReport& report) : model_(model), report_(report) {}
+
+  /// Does it; whether that went well.
+  bool attempt(const Entity& entity, const std::function<void()>& restate) {
+    try {
+      OCC_CATCH_SIGNALS
+      restate();
+      return true;
+    } catch (const Standard_Failure& e) {
+      refuse(entity, std::string("OpenCASCADE makes no curve of its numbers: ") + e.GetMessageString());
+    } catch (const std::runtime_error& e) {
+      refuse(entity, e.what());
+    }
+    return false;
+  }
+  void warn(const Entity& entity, const std::string& message) {
+    const std::string name = entity_name(entity);
+    add_diagnostic(report_, Severity::warning,
+                   entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"), message);
+  }
+  const EntitySet& refused() const { return refused_; }
+
+ private:
+  void refuse(const Entity& entity, const std::string& why) {
+    refused_.insert(entity.get());
+    warn(entity, "skipped with all that is made of it: " + why);
+  }
+
+  const Interface_InterfaceModel& model_;
+  ImportReport& report_;
+  EntitySet refused_;
+};
+
+// ---------------------------------------------------------------------------------------------------- IGES
+
+/// Offsets first: they refer to the parameters of the arcs as these are in the file.
+void restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
+  const double unit = model.GlobalSection().UnitValue();  // [mm]
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto offset = Handle(IGESGeom_OffsetCurve)::DownCast(model.Value(i)))
+      remarks.attempt(offset, [&] { restate_offset(*offset, unit); });
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (const auto circle = Handle(IGESGeom_CircularArc)::DownCast(model.Value(i)))
+      remarks.attempt(circle, [&] { put_into_position(*circle); });
+    if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
+      remarks.attempt(conic, [&] { put_into_position(*conic); });
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------- STEP
+
+/// Whether the file was written by OpenCASCADE, or a program that has it.
+bool is_by_open_cascade(const StepData_StepModel& model) {
+  const auto file =
+      Handle(HeaderSection_FileName)::DownCast(model.HeaderEntity(STANDARD_TYPE(HeaderSection_FileName)));
+  if (file.IsNull()) return false;
+  std::string systems = trimmed_text(file->PreprocessorVersion()) + trimmed_text(file->OriginatingSystem());
+  std::erase(systems, ' ');
+  std::transform(systems.begin(), systems.end(), systems.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return systems.find("opencascade") != std::string::npos || systems.find("freecad") != std::string::npos;
+}
+
+class StepCurves {
+ public:
+  StepCurves(const StepData_StepModel& model, const Interface_Graph& graph, Remarks& remarks)
+      : model_(model), graph_(graph), remarks_(remarks), by_open_cascade_(is_by_open_cascade(model)) {
+    for (int i = 1; i <= model.NbEntities(); ++i)
+      if (length_unit_of(model.Value(i))) context_ = model.Value(i);
+    has_one_unit_ = length_units_of(model).size() <= 1;
+  }
+
+  /// What it is made of first.
+  void restate(const Entity& entity) {
+    if (entity.IsNull() || !seen_.insert(entity.get()).second) return;
+    if (const auto offset = Handle(StepGeom_OffsetCurve3d)::DownCast(entity)) {
+      restate(offset->BasisCurve());
+      remarks_.attempt(entity, [&] { offset->SetDistance(offset->Distance() * use_unit(entity)); });
+    } else if (const auto replica = Handle(StepGeom_CurveReplica)::DownCast(entity)) {
+      restate(replica->ParentCurve());
+      parents_.insert(replica->ParentCurve().get());
+      remarks_.attempt(entity, [&] {
+        use_unit(entity);
+        restate_replica(*replica);
+      });
+    } else if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(entity)) {
+      restate(trimmed->BasisCurve());
+      restate_piece(trimmed);
+    }
+  }
+
+  const EntitySet& parents() const { return parents_; }
+
+ private:
+  void restate_piece(const Handle(StepGeom_TrimmedCurve) & trimmed) {
+    std::optional<std::string> warning;
+    remarks_.attempt(trimmed, [&] {
+      use_unit(trimmed);
+      warning = restate_trims(*trimmed, graph_, by_open_cascade_);
+    });
+    if (warning) remarks_.warn(trimmed, *warning);
+  }
+
+  /// Makes OpenCASCADE go by the units of the entity; returns that of length [mm].
+  double use_unit(const Entity& entity) const {
+    Entity context = context_;
+    if (!has_one_unit_) {
+      const std::optional<Holder> holder = holder_of(entity, graph_);
+      if (holder) context = holder->context;
+      if (!holder || !length_unit_of(context))
+        throw std::runtime_error("its unit is not known, for the file has parts in several; write it in one");
+    }
+    if (context.IsNull()) return 1;
+    use_units_of(context);
+    return *length_unit_of(context) * millimetres_per_metre;
+  }
+
+  const StepData_StepModel& model_;
+  const Interface_Graph& graph_;
+  Remarks& remarks_;
+  bool by_open_cascade_;
+  Entity context_;
+  bool has_one_unit_;
+  EntitySet seen_, parents_;
+};
+
+}  // namespace
+
+RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& report) {
+  RestatedCurves restated;
+  Remarks remarks(*reader.Model(), report);
+  if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model())) restate_iges(*iges, remarks);
+  if (const auto step = Handle(StepData_StepModel)::DownCast(reader.Model())) {
+    StepCurves curves(*step, reader.WS()->Graph(), remarks);
+    for (int i = 1; i <= step->NbEntities(); ++i) curves.restate(step->Value(i));
+    restated.parents = curves.parents();
+  }
+  restated.refused = remarks.refused();
+  return restated;
+}
+
+}  // namespace nurbeam
