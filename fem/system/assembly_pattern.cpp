@@ -130,7 +130,8 @@ bool Assembly<D>::shift_pattern(const Assembly& other) {
   if (!shift) return false;
   pattern_ = shift->pattern(other.pattern_, now);
   const int old_end = static_cast<int>(other.elements_.size());
-  std::vector<int> renewed(elements_.size() - static_cast<std::size_t>(shift->left() + shift->right()));
+  std::vector<int> renewed(elements_.size() - static_cast<std::size_t>(shift->left()) -
+                           static_cast<std::size_t>(shift->right()));
   std::iota(renewed.begin(), renewed.end(), shift->left());
   element_runs_.append(other.element_runs_, 0, shift->left(), 0);
   twist_runs_.append(other.twist_runs_, 0, shift->left(), 0);

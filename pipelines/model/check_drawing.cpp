@@ -12,7 +12,7 @@ namespace nurbeam {
 namespace {
 
 constexpr double degrees = std::numbers::pi / 180, largest_turn = 60 * degrees,
-                 largest_section_turn = 30 * degrees;
+                 largest_section_turn = (30 + 1e-6) * degrees;  // with round-off
 
 // By how much the tangent turns between two places, which no corner lies between [rad].
 double turn_between(const ReferenceCurve& curve, double s_a, double s_b) {

@@ -450,7 +450,7 @@ TEST_F(CaseFileTest, OverridesOfUnknownPathsAreRefused) {
   refuse("beams[1].name=x", {"beams has 1 item(s)", "[1]"});
   refuse("beams[x].name=x", {"[x]"});
   refuse("name.x=1", {"name has no parts"});
-  refuse("supports[0].at.s=0.2", {"supports[0].at is \"start\", which has no parts"});
+  refuse("supports[0].at.length=0.2", {"supports[0].at is \"start\", which has no parts"});
   refuse("gravity[3]=1", {"gravity has 3 item(s)", "[3]"});
   refuse("analysis", {"path=value"});
   refuse("=1", {"the case file"});
