@@ -120,6 +120,22 @@ struct Blocks {
         lower(blocks + front.lower(), front.before, front.own) {}
 };
 
+// Calls add(rows, block, x) for each block of a front, with the parts of both vectors that it couples.
+template <class Add>
+void for_each_block(const Front& front, const double* blocks, const double* x, double* rows, const Add& add) {
+  with_size(
+      front,
+      [&]<int N>() {
+        const Blocks<N, const double> of(front, blocks);
+        const ConstVector<N> own(x + front.first, front.own), before(x + front.first_before, front.before);
+        Vector<N> rows_own(rows + front.first, front.own),
+            rows_before(rows + front.first_before, front.before);
+        add(rows_own, of.own, own);
+        add(rows_own, of.upper, before);
+        add(rows_before, of.lower, own);
+      });
+}
+
 }  // namespace
 
 Fronts::Fronts(const SparsePattern& pattern, const CouplingLevels& levels)
@@ -166,31 +182,15 @@ int Fronts::index(int row, int column) const {
 }
 
 void subtract_product(const Front& front, const double* blocks, const double* x, double* rows) {
-  with_size(
-      front,
-      [&]<int N>() {
-        const Blocks<N, const double> of(front, blocks);
-        const ConstVector<N> own(x + front.first, front.own), before(x + front.first_before, front.before);
-        Vector<N> rows_own(rows + front.first, front.own),
-            rows_before(rows + front.first_before, front.before);
-        rows_own.noalias() -= of.own.lazyProduct(own);
-        rows_own.noalias() -= of.upper.lazyProduct(before);
-        rows_before.noalias() -= of.lower.lazyProduct(own);
-      });
+  for_each_block(
+      front, blocks, x, rows,
+      [](auto& to, const auto& block, const auto& of) { to.noalias() -= block.lazyProduct(of); });
 }
 
 void add_absolute_product(const Front& front, const double* blocks, const double* x, double* rows) {
-  with_size(
-      front,
-      [&]<int N>() {
-        const Blocks<N, const double> of(front, blocks);
-        const ConstVector<N> own(x + front.first, front.own), before(x + front.first_before, front.before);
-        Vector<N> rows_own(rows + front.first, front.own),
-            rows_before(rows + front.first_before, front.before);
-        rows_own += of.own.cwiseAbs().lazyProduct(own.cwiseAbs());
-        rows_own += of.upper.cwiseAbs().lazyProduct(before.cwiseAbs());
-        rows_before += of.lower.cwiseAbs().lazyProduct(own.cwiseAbs());
-      });
+  for_each_block(
+      front, blocks, x, rows,
+      [](auto& to, const auto& block, const auto& of) { to += block.cwiseAbs().lazyProduct(of.cwiseAbs()); });
 }
 
 bool factorise(const Front& front, double* blocks) {
