@@ -13,6 +13,10 @@ namespace {
 // Values that are equal but for this part of them count as one extreme: those of a shape that is symmetrical.
 bool are_equal(double value, double extreme) { return std::abs(value - extreme) <= 1e-6 * std::abs(extreme); }
 
+constexpr int samples = 4;  // of an element, from end to end
+
+bool is_shared_by_many(std::size_t places) { return places > 2; }
+
 double node_displacement(const BeamSystem& system, const State& state, int beam, int node) {
   const ReferenceCurve& curve = system.model().beams[beam].curve;
   const MeshNode& of = system.mesh().nodes[beam][node];
@@ -38,7 +42,7 @@ HeldExtremes::HeldExtremes(const BeamSystem& system, const State& state, const s
   const std::vector<BeamRecord> records = record_beams(system, state);
   for (const BeamPart& part : parts) {
     Held& held = held_.emplace_back(Held{part});
-    std::vector<Place>& places = held.places;
+    std::vector<SamePlace>& places = held.places;
     const BeamRecord& record = records[part.beam];
     if (system.model().beams[part.beam].rigid) continue;
     const int first = system.mesh().first_span[part.beam], count = static_cast<int>(record.elements.size());
@@ -48,25 +52,46 @@ HeldExtremes::HeldExtremes(const BeamSystem& system, const State& state, const s
     } else if (part.extreme == &BeamRecord::displacement_max) {
       for (int i = 0; i < static_cast<int>(record.node_s.size()); ++i)
         if (are_equal(node_displacement(system, state, part.beam, i), record.displacement_max.value))
-          places.push_back({i});
+          places.push_back({{i}});
     } else {
       const auto values = of_elements(part.extreme).values;
+      const auto has = [&](int i, int sample) {
+        return are_equal((record.elements[i].*values)[sample], (record.*part.extreme).value);
+      };
       for (int i = 0; i < count; ++i)
-        for (int sample = 0; sample < 4; ++sample)
-          if (are_equal((record.elements[i].*values)[sample], (record.*part.extreme).value))
-            places.push_back({first + i, sample});
+        for (int sample = 0; sample < samples; ++sample) {
+          if (!has(i, sample)) continue;
+          if (i > 0 && sample == 0 && has(i - 1, samples - 1))
+            places.back().push_back({first + i, sample});
+          else
+            places.push_back({{first + i, sample}});
+        }
     }
   }
 }
 
-bool HeldExtremes::are_shared() const {
+bool HeldExtremes::are_shared_by_many() const {
   return std::any_of(
-      held_.begin(), held_.end(),
-      [](const Held& held) {
-        return std::any_of(
-            held.places.begin(), held.places.end(),
-            [&](const Place& place) { return place.index != held.places.front().index; });
-      });
+      held_.begin(), held_.end(), [](const Held& held) { return is_shared_by_many(held.places.size()); });
+}
+
+template <class Value>
+Extreme HeldExtremes::value_at(const std::vector<SamePlace>& places, double (*size)(double),
+                               const Value& value) {
+  Extreme greatest;
+  double sum = 0;
+  for (const SamePlace& place : places) {
+    double here = 0;
+    for (const Place& each : place) {
+      const double of_each = value(each);
+      keep(greatest, of_each, 0, size);
+      here += of_each;
+    }
+    sum += here / static_cast<double>(place.size());
+  }
+  if (!places.empty() && !is_shared_by_many(places.size()))
+    greatest.value = sum / static_cast<double>(places.size());
+  return greatest;
 }
 
 std::vector<BeamRecord> HeldExtremes::at(const BeamSystem& system, const State& state) const {
@@ -79,13 +104,13 @@ std::vector<BeamRecord> HeldExtremes::at(const BeamSystem& system, const State& 
       record.length = beam_length(system, state, part.beam);
       record.sag = sag_at(system, state, part.beam, lowest);
     } else if (part.extreme == &BeamRecord::displacement_max) {
-      for (const Place& place : places)
-        keep(record.displacement_max, node_displacement(system, state, part.beam, place.index), 0,
-             ElementExtreme::itself);
+      record.displacement_max = value_at(
+          places, ElementExtreme::itself,
+          [&](const Place& at) { return node_displacement(system, state, part.beam, at.index); });
     } else {
-      for (const auto& [span, sample] : places)
-        keep(record.*part.extreme, value_in(system, state, span, sample, part.extreme), 0,
-             of_elements(part.extreme).size);
+      record.*part.extreme = value_at(
+          places, of_elements(part.extreme).size,
+          [&](const Place& at) { return value_in(system, state, at.index, at.sample, part.extreme); });
     }
   }
   return records;

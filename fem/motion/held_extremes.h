@@ -18,23 +18,29 @@ class HeldExtremes {
  public:
   HeldExtremes(const BeamSystem& system, const State& state, const std::vector<BeamPart>& parts);
 
-  /// Of another state or model of the same mesh, with nothing but these parts.
+  /// Of another state or model of the same mesh, with nothing but these parts. What two places share, as in a
+  /// symmetrical shape, is the mean of both: half the difference of the greater ones of two states or models,
+  /// one on either side, is that of the means.
   std::vector<BeamRecord> at(const BeamSystem& system, const State& state) const;
-  /// Whether an extreme is in several elements, or at several nodes, as in a symmetrical shape: it changes
-  /// with a single coordinate only where that makes one of them outdo the others.
-  bool are_shared() const;
+  /// Whether more than two places share an extreme: it is the greatest of them, and changes with a single
+  /// coordinate only where that makes one of them outdo the others.
+  bool are_shared_by_many() const;
 
  private:
   struct Place {
     int index;       ///< of a span in the mesh or, for displacements, of a node of the beam
     int sample = 0;  ///< in the element
   };
+  /// One place on the beam, which may be the end of an element and the beginning of the next.
+  using SamePlace = std::vector<Place>;
   /// Where it is: at several places where values are equal.
   struct Held {
     BeamPart part;
-    std::vector<Place> places = {};
+    std::vector<SamePlace> places = {};
     Lowest lowest = {};  ///< of a sag, in the mesh
   };
+  template <class Value>
+  static Extreme value_at(const std::vector<SamePlace>& places, double (*size)(double), const Value& value);
   std::vector<Held> held_;
 };
 

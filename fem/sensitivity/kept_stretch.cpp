@@ -104,11 +104,11 @@ void Sensitivities::ask(Asked asked) {
   arrive();
   for (const std::size_t record : asked_.records) hold_extremes(records_[record]);
   if (!stretch_) return;
-  const bool are_shared =
+  const bool are_shared_by_many =
       std::any_of(asked_.records.begin(), asked_.records.end(), [this](std::size_t record) {
-        return records_[record].extremes && records_[record].extremes->are_shared();
+        return records_[record].extremes && records_[record].extremes->are_shared_by_many();
       });
-  if (are_shared) return carry();
+  if (are_shared_by_many) return carry();
   // In what a parameter takes over a step: factors; a quantity back over one, without and with factors of its
   // own; the derivatives of quantities by one state.
   constexpr double of_factors = 20, without = 8, with = 2, of_a_record = 50;
@@ -188,9 +188,9 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
     if (!regular) singular_step();
     work_.solves += mu.cols();
     take_off(shifts, adjoint.stiffness());
-    for (Eigen::Index i = 0; i < sum.rows(); ++i) {
-      sum.row(i).noalias() -= mu.col(i).head(n).transpose() * dynamics_;
-      sum.row(i).noalias() -= mu.col(i).tail(m).transpose() * constraints_;
+    for (Eigen::Index k = 0; k < sum.rows(); ++k) {
+      sum.row(k).noalias() -= mu.col(k).head(n).transpose() * dynamics_;
+      sum.row(k).noalias() -= mu.col(k).tail(m).transpose() * constraints_;
     }
     Vector later;
     if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);

@@ -88,7 +88,7 @@ class Sensitivities final : public RunFollower {
     std::vector<BeamPart> of_beams;
   };
   /// After the run, before what follows: takes tangents over what steps are left where that is less work than
-  /// to go back, and where extremes are shared, which then cannot be followed back.
+  /// to go back, and where many places share extremes, which then cannot be followed back.
   void ask(Asked asked);
   /// At the time of such a record, snapshots of the models in which a parameter is greater and less, of
   /// states step dq/dp away, in statics of their equilibria there. Throws std::runtime_error where these have

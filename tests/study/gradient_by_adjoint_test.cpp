@@ -182,21 +182,48 @@ TEST(GradientByAdjoint, OfASagAndASection) {
                               accuracy);
 }
 
-// In a symmetrical shape two elements have the greatest tension: what changes it in one of them alone tells
-// of both sides half, and no single coordinate does.
-TEST(GradientByAdjoint, IsLeftToTangentsWhereAnExtremeIsShared) {
-  StudyOfCase of(hanging_cable, heights_of_cable + R"json(
-    "quantities": [{"name": "greatest", "value": "at(end, cable.axial_force.max)"}], "plan": {"grid": 2})json");
-  const FollowedVariant variant = followed(of);
-  EXPECT_EQ(variant.work.solves, 3 * variant.steps);
-  const auto of_variant = [&](double h) {
+/// The derivative of the first quantity by the first variable, as a difference of runs.
+double difference_of_runs(StudyOfCase& of, double h) {
+  const auto of_variant = [&](double change) {
     std::vector<double> values = of.nominal();
-    values[0] += h;
+    values[0] += change;
     return of.run(values, false).quantities[0];
   };
-  constexpr double h = 1e-5;
-  const double difference = (of_variant(h) - of_variant(-h)) / (2 * h);
-  EXPECT_NEAR(variant.gradient[0][0], difference, 1e-3 * std::abs(difference));
+  return (of_variant(h) - of_variant(-h)) / (2 * h);
+}
+
+// In a symmetrical shape two elements have the greatest tension, and what changes it in one of them alone
+// tells of both sides half; or the middle has the greatest sag, which is a node of two.
+TEST(GradientByAdjoint, OfAnExtremeThatTwoPlacesShare) {
+  for (const std::string quantity :
+       {"cable.axial_force.max", "cable.moment.max", "cable.displacement.max", "cable.stress.max"}) {
+    StudyOfCase of(hanging_cable, heights_of_cable + R"json(
+    "quantities": [{"name": "greatest", "value": "at(end, )json" +
+                                      quantity + R"json()"}], "plan": {"grid": 2})json");
+    const FollowedVariant variant = followed(of);
+    EXPECT_EQ(variant.work.solves, variant.steps) << quantity;
+    const double difference = difference_of_runs(of, 1e-5);
+    EXPECT_NEAR(variant.gradient[0][0], difference, 1e-3 * std::abs(difference)) << quantity;
+  }
+}
+
+// A straight bar that is drawn out is as tense everywhere.
+TEST(GradientByAdjoint, IsLeftToTangentsWhereManyPlacesShareAnExtreme) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, 0], "beams": [{"name": "bar",
+      "axis": {"polyline": [[0, 0, 0], [2, 0, 0]]},
+      "section": {"radius": "6 mm"}, "material": {"density": 5200, "youngs_modulus": "2 GPa"},
+      "elements": {"count": 8}}],
+    "supports": [{"beam": "bar", "at": "start", "type": "pinned"}],
+    "loads": [{"beam": "bar", "at": "end", "force": [100, 0, 0]}],
+    "output": {"every": 0.1},
+    "analysis": {"type": "dynamic", "initial": "equilibrium", "end_time": 0.2, "step": "10 ms"}})json",
+                 R"json("variables": [
+      {"name": "x", "control_point": {"beam": "bar", "index": 1, "axis": "x"}, "range": [1.9, 2.1]},
+      {"name": "F", "path": "loads[0].force[0]", "range": [90, 110]}],
+    "quantities": [{"name": "greatest", "value": "at(end, bar.axial_force.max)"}], "plan": {"grid": 2})json");
+  const FollowedVariant variant = followed(of);
+  EXPECT_EQ(variant.work.solves, 2 * variant.steps);
+  EXPECT_NEAR(variant.gradient[0][1], 1, 1e-5);
 }
 
 // The witness is no tangent.
