@@ -6,9 +6,10 @@ namespace nurbeam {
 
 bool correct_solution(const KktSolver& factors,
                       const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& open)>& open,
-                      double tolerance, Eigen::VectorXd& x) {
+                      double tolerance, Eigen::VectorXd& x, double& contraction) {
   constexpr double fast = 1e-2;  // than which corrections must become smaller, each over the one before
   constexpr int most = 8;
+  constexpr double slower = 100;  // at most, than the last one has become, does what is left of one become
   Eigen::VectorXd left(x.size()), correction;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
@@ -19,8 +20,16 @@ bool correct_solution(const KktSolver& factors,
     const double now = correction.lpNorm<Eigen::Infinity>();
     if (now == 0) return true;
     if (!(now <= fast * before)) return false;
-    // What is left is smaller than the correction as much as this is than the one before.
-    if (i > 0 && now / before * now <= tolerance * x.lpNorm<Eigen::Infinity>()) return true;
+    const double small = tolerance * x.lpNorm<Eigen::Infinity>();
+    if (i == 0) {
+      if (contraction * now <= small) {
+        contraction *= 2;  // A changes from one to the next
+        return true;
+      }
+    } else {
+      if (i == 1) contraction = now / before;
+      if (slower * now / before * now <= small) return true;
+    }
     before = now;
   }
   return false;
@@ -28,13 +37,14 @@ bool correct_solution(const KktSolver& factors,
 
 bool NearSolver::solve(const SparseView& A, const std::vector<int>& last, const Eigen::VectorXd& b,
                        Eigen::VectorXd& x) {
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double round_off = 6400 * std::numeric_limits<double>::epsilon();
   const auto open = [&](const Eigen::VectorXd& of, Eigen::VectorXd& left) {
     left = b;
     left.noalias() -= A * of;
   };
+  double contraction = unknown_contraction;
   const bool is_near = rows_ > 0 && A.rows() == rows_ && A.nonZeros() == entries_;
-  if (!is_near || !correct_solution(solver_, open, round_off, x_)) {
+  if (!is_near || !correct_solution(solver_, open, round_off, x_, contraction)) {
     rows_ = 0;
     if (!solver_.factorise(A, last)) return false;
     x_ = solver_.solve(b);

@@ -3,8 +3,6 @@
 #include <numeric>
 #include <utility>
 
-#include "solver/near_solver.h"
-
 namespace nurbeam {
 
 namespace {
@@ -97,8 +95,8 @@ bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
 
 // Takes what a parabola through the last three solutions leads to, and corrects it.
 bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
-  constexpr double tolerance = 1e-12;
-  auto& [last, before, earlier] = solved;
+  constexpr double tolerance = 1e-7;
+  auto& [last, before, earlier, contraction] = solved;
   if (before.size() == 0) before = last;
   if (earlier.size() == 0) earlier = before;
   earlier += 3 * (last - before);
@@ -108,8 +106,10 @@ bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
     left = rhs;
     left.noalias() -= step_.kkt.transpose() * x;
   };
-  if (has_factors_ && last.size() == rhs.size() && correct_solution(solver_, open, tolerance, last))
+  if (has_factors_ && last.size() == rhs.size() &&
+      correct_solution(solver_, open, tolerance, last, contraction))
     return true;
+  contraction = unknown_contraction;
   if (!factorise()) return false;
   solver_.solve(rhs, last);
   return true;

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "solver/near_solver.h"
 #include "solver/step_tangent.h"
 
 namespace nurbeam {
@@ -36,6 +37,7 @@ class StepAdjoint {
   bool solve(const Matrix& rhs, Matrix& x);
   struct Solved {
     Eigen::VectorXd last, before, earlier;
+    double contraction = unknown_contraction;
   };
   bool solve_from_last(const Eigen::VectorXd& rhs, Solved& solved);
 
