@@ -1,15 +1,28 @@
 #include "solver/near_solver.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace nurbeam {
 
+namespace {
+
+// The largest number of a part of a correction, beside that of what it corrects; 0 where it is zero.
+double relative_size(const Eigen::VectorXd& correction, const Eigen::VectorXd& x, Eigen::Index first,
+                     Eigen::Index size) {
+  const double of_correction = correction.segment(first, size).lpNorm<Eigen::Infinity>();
+  return of_correction == 0 ? 0 : of_correction / x.segment(first, size).lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
 bool correct_solution(const KktSolver& factors,
                       const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& open)>& open,
-                      double tolerance, Eigen::VectorXd& x, double& contraction) {
+                      double tolerance, Eigen::Index coordinates, Eigen::VectorXd& x, double& contraction) {
   constexpr double fast = 1e-2;  // than which corrections must become smaller, each over the one before
   constexpr int most = 8;
   constexpr double slower = 100;  // at most, than the last one has become, does what is left of one become
+  const Eigen::Index others = x.size() - coordinates;
   Eigen::VectorXd left(x.size()), correction;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
@@ -17,18 +30,18 @@ bool correct_solution(const KktSolver& factors,
     factors.solve(left, correction);
     if (!correction.allFinite()) return false;
     x += correction;
-    const double now = correction.lpNorm<Eigen::Infinity>();
+    double now = relative_size(correction, x, 0, coordinates);
+    if (others > 0) now = std::max(now, relative_size(correction, x, coordinates, others));
     if (now == 0) return true;
     if (!(now <= fast * before)) return false;
-    const double small = tolerance * x.lpNorm<Eigen::Infinity>();
     if (i == 0) {
-      if (contraction * now <= small) {
+      if (contraction * now <= tolerance) {
         contraction *= 2;  // A changes from one to the next
         return true;
       }
     } else {
       if (i == 1) contraction = now / before;
-      if (slower * now / before * now <= small) return true;
+      if (slower * now / before * now <= tolerance) return true;
     }
     before = now;
   }
@@ -44,7 +57,7 @@ bool NearSolver::solve(const SparseView& A, const std::vector<int>& last, const 
   };
   double contraction = unknown_contraction;
   const bool is_near = rows_ > 0 && A.rows() == rows_ && A.nonZeros() == entries_;
-  if (!is_near || !correct_solution(solver_, open, round_off, x_, contraction)) {
+  if (!is_near || !correct_solution(solver_, open, round_off, x_.size(), x_, contraction)) {
     rows_ = 0;
     if (!solver_.factorise(A, last)) return false;
     x_ = solver_.solve(b);

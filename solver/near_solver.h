@@ -11,14 +11,14 @@ namespace nurbeam {
 
 /// Where nothing has been corrected yet.
 inline constexpr double unknown_contraction = std::numeric_limits<double>::infinity();
-/// Corrects x until A x = b but for `tolerance` of its largest number, with factors of a matrix near A.
-/// `open`: finds b - A x; `contraction`: by how much the second correction is smaller than the first, where
-/// that is known of an A before this one, so that one may do. Returns false where corrections do not become
-/// smaller fast, and x means nothing.
+/// Corrects x until A x = b but for `tolerance` of its largest number, among `coordinates` and among the
+/// others behind them, with factors of a matrix near A. `open`: finds b - A x; `contraction`: by how much the
+/// second correction is smaller than the first, where that is known of an A before this one, so that one may
+/// do. Returns false where corrections do not become smaller fast, and x means nothing.
 [[nodiscard]] bool correct_solution(
     const KktSolver& factors,
     const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& open)>& open, double tolerance,
-    Eigen::VectorXd& x, double& contraction);
+    Eigen::Index coordinates, Eigen::VectorXd& x, double& contraction);
 
 /// Solves with matrices of which one lies close to the next, as those of neighbouring systems: the factors of
 /// one serve the others, by corrections of the solution before to round-off, as long as these converge fast.

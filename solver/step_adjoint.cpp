@@ -53,6 +53,7 @@ StepAdjoint::StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSyst
 void StepAdjoint::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
   step_.take(before, history, after, repeated);
+  factors_are_own_ = false;
 }
 
 bool StepAdjoint::find_multipliers(const MotionTangents& end, Matrix& mu) {
@@ -72,7 +73,8 @@ bool StepAdjoint::find_multipliers(const MotionTangents& end, Matrix& mu) {
 bool StepAdjoint::factorise() {
   for (std::size_t k = 0; k < values_.size(); ++k)
     transposed_.valuePtr()[k] = step_.kkt.valuePtr()[values_[k]];
-  return has_factors_ = solver_.factorise(transposed_);
+  for (Solved& solved : solved_) solved.contraction = unknown_contraction;
+  return has_factors_ = factors_are_own_ = solver_.factorise(transposed_);
 }
 
 // Factors take as long as some twenty solutions.
@@ -95,7 +97,7 @@ bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
 
 // Takes what a parabola through the last three solutions leads to, and corrects it.
 bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
-  constexpr double tolerance = 1e-7;
+  constexpr double tolerance = 1e-6;
   auto& [last, before, earlier, contraction] = solved;
   if (before.size() == 0) before = last;
   if (earlier.size() == 0) earlier = before;
@@ -106,11 +108,10 @@ bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
     left = rhs;
     left.noalias() -= step_.kkt.transpose() * x;
   };
-  if (has_factors_ && last.size() == rhs.size() &&
-      correct_solution(solver_, open, tolerance, last, contraction))
+  if (has_factors_ && !factors_are_own_ && last.size() == rhs.size() &&
+      correct_solution(solver_, open, tolerance, step_.system->coordinate_count(), last, contraction))
     return true;
-  contraction = unknown_contraction;
-  if (!factorise()) return false;
+  if (!factors_are_own_ && !factorise()) return false;
   solver_.solve(rhs, last);
   return true;
 }

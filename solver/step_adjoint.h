@@ -45,8 +45,9 @@ class StepAdjoint {
   Eigen::SparseMatrix<double> transposed_;
   std::vector<int> values_;  // of each value in transposed_, that of the matrix
   KktSolver solver_;
-  bool has_factors_ = false;    // of this step or of one gone over before
-  std::vector<Solved> solved_;  // of each quantity, where they are few: for it, one after the other
+  bool has_factors_ = false;      // of this step or of one gone over before
+  bool factors_are_own_ = false;  // of this step
+  std::vector<Solved> solved_;    // of each quantity, where they are few: for it, one after the other
 };
 
 }  // namespace nurbeam

@@ -39,6 +39,16 @@ class ElementBatch {
   /// Their energies, of the first count(); `load`: the dead load of which they have the potential [N/m].
   std::array<ElementEnergy, lanes> energies(const State& state, const Vector& load, double free_strain) const;
 
+  /// Whether add_number_rates can take elements of these properties.
+  static bool has_number_rates(const BeamProperties& properties) { return !(properties.tension_damping > 0); }
+  /// How sums of the forces, each times a multiplier of its coordinate, change with the numbers of the
+  /// elements, added to `rates`. `multipliers`: of all coordinates. Precondition: has_number_rates of the
+  /// properties.
+  void add_number_rates(const State& state, const Vector& load, double free_strain, const double* multipliers,
+                        FixedLanes& rates) const;
+  /// The numbers of an element, in all lanes. Precondition: takes(element).
+  static FixedLanes numbers(const BeamElement<D>& element);
+
   /// Tangents in the coordinates of the nodes, by column and row.
   using Tangents = std::array<std::array<ElementLanes, nodal>, nodal>;
   /// Those of BeamElement::tangent. Precondition: the beam is not damped.
@@ -48,6 +58,7 @@ class ElementBatch {
   /// Numbers of the nodes, by column of ElementNodes and direction.
   using Nodes = std::array<std::array<ElementLanes, D>, 4>;
   struct Kernel;
+  struct NumberRates;
 
   void take_numbers(const BeamElement<D>& element);
 

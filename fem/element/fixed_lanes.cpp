@@ -9,6 +9,16 @@ FixedSums FixedSums::zero() {
           0};
 }
 
+// There is nothing in them but numbers.
+double FixedLanes::product(int lane, const FixedLanes& other, int lane_of_other) const {
+  constexpr int size = sizeof(FixedLanes) / sizeof(ElementLanes);
+  const auto *own = reinterpret_cast<const ElementLanes*>(this),
+             *of_other = reinterpret_cast<const ElementLanes*>(&other);
+  double sum = 0;
+  for (int i = 0; i < size; ++i) sum += own[i].of(lane) * of_other[i].of(lane_of_other);
+  return sum;
+}
+
 // The first element fills all lanes.
 void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
   const auto set = [&](ElementLanes& numbers, double number) {

@@ -45,6 +45,8 @@ struct FixedLanes {
   std::array<ElementLanes, 3> strain0 = {};
   ElementLanes length = {};
 
+  /// The sum of all numbers of an element in a lane of these, each times that in a lane of others.
+  double product(int lane, const FixedLanes& other, int lane_of_other) const;
   /// Takes those of one element into a lane; of the first one into all, until others take them.
   void put(int lane, const FixedSums& sums, const PointPack& pack);
   /// Those in a lane.

@@ -63,6 +63,9 @@ void add_unknowns(const Eigen::MatrixXd& by, MotionTangents& to) {
   to.lambda += by.bottomRows(to.lambda.rows());
 }
 
+// For more of them numbers of elements take longer than neighbours do.
+constexpr Eigen::Index few_adjoints = 2;
+
 // (quantities x parameters)
 Eigen::MatrixXd product(const MotionTangents& adjoints, const MotionTangents& tangents) {
   Eigen::MatrixXd sum = adjoints.t.transpose() * tangents.t;
@@ -172,6 +175,8 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
   MotionTangents adjoints = MotionTangents::zero(n, m, sum.rows());
   MotionTangents::Matrix mu;
   auto record = records.rbegin();
+  const bool by_numbers = sum.rows() <= few_adjoints;
+  if (by_numbers) differences_->go_back(*system_, state_, shifts_at(state_), sum.rows());
   stretch_->steps.back([&](std::size_t i, const KeptSteps::Step& step) {
     for (; record != records.rend() && records_[*record].position == i + 1; ++record)
       add_unknowns(by_state(*record), adjoints);
@@ -188,14 +193,22 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
     if (!regular) singular_step();
     work_.solves += mu.cols();
     take_off(shifts, adjoint.stiffness());
-    for (Eigen::Index k = 0; k < sum.rows(); ++k) {
-      sum.row(k).noalias() -= mu.col(k).head(n).transpose() * dynamics_;
-      sum.row(k).noalias() -= mu.col(k).tail(m).transpose() * constraints_;
-    }
-    Vector later;
-    if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);
-    adjoints = adjoint.start(adjoints, mu, stretch_->by_time[i], later);
+    if (!by_numbers || !differences_->are_all_in_sums())
+      for (Eigen::Index k = 0; k < sum.rows(); ++k) {
+        sum.row(k).noalias() -= mu.col(k).head(n).transpose() * dynamics_;
+        sum.row(k).noalias() -= mu.col(k).tail(m).transpose() * constraints_;
+      }
+    both(
+        [&] {
+          if (by_numbers) differences_->add(step.after, mu);
+        },
+        [&] {
+          Vector later;
+          if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);
+          adjoints = adjoint.start(adjoints, mu, stretch_->by_time[i], later);
+        });
   });
+  if (by_numbers) sum -= differences_->sums();
   sum += product(adjoints, tangents_);
 }
 

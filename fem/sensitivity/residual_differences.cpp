@@ -5,9 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "fem/sensitivity/column_batches.h"
+#include "fem/sensitivity/number_adjoint.h"
 #include "fem/system/with_assembly.h"
 #include "solver/side_by_side.h"
 
@@ -65,6 +67,11 @@ struct ResidualDifferences::Implementation {
   virtual void find(const State& at, const Eigen::RowVectorXd& later,
                     const std::vector<std::vector<Shift>>& shifts, Columns& dynamics,
                     Columns& constraints) = 0;
+  virtual void go_back(const BeamSystem& system, const State& at,
+                       const std::vector<std::vector<Shift>>& shifts, Eigen::Index sums) = 0;
+  virtual bool are_all_in_sums() const = 0;
+  virtual void add(const State& at, const Columns& multipliers) = 0;
+  virtual Columns sums() const = 0;
   virtual std::vector<bool> outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
                                     const std::vector<int>& elements) = 0;
   virtual Columns momenta(const Eigen::VectorXd& velocities) const = 0;
@@ -97,11 +104,13 @@ struct ResidualDifferences::In final : Implementation {
     bool outlasts = false;                // the last change of the mesh
     bool carries_point = false;           // a body moves over an element that differs
     bool was_whole = true;                // the last columns that were found may not be zero elsewhere
+    bool is_in_sums = false;
     // Whether no more differs than these: at the same coordinates, and at shifted ones.
     std::array<std::optional<bool>, 2> is_local = {};
   };
   std::vector<Sides> pairs;
   ColumnBatches<D> batches;
+  std::optional<NumberAdjoint<D>> adjoint;
   Columns forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_dynamics, less_dynamics, more_constraints, less_constraints;  // of a whole pair
   State general;                 // to which what is not the same answers differently
@@ -140,10 +149,19 @@ struct ResidualDifferences::In final : Implementation {
     for (std::size_t k = 0; k < of.size(); ++k) {
       pairs.push_back(outlasts(k) ? outlasting(before->of->pairs[k], *before->elements)
                                   : different(of[k], unlike[k], near));
-      work += pairs.back().work;
     }
-    const Assembly<D>& present = before ? *before->system : *pairs.front().more;
-    for (std::size_t k = 0; k < pairs.size(); ++k) add(pairs[k], static_cast<Eigen::Index>(k), present);
+    set_batches(before ? *before->system : *pairs.front().more);
+  }
+
+  // Those of all pairs that are not in sums.
+  void set_batches(const Assembly<D>& present) {
+    batches = {};
+    work = 0;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (pairs[k].is_in_sums) continue;
+      add(pairs[k], static_cast<Eigen::Index>(k), present);
+      work += pairs[k].work;
+    }
     batches.close(present);
   }
 
@@ -209,6 +227,8 @@ struct ResidualDifferences::In final : Implementation {
 
   // Adds the elements of a pair to the batches, and finds its coordinates and loads.
   void add(Sides& pair, Eigen::Index k, const Assembly<D>& present) {
+    pair.loads.clear();
+    pair.coordinates.clear();
     for (auto& [index, now, dofs] : pair.batched) {
       dofs = present.elements()[now].dofs;
       std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(pair.coordinates),
@@ -265,6 +285,72 @@ struct ResidualDifferences::In final : Implementation {
     return all;
   }
 
+  // Whether no more differs than numbers of elements, at all times.
+  bool differs_in_numbers(Sides& pair, const Assembly<D>& system, const std::vector<Shift>& shifts) const {
+    constexpr double round_off = 1e-12;
+    const auto with_its_numbers = [&](const Different& each, const Assembly<D>& side) {
+      const MeshElement<D>&own = system.elements()[each.now], &other = side.elements()[each.index];
+      return NumberAdjoint<D>::takes(own) && other.element.properties() == own.element.properties() &&
+             (other.slope_offset - own.slope_offset).norm() <= round_off;
+    };
+    return shifts.empty() && is_local(pair, shifts) && same_free_strains(pair) && same_line_loads(pair) &&
+           std::all_of(pair.batched.begin(), pair.batched.end(), [&](const Different& each) {
+             return with_its_numbers(each, *pair.more) && with_its_numbers(each, *pair.less);
+           });
+  }
+
+  static bool same_line_loads(const Sides& pair) {
+    const auto of = [](const Assembly<D>& side) {
+      std::vector<LineLoad> loads;
+      for (const auto& force : side.model()->forces)
+        if (const auto* load = std::get_if<LineLoad>(&force)) loads.push_back(*load);
+      return loads;
+    };
+    const std::vector<LineLoad> more = of(*pair.more), less = of(*pair.less);
+    return pair.more->model()->gravity == pair.less->model()->gravity &&
+           std::equal(more.begin(), more.end(), less.begin(), less.end(),
+                      [](const LineLoad& a, const LineLoad& b) {
+                        return a.beam == b.beam && a.value == b.value && a.time == b.time;
+                      });
+  }
+
+  void go_back(const BeamSystem& system, const State& at, const std::vector<std::vector<Shift>>& shifts,
+               Eigen::Index sums) override {
+    const Assembly<D>& present = *system.assembly<D>();
+    batches.set_loads(at);
+    std::set<int> elements;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      Sides& pair = pairs[k];
+      pair.is_in_sums = differs_in_numbers(pair, present, shifts[k]);
+      pair.was_whole = true;
+      if (!pair.is_in_sums) continue;
+      for (const Different& each : pair.batched) elements.insert(each.now);
+    }
+    adjoint.emplace(present, std::vector<int>(elements.begin(), elements.end()), sums);
+    set_batches(present);
+  }
+
+  bool are_all_in_sums() const override {
+    return std::all_of(
+        pairs.begin(), pairs.end(), [](const Sides& pair) { return pair.is_in_sums; });
+  }
+
+  void add(const State& at, const Columns& multipliers) override { adjoint->add(at, multipliers); }
+
+  Columns sums() const override {
+    Columns sums = Columns::Zero(adjoint->sums(), static_cast<Eigen::Index>(pairs.size()));
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (!pairs[k].is_in_sums) continue;
+      for (const Different& each : pairs[k].batched)
+        for (Eigen::Index i = 0; i < sums.rows(); ++i)
+          sums(i, static_cast<Eigen::Index>(k)) +=
+              adjoint->difference(i, each.now, pairs[k].more->elements()[each.index].element,
+                                  pairs[k].less->elements()[each.index].element) /
+              (2 * pairs[k].step);
+    }
+    return sums;
+  }
+
   // Whether they are at all times.
   static bool same_free_strains(const Sides& pair) {
     const std::vector<Beam>&more = pair.more->model()->beams, &less = pair.less->model()->beams;
@@ -305,6 +391,12 @@ struct ResidualDifferences::In final : Implementation {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       Sides& pair = pairs[k];
+      if (pair.is_in_sums) {
+        if (!std::exchange(pair.was_whole, false)) continue;
+        dynamics.col(column).setZero();
+        constraints.col(column).setZero();
+        continue;
+      }
       if (is_local(pair, shifts[k]) &&
           same_loads(pair, at_time(at, pair.step * later[column]), at_time(at, -pair.step * later[column]))) {
         if (pair.was_whole) {
@@ -398,6 +490,17 @@ void ResidualDifferences::find(const State& at, const Eigen::RowVectorXd& later,
                                Columns& constraints) {
   in_->find(at, later, shifts, dynamics, constraints);
 }
+
+void ResidualDifferences::go_back(const BeamSystem& system, const State& at,
+                                  const std::vector<std::vector<Shift>>& shifts, Eigen::Index sums) {
+  in_->go_back(system, at, shifts, sums);
+}
+
+bool ResidualDifferences::are_all_in_sums() const { return in_->are_all_in_sums(); }
+
+void ResidualDifferences::add(const State& at, const Columns& multipliers) { in_->add(at, multipliers); }
+
+ResidualDifferences::Columns ResidualDifferences::sums() const { return in_->sums(); }
 
 std::vector<bool> ResidualDifferences::outlast(const State& at, const std::vector<std::vector<Shift>>& shifts,
                                                const std::vector<int>& elements) {

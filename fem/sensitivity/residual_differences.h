@@ -40,6 +40,18 @@ class ResidualDifferences {
   void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
             Columns& dynamics, Columns& constraints);
 
+  /// For sums of residuals times multipliers back over steps of a system, as many as these have columns: from
+  /// here on `find` leaves columns of pairs zero that differ in nothing but numbers of elements, and what
+  /// they do to the sums is told by add and sums. `at`: any state; `shifts`: as find has them.
+  void go_back(const BeamSystem& system, const State& at, const std::vector<std::vector<Shift>>& shifts,
+               Eigen::Index sums);
+  /// Whether find leaves all columns zero.
+  bool are_all_in_sums() const;
+  /// Adds the residual at a state times multipliers (n + m, sums), after find there.
+  void add(const State& at, const Columns& multipliers);
+  /// (sums, pairs) How the sums so far change with the parameters, but for what find has told.
+  Columns sums() const;
+
   /// Which pairs outlast a change of the mesh: at a state, and coordinates so far shifted, nothing differs in
   /// them but elements with fixed ends that are behind the change what they are before it. `elements`: by the
   /// index of an element before the change the one behind it, -1 where it is gone.
@@ -52,8 +64,8 @@ class ResidualDifferences {
   /// How the mechanical energy of a state changes in the elements of all pairs.
   Eigen::RowVectorXd energies(const State& at) const;
 
-  /// The residuals of whole systems whose elements find evaluates, where the same loads act in both of a
-  /// pair.
+  /// The residuals of whole systems whose elements find and add evaluate, where the same loads act in both of
+  /// a pair.
   double work() const;
 
  private:

@@ -111,21 +111,23 @@ bool targets(const StudyVariable& variable) {
 
 }  // namespace
 
-double derivative_step(const StudyVariable& variable, double value, bool settles) {
+double derivative_step(const StudyVariable& variable, double value, DifferencesOf of) {
   using Kind = StudyDistribution::Kind;
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
   const double greater = std::max(width, std::abs(value)), lesser = std::min(width, std::abs(value));
   const auto step = [&] {
-    // Not too small beside the value: that is lost in round-off. What moves the axis by no more than that:
-    // slender beams are stiff against what is of second order in it. Neighbours that settle answer as their
-    // loads are, with an error of the square of the step.
-    constexpr double settled = 4e-4;
-    if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
+    // Not too small beside the value: that is lost in round-off. What moves the axis, at one state, as little
+    // as that: slender beams are stiff against what is of second order in it. Neighbours that settle answer
+    // as their loads are, with an error of the square of the step.
+    constexpr double settled = 4e-4, of_axis = 1e-5, other = 1e-4;
+    const bool settles = of == DifferencesOf::equilibria;
+    const bool is_moved = targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable);
+    if (is_moved && of != DifferencesOf::numbers)
       return std::max(settles ? settled * width : 0, 1e-6 * greater);
-    const double part = !targets<ControlPointWeight>(variable) ? 1e-4 : settles ? settled : 1e-5;
-    return part * std::max(lesser, 0.1 * greater);
+    const bool is_of_axis = is_moved || targets<ControlPointWeight>(variable);
+    return (!is_of_axis ? other : settles ? settled : of_axis) * std::max(lesser, 0.1 * greater);
   };
   return std::min(step(), 0.1 * width);  // as far as the range allows
 }
@@ -201,12 +203,14 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
   };
   const std::vector<std::size_t> free = study.free_variables();
   is_by_adjoint_ = pays_by_adjoint(free.size(), own_histories, options.statics);
-  const bool settles = options.statics && !is_by_adjoint_;
+  const DifferencesOf differences_of = options.statics == is_by_adjoint_ ? DifferencesOf::residuals
+                                       : options.statics                 ? DifferencesOf::equilibria
+                                                                         : DifferencesOf::numbers;
   std::vector<std::optional<Pair>> pairs(free.size());
   std::vector<std::string> problems(free.size());
   side_by_side(static_cast<int>(free.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    const double step = derivative_step(study.variables[free[k]], values[free[k]], settles);
+    const double step = derivative_step(study.variables[free[k]], values[free[k]], differences_of);
     try {
       pairs[k].emplace(pair_of(k, step));
     } catch (const std::invalid_argument& problem) {

@@ -111,6 +111,93 @@ void check_at_one_place(const BeamProperties& properties, int seed) {
     }
 }
 
+/// Between two axes: control points and weights `part` of the way to the other.
+std::vector<RationalCubic> between(const std::vector<RationalCubic>& one,
+                                   const std::vector<RationalCubic>& other, double part) {
+  std::vector<RationalCubic> axis;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    Eigen::Matrix4d points;
+    for (int k = 0; k < 4; ++k) {
+      const double w = (1 - part) * one[i].points()(3, k) + part * other[i].points()(3, k);
+      points.col(k) << w * ((1 - part) * one[i].control_point(k) + part * other[i].control_point(k)), w;
+    }
+    axis.emplace_back(points);
+  }
+  return axis;
+}
+
+// Back from multipliers of the forces to the numbers of elements, and along these from one drawing to
+// another: what differences of the forces tend to, as the square of their step.
+template <int D>
+void check_number_rates(const BeamProperties& properties, int seed) {
+  std::mt19937 random(seed);
+  const auto one = testing::uneven_axis(random, D), other = testing::uneven_axis(random, D);
+  constexpr int count = 11;
+  const auto system_at = [&](double part) {
+    return std::make_unique<BeamSystem>(
+        testing::one_beam(between(one, other, part), D, properties, count, {}));
+  };
+  const auto here = system_at(0);
+  const State state = testing::disturbed_state(*here, random);
+  const Eigen::Matrix<double, D, 1> load = Eigen::Matrix<double, D, 1>::LinSpaced(0.7, -1.3);
+  const Eigen::VectorXd multipliers = Eigen::VectorXd::Random(here->coordinate_count());
+  const auto elements = [](const auto& system) -> const auto& {
+    return system->template assembly<D>()->elements();
+  };
+  const double free = free_strain(elements(here)[0], state);
+  std::vector<FixedLanes> rates;
+  for (int first = 0; first < count; first += FixedLanes::lanes) {
+    ElementBatch<D> batch(elements(here)[first].element.properties());
+    for (int i = first; i < std::min(count, first + FixedLanes::lanes); ++i)
+      batch.add(elements(here)[i].element, elements(here)[i].dofs, elements(here)[i].slope_offset);
+    batch.add_number_rates(state, load, free, multipliers.data(), rates.emplace_back());
+  }
+  const auto error_of_differences = [&](double h) {
+    const auto more = system_at(h), less = system_at(-h);
+    double square = 0, size = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto power = [&](const MeshElement<D>& e) {
+        const ElementVector<D> force = e.element.force(gather<D>(e, state), load);
+        double sum = 0;
+        for (int k = 0; k < ElementLayout<D>::nodal; ++k) sum += multipliers[e.dofs[k]] * force[k];
+        return sum;
+      };
+      const auto along = [&](const MeshElement<D>& e) {
+        return rates[i / FixedLanes::lanes].product(i % FixedLanes::lanes,
+                                                    ElementBatch<D>::numbers(e.element), 0);
+      };
+      const MeshElement<D>&above = elements(more)[i], &below = elements(less)[i];
+      EXPECT_LT((above.slope_offset - below.slope_offset).norm(), 1e-12);
+      const double rate = (along(above) - along(below)) / (2 * h);
+      square += std::pow(rate - (power(above) - power(below)) / (2 * h), 2);
+      size += rate * rate;
+    }
+    return std::sqrt(square / size);
+  };
+  const double error = error_of_differences(0.002), of_half = error_of_differences(0.001);
+  EXPECT_LT(error, 1e-3);
+  EXPECT_NEAR(error / of_half, 4, 0.2);
+}
+
+template <int D>
+void check_all_number_rates() {
+  int seed = 70;
+  for (const AxialStrain strain : {AxialStrain::pointwise, AxialStrain::ends_and_mean})
+    for (const CurvatureMeasure curvature : {CurvatureMeasure::spatial, CurvatureMeasure::material})
+      for (const bool damped : {false, true}) {
+        BeamProperties properties(300, 2, 0.7, damped ? 0.02 : 0, {});
+        properties.curvature = curvature;
+        properties.axial_strain = strain;
+        if (damped) properties.mass_damping = 0.4;
+        if (strain == AxialStrain::ends_and_mean) properties.free_strain.constant = 0.01;
+        SCOPED_TRACE(seed);
+        check_number_rates<D>(properties, ++seed);
+      }
+}
+
+TEST(ElementBatch, HasTheRatesOfItsForcesByTheNumbersOfItsElementsInThePlane) { check_all_number_rates<2>(); }
+TEST(ElementBatch, HasTheRatesOfItsForcesByTheNumbersOfItsElementsInSpace) { check_all_number_rates<3>(); }
+
 template <int D>
 void check_all_kinds() {
   int seed = 40;
