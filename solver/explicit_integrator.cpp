@@ -157,7 +157,7 @@ struct ExplicitIntegrator::Implementation {
     StepReport report{.status = StepStatus::inadmissible, .next_step = step};
     const double end = state.t + step;
     if (!(step > 0) || !std::isfinite(end)) return report;
-    State trial = state;
+    trial = state;
     // ARKODE 5.4 takes the last stage of a table with c = 1 there, as the classical one, for the first of the
     // next step, though it belongs to other q and v: that costs an order. A restart forgets it.
     if (std::exchange(must_restart, true) || is_fixed()) restart(trial);
@@ -169,7 +169,7 @@ struct ExplicitIntegrator::Implementation {
         if (failures == 0) report.status = StepStatus::inadmissible;
         return report;
       }
-      report.status = attempt(longest < rest ? trial.t + longest : end, trial);
+      report.status = attempt(longest < rest ? trial.t + longest : end);
       if (report.status != StepStatus::converged) {
         ++report.rejected;
         if (++failures > settings.max_halvings) return report;
@@ -198,8 +198,8 @@ struct ExplicitIntegrator::Implementation {
     sundials::check(ERKStepReset(memory.get(), from.t, y.get()));
   }
 
-  /// One step of ARKODE's from `trial` to `stop` or, under error control, less; moves `trial`.
-  StepStatus attempt(double stop, State& trial) {
+  /// One step of ARKODE's from the trial state to `stop` or, under error control, less; moves it.
+  StepStatus attempt(double stop) {
     if (is_fixed())
       sundials::check(ERKStepSetFixedStep(memory.get(), stop - trial.t));
     else
@@ -227,6 +227,7 @@ struct ExplicitIntegrator::Implementation {
   ExplicitRungeKutta settings;
   const SecondOrderSystem* system;
   State state;
+  State trial;  ///< after a step: the state before it, until that is taken
   FirstOrderEquations equations;
   bool must_restart = true;
   sundials::Guard guard;
@@ -264,5 +265,7 @@ StepReport ExplicitIntegrator::repeat(const State& before, const IntegratorHisto
 const State& ExplicitIntegrator::state() const { return implementation_->state; }
 
 StepReport ExplicitIntegrator::advance(double step) { return implementation_->advance(step); }
+
+State ExplicitIntegrator::take_before() { return std::move(implementation_->trial); }
 
 }  // namespace nurbeam

@@ -132,9 +132,14 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
 }
 
 IntegratorHistory GeneralizedAlphaIntegrator::history() const {
-  return {{last_step_, last_error_, mass_scale_, 1.0 * first_corrections_, 1.0 * more_corrections_},
-          {algorithmic_acceleration_, jerk_},
-          linearisation_};
+  IntegratorHistory history{
+      {last_step_, last_error_, mass_scale_, 1.0 * first_corrections_, 1.0 * more_corrections_},
+      {},
+      linearisation_};
+  history.vectors.reserve(2);
+  history.vectors.push_back(algorithmic_acceleration_);
+  history.vectors.push_back(jerk_);
+  return history;
 }
 
 void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& history) {
@@ -232,6 +237,12 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
   return StepStatus::not_converged;
 }
 
+void GeneralizedAlphaIntegrator::rest() {
+  factorised_ = nullptr;
+  solver_ = {};
+  kkt_ = {};
+}
+
 bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
   return linearisation_ && std::abs(linearisation_->step / step - 1) <= same_step &&
          std::abs(trial_.t - linearisation_->state.t) <= longest_use * step;
@@ -310,6 +321,7 @@ bool GeneralizedAlphaIntegrator::predict(double step) {
   const double h = step;
   starts_anew_ = last_step_ > 0 && step > largest_rescaling * last_step_;
   of_jerk_ = last_step_ > 0 ? (alpha_m - parameters_.alpha_f) * (h - last_step_) : 0;
+  for (Eigen::VectorXd* vector : {&trial_.q, &trial_.v, &trial_.a}) vector->resize(state_.q.size());
   const double not_finite = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
     const auto of = [&](auto& vector) { return part(vector, first, end); };
     auto after = of(trial_algorithmic_);
@@ -360,21 +372,24 @@ void GeneralizedAlphaIntegrator::measure_reference(State& still) {
   const double floor = round_off / settings_.newton_tolerance;
   still.a.setZero();
   still.lambda.setZero();
-  // In the room of the correction, which is not known yet: one kind of force after the other.
-  correction_.resize(n + m);
+  // In the room of the reference: one kind of force after the other.
   const auto largest_work = [&] {
-    return correction_.head(n).cwiseAbs().cwiseQuotient(inverse_scale_).lpNorm<Eigen::Infinity>();
+    return reference_.head(n).cwiseAbs().cwiseQuotient(inverse_scale_).lpNorm<Eigen::Infinity>();
   };
-  system_->residual(still, correction_.head(n), correction_.tail(m));
+  system_->residual(still, reference_.head(n), reference_.tail(m));
   still.a = at.a;
   still.lambda = at.lambda;
   const double of_forces = largest_work();
-  correction_.setZero();
-  reference_.setConstant(std::numeric_limits<double>::min());
   double* reference = reference_.data();
   const double* values = kkt_.data();
   const SparsePattern& pattern = system_->tangent_pattern();
   const int *rows = pattern.rows().data(), *starts = pattern.column_starts().data();
+  reference_.setZero();
+  for (Eigen::Index column = n; column < n + m; ++column)
+    for (int k = starts[column]; k < starts[column + 1]; ++k)
+      if (rows[k] < n) reference[rows[k]] += values[k] * at.lambda[column - n];
+  const double work = std::max(of_forces, largest_work());
+  reference_.setConstant(std::numeric_limits<double>::min());
   for (Eigen::Index column = 0; column < n; ++column) {
     const double rounding = floor * (std::abs(at.q[column]) + 1 / inverse_scale_[column]);
     const double moved = rounding + scaling * std::abs(at.a[column]);
@@ -382,14 +397,10 @@ void GeneralizedAlphaIntegrator::measure_reference(State& still) {
       reference[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
   }
   for (Eigen::Index column = n; column < n + m; ++column) {
-    const double multiplier = at.lambda[column - n];
-    const double rounding = floor * std::abs(multiplier) * scaling / mass_scale_;
-    for (int k = starts[column]; k < starts[column + 1]; ++k) {
+    const double rounding = floor * std::abs(at.lambda[column - n]) * scaling / mass_scale_;
+    for (int k = starts[column]; k < starts[column + 1]; ++k)
       reference[rows[k]] += rounding * std::abs(values[k]);
-      if (rows[k] < n) correction_[rows[k]] += values[k] * multiplier;
-    }
   }
-  const double work = std::max(of_forces, largest_work());
   reference_.head(n) += scaling / mass_scale_ * work * inverse_scale_;
   reference_ = reference_.cwiseInverse();
 }
@@ -397,10 +408,11 @@ void GeneralizedAlphaIntegrator::measure_reference(State& still) {
 /// Solves for the correction that answers the residual. Returns the largest correction of q over the
 /// coordinate scale, not a number where one is not finite.
 double GeneralizedAlphaIntegrator::find_correction() {
-  solver_.solve(residual_, correction_);
-  if (!all_finite(correction_.tail(trial_.lambda.size()))) return std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd& correction = residual_;
+  solver_.solve(residual_, correction);
+  if (!all_finite(correction.tail(trial_.lambda.size()))) return std::numeric_limits<double>::quiet_NaN();
   return largest_of_pieces(trial_.q.size(), piece, [&](long first, long end) {
-    return largest(part(correction_, first, end).cwiseProduct(part(inverse_scale_, first, end)));
+    return largest(part(correction, first, end).cwiseProduct(part(inverse_scale_, first, end)));
   });
 }
 
@@ -409,15 +421,16 @@ void GeneralizedAlphaIntegrator::correct(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
   const double of_velocity = gamma / (beta * step), of_algorithmic = 1 / (beta * step * step);
   const double of_acceleration = (1 - alpha_m) / (1 - alpha_f) * of_algorithmic;
+  const Eigen::VectorXd& correction = residual_;
   by_pieces(trial_.q.size(), piece, [&](long first, long end) {
     const auto of = [&](auto& vector) { return part(vector, first, end); };
-    const auto less = of(correction_);
+    const auto less = of(correction);
     of(trial_.q) -= less;
     of(trial_.v) -= of_velocity * less;
     of(trial_.a) -= of_acceleration * less;
     of(trial_algorithmic_) -= of_algorithmic * less;
   });
-  trial_.lambda -= mass_scale_ * of_algorithmic * correction_.tail(trial_.lambda.size());
+  trial_.lambda -= mass_scale_ * of_algorithmic * correction.tail(trial_.lambda.size());
 }
 
 /// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate

@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "solver/integrator.h"
 #include "solver/kkt_solver.h"
 #include "solver/second_order_system.h"
@@ -71,6 +73,8 @@ class GeneralizedAlphaIntegrator final : public Integrator {
 
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
   [[nodiscard]] StepReport advance(double step) override;
+  State take_before() override { return std::move(trial_); }
+  void rest() override;
 
  private:
   StepReport advance_within(double step, int max_halvings, double tolerance);
@@ -109,16 +113,15 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
   std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
   KktSolver solver_;
-  Eigen::VectorXd kkt_;          ///< values of the system's pattern; empty before the first step
+  Eigen::VectorXd kkt_;          ///< values of the system's pattern; empty before a step and after a rest
   Eigen::MatrixXd moving_part_;  ///< that in kkt_
 
   // The attempt under way.
-  State trial_;
+  State trial_;               ///< after a step: the state before it, until that is taken
   bool starts_anew_ = false;  ///< from the true acceleration, not its own
   double of_jerk_ = 0;        ///< what moves algorithmic_acceleration_ to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
-  Eigen::VectorXd residual_;    ///< (n+m) scaled
-  Eigen::VectorXd correction_;  ///< (n+m) scaled
+  Eigen::VectorXd residual_;  ///< (n+m) scaled; once solved for, the correction that answers it
   Eigen::VectorXd
       reference_;  ///< (n+m) inverse of what the scaled residual is compared with, where factorised_ is
   Eigen::VectorXd inverse_scale_;  ///< (n) of the coordinates

@@ -253,6 +253,8 @@ const State& IdaIntegrator::state() const { return implementation_->state; }
 
 StepReport IdaIntegrator::advance(double step) { return implementation_->advance(step); }
 
+State IdaIntegrator::take_before() { return std::move(implementation_->trial); }
+
 long IdaIntegrator::internal_steps() const {
   long steps = 0;
   IDAGetNumSteps(implementation_->memory.get(), &steps);

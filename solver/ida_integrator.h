@@ -40,6 +40,7 @@ class IdaIntegrator final : public Integrator {
 
   const State& state() const override;
   [[nodiscard]] StepReport advance(double step) override;
+  State take_before() override;
   void restore(State state, const IntegratorHistory& history) override;
   [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
                                   double step) override;

@@ -43,6 +43,10 @@ class Integrator {
   /// not positive or too small to change t, are `inadmissible`. What the system throws arrives unchanged,
   /// with the state as it was.
   [[nodiscard]] virtual StepReport advance(double step) = 0;
+  /// The state before the last step, which has converged: it is moved out, to be asked for once.
+  virtual State take_before() = 0;
+  /// Gives room back that the next step makes anew, as that of a matrix and its factors.
+  virtual void rest() {}
 
   /// Empty for methods that start afresh from any state.
   virtual IntegratorHistory history() const { return {}; }

@@ -29,7 +29,7 @@ class KktSolver {
   /// Adds `change` (p x p) to S as it was in the matrix that has been factorised, in the order of the part.
   /// Returns what factorise does.
   [[nodiscard]] bool renew(const Eigen::MatrixXd& change);
-  /// x with matrix x = rhs. Precondition: what came before returned true.
+  /// x with matrix x = rhs; x may be rhs itself. Precondition: what came before returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
   /// The same for many right-hand sides, a column each.

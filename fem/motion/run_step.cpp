@@ -13,10 +13,11 @@ namespace nurbeam {
 
 namespace {
 
-// A step of at most that length. Under error control one that creates energy, as a wrong root of a snap
-// does, counts as failed.
-StepReport step_keeping_energy(Run& run, const State& before, const IntegratorHistory& history, double step) {
+// A step of the integrator of at most that length. Under error control one that creates energy, as a wrong
+// root of a snap does, counts as failed.
+StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, double step) {
   constexpr int most_halvings = 12;
+  const State& before = run.at.state;
   StepReport taken = run.integrator->advance(step);
   for (int i = 0; taken.status == StepStatus::converged && !run.options.step; ++i) {
     if (!run.account.creates_energy(*run.at.system, before, run.integrator->state(), run.restarted,
@@ -190,10 +191,9 @@ bool pass(Run& run, const Landing& landing, const State& before) {
 
 bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   MeshedState& at = run.at;
-  const State before = at.state;
   const IntegratorHistory history = may_be_repeated(run) ? run.integrator->history() : IntegratorHistory();
   const double asked = run.transient > 0 ? std::min(step, run.transient) : step;
-  const StepReport taken = step_keeping_energy(run, before, history, asked);
+  const StepReport taken = step_keeping_energy(run, history, asked);
   run.report.newton_iterations += taken.newton_iterations;
   run.report.rejected_steps += taken.rejected;
   if (taken.status != StepStatus::converged)
@@ -204,6 +204,8 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   ++run.report.steps;
   run.last_step = taken.step;
   note_cut(run, asked, taken);
+  State before = run.integrator->take_before();
+  before.t = at.state.t;  // which may have been put on a time of output
   at.state = run.integrator->state();
   const bool first = std::exchange(run.restarted, false);
   const double end = at.state.t;

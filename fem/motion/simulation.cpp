@@ -262,6 +262,7 @@ struct Simulation::Implementation {
     if (!take_step(run_, rest / std::max(1.0, std::ceil(rest / run_.step - 1e-9)), rest)) return end_early();
     if (std::abs(time - target) < run_.resolution()) time = target;
     if (time == kink && !(pass_kink(run_) && release_bodies(run_))) return end_early();
+    if (is_over()) run_.integrator->rest();  // no step will want its matrix
     write_due();
     constexpr long watch = 16;  // steps: an instability makes all out of nothing in some more
     // Between what is written bodies of little mass on beams at rest make some for a moment.
@@ -289,8 +290,10 @@ struct Simulation::Implementation {
                    .energy = *created};
   }
 
+  bool is_over() const { return run_.at.state.t >= run_.options.end_time - run_.resolution(); }
+
   void end_at_end_time() {
-    if (run_.at.state.t < run_.options.end_time - run_.resolution()) return;
+    if (!is_over()) return;
     phase_ = Phase::ended;
     hand_over();
   }

@@ -64,6 +64,47 @@ TEST(Integrator, RestoredGoesOnAsIfItHadNotStopped) {
   EXPECT_EQ(whole.state().v, other.state().v);
 }
 
+// Its state after some steps, of which each gives the state before it away.
+void check_state_before(Integrator& asked, Integrator& other) {
+  for (int i = 0; i < 5; ++i) {
+    const State before = asked.state();
+    ASSERT_EQ(asked.advance(1e-3).status, StepStatus::converged);
+    ASSERT_EQ(other.advance(1e-3).status, StepStatus::converged);
+    const State given = asked.take_before();
+    EXPECT_EQ(given.t, before.t);
+    EXPECT_EQ(given.q, before.q);
+    EXPECT_EQ(given.v, before.v);
+    EXPECT_EQ(given.a, before.a);
+    EXPECT_EQ(given.lambda, before.lambda);
+  }
+  EXPECT_EQ(asked.state().q, other.state().q);
+  EXPECT_EQ(asked.state().v, other.state().v);
+}
+
+TEST(Integrator, GivesAwayTheStateBeforeAStep) {
+  const CartesianPendulum pendulum;
+  const State start = pendulum.at_angle(0, 0.9, 0);
+  GeneralizedAlphaIntegrator alpha({}, pendulum, start), other_alpha({}, pendulum, start);
+  check_state_before(alpha, other_alpha);
+  IdaIntegrator ida({.tolerance = 1e-9}, pendulum, start), other_ida({.tolerance = 1e-9}, pendulum, start);
+  check_state_before(ida, other_ida);
+  ExplicitIntegrator rk4({}, pendulum, start), other_rk4({}, pendulum, start);
+  check_state_before(rk4, other_rk4);
+}
+
+TEST(Integrator, GoesOnAfterARestAsIfThereHadBeenNone) {
+  const CartesianPendulum pendulum;
+  const State start = pendulum.at_angle(0, 0.9, 0);
+  GeneralizedAlphaIntegrator whole({}, pendulum, start), rested({}, pendulum, start);
+  for (int i = 0; i < 20; ++i) {
+    if (i % 4 == 0) rested.rest();
+    ASSERT_EQ(whole.advance(1e-2).newton_iterations, rested.advance(1e-2).newton_iterations);
+  }
+  EXPECT_EQ(whole.state().q, rested.state().q);
+  EXPECT_EQ(whole.state().v, rested.state().v);
+  EXPECT_EQ(whole.state().lambda, rested.state().lambda);
+}
+
 TEST(Integrator, RefusesTheHistoryOfAnother) {
   const CartesianPendulum pendulum;
   GeneralizedAlphaIntegrator integrator({}, pendulum, pendulum.at_angle(0, 0.9, 0));
