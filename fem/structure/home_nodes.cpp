@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "fem/element/subdivision.h"
@@ -55,6 +56,7 @@ std::vector<HomeNode> home_nodes(const std::vector<double>& places, const std::v
                                 " m and s = " + text_of(places[tightest + 1]) + " m: " + refusal.what());
   }
   std::vector<HomeNode> home;
+  home.reserve(std::accumulate(parts.begin(), parts.end(), std::size_t{1}));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     home.push_back({.s = places[i], .permanent = i > 0});
     for (const double x : graded_places(length(i), parts[i], grading)) home.push_back({.s = places[i] + x});

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "fem/element/reference_curve.h"
@@ -6,14 +7,14 @@
 namespace nurbeam {
 
 /// What the slopes on both sides of a home node have to do with each other.
-enum class NodeKind {
+enum class NodeKind : std::uint8_t {
   smooth,  ///< they are one
   hinge,   ///< they are free of each other
   rigid    ///< a corner: the angle between them stays that of the drawing (HeldAngle)
 };
 
 /// What a support holds at a node.
-enum class Hold {
+enum class Hold : std::uint8_t {
   nothing,
   position,
   clamp  ///< position and direction of the slope; its magnitude stays free
