@@ -14,7 +14,7 @@ struct NodeSection {
   std::array<int, 4> dofs;  ///< of (r_s, angle)
 
   NodeSection(const MeshElement<3>& e, int end) : chart(e.twist->element.chart(end)), dofs{} {
-    const DrawnSection section = e.element.curve().section(end == 0 ? e.s_a : e.s_b, end == 1);
+    const DrawnSection section = e.element.curve().section(end == 0 ? e.span->s_a : e.span->s_b, end == 1);
     drawn << section.d1, section.d2, section.t;
     for (int d = 0; d < 3; ++d) dofs[d] = e.twist->dofs[TwistLayout::slope(end) + d];
     dofs[3] = e.twist->dofs[TwistLayout::angle(end)];
@@ -23,8 +23,8 @@ struct NodeSection {
   /// before.
   static NodeSection at(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int beam, double s) {
     const MeshElement<3>& e = at.element_at(drawn, beam, s);
-    const double place = e.element.curve().unrolled(s, (e.s_a + e.s_b) / 2);
-    return {e, std::abs(place - e.s_a) <= std::abs(place - e.s_b) ? 0 : 1};
+    const double place = e.element.curve().unrolled(s, (e.span->s_a + e.span->s_b) / 2);
+    return {e, std::abs(place - e.span->s_a) <= std::abs(place - e.span->s_b) ? 0 : 1};
   }
 
   /// Its coordinates (r_s, angle) in those of the model.

@@ -23,7 +23,7 @@ std::optional<SectionLoad> SectionLoad::of(const LoadAtPlace& load, OnSection ki
   const MeshElement<3>& e = at.elements[on.element];
   const TwistElement& twist = e.twist->element;
   const TwistLayout::Coordinates q = gather_twist(e, state.q);
-  const double place = beam.curve.unrolled(s, (e.s_a + e.s_b) / 2);
+  const double place = beam.curve.unrolled(s, (e.span->s_a + e.span->s_b) / 2);
   const Eigen::Vector3d value = state.load * value_and_slope(load.time, state.t).first * load.value;
   on.force.setZero();
   on.gradient.setZero();

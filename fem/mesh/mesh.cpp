@@ -93,8 +93,8 @@ class Numbering {
     const auto at = [&](int i) { return node(i).s + (i >= count ? L : 0); };
     const auto shift = [&](int i) { return node(i).joint >= 0 ? at(i) - plan_.places[node(i).joint] : 0; };
     for (int i = 0; i < count - (beam.is_ring() ? 0 : 1); ++i)
-      mesh_.spans.push_back({b, i, (i + 1) % count, at(i), at(i + 1), shift(i), shift(i + 1), node(i).place,
-                             node(i + 1).place, beam.has_torsion() ? take(1) : -1});
+      mesh_.spans.push_back({b, i, (i + 1) % count, node(i).place, node(i + 1).place,
+                             beam.has_torsion() ? take(1) : -1, at(i), at(i + 1), shift(i), shift(i + 1)});
   }
 
   const Structure& structure_;

@@ -22,10 +22,10 @@ struct MeshNode {
 /// The part of a beam between two nodes that follow one another: where an element is.
 struct MeshSpan {
   int beam, node_a, node_b;  ///< node indices in the beam
+  int place_a, place_b;      ///< coordinates s of moving ends, -1 of fixed ones
+  int bubble;                ///< coordinate of a beam with torsion, else -1: of the twist between the ends
   double s_a, s_b;           ///< of fixed ends; of moving ends when the mesh was made [m]
   double shift_a, shift_b;   ///< of s from its coordinate at a moving end: full turns of a ring [m]
-  int place_a, place_b;      ///< coordinates s of moving ends, -1 of fixed ones
-  int bubble = -1;           ///< coordinate of a beam with torsion: of the twist between the ends
 
   /// Where it starts and ends for the coordinates q [m].
   double start(const Eigen::VectorXd& q) const { return place_a >= 0 ? q[place_a] + shift_a : s_a; }

@@ -64,13 +64,14 @@ const MeshPlan::SectionCharts* charts_in(const MeshPlan& plan, const MeshSpan& s
 // `same`: the element in another mesh, if it was there.
 TwistElement twist_of(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam, const Mesh* other,
                       const MeshElement<3>* same) {
-  const MeshPlan::SectionCharts* now = charts_in(mesh.plan, e);
+  const MeshPlan::SectionCharts* now = charts_in(mesh.plan, *e.span);
   if (same && now) return same->twist->element.in_charts(now->charts, now->turn);
-  if (same && !charts_in(other->plan, *same)) return same->twist->element;
+  if (same && !charts_in(other->plan, *same->span)) return same->twist->element;
   const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
   const Chart& chart = e.element.chart();
-  if (now) return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends, now->charts, now->turn};
-  return {beam.curve, beam.properties, chart, e.s_a, e.s_b, ends};
+  const double s_a = e.span->s_a, s_b = e.span->s_b;
+  if (now) return {beam.curve, beam.properties, chart, s_a, s_b, ends, now->charts, now->turn};
+  return {beam.curve, beam.properties, chart, s_a, s_b, ends};
 }
 
 // `same`: as twist_of has it.
@@ -81,9 +82,9 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
     throw std::invalid_argument("a beam in form P (virtual work) has no torsion");
   std::array<int, TwistLayout::size> dofs;
   std::copy(e.dofs.begin(), e.dofs.end(), dofs.begin());
-  dofs[TwistLayout::angle(0)] = mesh.node_a(e).angle_right;
-  dofs[TwistLayout::angle(1)] = mesh.node_b(e).angle_left;
-  dofs[TwistLayout::bubble] = e.bubble;
+  dofs[TwistLayout::angle(0)] = mesh.node_a(*e.span).angle_right;
+  dofs[TwistLayout::angle(1)] = mesh.node_b(*e.span).angle_left;
+  dofs[TwistLayout::bubble] = e.span->bubble;
   return std::make_unique<const MeshTwist>(MeshTwist{dofs, twist_of(mesh, e, beam, other, same)});
 }
 
@@ -91,9 +92,9 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
 template <int D>
 bool axis_is(const MeshElement<D>& e, const MeshSpan& span, const Chart& chart, const ReferenceCurve& curve,
              const BeamProperties& properties) {
-  return e.element.fixed() && e.beam == span.beam && chart.segment >= 0 && e.element.chart() == chart &&
-         e.element.curve().draws_alike(curve, chart.segment, e.s_a, span.s_a) &&
-         e.element.curve().draws_alike(curve, chart.segment, e.s_b, span.s_b) &&
+  return e.element.fixed() && e.span->beam == span.beam && chart.segment >= 0 && e.element.chart() == chart &&
+         e.element.curve().draws_alike(curve, chart.segment, e.span->s_a, span.s_a) &&
+         e.element.curve().draws_alike(curve, chart.segment, e.span->s_b, span.s_b) &&
          e.element.properties() == properties;
 }
 
@@ -130,11 +131,12 @@ class SameElements {
     const auto comes_before = [&](const MeshSpan& other) {
       return other.beam != span.beam ? other.beam < span.beam : other.s_a < span.s_a;
     };
-    while (next_ < others.size() && comes_before(others[next_])) ++next_;
+    while (next_ < others.size() && comes_before(*others[next_].span)) ++next_;
     if (next_ == others.size()) return nullptr;
     const MeshElement<D>& other = others[next_];
-    const bool is_same = other.element.fixed() && other.beam == span.beam && other.s_a == span.s_a &&
-                         other.s_b == span.s_b && other.element.chart() == chart;
+    const bool is_same = other.element.fixed() && other.span->beam == span.beam &&
+                         other.span->s_a == span.s_a && other.span->s_b == span.s_b &&
+                         other.element.chart() == chart;
     return is_same ? &other : nullptr;
   }
 
@@ -165,7 +167,7 @@ class ByEights {
   /// The elements must stay where they are until close().
   void add(MeshElement<D>& e) {
     if (e.twist || !e.element.is_one_part()) return;
-    if (!group_.empty() && group_.front()->beam != e.beam) close();
+    if (!group_.empty() && group_.front()->span->beam != e.span->beam) close();
     group_.push_back(&e);
     if (group_.size() == FixedLanes::lanes) close();
   }
@@ -173,7 +175,7 @@ class ByEights {
   /// The element of the eight before the present ones that the next one of that beam stands as; null: none.
   const MeshElement<D>* counterpart(int beam) const {
     const std::size_t lane = group_.size();
-    return lane < last_.size() && last_[lane]->beam == beam ? last_[lane] : nullptr;
+    return lane < last_.size() && last_[lane]->span->beam == beam ? last_[lane] : nullptr;
   }
 
   void close() {
@@ -198,7 +200,7 @@ BeamElement<D> fixed_element(const Beam& beam, Chart chart, const MeshSpan& span
                              const MeshElement<D>* counterpart, const MeshElement<D>* same) {
   const std::array<double, 2> ends = first_alike(beam.curve, chart, span);
   if (counterpart && counterpart->element.fixed() && counterpart->element.chart() == chart &&
-      first_alike(beam.curve, chart, *counterpart) == ends)
+      first_alike(beam.curve, chart, *counterpart->span) == ends)
     return counterpart->element;
   if (same) return same->element.on(beam.curve, beam.properties);
   return {beam.curve, beam.properties, std::move(chart), ends[0], ends[1], Ends::fixed};
@@ -227,7 +229,7 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
         ends == Ends::fixed ? others.find(elements.size(), mesh.spans.size(), span, chart, beam) : nullptr;
     const bool of_model = same && &same->element.curve() == &beam.curve;
     elements.push_back(
-        {span, dofs_of<D>(mesh, span),
+        {&span, dofs_of<D>(mesh, span),
          of_model ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
          ends == Ends::fixed
              ? fixed_element(beam, std::move(chart), span, by_eights.counterpart(span.beam), same)
@@ -246,8 +248,8 @@ ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q) {
   using Layout = ElementLayout<D>;
   ElementVector<D> x;
   for (int i = 0; i < Layout::nodal; ++i) x[i] = q[e.dofs[i]];
-  x[Layout::place(0)] = e.start(q);
-  x[Layout::place(1)] = e.end(q);
+  x[Layout::place(0)] = e.span->start(q);
+  x[Layout::place(1)] = e.span->end(q);
   x.template segment<D>(Layout::slope(1)) += e.slope_offset;
   return x;
 }
@@ -290,9 +292,10 @@ bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other, const Beam&
       !((e.slope_offset - other.slope_offset).norm() <= round_off))
     return false;
   if (e.element.fixed())
-    return axis_is(e, other, other.element.chart(), other.element.curve(), other.element.properties());
-  return e.shift_a == 0 && e.shift_b == 0 && other.shift_a == 0 && other.shift_b == 0 &&
-         e.element.chart() == other.element.chart() && e.element.properties() == other.element.properties() &&
+    return axis_is(e, *other.span, other.element.chart(), other.element.curve(), other.element.properties());
+  const auto is_unturned = [](const MeshSpan& span) { return span.shift_a == 0 && span.shift_b == 0; };
+  return is_unturned(*e.span) && is_unturned(*other.span) && e.element.chart() == other.element.chart() &&
+         e.element.properties() == other.element.properties() &&
          divided_alike(beam, other_beam, e.element.chart().segment);
 }
 

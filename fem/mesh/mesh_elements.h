@@ -18,9 +18,10 @@ struct MeshTwist {
   TwistElement element;
 };
 
-/// A span of the mesh with its element.
+/// The element of a span of the mesh.
 template <int D>
-struct MeshElement : MeshSpan {
+struct MeshElement {
+  const MeshSpan* span;
   std::array<int, element_size<D>> dofs;  ///< global coordinates; -1 where a fixed end has none
   /// Of the slope at the right end from the node's, which is the one of the element after it: the small angle
   /// of the drawing there, kept so that the drawn shape is exact. Fixed in space, so only to first order of
@@ -48,9 +49,9 @@ struct MeshedBeams {
   }
 };
 
-/// The elements of a mesh, in the order of its spans. The structure must outlive them. What those of another
-/// mesh of the same structure have in common with them is taken from these, and what they have in common with
-/// those of one mesh of a neighbouring structure.
+/// The elements of a mesh, in the order of its spans. The structure and these spans must outlive them. What
+/// those of another mesh of the same structure have in common with them is taken from these, and what they
+/// have in common with those of one mesh of a neighbouring structure.
 template <int D>
 std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
                                           const std::optional<MeshedBeams<D>>& like = {});

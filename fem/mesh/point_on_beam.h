@@ -49,7 +49,8 @@ class PointOnBeam {
   PointOnBeam(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam, double s)
       : element_(find_span(at.structure, at.mesh, drawn, beam, s)), s_(s) {
     const MeshElement<D>& e = at.elements[element_];
-    const int node = s == e.s_a && e.place_a < 0 ? 0 : s == e.s_b && e.place_b < 0 ? 1 : -1;
+    const MeshSpan& span = *e.span;
+    const int node = s == span.s_a && span.place_a < 0 ? 0 : s == span.s_b && span.place_b < 0 ? 1 : -1;
     if (node >= 0)
       fixed_ = at_node(node);
     else if (e.element.fixed())

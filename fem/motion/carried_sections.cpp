@@ -63,7 +63,7 @@ class PresentSections {
   // The present element between two present nodes, if there is one.
   const MeshElement<3>* element_between(int beam, int node_a, int node_b) const {
     const auto found = std::find_if(elements_.begin(), elements_.end(), [&](const MeshElement<3>& e) {
-      return e.beam == beam && e.node_a == node_a && e.node_b == node_b;
+      return e.span->beam == beam && e.span->node_a == node_a && e.span->node_b == node_b;
     });
     return found == elements_.end() ? nullptr : &*found;
   }
@@ -77,9 +77,9 @@ class PresentSections {
       const MeshElement<3>& e =
           elements_[find_span(system_.model(), system_.mesh(), state_.q, beam, s + nothing)];
       const double from = e.local(gather<3>(e, state_.q), s + nothing) - nothing;
-      const double to = std::min(e.end(state_.q), from + s_b - s);
+      const double to = std::min(e.span->end(state_.q), from + s_b - s);
       if (!(to > from)) return;
-      visit(e, std::max(from, e.start(state_.q)), to);
+      visit(e, std::max(from, e.span->start(state_.q)), to);
       s += to - from;
     }
   }

@@ -9,12 +9,13 @@ namespace nurbeam {
 template <int D>
 int ColumnBatches<D>::add(const Assembly<D>& of, const MeshElement<D>& element, int now,
                           Eigen::Index column) {
+  const int beam = element.span->beam;
   const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& each) {
-    return each.load.beam == element.beam &&
-           each.of->model()->beams[element.beam].properties == of.model()->beams[element.beam].properties;
+    return each.load.beam == beam &&
+           each.of->model()->beams[beam].properties == of.model()->beams[beam].properties;
   });
   const int index = static_cast<int>(group - groups_.begin());
-  if (group == groups_.end()) groups_.push_back({&of, {.beam = element.beam}});
+  if (group == groups_.end()) groups_.push_back({&of, {.beam = beam}});
   added_.push_back({index, now, column, &element});
   return index;
 }

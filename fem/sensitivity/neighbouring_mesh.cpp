@@ -74,8 +74,9 @@ std::vector<MeshPlan::SectionCharts> charts_like(const MeshedState& at, const Be
     const auto chart = [&](int end) {
       return keeps_drawn_chart(neighbour, e, end) ? e.twist->element.chart(end) : like.chart(end);
     };
+    const MeshSpan& span = *e.span;
     charts.push_back(
-        {e.beam, e.s_a, e.s_b, {chart(0), chart(1)}, like.turn(gather_twist(own[i], at.state.q))});
+        {span.beam, span.s_a, span.s_b, {chart(0), chart(1)}, like.turn(gather_twist(own[i], at.state.q))});
   }
   return charts;
 }

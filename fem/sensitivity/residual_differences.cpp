@@ -453,7 +453,7 @@ struct ResidualDifferences::In final : Implementation {
       auto& points = apart.points[side];
       if (!points || points->ends != std::array{x.q[Layout::place(0)], x.q[Layout::place(1)]})
         points = e.element.points(x.q);
-      const ElementVector<D> f = e.element.force(x, of.line_load(e.beam, state), *points);
+      const ElementVector<D> f = e.element.force(x, of.line_load(e.span->beam, state), *points);
       for (int k = 0; k < element_size<D>; ++k)
         if (e.dofs[k] >= 0) dynamics[e.dofs[k]] += f[k];
     }

@@ -54,7 +54,7 @@ void Assembly<D>::batch_elements() {
   walks_.resize(model_->beams.size());
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
-    auto& [batches, batched, others] = walks_[e.beam];
+    auto& [batches, batched, others] = walks_[e.span->beam];
     (e.twist || !ElementBatch<D>::takes(e.element) ? others : batched).push_back(i);
   }
   constexpr int lanes = ElementBatch<D>::lanes;
@@ -312,7 +312,7 @@ void Assembly<D>::add_residual_of(const std::vector<int>& elements, const State&
                                   Eigen::Ref<Eigen::VectorXd> dynamics,
                                   Eigen::Ref<Eigen::VectorXd> constraints) const {
   for (const int i : elements)
-    add_element(elements_[i], state, line_load(elements_[i].beam, state), dynamics);
+    add_element(elements_[i], state, line_load(elements_[i].span->beam, state), dynamics);
   add_forces_and_constraints(state, dynamics, constraints);
 }
 

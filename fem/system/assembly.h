@@ -97,7 +97,7 @@ class Assembly final : public SecondOrderSystem {
   void carry_bodies(State& state) const;
   /// Whether the forces of an element are those of form P, for comparison.
   bool is_form_p(const MeshElement<D>& e) const {
-    return !e.element.fixed() && model_->beams[e.beam].form == Form::virtual_work;
+    return !e.element.fixed() && model_->beams[e.span->beam].form == Form::virtual_work;
   }
 
   int coordinate_count() const override { return mesh_.coordinate_count; }
@@ -125,11 +125,20 @@ class Assembly final : public SecondOrderSystem {
   bool has_constant_inertia() const override;
 
  private:
-  // Entries that follow one another in a column of a contribution, and the first of them in the values of the
-  // iteration matrix.
+  // Entries that follow one another in columns of a contribution that do so, and where they are among the
+  // values of the iteration matrix: the first of them, and as much further on in each column.
   struct Run {
-    int value;
-    std::uint8_t column, row, count;
+    int value, stride;
+    std::uint8_t column, columns, row, rows;
+
+    /// Adds a column, whose first entry is there, if it follows.
+    bool takes(int next, int first) {
+      const int by = first - value - (columns - 1) * stride;
+      if (next != column + columns || (columns > 1 && by != stride)) return false;
+      stride = by;
+      ++columns;
+      return true;
+    }
   };
   using Runs = std::span<const Run>;
   // Coordinates of one contribution, -1 where there is none, and where its entries are.

@@ -23,10 +23,11 @@ std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other, const std:
   std::vector<bool> unlike;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const MeshElement<D>&e = elements_[i], &of_other = other.elements_[i];
+    const int beam = e.span->beam;
     if (!known.empty() && known[i])
       unlike.push_back(*known[i]);
     else
-      unlike.push_back(!same_axis(e, of_other, model_->beams[e.beam], other.model_->beams[e.beam]) ||
+      unlike.push_back(!same_axis(e, of_other, model_->beams[beam], other.model_->beams[beam]) ||
                        has_unlike_sections(e, of_other));
   }
   return unlike;

@@ -103,6 +103,7 @@ void Assembly<D>::build_pattern() {
   std::vector<int> all(elements_.size());
   std::iota(all.begin(), all.end(), 0);
   locate_elements(all, SparsePlaces{pattern_}, element_runs_, twist_runs_);
+  element_runs_.runs.shrink_to_fit();
   locate_blocks();
 }
 
@@ -159,6 +160,8 @@ void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std
   struct Rows {
     int first;
     std::uint8_t at, count;
+    int from_start;  // of the column before
+    int run;         // the last one of these rows, -1: none
   };
   constexpr std::size_t most = 64;  // coordinates of a contribution
   assert(dofs.size() <= most);
@@ -169,17 +172,18 @@ void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std
     if (i > 0 && dofs[i - 1] >= 0 && dofs[i] == dofs[i - 1] + 1)
       ++in_column[count - 1].count;
     else
-      in_column[count++] = {dofs[i], static_cast<std::uint8_t>(i), 1};
+      in_column[count++] = {dofs[i], static_cast<std::uint8_t>(i), 1, 0, -1};
   }
-  int previous = -1;  // start of the column before
   for (std::size_t j = 0; j < dofs.size(); ++j) {
     if (dofs[j] < 0) continue;
-    for (std::size_t k = 0; k < count; ++k) {
-      const int guess = previous < 0 ? 0 : runs[runs.size() - count].value - previous;
-      runs.push_back({index_of(in_column[k].first, dofs[j], guess), static_cast<std::uint8_t>(j),
-                      in_column[k].at, in_column[k].count});
+    const int start = index_of.start(dofs[j]);
+    for (Rows& rows : std::span(in_column).first(count)) {
+      const int value = index_of(rows.first, dofs[j], rows.from_start);
+      rows.from_start = value - start;
+      if (rows.run >= 0 && runs[rows.run].takes(static_cast<int>(j), value)) continue;
+      rows.run = static_cast<int>(runs.size());
+      runs.push_back({value, 0, static_cast<std::uint8_t>(j), 1, rows.at, rows.count});
     }
-    previous = index_of.start(dofs[j]);
   }
 }
 
@@ -188,7 +192,6 @@ template <int D>
 template <class IndexOf>
 void Assembly<D>::locate_elements(const std::vector<int>& elements, const IndexOf& index_of,
                                   ElementRuns& element_runs, ElementRuns& twist_runs) const {
-  element_runs.runs.reserve(elements.size() * ElementLayout<D>::nodal);
   for (ElementRuns* each : {&element_runs, &twist_runs}) each->starts.reserve(elements.size() + 1);
   const auto add = [&](std::span<const int> dofs, ElementRuns& to) {
     locate(dofs, index_of, to.runs);

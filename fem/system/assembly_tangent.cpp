@@ -13,7 +13,10 @@ template <int D>
 template <class Matrix>
 void Assembly<D>::scatter(Runs runs, const Matrix& matrix, double* values) {
   for (const Run& run : runs)
-    for (int i = 0; i < run.count; ++i) values[run.value + i] += matrix(run.row + i, run.column);
+    for (int j = 0; j < run.columns; ++j) {
+      double* const column = values + run.value + j * run.stride;
+      for (int i = 0; i < run.rows; ++i) column[i] += matrix(run.row + i, run.column + j);
+    }
 }
 
 // Of which contributions the tangents are asked for: all, or those to the rows of unknowns that are near.
@@ -95,8 +98,8 @@ void Assembly<D>::add_batch_tangents(int beam, const State& state, const Tangent
     batches[i].tangents(state, strain, w, K);
     for (int lane = 0; lane < count; ++lane) {
       if (!wanted(begin[lane])) continue;
-      for (const Run& run : element_runs_[begin[lane]])
-        for (int k = 0; k < run.count; ++k) values[run.value + k] += K[run.column][run.row + k].of(lane);
+      scatter(
+          element_runs_[begin[lane]], [&](int row, int column) { return K[column][row].of(lane); }, values);
     }
   });
 }
@@ -174,7 +177,7 @@ void Assembly<D>::tangents(const State& state, const std::array<TangentWeights, 
   }
   for (const int i : moving_spans_) {
     const MeshElement<D>& e = elements_[i];
-    const Vector load = line_load(e.beam, state);
+    const Vector load = line_load(e.span->beam, state);
     const ElementState<D> x = gather<D>(e, state);
     std::array<ElementMatrix<D>, 2> both;
     if (is_form_p(e))
@@ -201,9 +204,11 @@ template <int D>
 void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {
   const auto size = static_cast<Eigen::Index>(moving_.unknowns.size());
   part.setZero(size, size);
-  for (int k = 0; k < static_cast<int>(moving_.elements.size()); ++k)
-    add_element_tangent(moving_.elements[k], state, line_load(elements_[moving_.elements[k]].beam, state), w,
-                        moving_.element_runs[k], moving_.twist_runs[k], part.data());
+  for (int k = 0; k < static_cast<int>(moving_.elements.size()); ++k) {
+    const int i = moving_.elements[k];
+    add_element_tangent(i, state, line_load(elements_[i].span->beam, state), w, moving_.element_runs[k],
+                        moving_.twist_runs[k], part.data());
+  }
   for (std::size_t k = 0; k < moving_.constraints.size(); ++k)
     add_constraint_tangent(moving_.constraints[k], state, w, moving_.constraint_blocks[k], part.data());
 }

@@ -74,7 +74,7 @@ void add_given_spins(const BeamSystem& system, const State& added, Eigen::Vector
   if (!assembly) return;
   NodalMeans rates(system.coordinate_count());
   for (const MeshElement<3>& e : assembly->elements()) {
-    const std::optional<BeamVelocity>& given = system.model().beams[e.beam].velocity;
+    const std::optional<BeamVelocity>& given = system.model().beams[e.span->beam].velocity;
     if (!given || !e.twist) continue;
     for (const int end : {0, 1}) {
       const TwistState x = gather_twist(e, added);

@@ -68,7 +68,7 @@ struct PlaceInElement {
 // The angle by which a section has twisted since the drawing, against the start of the element: the strain of
 // twist is linear in it.
 double twist_since_start(const MeshElement<3>& e, const State& state, double s) {
-  const double s_a = e.start(state.q);
+  const double s_a = e.span->start(state.q);
   return s == s_a ? 0 : (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
 }
 
@@ -110,7 +110,7 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.axial_force = elastic.axial_force;
   record.bending_moment = bending_moment<D>(resultants.couple, point);
   record.shear_force = shear_force<D>(resultants.force, point.rs);
-  const Beam& beam = a.model()->beams[e.beam];
+  const Beam& beam = a.model()->beams[e.span->beam];
   record.stress =
       beam.section.fibre_stress(record.axial_force, record.bending_moment).value_or(SectionRecord::no_number);
   if constexpr (D == 3)

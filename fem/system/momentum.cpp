@@ -94,14 +94,15 @@ class VelocityField {
 template <int D>
 std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& mesh, const Mesh& old, const State& state) {
   const ReferenceCurve& curve = e.element.curve();
+  const MeshSpan& span = *e.span;
   const auto joint_at = [&](const MeshNode& node) { return state.q[old.joints[node.joint].place]; };
-  std::vector<double> parts{e.place_a >= 0 ? joint_at(mesh.node_a(e)) + e.shift_a : e.s_a,
-                            e.place_b >= 0 ? joint_at(mesh.node_b(e)) + e.shift_b : e.s_b};
+  std::vector<double> parts{span.place_a >= 0 ? joint_at(mesh.node_a(span)) + span.shift_a : span.s_a,
+                            span.place_b >= 0 ? joint_at(mesh.node_b(span)) + span.shift_b : span.s_b};
   const auto add = [&](double place) {
-    const double s = curve.unrolled(place, (e.s_a + e.s_b) / 2);
+    const double s = curve.unrolled(place, (span.s_a + span.s_b) / 2);
     if (s > parts[0] && s < parts[1]) parts.push_back(s);
   };
-  for (const MeshNode& node : old.nodes[e.beam]) add(node.place >= 0 ? state.q[node.place] : node.s);
+  for (const MeshNode& node : old.nodes[span.beam]) add(node.place >= 0 ? state.q[node.place] : node.s);
   for (const double s : curve.breaks()) add(s);
   std::sort(parts.begin(), parts.end());
   return parts;
@@ -170,14 +171,14 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
     if (!is_kept) {
       Element<Eigen::Vector3d>& axis = axes_.emplace_back(Element<Eigen::Vector3d>{i});
       for_each_point(parts, [&](double s, double length) {
-        axis.points.push_back({s, length, widened<D>(velocities.velocity(e.beam, s))});
+        axis.points.push_back({s, length, widened<D>(velocities.velocity(e.span->beam, s))});
       });
     }
     if constexpr (D == 3) {
       if (!e.twist) continue;
       Element<double>& sections = sections_.emplace_back(Element<double>{i});
       for_each_point(parts, [&](double s, double length) {
-        sections.points.push_back({s, length, velocities.spin(e.beam, s)});
+        sections.points.push_back({s, length, velocities.spin(e.span->beam, s)});
       });
     }
   }

@@ -134,7 +134,7 @@ MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std
     const MeshElement<D>& e = a.elements()[i];
     const ElementState<D> x = gather<D>(e, state);
     momentum += momentum_of<D>(e, x);
-    if (e.beam == beam) sums.length += e.element.length(x.q);
+    if (e.span->beam == beam) sums.length += e.element.length(x.q);
   }
   add_force_momenta(a, state, momentum);
   sums.momentum = widened<D>(momentum);
@@ -161,7 +161,9 @@ void add(const MotionSums& other, double factor, MotionSums& sums) {
 template <int D>
 bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<D>& other,
                  const State& other_state) {
-  if (e.twist || e.start(state.q) != other.start(other_state.q) || e.end(state.q) != other.end(other_state.q))
+  const MeshSpan &span = *e.span, &of_other = *other.span;
+  if (e.twist || span.start(state.q) != of_other.start(other_state.q) ||
+      span.end(state.q) != of_other.end(other_state.q))
     return false;
   for (int k = 0; k < element_size<D>; ++k) {
     const int i = e.dofs[k], j = other.dofs[k];

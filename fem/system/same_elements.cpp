@@ -65,9 +65,8 @@ std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const As
   for (int beam = 0; beam + 1 < static_cast<int>(mesh.first_span.size()); ++beam) {
     SpansByStart spans(from.mesh(), beam);
     for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i) {
-      const MeshElement<D>& e = to.elements()[i];
-      const int span = spans.span_between(mesh.node_a(e), mesh.node_b(e));
-      if (span >= 0 && from.elements()[span].element.chart() == e.element.chart())
+      const int span = spans.span_between(mesh.node_a(mesh.spans[i]), mesh.node_b(mesh.spans[i]));
+      if (span >= 0 && from.elements()[span].element.chart() == to.elements()[i].element.chart())
         same[i] = &from.elements()[span];
     }
   }

@@ -86,7 +86,7 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
         std::visit(
             [&](const auto& f) {
               if constexpr (requires { f.on_element(e, state); })
-                if (f.beam == e.beam) {
+                if (f.beam == e.span->beam) {
                   on.add(-f.on_element(e, state));
                   torque += f.per_length(state);
                 }
@@ -119,7 +119,7 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
 template <int D>
 bool is_inside(const MeshElement<D>& e, const State& state, const PointAction& action) {
   constexpr double at_node = 1e-9;  // of the element
-  const double s_a = e.start(state.q), s_b = e.end(state.q);
+  const double s_a = e.span->start(state.q), s_b = e.span->end(state.q);
   return std::min(action.s - s_a, s_b - action.s) > at_node * (s_b - s_a);
 }
 
@@ -187,7 +187,7 @@ SpanResultants CarriedBySpans::operator[](int span) const {
              end = std::lower_bound(first, inside_.end(), span + 1, comes_before);
   return with_assembly(system_, [&]<int D>(const Assembly<D>& a) {
     const MeshElement<D>& e = a.elements()[span];
-    return of_span<D>(a, e, state_, a.element_force(e, state_, loads_[e.beam].template head<D>()),
+    return of_span<D>(a, e, state_, a.element_force(e, state_, loads_[e.span->beam].template head<D>()),
                       {first, end});
   });
 }

@@ -23,8 +23,8 @@ void expect_same(const ElementEnergy& a, const ElementEnergy& b) {
 template <int D>
 void expect_as_by_itself(const MeshElement<D>& e, const State& state,
                          const Eigen::Matrix<double, D, 1>& load) {
-  const BeamElement<D> alone(e.element.curve(), e.element.properties(), e.element.chart(), e.s_a, e.s_b,
-                             Ends::fixed);
+  const BeamElement<D> alone(e.element.curve(), e.element.properties(), e.element.chart(), e.span->s_a,
+                             e.span->s_b, Ends::fixed);
   const ElementState<D> x = gather<D>(e, state);
   const TangentWeights w{.mass = 0.3, .damping = 0.2, .stiffness = 0.7};
   EXPECT_EQ(e.element.force(x, load), alone.force(x, load));
