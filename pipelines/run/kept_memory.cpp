@@ -10,4 +10,6 @@ void keep_memory() {
   mallopt(M_TRIM_THRESHOLD, most);
 }
 
+void give_back_memory() { malloc_trim(0); }
+
 }  // namespace nurbeam

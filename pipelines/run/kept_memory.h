@@ -7,4 +7,7 @@ namespace nurbeam {
 /// pages again and again.
 void keep_memory();
 
+/// Gives back what is free at the moment.
+void give_back_memory();
+
 }  // namespace nurbeam

@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "fem/motion/simulation.h"
 #include "nurbs/number_text.h"
@@ -20,6 +22,7 @@
 #include "pipelines/results/file_hash.h"
 #include "pipelines/results/results_directory.h"
 #include "pipelines/results/run_summary.h"
+#include "pipelines/run/kept_memory.h"
 #include "pipelines/run/mode_run.h"
 #include "pipelines/run/progress.h"
 #include "pipelines/run/run_outputs.h"
@@ -167,14 +170,18 @@ class Run {
       if (options_.progress) options_.progress(step);
     };
     if (outputs.takes_elements_ahead())
-      observer.elements = [&](double time, int beam, auto& elements) {
+      observer.elements = [&, first = true](double time, int beam, auto& elements) mutable {
+        // What made the mesh and the first state leaves pieces behind that nothing later has a use for.
+        if (std::exchange(first, false)) give_back_memory();
         outputs.write_ahead(time, beam, elements);
       };
     observer.snapshot = [&](Snapshot snapshot) { outputs.write(std::move(snapshot)); };
     observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
     observer.checkpoint = [&](Checkpoint point) { outputs.write(std::move(point)); };
-    SimulationReport simulated = simulate(built_.model, probe_places(built_), simulation_options(case_),
-                                          observer, from_ ? &*from_ : nullptr);
+    // The model itself, which stays where it is: a copy would be there as long.
+    const std::shared_ptr<const BeamModel> model(std::shared_ptr<void>(), &built_.model);
+    SimulationReport simulated =
+        simulate(model, probe_places(built_), simulation_options(case_), observer, from_ ? &*from_ : nullptr);
     shown.finish();
     simulated.motion_seconds = std::max(0.0, simulated.motion_seconds - outputs.seconds());
     return simulated;
