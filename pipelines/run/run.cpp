@@ -177,7 +177,10 @@ class Run {
       };
     observer.snapshot = [&](Snapshot snapshot) { outputs.write(std::move(snapshot)); };
     observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
-    observer.checkpoint = [&](Checkpoint point) { outputs.write(std::move(point)); };
+    observer.checkpoint = [&](Checkpoint point) {
+      give_back_memory();  // it takes much to write
+      outputs.write(std::move(point));
+    };
     // The model itself, which stays where it is: a copy would be there as long.
     const std::shared_ptr<const BeamModel> model(std::shared_ptr<void>(), &built_.model);
     SimulationReport simulated =
