@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "cad_import/files/cad_format.h"
+#include "cad_import/files/complex_instance.h"
 #include "cad_import/files/simple_spline.h"
 
 namespace nurbeam {
@@ -73,15 +74,20 @@ void append_without_trailing_commas(std::string_view statement, std::string& out
   }
 }
 
+/// The value of an instance, from behind "=" to before ";", as OpenCASCADE wants it; nothing where it does.
+std::optional<std::string> rewritten(std::string_view value) {
+  const std::optional<std::string> simple = simple_spline(value);
+  return simple ? simple : in_alphabetical_order(value);
+}
+
 void append_instance(std::string_view statement, std::string& out) {
   const std::size_t value = statement.find('=') + 1;
-  const std::optional<std::string> simple =
-      value > 0 && statement.ends_with(';')
-          ? simple_spline(statement.substr(value, statement.size() - value - 1))
-          : std::nullopt;
-  if (!simple) return append_without_trailing_commas(statement, out);
+  const std::optional<std::string> other =
+      value > 0 && statement.ends_with(';') ? rewritten(statement.substr(value, statement.size() - value - 1))
+                                            : std::nullopt;
+  if (!other) return append_without_trailing_commas(statement, out);
   out += statement.substr(0, value);
-  append_without_trailing_commas(*simple, out);
+  append_without_trailing_commas(*other, out);
   out += ';';
 }
 

@@ -62,9 +62,27 @@ TEST(TolerantText, ComplexInstancesOfSplinesWithoutWeightsAreRead) {
     EXPECT_EQ(report.curves[0].name, "it's (odd)");
     EXPECT_LE((report.curves[0].curve.point(0.5) - Eigen::Vector3d(2e-3, 1.5e-3, 0)).norm(), 1e-18) << leaf;
   }
-  const std::string unknown = spline("POLYLINE(())");
+  const std::string unknown = spline("ANY_CURVE()");
   EXPECT_NE(tolerant_text(step_text_of("#100", "#100 = " + unknown + ";\n" + points)).find(unknown),
             std::string::npos);
+}
+
+TEST(TolerantText, ThePartsOfComplexInstancesMayStandInAnyOrder) {
+  const std::string inch_parts = "( NAMED_UNIT(#33) LENGTH_UNIT() CONVERSION_BASED_UNIT('INCH (''US)',#31) )";
+  const std::string text = step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "",
+                                        with(inches,
+                                             "( CONVERSION_BASED_UNIT('INCH',#31) LENGTH_UNIT() "
+                                             "NAMED_UNIT(#33) )",
+                                             inch_parts));
+  const ImportReport report = import_text(
+      with(text,
+           "( GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#30))\n"
+           "GLOBAL_UNIT_ASSIGNED_CONTEXT((#27,#28,#29)) REPRESENTATION_CONTEXT('','3D') )",
+           "( REPRESENTATION_CONTEXT('','3D') GEOMETRIC_REPRESENTATION_CONTEXT(3)\n"
+           "GLOBAL_UNIT_ASSIGNED_CONTEXT((#27,#28,#29)) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#30)) )"));
+  EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
+  EXPECT_EQ(report.unit, "inch");
+  EXPECT_DOUBLE_EQ(report.unit_in_metres, 0.0254);
 }
 
 TEST(TolerantText, BytesThatAreNoUtf8AreLatin1) {
