@@ -33,8 +33,8 @@ std::string json_kind(const Json& value) {
 
 std::string quantity_hint(Dimension dimension) {
   return dimension == Dimension::number ? std::string("a number")
-                                        : "a number in " + si_unit(dimension) + " or a text with a unit (" +
-                                              unit_examples(dimension) + ")";
+                                        : "a number in " + default_unit(dimension) +
+                                              " or a text with a unit (" + unit_examples(dimension) + ")";
 }
 
 /// "[time, value]" of a table.
@@ -213,7 +213,7 @@ class Checker {
 
   bool in_range(const Shape& shape, double value, const std::string& path) {
     if (shape.range.contains(value)) return true;
-    const std::string unit = shape.dimension == Dimension::number ? "" : " " + si_unit(shape.dimension);
+    const std::string unit = shape.dimension == Dimension::number ? "" : " " + default_unit(shape.dimension);
     return failed(path, "is " + text_of(value, all_digits) + unit + "; must be " + shape.range.rule() +
                             (shape.range.reason.empty() ? "" : " (" + shape.range.reason + ")"));
   }
@@ -269,7 +269,7 @@ class Checker {
       for (std::size_t k = 0; k < row.size(); ++k)
         if (!check(k == 0 ? argument : entry, row[k], child(row_path, k))) return false;
       if (row[0].get<double>() <= last) {
-        const std::string unit = " " + si_unit(shape.argument);
+        const std::string unit = " " + default_unit(shape.argument);
         return failed(row_path, (over_time ? "time " : "s = ") + text_of(row[0].get<double>(), all_digits) +
                                     unit + " does not come after " + text_of(last, all_digits) + unit +
                                     (over_time ? "; times must increase" : "; places must increase"));

@@ -139,8 +139,8 @@ Shape orientation() {
         "it does at the start, and from there sections do not twist; z, or x where the beam starts along z, when "
         "nothing is said"},
        {"frenet", boolean(), "it points to the centre of curvature everywhere"},
-       {"twist", table_over_length(Dimension::number, {.lower = -1e6, .upper = 1e6}),
-        "turned about the axis besides: [s, angle in degrees], smooth between rows, constant outside"}},
+       {"twist", table_over_length(Dimension::angle, {.lower = -1e6, .upper = 1e6}),
+        "turned about the axis besides: [s, angle], smooth between rows, constant outside"}},
       {{{"up", "start", "frenet"}, false}});
 }
 
@@ -253,8 +253,8 @@ Shape beam() {
        {"corners", choice({"error", "smooth", "rigid", "hinge"}),
         "what a corner of the axis is; smooth: rounded, if small; rigid: kept, with its angle; error when "
         "omitted"},
-       {"smooth_up_to", quantity(Dimension::number, {.lower = 0, .upper = 45, .open = true}),
-        "greatest corner that is rounded, in degrees, whatever greater ones are; when omitted 5 with smooth, "
+       {"smooth_up_to", quantity(Dimension::angle, {.lower = 0, .upper = 45, .open = true}),
+        "greatest corner that is rounded, whatever greater ones are; when omitted 5 with smooth, "
         "else none",
         false, "corners"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),

@@ -40,7 +40,7 @@ Json with_range(Json schema, const Range& range) {
 Json quantity_schema(Dimension dimension) {
   if (dimension == Dimension::number) return {{"type", "number"}};
   return {{"type", {"number", "string"}},
-          {"description", "in " + si_unit(dimension) + ", or a text with a unit"}};
+          {"description", "in " + default_unit(dimension) + ", or a text with a unit"}};
 }
 
 Json rows_schema(const Shape& shape) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <vector>
 
 #include "pipelines/diagnostics/closest_name.h"
@@ -22,7 +23,8 @@ struct Unit {
   Exponents exponents;
 };
 
-constexpr double pound = 0.45359237, pound_force = pound * 9.80665, inch = 0.0254;
+constexpr double pound = 0.45359237, standard_gravity = 9.80665, pound_force = pound * standard_gravity,
+                 inch = 0.0254, pi = std::numbers::pi;
 
 const std::vector<Unit>& units() {
   static const std::vector<Unit> table = {
@@ -36,11 +38,13 @@ const std::vector<Unit>& units() {
       {"in", 127, 5000, {1, 0, 0}},
       {"inch", 127, 5000, {1, 0, 0}},
       {"ft", 381, 1250, {1, 0, 0}},
+      {"yd", 1143, 1250, {1, 0, 0}},
       {"kg", 1, 1, {0, 1, 0}},
       {"g", 1, 1e3, {0, 1, 0}},
       {"mg", 1, 1e6, {0, 1, 0}},
       {"t", 1e3, 1, {0, 1, 0}},
       {"lb", pound, 1, {0, 1, 0}},
+      {"slug", 1250 * pound_force, 381, {0, 1, 0}},
       {"s", 1, 1, {0, 0, 1}},
       {"ms", 1, 1e3, {0, 0, 1}},
       {"us", 1, 1e6, {0, 0, 1}},
@@ -50,25 +54,39 @@ const std::vector<Unit>& units() {
       {"mN", 1, 1e3, {1, 1, -2}},
       {"kN", 1e3, 1, {1, 1, -2}},
       {"MN", 1e6, 1, {1, 1, -2}},
+      {"daN", 1e1, 1, {1, 1, -2}},
+      {"kgf", standard_gravity, 1, {1, 1, -2}},
       {"lbf", pound_force, 1, {1, 1, -2}},
+      {"kip", 1e3 * pound_force, 1, {1, 1, -2}},
+      {"Nm", 1, 1, {2, 1, -2}},
+      {"kNm", 1e3, 1, {2, 1, -2}},
+      {"Nmm", 1, 1e3, {2, 1, -2}},
       {"Pa", 1, 1, {-1, 1, -2}},
       {"kPa", 1e3, 1, {-1, 1, -2}},
       {"MPa", 1e6, 1, {-1, 1, -2}},
       {"GPa", 1e9, 1, {-1, 1, -2}},
       {"bar", 1e5, 1, {-1, 1, -2}},
+      {"mbar", 1e2, 1, {-1, 1, -2}},
       {"psi", pound_force, inch * inch, {-1, 1, -2}},
       {"ksi", 1e3 * pound_force, inch * inch, {-1, 1, -2}},
       {"K", 1, 1, {0, 0, 0, 1}},
+      {"mph", 1397, 3125, {1, 0, -1}},
+      {"kn", 463, 900, {1, 0, -1}},
       {"rad", 1, 1, {0, 0, 0}},
+      {"mrad", 1, 1e3, {0, 0, 0}},
+      {"deg", pi, 180, {0, 0, 0}},
+      {"rev", 2 * pi, 1, {0, 0, 0}},
+      {"rpm", 2 * pi, 60, {0, 0, -1}},
   };
   return table;
 }
 
 struct DimensionInfo {
   const char* name;
-  const char* si_unit;
+  const char* default_unit;
   Exponents exponents;
   const char* examples;
+  double multiply = 1, divide = 1;  // to SI units, from its own
 };
 
 DimensionInfo info(Dimension dimension) {
@@ -76,45 +94,47 @@ DimensionInfo info(Dimension dimension) {
     case Dimension::number:
       return {"plain number", "", {0, 0, 0}, "none (a plain number)"};
     case Dimension::length:
-      return {"length", "m", {1, 0, 0}, "m, mm, cm, km, um, in, ft"};
+      return {"length", "m", {1, 0, 0}, "m, mm, cm, km, um, in, ft, yd"};
     case Dimension::area:
       return {"area", "m^2", {2, 0, 0}, "m^2, mm^2, cm^2, in^2"};
     case Dimension::second_moment:
       return {"second moment of area", "m^4", {4, 0, 0}, "m^4, mm^4, cm^4, in^4"};
     case Dimension::mass:
-      return {"mass", "kg", {0, 1, 0}, "kg, g, mg, t, lb"};
+      return {"mass", "kg", {0, 1, 0}, "kg, g, mg, t, lb, slug"};
     case Dimension::density:
       return {"density", "kg/m^3", {-3, 1, 0}, "kg/m^3, g/cm^3, t/m^3, lb/ft^3"};
     case Dimension::time:
       return {"time", "s", {0, 0, 1}, "s, ms, us, min, h"};
     case Dimension::speed:
-      return {"speed", "m/s", {1, 0, -1}, "m/s, mm/s, km/h, ft/s"};
+      return {"speed", "m/s", {1, 0, -1}, "m/s, mm/s, km/h, ft/s, mph, kn"};
     case Dimension::acceleration:
       return {"acceleration", "m/s^2", {1, 0, -2}, "m/s^2, mm/s^2, ft/s^2"};
     case Dimension::force:
-      return {"force", "N", {1, 1, -2}, "N, kN, mN, MN, lbf"};
+      return {"force", "N", {1, 1, -2}, "N, kN, mN, MN, daN, kgf, lbf, kip"};
     case Dimension::moment:
-      return {"moment", "N m", {2, 1, -2}, "N m, N mm, kN m, lbf in, lbf ft"};
+      return {"moment", "N m", {2, 1, -2}, "N m, N mm, kN m, kgf m, lbf in, lbf ft, Nm, Nmm, kNm"};
     case Dimension::force_per_length:
-      return {"force per length", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, lbf/ft"};
+      return {"force per length", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, kgf/m, lbf/ft, kip/ft"};
     case Dimension::pressure:
-      return {"modulus", "Pa", {-1, 1, -2}, "Pa, kPa, MPa, GPa, N/mm^2, bar, psi, ksi"};
+      return {"modulus", "Pa", {-1, 1, -2}, "Pa, kPa, MPa, GPa, N/mm^2, kgf/cm^2, bar, mbar, psi, ksi"};
     case Dimension::temperature:
       return {"difference of temperature", "K", {0, 0, 0, 1}, "K"};
     case Dimension::thermal_expansion:
-      return {"coefficient of thermal expansion", "1/K", {0, 0, 0, -1}, "m/m/K, mm/m/K, um/m/K"};
+      return {"coefficient of thermal expansion", "1/K", {0, 0, 0, -1}, "1/K, m/m/K, mm/m/K, um/m/K"};
     case Dimension::angular_speed:
-      return {"angular velocity", "rad/s", {0, 0, -1}, "rad/s"};
+      return {"angular velocity", "rad/s", {0, 0, -1}, "rad/s, deg/s, rev/s, rpm"};
     case Dimension::inertia:
-      return {"moment of inertia", "kg m^2", {2, 1, 0}, "kg m^2, kg mm^2, g cm^2"};
+      return {"moment of inertia", "kg m^2", {2, 1, 0}, "kg m^2, kg mm^2, g cm^2, lb in^2"};
     case Dimension::torque_per_length:
-      return {"torque per length", "N m/m", {1, 1, -2}, "N m/m, N mm/mm, kN m/m"};
+      return {"torque per length", "N m/m", {1, 1, -2}, "N m/m, N mm/mm, kN m/m, lbf in/in"};
     case Dimension::rate:
-      return {"rate", "1/s", {0, 0, -1}, "rad/s, rad/ms, rad/min"};
+      return {"rate", "1/s", {0, 0, -1}, "1/s, 1/ms, 1/min, rad/s"};
     case Dimension::stiffness:
       return {"stiffness", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, MN/m, lbf/in"};
     case Dimension::damping:
-      return {"damping", "N s/m", {0, 1, -1}, "N s/m, kN s/m, N s/mm"};
+      return {"damping", "N s/m", {0, 1, -1}, "N s/m, kN s/m, N s/mm, lbf s/in"};
+    case Dimension::angle:
+      return {"angle", "degrees", {0, 0, 0}, "deg, rad, mrad, rev", pi, 180};
   }
   return {};
 }
@@ -124,11 +144,19 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     text.replace(at, from.size(), to);
 }
 
-/// The text with powers as ^n, products as spaces and micro as u.
+/// The text with powers as ^n, products as spaces, micro as u, ° as deg, and without the 1 of 1/s.
 std::string plain(std::string_view unit) {
+  unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
+  if (unit.starts_with("1/")) unit.remove_prefix(1);
   std::string text(unit);
-  for (const auto& [from, to] :
-       {std::pair{"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"·", " "}, {"*", " "}, {"µ", "u"}, {"μ", "u"}})
+  for (const auto& [from, to] : {std::pair{"²", "^2"},
+                                 {"³", "^3"},
+                                 {"⁴", "^4"},
+                                 {"·", " "},
+                                 {"*", " "},
+                                 {"µ", "u"},
+                                 {"μ", "u"},
+                                 {"°", "deg"}})
     replace_all(text, from, to);
   return text;
 }
@@ -215,16 +243,22 @@ UnitProduct parse_units(const std::string& text, std::string_view examples) {
   return product;
 }
 
+/// Not divided where that would only round: 15 degrees are 15 degrees.
+double scaled(double number, double multiply, double divide) {
+  return multiply == divide ? number : number * multiply / divide;
+}
+
 }  // namespace
 
 std::string dimension_name(Dimension dimension) { return info(dimension).name; }
-std::string si_unit(Dimension dimension) { return info(dimension).si_unit; }
+std::string default_unit(Dimension dimension) { return info(dimension).default_unit; }
 std::string unit_examples(Dimension dimension) { return info(dimension).examples; }
 
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   const auto failed = [&](const std::string& reason) {
     return ParsedQuantity{{}, in_quotes(text) + ": " + reason};
   };
+  const DimensionInfo wanted = info(dimension);
   const bool is_plain = dimension == Dimension::number;
   const std::string expected =
       is_plain ? "a plain number"
@@ -244,14 +278,14 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   if (!product.error.empty()) return failed(product.error + "; expected " + expected);
   if (!has_unit && !is_plain) {
     return failed("has no unit; expected " + expected + "; a number without quotes is in " +
-                  si_unit(dimension));
+                  default_unit(dimension));
   }
-  if (product.exponents != info(dimension).exponents)
+  if (product.exponents != wanted.exponents)
     return failed((is_plain ? "has a unit; expected " : "the unit does not measure ") + expected);
-  const double value = number * product.multiply / product.divide;
+  const double value = scaled(number, product.multiply * wanted.divide, product.divide * wanted.multiply);
   if (!std::isfinite(value) || (value == 0 && number != 0)) {
     return failed(std::string("is too ") + (value == 0 ? "small" : "large") + " for a number in " +
-                  si_unit(dimension));
+                  default_unit(dimension));
   }
   return {value, {}};
 }

@@ -27,17 +27,19 @@ enum class Dimension {
   torque_per_length,
   rate,
   stiffness,
-  damping
+  damping,
+  angle
 };
 
 /// "length", "force per length", ...
 std::string dimension_name(Dimension dimension);
-/// The SI unit: "m", "N/m", ...; "" for a plain number.
-std::string si_unit(Dimension dimension);
+/// That of a number without one, the SI unit but of angles: "m", "N/m", "degrees", ...; "" for a plain
+/// number.
+std::string default_unit(Dimension dimension);
 /// Units a user may write, as a list: "m, mm, cm, km, in, ft".
 std::string unit_examples(Dimension dimension);
 
-/// A quantity in SI units, or why the text is not one.
+/// A quantity in its default unit, or why the text is not one.
 struct ParsedQuantity {
   std::optional<double> value;
   std::string error;  ///< empty when there is a value

@@ -69,7 +69,7 @@ class StudyReader : StudyPartReader {
     if (variable.target && !json_.contains("case"))
       findings_.error(path, "changes a case, but the study has no \"case\"; name one");
     const Dimension dimension = dimension_of(variable, path);
-    variable.unit = turns(variable) ? "degrees" : si_unit(dimension);
+    variable.unit = default_unit(dimension);
     if (has(json, "value")) variable.derived = parsed_or_zero(text(json, "value"), child(path, "value"));
     if (has(json, "range")) {
       variable.distribution.parameters = all_measured(json["range"], dimension, child(path, "range"));
@@ -83,11 +83,6 @@ class StudyReader : StudyPartReader {
       variable.nominal = within_ends(variable.distribution, middle_of(variable.distribution));
     if (!variable.derived && !findings_.has_errors()) check_ends(variable);
     study_.variables.push_back(std::move(variable));
-  }
-
-  static bool turns(const StudyVariable& variable) {
-    const auto* transform = variable.target ? std::get_if<CurveTransform>(&*variable.target) : nullptr;
-    return transform && transform->kind == CurveTransform::Kind::rotate;
   }
 
   // Something of the distribution must lie between where it is cut off, and the nominal value within.

@@ -9,6 +9,21 @@
 #include "pipelines/diagnostics/utf8_text.h"
 
 namespace nurbeam {
+namespace {
+
+Dimension dimension_of_value(CurveTransform::Kind kind) {
+  switch (kind) {
+    case CurveTransform::Kind::translate:
+      return Dimension::length;
+    case CurveTransform::Kind::rotate:
+      return Dimension::angle;
+    case CurveTransform::Kind::scale:
+      return Dimension::number;
+  }
+  return Dimension::number;
+}
+
+}  // namespace
 
 std::optional<Expression> StudyPartReader::parsed(const std::string& source, const std::string& path) {
   try {
@@ -95,9 +110,9 @@ Dimension StudyPartReader::dimension_of(const StudyVariable& variable, const std
     return dimension.value_or(Dimension::number);
   }
   if (std::holds_alternative<ControlPointCoordinate>(*variable.target)) return Dimension::length;
-  const auto* transform = std::get_if<CurveTransform>(&*variable.target);
-  return transform && transform->kind == CurveTransform::Kind::translate ? Dimension::length
-                                                                         : Dimension::number;
+  if (const auto* transform = std::get_if<CurveTransform>(&*variable.target))
+    return dimension_of_value(transform->kind);
+  return Dimension::number;
 }
 
 void StudyPartReader::check_quantity(const std::string& name, const std::string& path) {

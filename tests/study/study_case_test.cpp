@@ -171,10 +171,12 @@ TEST(StudyCase, RefinementsThatCannotBeSaySo) {
 TEST(StudyCase, VariablesMoveGroupsOfControlPoints) {
   const ReadCase read = read_with(
       R"json({"name": "lift", "transform": {"beam": "rail", "points": [1, 2], "translate": [0, 0, 2]}, "range": [0, 1]},
-             {"name": "turn", "transform": {"beam": "rail", "rotate": {"axis": [0, 0, 1], "about": [1, 0, 0]}}, "range": [0, 180]},
+             {"name": "turn", "transform": {"beam": "rail", "rotate": {"axis": [0, 0, 1], "about": [1, 0, 0]}}, "range": [0, "0.5 rev"]},
              {"name": "size", "transform": {"beam": "rail", "scale": {"about": [1, 0, 0]}}, "range": [1, 3]},
              {"name": "w", "weight": {"beam": "rail", "index": 2}, "range": [0.5, 2]})json");
   ASSERT_TRUE(read.of_case.value) << read.messages;
+  EXPECT_EQ(read.study.variables[1].unit, "degrees");
+  EXPECT_EQ(read.study.variables[1].distribution.parameters, (std::vector<double>{0, 180}));
   const NurbsCurve curve = moved_rail(read, {0.25, 90, 2, 1.5});
   // Lifted, turned by a right angle about the vertical through (1, 0, 0), then twice as large about it.
   EXPECT_LE((control_point(curve, 0) - Eigen::Vector3d(1, -2, 0)).norm(), 1e-14);

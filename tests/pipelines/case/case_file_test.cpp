@@ -274,6 +274,21 @@ TEST_F(CaseFileTest, WrongDimensionsNameTheValidUnits) {
                    .replace(std::string(smallest_case).find("[[0, 0, 0], [1, 0, 0]]"), 22, "[]"));
 }
 
+TEST_F(CaseFileTest, AnglesAreInDegreesOrSayTheirUnit) {
+  const auto smooth_angle = [&](const std::string& value) {
+    return read_valid(smallest_case, {"beams[0].corners=smooth", "beams[0].smooth_up_to=" + value})
+        .beams.at(0)
+        .smooth_angle;
+  };
+  EXPECT_DOUBLE_EQ(smooth_angle("0.05 rad"), 0.05);
+  EXPECT_EQ(smooth_angle("3 deg"), smooth_angle("3"));
+  expect_error({"beams[0].corners=smooth", "beams[0].smooth_up_to=1 rad"}, "beams[0].smooth_up_to",
+               {"57.29", "degrees; must be between 0 and 45"});
+  const CaseFile twisted = read_valid(
+      smallest_case, {"beams[0].orientation={\"up\": [0, 0, 1], \"twist\": [[0, 0], [1, \"0.25 rev\"]]}"});
+  EXPECT_DOUBLE_EQ(twisted.beams.at(0).orientation.twist.at(1).second, std::numbers::pi / 2);
+}
+
 TEST_F(CaseFileTest, UnknownChoicesNameTheClosestOne) {
   expect_error({"supports[0].type=clampt"}, "supports[0].type", {"\"clampt\"", "did you mean \"clamped\""});
   expect_error({"supports[0].at=finish"}, "supports[0].at", {"\"start\", \"end\""});

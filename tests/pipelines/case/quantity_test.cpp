@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <sstream>
+
+#include "tests/support/places.h"
+
 namespace nurbeam {
 namespace {
 
@@ -32,6 +39,49 @@ TEST(Quantity, UnitsAreConvertedToSi) {
   EXPECT_DOUBLE_EQ(value("9.81 m s^-2", Dimension::acceleration), 9.81);
   EXPECT_DOUBLE_EQ(value("100 mm^4", Dimension::second_moment), 1e-10);
   EXPECT_DOUBLE_EQ(value("+3 µm", Dimension::length), 3e-6);
+  EXPECT_DOUBLE_EQ(value("5 Nm", Dimension::moment), 5);
+  EXPECT_DOUBLE_EQ(value("2 yd", Dimension::length), 1.8288);
+  EXPECT_DOUBLE_EQ(value("100 kgf", Dimension::force), 980.665);
+  EXPECT_DOUBLE_EQ(value("60 mph", Dimension::speed), 26.8224);
+  EXPECT_DOUBLE_EQ(value("9 kn", Dimension::speed), 4.63);
+  EXPECT_DOUBLE_EQ(value("12e-6 1/K", Dimension::thermal_expansion), 12e-6);
+  EXPECT_DOUBLE_EQ(value("3 1/min", Dimension::rate), 0.05);
+  EXPECT_NEAR(value("2 slug ft/s^2", Dimension::force), value("2 lbf", Dimension::force), 1e-14);
+}
+
+TEST(Quantity, AnAngleIsInDegreesUnlessItSaysOtherwise) {
+  EXPECT_EQ(value("15 deg", Dimension::angle), 15);
+  EXPECT_EQ(value("15°", Dimension::angle), 15);
+  EXPECT_EQ(value("0.25 rev", Dimension::angle), 90);
+  EXPECT_DOUBLE_EQ(value("0.5 rad", Dimension::angle), 90 / std::numbers::pi);
+  EXPECT_EQ(default_unit(Dimension::angle), "degrees");
+  EXPECT_NE(parse_quantity("1 grad", Dimension::angle).error.find("valid units: deg, rad, mrad, rev"),
+            std::string::npos);
+}
+
+TEST(Quantity, TurnsPerTimeAreInRadiansPerSecond) {
+  EXPECT_DOUBLE_EQ(value("30 rpm", Dimension::angular_speed), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(value("30 rev/min", Dimension::angular_speed), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(value("180 deg/s", Dimension::angular_speed), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(value("180 °/s", Dimension::angular_speed), std::numbers::pi);
+}
+
+TEST(Quantity, TheUnitsOfTheExamplesAreUnitsOfTheDimension) {
+  for (int i = 1; i <= static_cast<int>(Dimension::angle); ++i) {
+    const auto dimension = static_cast<Dimension>(i);
+    std::stringstream examples(unit_examples(dimension));
+    for (std::string unit; std::getline(examples >> std::ws, unit, ',');) value("2 " + unit, dimension);
+  }
+}
+
+TEST(Quantity, TheUnitsAreThoseOfTheDocumentedTable) {
+  std::ifstream page(test::source_directory() / "docs" / "case-file.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  for (int i = 1; i <= static_cast<int>(Dimension::angle); ++i) {
+    const auto dimension = static_cast<Dimension>(i);
+    const std::string row = "| " + dimension_name(dimension) + " | " + unit_examples(dimension) + " |";
+    EXPECT_NE(text.find(row), std::string::npos) << row;
+  }
 }
 
 TEST(Quantity, PoundsPerSquareInchAgreeWithTheirDefinition) {
