@@ -363,6 +363,10 @@ class Model:
             raise CaseError(findings)
         return built, findings
 
+    def _or_static(self, analysis: Mapping[str, Any]) -> Mapping[str, Any]:
+        """What needs a model alone takes the analysis that asks for least where there is none."""
+        return analysis or ({} if self.case.get("analysis") else {"type": "static"})
+
     def _functions(self) -> tuple[list[Force], list[MotionLaw]]:
         return [function for _, function in self._laws], list(self._motions)
 
@@ -379,8 +383,10 @@ class Model:
         return self._built(analysis, analysis.pop("every", None))[1]
 
     def summary(self, **analysis: Any) -> dict[str, Any]:
-        """The model as it is understood: dimension, beams with their lengths and stiffnesses, bodies, supports, loads."""
-        summary: dict[str, Any] = json.loads(self._built(analysis, analysis.pop("every", None))[0].summary())
+        """The model as it is understood: dimension, beams with their lengths and stiffnesses, bodies, supports, loads. The
+        keywords are those of `run`; a model without an analysis is looked at as for a static one."""
+        every = analysis.pop("every", None)
+        summary: dict[str, Any] = json.loads(self._built(self._or_static(analysis), every)[0].summary())
         return summary
 
     def run(
@@ -460,8 +466,7 @@ class Model:
         """The equations of motion of the model as drawn; those of other states are `simulation.system`."""
         from .system import System
 
-        keys = analysis or ({} if self.case.get("analysis") else {"type": "static"})
-        return System(_core.Equations.drawn(self._built(keys)[0], self._functions()))
+        return System(_core.Equations.drawn(self._built(self._or_static(analysis))[0], self._functions()))
 
     def __repr__(self) -> str:
         parts = [f"{len(v)} {k}" for k, v in self.case.items() if isinstance(v, list) and v]

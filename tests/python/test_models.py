@@ -210,7 +210,9 @@ def test_another_type_of_analysis_leaves_the_keys_of_the_cases_own_out(root, rec
 
 
 def test_summary_and_schema_are_json(root):
-    summary = straight_cantilever().summary(type="static")
+    model = straight_cantilever()
+    assert model.summary() == model.summary(type="static")
+    summary = model.summary()
     assert summary["dimension"] == 2 and summary["beams"][0]["name"] == "rod"
     assert "beams" in nb.schema()["properties"]
 
