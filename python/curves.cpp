@@ -128,6 +128,14 @@ void bind_curves(py::module_& module) {
           "start", [](const NurbsCurve& c) { return c.knots().start(); })
       .def_property_readonly(
           "end", [](const NurbsCurve& c) { return c.knots().end(); })
+      .def(py::pickle(
+          [](const NurbsCurve& c) {
+            return py::make_tuple(c.degree(), c.knots().knots(), c.control_points());
+          },
+          [](const py::tuple& parts) {
+            return NurbsCurve(KnotVector(parts[0].cast<int>(), parts[1].cast<std::vector<double>>()),
+                              parts[2].cast<Eigen::Matrix4Xd>());
+          }))
       .def("points", &points_at, py::arg("parameters"))
       .def("derivatives", &derivative_rows, py::arg("parameter"), py::arg("n"))
       .def(

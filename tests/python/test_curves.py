@@ -1,3 +1,4 @@
+import pickle
 import subprocess
 import sys
 
@@ -44,6 +45,15 @@ def test_derivatives_at_many_parameters_are_those_at_each():
     found = curve.derivatives(u, 2)
     assert found.shape == (2, 3, 3, 3)
     assert np.array_equal(found[1, 0], curve.derivatives(0.5, 2)) and np.array_equal(found[..., 0, :], curve(u))
+
+
+def test_curves_are_pickled_to_the_bit():
+    curve = nb.Curve(np.random.default_rng(2).normal(size=(6, 3)), weights=[1, 0.3, 1.7, 1, 3, 1], name="rail")
+    curve.facts["layer"] = "cables"
+    again = pickle.loads(pickle.dumps(curve))
+    assert (again.name, again.facts) == (curve.name, curve.facts)
+    assert np.array_equal(again.control_points, curve.control_points) and np.array_equal(again.knots, curve.knots)
+    assert np.array_equal(again.sample(20), curve.sample(20))
 
 
 def test_inserted_knots_leave_the_curve_as_it_is():
