@@ -324,6 +324,22 @@ class Results(Sequence[Snapshot]):
             for i, (omega, factor, participation) in enumerate(rows, 1)
         ]
 
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """What happened between the steps, in order: changes of the mesh, bodies that leave, stop or are released, each
+        with its `time` [s], `kind`, `beam`, `body` and place `s` [m] on the beam; of a directory more (`report`)."""
+        nobody = {"beam": None, "body": None}
+        return [
+            {**nobody, **{key.partition(" [")[0]: value for key, value in event.items()}}
+            for event in self.report.get("events", [])
+        ]
+
+    def __reduce__(self) -> Any:
+        """Results are pickled as the place where they stand."""
+        if self.directory is None:
+            raise TypeError('results in memory cannot be pickled; those of a directory can: run(out="results")')
+        return Results, (self.directory.absolute(),)
+
     def __len__(self) -> int:
         return len(self._recording)
 

@@ -1,3 +1,4 @@
+import pickle
 import subprocess
 import sys
 
@@ -96,6 +97,27 @@ def test_directories_without_results_say_so(tmp_path):
         nb.Results(tmp_path / "absent")
     with pytest.raises(nb.Error, match="expected a directory that `nurbeam run` has written"):
         nb.Results(tmp_path)
+
+
+def test_results_are_pickled_as_their_place(tmp_path, monkeypatch):
+    model = straight_cantilever(tip=[0, -1, 0])
+    monkeypatch.chdir(tmp_path)
+    pickled = pickle.dumps(model.run(type="static", out="there"))
+    monkeypatch.chdir("/")
+    again = pickle.loads(pickled)
+    assert again.directory == tmp_path / "there" and len(again) > 0
+    with pytest.raises(TypeError, match='run\\(out="results"\\)'):
+        pickle.dumps(model.run(type="static"))
+
+
+def test_events_are_alike_in_memory_and_in_a_directory(tmp_path):
+    model = bead_on_a_wire(at=3.5, speed=2)
+    model.case["supports"] = [dict(model.case["supports"][0], type="clamped")]
+    in_memory = model.run(end_time=0.5, step=2e-3).events
+    stored = model.run(end_time=0.5, step=2e-3, out=tmp_path / "there").events
+    keys = ("time", "kind", "beam", "body", "s")
+    assert [event["body"] for event in in_memory if "left" in event["kind"]] == ["bead"]
+    assert [{key: event[key] for key in keys} for event in stored] == in_memory
 
 
 def test_stored_results_are_those_in_memory(tmp_path):
