@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t batch = 64;  ///< frames that are copied at once
 void check_count(const char* what, std::size_t found, std::size_t expected) {
   if (found != expected) {
     throw std::invalid_argument(std::string("a frame with ") + std::to_string(found) + " " + what +
@@ -100,9 +99,17 @@ void write_file(const fs::path& file, Use use, const SnapshotNames& names, const
   open.publish();
 }
 
+/// Frames that are in memory together: few of large ones.
+std::size_t batch_of(const StoredRows& rows) {
+  constexpr std::size_t most_frames = 64;
+  const std::size_t elements_of_a_frame = rows.elements / std::max<std::size_t>(rows.frames, 1) + 1;
+  return std::clamp<std::size_t>(ResultsWriter::most_open_elements / elements_of_a_frame, 1, most_frames);
+}
+
 /// Calls visit(frames) for the frames [0, count) of a reader, a batch at a time.
-template <class Reader, class Visit>
-void for_each_batch(const Reader& reader, std::size_t count, Visit visit) {
+template <class Visit>
+void for_each_batch(const FrameReader& reader, std::size_t count, Visit visit) {
+  const std::size_t batch = batch_of(reader.rows());
   for (std::size_t first = 0; first < count; first += batch)
     visit(reader.read(first, std::min(batch, count - first)));
 }
