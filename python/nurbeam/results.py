@@ -340,6 +340,11 @@ class Results(Sequence[Snapshot]):
             raise TypeError('results in memory cannot be pickled; those of a directory can: run(out="results")')
         return Results, (self.directory.absolute(),)
 
+    def __copy__(self) -> Results:
+        copied = Results.__new__(Results)
+        copied.__dict__.update(self.__dict__)
+        return copied
+
     def __len__(self) -> int:
         return len(self._recording)
 

@@ -1,3 +1,4 @@
+import copy
 import pickle
 import subprocess
 import sys
@@ -106,8 +107,10 @@ def test_results_are_pickled_as_their_place(tmp_path, monkeypatch):
     monkeypatch.chdir("/")
     again = pickle.loads(pickled)
     assert again.directory == tmp_path / "there" and len(again) > 0
+    in_memory = model.run(type="static")
+    assert np.array_equal(copy.copy(in_memory).times, in_memory.times)
     with pytest.raises(TypeError, match='run\\(out="results"\\)'):
-        pickle.dumps(model.run(type="static"))
+        pickle.dumps(in_memory)
 
 
 def test_events_are_alike_in_memory_and_in_a_directory(tmp_path):
