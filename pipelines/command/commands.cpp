@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "nurbs/number_text.h"
 #include "pipelines/bench/bench.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/case_schema.h"
@@ -114,8 +115,9 @@ int export_command(const Arguments& arguments, Streams streams) {
   }
   print_diagnostics(streams.err, found);
   if (has_errors(found)) return exit_not_written;
-  streams.err << "note: " << file << ": the curves at " << stored_time << " s, the stored time nearest to "
-              << time << " s\n";
+  if (text_of(stored_time) != text_of(time))
+    streams.err << "note: " << file << ": the curves at " << text_of(stored_time)
+                << " s, the stored time nearest to " << text_of(time) << " s\n";
   return exit_done;
 }
 

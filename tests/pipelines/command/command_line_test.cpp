@@ -195,6 +195,7 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
   const CommandOutcome outcome =
       run_line({"export", directory.path().string(), "--time", "0 ms", "--to", file, "--unit", "inch"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "the time is stored";
   const ImportReport report = import_curves(file);
   ASSERT_EQ(report.curves.size(), 1u);
   EXPECT_EQ(report.curves[0].name, "cable");
