@@ -107,7 +107,8 @@ std::optional<Friction> read_friction(const Json& joint, const std::string& path
     findings.error(child(where, "static"),
                    "is " + text_of(*friction.static_coefficient) + ", less than \"coefficient\", " +
                        text_of(friction.coefficient) + "; a body that sticks is held at least as well");
-  if (!has(json, "coefficient") && !has(json, "static") && !has(json, "force") && !has(json, "viscous"))
+  const auto is_given = [&](const char* key) { return json.contains(key); };  // be it wrong
+  if (!is_given("coefficient") && !is_given("static") && !is_given("force") && !is_given("viscous"))
     findings.error(where, "resists nothing; give \"coefficient\", \"static\", \"force\" or \"viscous\"");
   if (friction.law == Friction::Law::capstan && text(joint, "slope") != "discontinuous")
     findings.error(child(where, "law"),

@@ -246,6 +246,7 @@ TEST(FrictionRun, WhatCannotBeIsRefused) {
   says("sliding_joints[0].friction.static=0.2", "friction.static: is 0.2, less than \"coefficient\", 0.3");
   says("sliding_joints[0].friction.law=capstan", "friction.law: is \"capstan\"");
   says("sliding_joints[0].friction.coefficient=11", "must be between 0 and 10");
+  EXPECT_FALSE(run_rubbing(text, {"sliding_joints[0].friction.coefficient=11"}).says("resists nothing"));
   says("sliding_joints[0].friction.coefficient=-1", "must be between 0 and 10");
   says("sliding_joints[0].friction.force=-3", "must be between 0 and 1e+12");
   says("sliding_joints[0].friction.stick_stiffness=0", "must be between 1e-09 and");
