@@ -35,10 +35,8 @@ bool correct_solution(const KktSolver& factors,
     if (now == 0) return true;
     if (!(now <= fast * before)) return false;
     if (i == 0) {
-      if (contraction * now <= tolerance) {
-        contraction *= 2;  // A changes from one to the next
-        return true;
-      }
+      contraction *= 2;  // A changes from one to the next
+      if (contraction * now <= tolerance) return true;
     } else {
       if (i == 1) contraction = now / before;
       if (slower * now / before * now <= tolerance) return true;

@@ -1,5 +1,6 @@
 #include "solver/step_adjoint.h"
 
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -52,8 +53,12 @@ StepAdjoint::StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSyst
 
 void StepAdjoint::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
+  constexpr double same = 1e-6;  // but for round-off of times
+  const double h = step_.h;
   step_.take(before, history, after, repeated);
   factors_are_own_ = false;
+  if (!(std::abs(step_.h - h) <= same * h))
+    for (Solved& solved : solved_) solved.contraction = unknown_contraction;
 }
 
 bool StepAdjoint::find_multipliers(const MotionTangents& end, Matrix& mu) {
@@ -97,7 +102,7 @@ bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
 
 // Takes what a parabola through the last three solutions leads to, and corrects it.
 bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
-  constexpr double tolerance = 1e-6;
+  constexpr double tolerance = 1e-8;
   auto& [last, before, earlier, contraction] = solved;
   if (before.size() == 0) before = last;
   if (earlier.size() == 0) earlier = before;

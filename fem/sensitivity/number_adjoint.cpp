@@ -8,8 +8,8 @@ NumberAdjoint<D>::NumberAdjoint(const Assembly<D>& system, const std::vector<int
     : system_(&system), sums_(sums), places_(system.elements().size()) {
   for (const int i : elements) {
     const MeshElement<D>& e = system.elements()[i];
-    if (parts_.empty() || parts_.back().beam != e.beam || parts_.back().batch.is_full())
-      parts_.push_back({e.beam, ElementBatch<D>(e.element.properties()),
+    if (parts_.empty() || parts_.back().beam != e.span->beam || parts_.back().batch.is_full())
+      parts_.push_back({e.span->beam, ElementBatch<D>(e.element.properties()),
                         std::vector<FixedLanes>(static_cast<std::size_t>(sums))});
     ElementBatch<D>& batch = parts_.back().batch;
     places_[i] = {parts_.size() - 1, batch.count()};

