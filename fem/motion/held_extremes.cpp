@@ -96,20 +96,21 @@ Extreme HeldExtremes::value_at(const std::vector<SamePlace>& places, double (*si
 
 std::vector<BeamRecord> HeldExtremes::at(const BeamSystem& system, const State& state) const {
   std::vector<BeamRecord> records(system.model().beams.size());
-  for (const auto& [part, places, lowest] : held_) {
+  for (const Held& held : held_) {
+    const BeamPart& part = held.part;
     BeamRecord& record = records[part.beam];
     if (system.model().beams[part.beam].rigid) {
       record = record_beam(system, state, part.beam);
     } else if (!part.extreme) {
       record.length = beam_length(system, state, part.beam);
-      record.sag = sag_at(system, state, part.beam, lowest);
+      record.sag = sag_at(system, state, part.beam, held.lowest);
     } else if (part.extreme == &BeamRecord::displacement_max) {
       record.displacement_max = value_at(
-          places, ElementExtreme::itself,
+          held.places, ElementExtreme::itself,
           [&](const Place& at) { return node_displacement(system, state, part.beam, at.index); });
     } else {
       record.*part.extreme = value_at(
-          places, of_elements(part.extreme).size,
+          held.places, of_elements(part.extreme).size,
           [&](const Place& at) { return value_in(system, state, at.index, at.sample, part.extreme); });
     }
   }

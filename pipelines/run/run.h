@@ -3,6 +3,7 @@
 #include <functional>
 #include <iosfwd>
 
+#include "fem/motion/snapshot.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
 
