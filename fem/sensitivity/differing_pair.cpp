@@ -1,6 +1,8 @@
 #include "fem/sensitivity/differing_pair.h"
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "fem/sensitivity/number_adjoint.h"
 
@@ -22,19 +24,23 @@ bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& element
   return false;
 }
 
-std::vector<LineLoad> line_loads(const BeamModel& model) {
-  std::vector<LineLoad> loads;
-  for (const auto& force : model.forces)
-    if (const auto* load = std::get_if<LineLoad>(&force)) loads.push_back(*load);
-  return loads;
-}
-
+// Those that elements carry.
 bool have_same_line_loads(const BeamModel& one, const BeamModel& other) {
-  const std::vector<LineLoad> a = line_loads(one), b = line_loads(other);
   return one.gravity == other.gravity &&
-         std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LineLoad& x, const LineLoad& y) {
-           return x.beam == y.beam && x.value == y.value && x.time == y.time;
-         });
+         std::equal(
+             one.forces.begin(), one.forces.end(), other.forces.begin(), other.forces.end(),
+             [](const auto& force, const auto& of_other) {
+               const auto is_same = [&](const auto& a) {
+                 using Kind = std::decay_t<decltype(a)>;
+                 if constexpr (
+                     requires { a.per_length(a.beam, 0.0); }) {
+                   const Kind* b = std::get_if<Kind>(&of_other);
+                   return b && a.beam == b->beam && a.value == b->value && a.time == b->time;
+                 }
+                 return true;
+               };
+               return std::visit(is_same, force);
+             });
 }
 
 }  // namespace
