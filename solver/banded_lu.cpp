@@ -28,10 +28,12 @@ class BandedLu::Window {
     const int open_at_once = 3 * band + 2 * block;
     capacity_ = std::min(3 * open_at_once, of.padded_ + band);
     const std::ptrdiff_t rows = std::ptrdiff_t{capacity_} * width_;
-    of.window_.resize(static_cast<std::size_t>(rows + block * height_));
-    of.window_ends_.resize(static_cast<std::size_t>(capacity_));
-    rows_ = of.window_.data();
-    ends_ = of.window_ends_.data();
+    if (!of.window_) {
+      of.window_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(rows + block * height_));
+      of.window_ends_ = std::make_unique_for_overwrite<int[]>(static_cast<std::size_t>(capacity_));
+    }
+    rows_ = of.window_.get();
+    ends_ = of.window_ends_.get();
     multipliers_ = rows_ + rows;
   }
 
@@ -126,6 +128,7 @@ int length_beyond(int k, int end) { return std::max(0, (end - k - block - 1) / b
 // All is done by blocks of four; what they reach beyond that is zero.
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   order_ = std::move(order);
+  window_.reset();
   half_bandwidth_ = order_->half_bandwidth;
   const int n = static_cast<int>(order_->unknown.size());
   padded_ = (n + block - 1) / block * block;

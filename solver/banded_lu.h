@@ -87,8 +87,8 @@ class BandedLu {
   std::size_t upper_end_ = 0, lower_end_ = 0;  ///< of the numbers of these two
   std::vector<double> scale_;                  ///< of each row of the matrix
   std::vector<int> pivots_;                    ///< row that was brought to each place
-  std::vector<double> window_;                 ///< room for the rows that are being eliminated,
-  std::vector<int> window_ends_;               ///< and for their ends
+  std::unique_ptr<double[]> window_;           ///< room for the rows that are being eliminated,
+  std::unique_ptr<int[]> window_ends_;         ///< and for their ends
   std::size_t room_ = 0;
 };
 
