@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,17 +20,20 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The direction in which the cubic starts: to the first control point that is not the start point itself.
-Eigen::Vector3d start_direction(const RationalCubic& cubic) {
+/// The direction from an end of the cubic, its first or last control point, to the next one that is not the
+/// end itself.
+Eigen::Vector3d direction_from(const RationalCubic& cubic, int end) {
   Eigen::Matrix3d legs;
-  for (int i = 0; i < 3; ++i) legs.col(i) = cubic.control_point(i + 1) - cubic.control_point(0);
+  for (int i = 0; i < 3; ++i)
+    legs.col(i) = cubic.control_point(end == 0 ? i + 1 : 2 - i) - cubic.control_point(end);
   const Eigen::RowVector3d lengths = legs.colwise().norm();
   int i = 0;
   while (i < 2 && lengths(i) <= 1e-12 * lengths.maxCoeff()) ++i;
   return legs.col(i);
 }
 
-Eigen::Vector3d end_direction(const RationalCubic& cubic) { return -start_direction(cubic.reversed()); }
+Eigen::Vector3d start_direction(const RationalCubic& cubic) { return direction_from(cubic, 0); }
+Eigen::Vector3d end_direction(const RationalCubic& cubic) { return -direction_from(cubic, 3); }
 
 bool is_rational(const RationalCubic& cubic) {
   const Eigen::RowVector4d weights = cubic.points().row(3);
@@ -51,12 +55,27 @@ double turning(const RationalCubic& cubic) {
   return sum;
 }
 
+/// What turning is no more than: the angles of the control polygon of the hodograph, which every plane
+/// through the origin cuts as often or more often; infinite where one of its points is at the origin.
+double turning_of_polygon(const RationalCubic& cubic) {
+  const Eigen::Matrix<double, 3, 5> hodograph = cubic.hodograph();
+  const Eigen::Matrix<double, 1, 5> lengths = hodograph.colwise().norm();
+  if (!(lengths.minCoeff() > 1e-12 * lengths.maxCoeff())) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (int i = 0; i + 1 < 5; ++i) sum += angle_between(hodograph.col(i), hodograph.col(i + 1));
+  return sum;
+}
+
+bool turns_by_more_than(double angle, const RationalCubic& cubic) {
+  return turning_of_polygon(cubic) > angle && turning(cubic) > angle;
+}
+
 /// Appends the cubic, whose source lives on [a, b]; a rational one that turns by more than 91 degrees in
 /// halves: quarter circles are drawn often, and what is drawn a little off one is divided as it is. A cusp
 /// turns however short its piece is, so no more than `halvings` are made.
 void append(BezierPath& path, const RationalCubic& cubic, double a, double b, int halvings = 10) {
   constexpr double most_turning = 91 * 1.5707963267948966 / 90;
-  if (halvings > 0 && is_rational(cubic) && turning(cubic) > most_turning) {
+  if (halvings > 0 && is_rational(cubic) && turns_by_more_than(most_turning, cubic)) {
     const auto [first, second] = cubic.split(0.5);
     const double middle = 0.5 * (a + b);
     append(path, first, a, middle, halvings - 1);

@@ -93,8 +93,12 @@ RegularSegments regular_segments(std::span<const RationalCubic> segments, double
   drop_slivers(segments, sliver, result);
   std::vector<RationalCubic> regular;
   for (const RationalCubic& cubic : result.segments) {
-    std::vector<RationalCubic> pieces{cubic};
     const bool at_start = stands_still(cubic), at_end = stands_still(cubic.reversed());
+    if (!at_start && !at_end) {
+      regular.push_back(cubic);
+      continue;
+    }
+    std::vector<RationalCubic> pieces{cubic};
     if (at_start) pieces = set_going(cubic, tolerance, result.deviation);
     if (stands_still(pieces.back().reversed())) {
       const std::vector<RationalCubic> tail =
@@ -102,7 +106,7 @@ RegularSegments regular_segments(std::span<const RationalCubic> segments, double
       pieces.pop_back();
       pieces.insert(pieces.end(), tail.begin(), tail.end());
     }
-    if (at_start || at_end) ++result.replaced;
+    ++result.replaced;
     regular.insert(regular.end(), pieces.begin(), pieces.end());
   }
   result.segments = std::move(regular);

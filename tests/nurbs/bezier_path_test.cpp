@@ -95,6 +95,31 @@ TEST(BezierPathTest, RationalPiecesAreSplitUntilNoneTurnsByMoreThanARightAngle) 
   }
 }
 
+TEST(BezierPathTest, RationalPiecesAreSplitWhereTheirTangentsTurnByMore) {
+  Generator generator(7);
+  int whole = 0, split = 0;
+  for (int k = 0; k < 400; ++k) {
+    Eigen::Matrix4d points;
+    for (int i = 0; i < 4; ++i) {
+      const double weight = 1 + 0.2 * i;
+      points.col(i) << weight * (Eigen::Vector3d(0.8 * i, 0, 0) + random_point(generator)), weight;
+    }
+    const RationalCubic cubic(points);
+    double turning = 0;
+    for (int i = 0; i < 32; ++i) {
+      const Eigen::Vector3d a = cubic.derivatives(i / 32.0).col(1),
+                            b = cubic.derivatives((i + 1) / 32.0).col(1);
+      turning += std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+    const bool stays =
+        BezierPath::from_nurbs({KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 1}), points}, 0).segments.size() == 1;
+    EXPECT_EQ(stays, turning <= 91 * pi / 180) << turning;
+    ++(stays ? whole : split);
+  }
+  EXPECT_GT(whole, 20);
+  EXPECT_GT(split, 20);
+}
+
 TEST(BezierPathTest, ToNurbsAndBackGivesTheSameSegmentsUpToAFactorEach) {
   Generator generator(31);
   for (int i = 0; i < 2000; ++i) {
