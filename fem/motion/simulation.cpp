@@ -96,7 +96,9 @@ struct Simulation::Implementation {
   }
 
   Snapshot snapshot_of(const State& state, const TakeElements& take) const {
-    Snapshot snapshot = record_snapshot(*run_.at.system, state, probes_, {}, take);
+    SnapshotContents contents = run_.observer.contents;
+    contents.energy |= !run_.options.statics;
+    Snapshot snapshot = record_snapshot(*run_.at.system, state, probes_, contents, take);
     snapshot.steps = run_.steps;
     run_.account.enter(snapshot);
     snapshot.step = run_.last_step;

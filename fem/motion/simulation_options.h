@@ -26,6 +26,7 @@ struct SimulationOptions {
 /// What happens on the way; what is empty is not told.
 struct SimulationObserver {
   std::function<void(Snapshot)> snapshot = nullptr;  ///< at every output time
+  SnapshotContents contents = {};                    ///< of these; those of motions always have energies
   /// Takes the elements of a snapshot, which then has none, before it: at this time.
   std::function<void(double time, int beam, std::vector<ElementRecord>& elements)> elements = nullptr;
   std::function<void(const StepRecord&)> progress = nullptr;  ///< after every step

@@ -202,9 +202,9 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
   Snapshot snapshot;
   snapshot.time = state.t;
   if (contents.beams) snapshot.beams = record_beams(system, state, take);
-  for (const ProbePlace& probe : probes)
-    snapshot.probes.push_back(contents.sections ? record_probe(system, state, probe)
-                                                : record_place(system, state, probe));
+  for (std::size_t i = 0; contents.probes && i < probes.size(); ++i)
+    snapshot.probes.push_back(contents.sections ? record_probe(system, state, probes[i])
+                                                : record_place(system, state, probes[i]));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
@@ -218,7 +218,7 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
     }
     if (model.joints[j].motion && body.s) body.drive_force = body.holding_force;
   }
-  for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i)
+  for (int i = 0; contents.reactions && i < static_cast<int>(model.constraints.size()); ++i)
     snapshot.reactions.push_back(record_reaction(system, state, i));
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
     const auto [length, force] = length_and_force(system, state, i);

@@ -117,7 +117,9 @@ struct SnapshotNames {
 /// What a snapshot is taken of, besides points, bodies, reactions and connectors.
 struct SnapshotContents {
   bool beams = true;
+  bool probes = true;
   bool sections = true;  ///< of probes: else their SectionRecord says nothing
+  bool reactions = true;
   bool energy = true;
 };
 

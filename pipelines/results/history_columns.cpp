@@ -16,7 +16,11 @@ class Columns {
   explicit Columns(std::vector<HistoryColumn>& columns) : columns_(columns) {}
 
   void of(const std::string& kind, std::size_t index, const std::string& name) {
-    contents_ = {.beams = kind == "beam", .sections = false, .energy = kind == "energy"};
+    contents_ = {.beams = kind == "beam",
+                 .probes = kind == "probe",
+                 .sections = false,
+                 .reactions = kind == "reaction",
+                 .energy = kind == "energy"};
     kind_ = kind;
     index_ = index;
     name_ = name;

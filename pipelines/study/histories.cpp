@@ -82,10 +82,13 @@ void Histories::replace(std::size_t time, const Histories& other) {
 }
 
 SnapshotContents Histories::contents() const {
-  SnapshotContents all{.beams = false, .sections = false, .energy = false};
+  SnapshotContents all{
+      .beams = false, .probes = false, .sections = false, .reactions = false, .energy = false};
   for (const HistoryColumn& column : *columns_) {
     all.beams |= column.contents.beams;
+    all.probes |= column.contents.probes;
     all.sections |= column.contents.sections;
+    all.reactions |= column.contents.reactions;
     all.energy |= column.contents.energy;
   }
   return all;

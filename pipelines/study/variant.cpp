@@ -122,6 +122,7 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
   bool too_long = false;
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& snapshot) { histories.add(snapshot); };
+  observer.contents = histories.contents();
   observer.interrupted = [&] {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     too_long = study.time_limit && taken.count() > *study.time_limit;

@@ -45,6 +45,29 @@ TEST(SimulationTest, StepByStepItIsTheRunAtOnce) {
   }
 }
 
+TEST(SimulationTest, SnapshotsHoldNoMoreThanIsAskedFor) {
+  const std::vector<ProbePlace> middle{{.beam = 0, .s = 0.5}};
+  const auto last = [&](const SnapshotContents& contents) {
+    Snapshot found;
+    SimulationObserver observer;
+    observer.snapshot = [&](const Snapshot& s) { found = s; };
+    observer.contents = contents;
+    simulate(swinging_cantilever(), middle, twenty_steps(), observer);
+    return found;
+  };
+  const Snapshot all = last({});
+  const Snapshot place = last({.beams = false, .sections = false, .reactions = false, .energy = false});
+  EXPECT_TRUE(place.beams.empty());
+  EXPECT_TRUE(place.reactions.empty());
+  EXPECT_EQ(place.probes.at(0).position, all.probes.at(0).position);
+  EXPECT_NE(all.probes[0].section.bending_moment, 0);
+  EXPECT_EQ(place.probes[0].section.bending_moment, 0);
+  EXPECT_EQ(place.energy.total, all.energy.total);  // what a motion is judged by
+  const Snapshot reactions = last({.beams = false, .probes = false, .energy = false});
+  EXPECT_TRUE(reactions.probes.empty());
+  EXPECT_EQ(reactions.reactions.at(0).force, all.reactions.at(0).force);
+}
+
 TEST(SimulationTest, ACheckpointGoesOnAsIfThereHadBeenNone) {
   Simulation whole(swinging_cantilever(), {}, twenty_steps());
   EXPECT_THROW(whole.checkpoint(), std::invalid_argument);
