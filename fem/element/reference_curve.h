@@ -97,9 +97,10 @@ class ReferenceCurve {
 
   /// The segment that covers s; at a break the one before it when `from_left`, else the one after it.
   int segment_at(double s, bool from_left = false) const;
-  /// u of segment j at s [m]; slightly outside it extrapolates.
+  /// u of segment j at s [m], at breaks exactly 0 and 1; slightly outside it extrapolates.
   double parameter(int j, double s) const {
     s = unrolled(s, (breaks_[j] + breaks_[j + 1]) / 2);
+    if (s == breaks_[j + 1]) return 1;
     return metric_ == Metric::label ? (s - breaks_[j]) / segment_length(j)
                                     : maps_[j]->parameter(s - breaks_[j]);
   }

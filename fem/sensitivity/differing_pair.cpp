@@ -101,7 +101,7 @@ bool DifferingPair<D>::has_same_free_strains() const {
 
 template <int D>
 bool DifferingPair<D>::has_other_numbers_alone(const Assembly<D>& system) const {
-  constexpr double round_off = 1e-15;  // of slopes, which are of length 1
+  constexpr double round_off = 1e-14;  // of slopes, which are of length 1
   const auto is_alike = [&](const Different& each, const Assembly<D>& side) {
     const MeshElement<D>&own = system.elements()[each.now], &other = side.elements()[each.index];
     return NumberAdjoint<D>::takes(own) && other.element.properties() == own.element.properties() &&
