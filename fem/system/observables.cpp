@@ -157,19 +157,30 @@ void add(const MotionSums& other, double factor, MotionSums& sums) {
   sums.length += factor * other.length;
 }
 
-// Whether an element moves as another, the same, does: exactly so.
+// Whether coordinates and their velocities are exactly those of another state.
+template <std::size_t count>
+bool are_alike(const std::array<int, count>& dofs, const State& state, const std::array<int, count>& others,
+               const State& other_state) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const int i = dofs[k], j = others[k];
+    if (i >= 0 && (state.q[i] != other_state.q[j] || state.v[i] != other_state.v[j])) return false;
+  }
+  return true;
+}
+
+// Whether an element moves as another, the same, does: exactly so. Sections of another mesh may have another
+// chart.
 template <int D>
 bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<D>& other,
                  const State& other_state) {
   const MeshSpan &span = *e.span, &of_other = *other.span;
-  if (e.twist || span.start(state.q) != of_other.start(other_state.q) ||
+  if (e.twist && &e != &other) return false;
+  if (span.start(state.q) != of_other.start(other_state.q) ||
       span.end(state.q) != of_other.end(other_state.q))
     return false;
-  for (int k = 0; k < element_size<D>; ++k) {
-    const int i = e.dofs[k], j = other.dofs[k];
-    if (i >= 0 && (state.q[i] != other_state.q[j] || state.v[i] != other_state.v[j])) return false;
-  }
-  return true;
+  if constexpr (D == 3)
+    if (e.twist && !are_alike(e.twist->dofs, state, other.twist->dofs, other_state)) return false;
+  return are_alike(e.dofs, state, other.dofs, other_state);
 }
 
 // The elements of both systems that the other has not, or which move otherwise there.
