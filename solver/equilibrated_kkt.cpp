@@ -45,6 +45,12 @@ Vector EquilibratedKkt::solve(const Vector& rhs) const {
   return factor_.cwiseProduct(solver_.solve(factor_.cwiseProduct(rhs)));
 }
 
+KktSolver::Columns EquilibratedKkt::solutions(const KktSolver::Columns& rhs) const {
+  KktSolver::Columns x;
+  solver_.solve(factor_.asDiagonal() * rhs, x);
+  return factor_.asDiagonal() * x;
+}
+
 Vector EquilibratedKkt::constrained_solve(const Vector& x) const {
   Vector rhs = Vector::Zero(factor_.size());
   rhs.head(n_) = x;

@@ -10,8 +10,11 @@ class EquilibratedKkt {
   EquilibratedKkt(const Eigen::SparseMatrix<double>& kkt, int n);
 
   bool regular() const { return regular_; }
+  Eigen::Index size() const { return factor_.size(); }
   /// (n + m) Precondition: regular().
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+  /// The same for many right-hand sides, a column each.
+  KktSolver::Columns solutions(const KktSolver::Columns& rhs) const;
   /// (n) y with B y + G'z = x, G y = 0. Precondition: regular().
   Eigen::VectorXd constrained_solve(const Eigen::VectorXd& x) const;
 

@@ -224,19 +224,16 @@ void Sensitivities::rests(const MeshedState& at) {
 
 void Sensitivities::solve_at_rest(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness) {
   const Eigen::Index n = at.state.q.size(), m = at.state.lambda.size();
-  const EquilibratedKkt kkt(stiffness, static_cast<int>(n));
-  if (!kkt.regular()) singular_rest();
+  auto factors = std::make_shared<const EquilibratedKkt>(stiffness, static_cast<int>(n));
+  if (!factors->regular()) singular_rest();
   take_off(find_residual_changes(at.state, tangents_.t), stiffness);
-  Vector rhs(n + m);
-  for (Eigen::Index k = 0; k < tangents_.parameters(); ++k) {
-    rhs << -dynamics_.col(k), -constraints_.col(k);
-    const Vector x = kkt.solve(rhs);
-    State tangent = still(n, m);
-    tangent.q = x.head(n);
-    tangent.lambda = x.tail(m);
-    tangents_.start_afresh(k, tangent);
-    ++work_.solves;
-  }
+  MotionTangents::Matrix open(n + m, tangents_.parameters());
+  open << dynamics_, constraints_;
+  const MotionTangents::Matrix x = factors->solutions(open);
+  tangents_.q = -x.topRows(n);
+  tangents_.lambda = -x.bottomRows(m);
+  work_.solves += tangents_.parameters();
+  if (is_static_) factors_ = std::move(factors);
 }
 
 // Tangents are the shifts alone, with which the neighbours of the rest are at corresponding places.
@@ -280,8 +277,12 @@ void Sensitivities::records(const MeshedState& at, bool of_the_moment) {
     meshes->held = held_joints(*at.system);
     meshes_ = std::move(meshes);
   }
-  Record record{
-      .state = at.state, .of_the_moment = of_the_moment, .probes = probes_, .meshes = meshes_, .rest = rest_};
+  Record record{.state = at.state,
+                .of_the_moment = of_the_moment,
+                .probes = probes_,
+                .meshes = meshes_,
+                .rest = rest_,
+                .factors = factors_};
   for (ProbePlace& probe : record.probes) probe.span = span_of(*at.system, at.state, probe);
   if (stretch_) {
     record.position = stretch_->steps.size();
@@ -327,25 +328,44 @@ Snapshot Sensitivities::snapshot(const Record& record, const BeamSystem& system,
   return snapshot;
 }
 
-std::pair<Snapshot, Snapshot> Sensitivities::neighbours(std::size_t record, std::size_t parameter) const {
+std::vector<Sensitivities::Neighbours> Sensitivities::neighbours(std::size_t record) const {
   const Record& of = records_[record];
-  const NeighbourPair& pair = parameters_[parameter].pair;
-  const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(parameter))
-                                    : still(of.state.q.size(), of.state.lambda.size());
-  const auto moved_by = [&](const Neighbour& neighbour, bool more) {
-    const std::shared_ptr<const BeamSystem> system = neighbour_at(of, parameter, more);
-    State state = moved(of.state, tangent, more ? pair.step : -pair.step);
-    if (is_static_ && !of.rest && !settle_near(*system, state))
-      throw std::runtime_error("a derivative finds no equilibrium beside that of the run");
-    if (of.of_the_moment && make_accelerations_consistent(*system, state) != ConsistencyStatus::done)
-      throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
-    std::vector<ProbePlace> probes = neighbour.probes;
-    for (std::size_t i = 0; i < probes.size(); ++i) probes[i].span = of.probes[i].span;
-    Snapshot found = snapshot(of, *system, state, probes);
-    if (asked_.contents.energy) found.energy = record_energy(energy(*system, state));
-    return found;
+  struct Side {
+    std::shared_ptr<const BeamSystem> system;
+    State state;
   };
-  return {moved_by(pair.more, true), moved_by(pair.less, false)};
+  std::vector<Side> sides(2 * parameters_.size());  // more and less of each
+  const auto of_sides = [&](const auto& work) {
+    side_by_side(static_cast<int>(sides.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      work(k / 2, k % 2 == 0, sides[k]);
+    });
+  };
+  of_sides([&](std::size_t k, bool more, Side& side) {
+    const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(k))
+                                      : still(of.state.q.size(), of.state.lambda.size());
+    const double step = parameters_[k].pair.step;
+    side = {neighbour_at(of, k, more), moved(of.state, tangent, more ? step : -step)};
+  });
+  if (of.factors) {
+    std::vector<NearRest> rests;
+    for (Side& side : sides) rests.push_back({side.system.get(), &side.state});
+    if (!settle_near(rests, *of.factors))
+      throw std::runtime_error("a derivative finds no equilibrium beside that of the run");
+  }
+  std::vector<Neighbours> found(parameters_.size());
+  of_sides([&](std::size_t k, bool more, Side& side) {
+    if (of.of_the_moment &&
+        make_accelerations_consistent(*side.system, side.state) != ConsistencyStatus::done)
+      throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
+    const NeighbourPair& pair = parameters_[k].pair;
+    std::vector<ProbePlace> probes = (more ? pair.more : pair.less).probes;
+    for (std::size_t i = 0; i < probes.size(); ++i) probes[i].span = of.probes[i].span;
+    Snapshot& own = more ? found[k].more : found[k].less;
+    own = snapshot(of, *side.system, side.state, probes);
+    if (asked_.contents.energy) own.energy = record_energy(energy(*side.system, side.state));
+  });
+  return found;
 }
 
 }  // namespace nurbeam

@@ -11,6 +11,7 @@
 #include "fem/motion/simulation.h"
 #include "fem/sensitivity/residual_differences.h"
 #include "fem/sensitivity/transfer_tangent.h"
+#include "solver/equilibrated_kkt.h"
 #include "solver/kept_steps.h"
 #include "solver/step_tangent.h"
 
@@ -90,10 +91,14 @@ class Sensitivities final : public RunFollower {
   /// After the run, before what follows: takes tangents over what steps are left where that is less work than
   /// to go back, and where many places share extremes, which then cannot be followed back.
   void ask(Asked asked);
-  /// At the time of such a record, snapshots of the models in which a parameter is greater and less, of
+  /// Of one model.
+  struct Neighbours {
+    Snapshot more, less;
+  };
+  /// At the time of such a record, snapshots of the models in which each parameter is greater and less, of
   /// states step dq/dp away, in statics of their equilibria there. Throws std::runtime_error where these have
   /// no accelerations, or are not found.
-  std::pair<Snapshot, Snapshot> neighbours(std::size_t record, std::size_t parameter) const;
+  std::vector<Neighbours> neighbours(std::size_t record) const;
   /// What quantities are where one record has another snapshot.
   using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;
   /// Of the quantities (quantities x parameters), by adjoints: what they change by as the records do, but for
@@ -175,8 +180,9 @@ class Sensitivities final : public RunFollower {
   std::deque<Record> records_;
   std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
   Asked asked_ = {};
-  std::shared_ptr<const Rest> rest_;  // the last one, for its adjoint
-  std::unique_ptr<Ahead> ahead_;      // with the present system; what goes on there looks at the others
+  std::shared_ptr<const Rest> rest_;                // the last one, for its adjoint
+  std::shared_ptr<const EquilibratedKkt> factors_;  // or of its tangent, for its neighbours
+  std::unique_ptr<Ahead> ahead_;  // with the present system; what goes on there looks at the others
 };
 
 }  // namespace nurbeam

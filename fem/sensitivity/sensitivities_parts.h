@@ -39,7 +39,8 @@ struct Sensitivities::Record {
   std::size_t position = 0;                     ///< after so many of them
   std::shared_ptr<const Meshes> meshes;
   std::shared_ptr<const Rest> rest;
-  std::optional<HeldExtremes> extremes = {};  ///< that are asked for
+  std::shared_ptr<const EquilibratedKkt> factors;  ///< where neighbours go to rests of their own
+  std::optional<HeldExtremes> extremes = {};       ///< that are asked for
 };
 
 /// A rest of the run, and how its residual changes by each parameter where places of joints correspond.

@@ -143,17 +143,30 @@ std::vector<double> differences(const StudyFile& study, const std::vector<double
 
 namespace {
 
+// The beam of which a variable moves a control point; null: none.
+const Beam* beam_of_point(const StudyVariable& variable, const BeamModel& model) {
+  const auto* point = variable.target ? std::get_if<ControlPointCoordinate>(&*variable.target) : nullptr;
+  if (!point) return nullptr;
+  const auto beam = std::find_if(model.beams.begin(), model.beams.end(),
+                                 [&](const Beam& each) { return each.name == point->beam; });
+  return beam == model.beams.end() ? nullptr : &*beam;
+}
+
 // Adjoints of motions are linear in the numbers of elements: of a control point they take a part of the
 // length of an element, between round-off in these and what is of third order in it.
 double step_of_elements(const StudyVariable& variable, const BeamModel& model, double by_value) {
-  const auto* point = variable.target ? std::get_if<ControlPointCoordinate>(&*variable.target) : nullptr;
-  if (!point) return by_value;
   constexpr double part = 5e-6, far = 100, near = 0.1;
-  const auto beam = std::find_if(model.beams.begin(), model.beams.end(),
-                                 [&](const Beam& each) { return each.name == point->beam; });
-  if (beam == model.beams.end() || beam->has_torsion() || !model.joints.empty()) return by_value;
+  const Beam* beam = beam_of_point(variable, model);
+  if (!beam || beam->has_torsion() || !model.joints.empty()) return by_value;
   const double length = beam->curve.length() / static_cast<double>(beam->home.size() - 1);
   return std::clamp(part * length, near * by_value, far * by_value);
+}
+
+// Of a control point whose neighbours settle, where its range is wide: no more than a part of what it bends.
+double step_of_spans(const StudyVariable& variable, const BeamModel& model, double by_value) {
+  constexpr double part = 2e-4;
+  const Beam* beam = beam_of_point(variable, model);
+  return beam ? std::min(part * beam->curve.length() / beam->curve.segment_count(), by_value) : by_value;
 }
 
 }  // namespace
@@ -225,8 +238,10 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const auto k = static_cast<std::size_t>(i);
     const StudyVariable& variable = study.variables[free[k]];
     const double by_value = derivative_step(variable, values[free[k]], settles);
-    const double step =
-        is_by_adjoint_ && !options.statics ? step_of_elements(variable, model.model, by_value) : by_value;
+    const double step = settles ? step_of_spans(variable, model.model, by_value)
+                        : is_by_adjoint_ && !options.statics
+                            ? step_of_elements(variable, model.model, by_value)
+                            : by_value;
     try {
       pairs[k].emplace(pair_of(k, step));
     } catch (const std::invalid_argument& problem) {
@@ -281,16 +296,15 @@ StudyGradient VariantGradient::of_quantities(const Histories& histories,
                        .quantities = study_.quantities.size(),
                        .contents = histories.contents(),
                        .of_beams = histories.parts_of_beams()});
-  side_by_side(static_cast<int>(pairs_.size()), [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    pairs_[k].more.histories.begin_as(histories);
-    pairs_[k].less.histories.begin_as(histories);
-    for (const std::size_t time : times) {
-      const auto& [more, less] = sensitivities_->neighbours(time, k);
-      pairs_[k].more.histories.replace(time, more);
-      pairs_[k].less.histories.replace(time, less);
+  for (Pair& pair : pairs_)
+    for (NeighbouringRun* run : {&pair.more, &pair.less}) run->histories.begin_as(histories);
+  for (const std::size_t time : times) {
+    const std::vector<Sensitivities::Neighbours> neighbours = sensitivities_->neighbours(time);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      pairs_[k].more.histories.replace(time, neighbours[k].more);
+      pairs_[k].less.histories.replace(time, neighbours[k].less);
     }
-  });
+  }
   StudyGradient gradient;
   for (const StudyQuantity& quantity : study_.quantities) {
     std::vector<double> row;
