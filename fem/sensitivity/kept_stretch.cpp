@@ -177,23 +177,29 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
   auto record = records.rbegin();
   const bool by_numbers = sum.rows() <= few_adjoints;
   if (by_numbers) differences_->go_back(*system_, state_, shifts_at(state_), sum.rows());
+  const bool are_in_sums = by_numbers && differences_->are_all_in_sums();
   stretch_->steps.back([&](std::size_t i, const KeptSteps::Step& step) {
     for (; record != records.rend() && records_[*record].position == i + 1; ++record)
       add_unknowns(by_state(*record), adjoints);
     if (record == records.rbegin()) return;
     ++work_.tangents;
     bool regular = false;
+    const auto find_multipliers = [&] {
+      adjoint.take(step.before, step.history, step.after, step.repeated);
+      regular = adjoint.find_multipliers(adjoints, mu);
+    };
     Shifts shifts;
-    both(
-        [&] {
-          adjoint.take(step.before, step.history, step.after, step.repeated);
-          regular = adjoint.find_multipliers(adjoints, mu);
-        },
-        [&] { shifts = find_residual_changes(step.after, same_time); });
+    const auto find_changes = [&] { shifts = find_residual_changes(step.after, same_time); };
+    if (are_in_sums) {
+      find_multipliers();
+      find_changes();
+    } else {
+      both(find_multipliers, find_changes);
+    }
     if (!regular) singular_step();
     work_.solves += mu.cols();
     take_off(shifts, adjoint.stiffness());
-    if (!by_numbers || !differences_->are_all_in_sums())
+    if (!are_in_sums)
       for (Eigen::Index k = 0; k < sum.rows(); ++k) {
         sum.row(k).noalias() -= mu.col(k).head(n).transpose() * dynamics_;
         sum.row(k).noalias() -= mu.col(k).tail(m).transpose() * constraints_;
