@@ -434,8 +434,9 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
       built.sources.back().torsion =
           why_torsion(from, {asked, uneven, is_curved(drawn->curve), bears_moment(resolved, from)});
     built.sources.back().outline = section_outline(*section);
-    built.sources.back().drawn_bending =
-        bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);
+    if (!like)
+      built.sources.back().drawn_bending =
+          bending_as_drawn(from, drawn->curve, built.model.beams.back(), built.frame, findings);
     if (section->profile) built.sources.back().profile = {from.section.profile->path, *section->profile};
     beams.push_back(*drawn);
   }

@@ -66,7 +66,8 @@ struct BuildReport {
 
 /// Reads the curves of a case and makes its model: axes to segments, plane detection, elements, places.
 /// `interrupted` is asked while files are read and a mesh is adapted: a model that it ends is an error.
-/// `like`: the model of a neighbouring case, from which is taken what both have in common.
+/// `like`: the model of a neighbouring case, from which is taken what both have in common, and of which is
+/// known what its drawing holds.
 BuildReport build_model(const CaseFile& case_file, const std::function<bool()>& interrupted = {},
                         const BuiltModel* like = nullptr);
 
