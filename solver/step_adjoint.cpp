@@ -44,8 +44,8 @@ void subtract_transposed(const Eigen::SparseMatrix<double>& matrix, const Adjoin
 }  // namespace
 
 StepAdjoint::StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSystem& system)
-    : step_(settings, system) {
-  Eigen::SparseMatrix<double> places = step_.kkt;
+    : steps_{LinearStep(settings, system), LinearStep(settings, system)} {
+  Eigen::SparseMatrix<double> places = step().kkt;
   std::iota(places.valuePtr(), places.valuePtr() + places.nonZeros(), 0.0);
   transposed_ = places.transpose();
   values_.assign(transposed_.valuePtr(), transposed_.valuePtr() + transposed_.nonZeros());
@@ -53,31 +53,35 @@ StepAdjoint::StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSyst
 
 void StepAdjoint::take(const State& before, const IntegratorHistory& history, const State& after,
                        bool repeated) {
+  steps_[1 - present_].take(before, history, after, repeated);
+}
+
+void StepAdjoint::go_on() {
   constexpr double same = 1e-6;  // but for round-off of times
-  const double h = step_.h;
-  step_.take(before, history, after, repeated);
+  const double h = step().h;
+  present_ = 1 - present_;
   factors_are_own_ = false;
-  if (!(std::abs(step_.h - h) <= same * h))
+  if (!(std::abs(step().h - h) <= same * h))
     for (Solved& solved : solved_) solved.contraction = unknown_contraction;
 }
 
 bool StepAdjoint::find_multipliers(const MotionTangents& end, Matrix& mu) {
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = step().parameters;
   const Eigen::Index n = end.q.rows(), m = end.lambda.rows();
-  const double h = step_.h, acceleration = 1 / (beta * h * h);
+  const double h = step().h, acceleration = 1 / (beta * h * h);
   Matrix by_correction(n + m, end.parameters());
   by_correction.topRows(n) = end.q + gamma * h * acceleration * end.v +
                              (1 - alpha_m) / (1 - alpha_f) * acceleration * end.a +
                              acceleration * (end.algorithmic_acceleration + end.jerk / h);
-  by_correction.bottomRows(m) = end.lambda / step_.scale();
+  by_correction.bottomRows(m) = end.lambda / step().scale();
   if (!solve(by_correction, mu)) return false;
-  mu.topRows(n) *= step_.scale();
+  mu.topRows(n) *= step().scale();
   return true;
 }
 
 bool StepAdjoint::factorise() {
   for (std::size_t k = 0; k < values_.size(); ++k)
-    transposed_.valuePtr()[k] = step_.kkt.valuePtr()[values_[k]];
+    transposed_.valuePtr()[k] = step().kkt.valuePtr()[values_[k]];
   for (Solved& solved : solved_) solved.contraction = unknown_contraction;
   return has_factors_ = factors_are_own_ = solver_.factorise(transposed_);
 }
@@ -111,10 +115,10 @@ bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
   std::swap(last, before);
   const auto open = [&](const Eigen::VectorXd& x, Eigen::VectorXd& left) {
     left = rhs;
-    left.noalias() -= step_.kkt.transpose() * x;
+    left.noalias() -= step().kkt.transpose() * x;
   };
   if (has_factors_ && !factors_are_own_ && last.size() == rhs.size() &&
-      correct_solution(solver_, open, tolerance, step_.system->coordinate_count(), last, contraction))
+      correct_solution(solver_, open, tolerance, step().system->coordinate_count(), last, contraction))
     return true;
   if (!factors_are_own_ && !factorise()) return false;
   solver_.solve(rhs, last);
@@ -124,30 +128,30 @@ bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
 MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multipliers, double by_time,
                                   const Eigen::VectorXd& later) const {
   using Start = LinearStep::Start;
-  const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
-  const double h = step_.h;
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = step().parameters;
+  const double h = step().h;
   MotionTangents start = MotionTangents::zero(end.q.rows(), end.lambda.rows(), end.parameters());
   // By what the step predicts.
   start.q = end.q;
-  subtract_transposed(step_.stiffness, multipliers, start.q);
+  subtract_transposed(step().stiffness, multipliers, start.q);
   Matrix v = end.v;
-  if (step_.damped) subtract_transposed(step_.damping, multipliers, v);
+  if (step().damped) subtract_transposed(step().damping, multipliers, v);
   const Matrix still = end.algorithmic_acceleration + end.jerk / h + h * h * beta * start.q + h * gamma * v;
   // By what it begins with.
   const Matrix algorithmic =
       -alpha_m / (1 - alpha_m) * still - end.jerk / h + h * h * (0.5 - beta) * start.q + h * (1 - gamma) * v;
   start.v = h * start.q + v;
   start.a = alpha_f / (1 - alpha_m) * still;
-  (step_.start == Start::afresh ? start.a : start.algorithmic_acceleration) += algorithmic;
-  if (step_.start == Start::moved) start.jerk = step_.lag() * (h - step_.last_step) * algorithmic;
+  (step().start == Start::afresh ? start.a : start.algorithmic_acceleration) += algorithmic;
+  if (step().start == Start::moved) start.jerk = step().lag() * (h - step().last_step) * algorithmic;
   if (later.size() == 0) return start;
   // By its length.
   start.t = end.t - later.transpose() * multipliers;
   Eigen::RowVectorXd by_length = start.t + end.last_step;
-  by_length += step_.q_by_length().transpose() * start.q + step_.v_by_length().transpose() * v;
-  by_length -= (step_.end_algorithmic - step_.start_algorithmic).transpose() * end.jerk / (h * h);
-  if (step_.start == Start::moved) {
-    start.last_step = -step_.lag() * step_.jerk.transpose() * algorithmic;
+  by_length += step().q_by_length().transpose() * start.q + step().v_by_length().transpose() * v;
+  by_length -= (step().end_algorithmic - step().start_algorithmic).transpose() * end.jerk / (h * h);
+  if (step().start == Start::moved) {
+    start.last_step = -step().lag() * step().jerk.transpose() * algorithmic;
     by_length -= start.last_step;
   }
   start.t += by_time * by_length;

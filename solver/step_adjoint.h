@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "solver/near_solver.h"
@@ -16,10 +17,13 @@ class StepAdjoint {
   /// `system` must outlive it.
   StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSystem& system);
 
-  /// Takes a step as StepTangent does.
+  /// Takes the next step as StepTangent does. Meanwhile, and until `go_on`, all else is of the one before, by
+  /// another thread too.
   void take(const State& before, const IntegratorHistory& history, const State& after, bool repeated);
+  /// To the step that has been taken.
+  void go_on();
   /// How the residual at `after` changes with q, constraints below (n + m).
-  const Eigen::SparseMatrix<double>& stiffness() const { return step_.stiffness; }
+  const Eigen::SparseMatrix<double>& stiffness() const { return step().stiffness; }
 
   /// Finds (n + m) x quantities `mu` of the step: the quantities change by -mu . dR where the residual at its
   /// end does by dR while q, v, a and lambda stay. `end`: their derivatives by what the step ends with, a
@@ -41,7 +45,10 @@ class StepAdjoint {
   };
   bool solve_from_last(const Eigen::VectorXd& rhs, Solved& solved);
 
-  LinearStep step_;
+  const LinearStep& step() const { return steps_[present_]; }
+
+  std::array<LinearStep, 2> steps_;  // the present one, and the next
+  std::size_t present_ = 0;
   Eigen::SparseMatrix<double> transposed_;
   std::vector<int> values_;  // of each value in transposed_, that of the matrix
   KktSolver solver_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -174,23 +175,20 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
   StepAdjoint adjoint(settings_, *system_);
   MotionTangents adjoints = MotionTangents::zero(n, m, sum.rows());
   MotionTangents::Matrix mu;
-  auto record = records.rbegin();
   const bool by_numbers = sum.rows() <= few_adjoints;
   if (by_numbers) differences_->go_back(*system_, state_, shifts_at(state_), sum.rows());
   const bool are_in_sums = by_numbers && differences_->are_all_in_sums();
-  stretch_->steps.back([&](std::size_t i, const KeptSteps::Step& step) {
-    for (; record != records.rend() && records_[*record].position == i + 1; ++record)
-      add_unknowns(by_state(*record), adjoints);
-    if (record == records.rbegin()) return;
-    ++work_.tangents;
+  // The step that the adjoint is at.
+  std::size_t present = 0;
+  std::optional<State> end;
+  double h = 0;
+  const auto go_over = [&] {
+    if (!end) return;
     bool regular = false;
-    const auto find_multipliers = [&] {
-      adjoint.take(step.before, step.history, step.after, step.repeated);
-      regular = adjoint.find_multipliers(adjoints, mu);
-    };
     Shifts shifts;
-    const auto find_changes = [&] { shifts = find_residual_changes(step.after, same_time); };
-    if (are_in_sums) {
+    const auto find_multipliers = [&] { regular = adjoint.find_multipliers(adjoints, mu); };
+    const auto find_changes = [&] { shifts = find_residual_changes(*end, same_time); };
+    if (are_in_sums) {  // where there are none
       find_multipliers();
       find_changes();
     } else {
@@ -204,16 +202,23 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
         sum.row(k).noalias() -= mu.col(k).head(n).transpose() * dynamics_;
         sum.row(k).noalias() -= mu.col(k).tail(m).transpose() * constraints_;
       }
-    both(
-        [&] {
-          if (by_numbers) differences_->add(step.after, mu);
-        },
-        [&] {
-          Vector later;
-          if (times_change) later = rates_with_time(step.after, step.after.t - step.before.t);
-          adjoints = adjoint.start(adjoints, mu, stretch_->by_time[i], later);
-        });
+    if (by_numbers) differences_->add(*end, mu);
+    const Vector later = times_change ? rates_with_time(*end, h) : Vector();
+    adjoints = adjoint.start(adjoints, mu, stretch_->by_time[present], later);
+  };
+  auto record = records.rbegin();
+  stretch_->steps.back([&](std::size_t i, const KeptSteps::Step& step) {
+    if (i + 1 > records_[records.back()].position) return;
+    ++work_.tangents;
+    both([&] { adjoint.take(step.before, step.history, step.after, step.repeated); }, go_over);
+    adjoint.go_on();
+    for (; record != records.rend() && records_[*record].position == i + 1; ++record)
+      add_unknowns(by_state(*record), adjoints);
+    present = i;
+    end = step.after;
+    h = step.after.t - step.before.t;
   });
+  go_over();
   if (by_numbers) sum -= differences_->sums();
   sum += product(adjoints, tangents_);
 }

@@ -84,6 +84,10 @@ TEST_P(StepAdjointOf, IsTheTransposeOfTheTangent) {
     tangent.take(before, history, after, repeated);
     ASSERT_TRUE(tangent.factorise());
     adjoint.take(before, history, after, repeated);
+    adjoint.go_on();
+    State other = after;
+    other.q *= 1.1;
+    adjoint.take(before, history, other, repeated);  // which is not gone on to
     const MotionTangents start = some_tangents(parameters, length), at_end = some_tangents(quantities, 7);
     const Matrix residual = some(3, parameters, 5);
     const Eigen::Vector3d later(0.3, -0.8, 0.1);
