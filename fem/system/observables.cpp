@@ -1,5 +1,7 @@
 #include "fem/system/observables.h"
 
+#include <algorithm>
+
 #include "fem/mesh/connector_axis.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/same_elements.h"
@@ -157,30 +159,37 @@ void add(const MotionSums& other, double factor, MotionSums& sums) {
   sums.length += factor * other.length;
 }
 
-// Whether coordinates and their velocities are exactly those of another state.
-template <std::size_t count>
-bool are_alike(const std::array<int, count>& dofs, const State& state, const std::array<int, count>& others,
-               const State& other_state) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const int i = dofs[k], j = others[k];
+// Whether an element moves as another, the same, does: exactly so.
+template <int D>
+bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<D>& other,
+                 const State& other_state) {
+  const MeshSpan &span = *e.span, &of_other = *other.span;
+  if (e.twist || span.start(state.q) != of_other.start(other_state.q) ||
+      span.end(state.q) != of_other.end(other_state.q))
+    return false;
+  for (int k = 0; k < element_size<D>; ++k) {
+    const int i = e.dofs[k], j = other.dofs[k];
     if (i >= 0 && (state.q[i] != other_state.q[j] || state.v[i] != other_state.v[j])) return false;
   }
   return true;
 }
 
-// Whether an element moves as another, the same, does: exactly so. Sections of another mesh may have another
-// chart.
+// The elements of a system that move otherwise in one state than in another.
 template <int D>
-bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<D>& other,
-                 const State& other_state) {
-  const MeshSpan &span = *e.span, &of_other = *other.span;
-  if (e.twist && &e != &other) return false;
-  if (span.start(state.q) != of_other.start(other_state.q) ||
-      span.end(state.q) != of_other.end(other_state.q))
-    return false;
-  if constexpr (D == 3)
-    if (e.twist && !are_alike(e.twist->dofs, state, other.twist->dofs, other_state)) return false;
-  return are_alike(e.dofs, state, other.dofs, other_state);
+std::vector<bool> unlike_motion(const Assembly<D>& a, const State& state, const State& other) {
+  const Eigen::Array<bool, Eigen::Dynamic, 1> differs =
+      state.q.array() != other.q.array() || state.v.array() != other.v.array();
+  const auto any = [&](const auto& dofs) {
+    return std::any_of(dofs.begin(), dofs.end(), [&](int i) { return i >= 0 && differs[i]; });
+  };
+  std::vector<bool> unlike;
+  unlike.reserve(a.elements().size());
+  for (const MeshElement<D>& e : a.elements()) {
+    bool is_unlike = any(e.dofs);
+    if constexpr (D == 3) is_unlike = is_unlike || (e.twist && any(e.twist->dofs));
+    unlike.push_back(is_unlike);
+  }
+  return unlike;
 }
 
 // The elements of both systems that the other has not, or which move otherwise there.
@@ -208,8 +217,7 @@ SystemEnergy carried_energy(const SystemEnergy& known, const BeamSystem& system,
   return with_assembly(
       system,
       [&]<int D>(const Assembly<D>& a) {
-        std::vector<bool> moves;
-        for (const MeshElement<D>& e : a.elements()) moves.push_back(!moves_alike(e, first, e, other));
+        const std::vector<bool> moves = unlike_motion(a, first, other);
         SystemEnergy carried = known;
         add(energy_of(a, other, &moves), 1, carried);
         add(energy_of(a, first, &moves), -1, carried);
