@@ -110,5 +110,35 @@ TEST_P(StepAdjointOf, IsTheTransposeOfTheTangent) {
 // One and few by factors of other steps, many by those of each.
 INSTANTIATE_TEST_SUITE_P(Quantities, StepAdjointOf, ::testing::Values(1, 2, 3, 4, 7));
 
+// The matrix of a linear system stays while steps are of one length: corrections with its factors leave
+// nothing, which says nothing of another length.
+TEST(StepAdjoint, ForgetsHowFastCorrectionsShrinkWhereStepsChangeTheirLength) {
+  testing::Oscillator oscillator;
+  oscillator.omega = 100;
+  constexpr GeneralizedAlpha settings{.newton_tolerance = 1e-14};
+  State start;
+  start.q = start.v = start.a = Eigen::VectorXd::Constant(1, 0.1);
+  GeneralizedAlphaIntegrator integrator(settings, oscillator, start);
+  StepAdjoint adjoint(settings, oscillator);
+  double quantity = 1;
+  for (const double length : {0.01, 0.01, 0.01, 0.01, 0.02}) {
+    const State before = integrator.state();
+    const IntegratorHistory history = integrator.history();
+    ASSERT_EQ(integrator.advance(length).status, StepStatus::converged);
+    MotionTangents end = MotionTangents::zero(1, 0, 1);
+    end.q(0, 0) = quantity *= -1.7;
+    const auto multipliers_of = [&](StepAdjoint& of) {
+      of.take(before, history, integrator.state(), false);
+      of.go_on();
+      Matrix mu;
+      EXPECT_TRUE(of.find_multipliers(end, mu));
+      return mu(0, 0);
+    };
+    StepAdjoint afresh(settings, oscillator);
+    const double expected = multipliers_of(afresh);
+    EXPECT_NEAR(multipliers_of(adjoint), expected, 1e-7 * std::abs(expected)) << length;
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam
