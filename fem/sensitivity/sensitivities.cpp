@@ -334,33 +334,36 @@ std::vector<Sensitivities::Neighbours> Sensitivities::neighbours(std::size_t rec
     std::shared_ptr<const BeamSystem> system;
     State state;
   };
-  std::vector<Side> sides(2 * parameters_.size());  // more and less of each
-  const auto of_sides = [&](const auto& work) {
-    side_by_side(static_cast<int>(sides.size()), [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
-      work(k / 2, k % 2 == 0, sides[k]);
-    });
-  };
-  of_sides([&](std::size_t k, bool more, Side& side) {
+  const auto side_of = [&](std::size_t k, bool more) {
     const State tangent = of.tangents ? of.tangents->of(static_cast<Eigen::Index>(k))
                                       : still(of.state.q.size(), of.state.lambda.size());
     const double step = parameters_[k].pair.step;
-    side = {neighbour_at(of, k, more), moved(of.state, tangent, more ? step : -step)};
-  });
+    return Side{neighbour_at(of, k, more), moved(of.state, tangent, more ? step : -step)};
+  };
+  const auto of_sides = [&](const auto& work) {  // more and less of each
+    side_by_side(static_cast<int>(2 * parameters_.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      work(k / 2, k % 2 == 0, k);
+    });
+  };
+  std::vector<Side> settled;  // together; others one by one, as the systems of former meshes take much room
   if (of.factors) {
+    settled.resize(2 * parameters_.size());
+    of_sides([&](std::size_t k, bool more, std::size_t i) { settled[i] = side_of(k, more); });
     std::vector<NearRest> rests;
-    for (Side& side : sides) rests.push_back({side.system.get(), &side.state});
+    for (Side& side : settled) rests.push_back({side.system.get(), &side.state});
     if (!settle_near(rests, *of.factors))
       throw std::runtime_error("a derivative finds no equilibrium beside that of the run");
   }
   std::vector<Neighbours> found(parameters_.size());
-  of_sides([&](std::size_t k, bool more, Side& side) {
+  of_sides([&](std::size_t k, bool more, std::size_t i) {
+    Side side = of.factors ? std::move(settled[i]) : side_of(k, more);
     if (of.of_the_moment &&
         make_accelerations_consistent(*side.system, side.state) != ConsistencyStatus::done)
       throw std::runtime_error("a derivative needs accelerations, and the mass matrix is singular");
     const NeighbourPair& pair = parameters_[k].pair;
     std::vector<ProbePlace> probes = (more ? pair.more : pair.less).probes;
-    for (std::size_t i = 0; i < probes.size(); ++i) probes[i].span = of.probes[i].span;
+    for (std::size_t j = 0; j < probes.size(); ++j) probes[j].span = of.probes[j].span;
     Snapshot& own = more ? found[k].more : found[k].less;
     own = snapshot(of, *side.system, side.state, probes);
     if (asked_.contents.energy) own.energy = record_energy(energy(*side.system, side.state));

@@ -91,7 +91,7 @@ class Sensitivities final : public RunFollower {
   /// After the run, before what follows: takes tangents over what steps are left where that is less work than
   /// to go back, and where many places share extremes, which then cannot be followed back.
   void ask(Asked asked);
-  /// Of one model.
+  /// Of one parameter.
   struct Neighbours {
     Snapshot more, less;
   };
