@@ -97,5 +97,17 @@ TEST(ReferenceCurve, AtABreakHasATangentOnEachSide) {
   EXPECT_TRUE(std::isinf(corner.next_break(s)));
 }
 
+TEST(ReferenceCurve, AtABreakIsExactlyAtTheEndOfItsSegment) {
+  const Eigen::Matrix4d bend =
+      (Eigen::Matrix4d() << 0, 1.3, 2, 2.4, 0, 0.1, 0.9, 2.2, 0, 0, 0, 0, 1, 1.2, 0.9, 1).finished();
+  const RationalCubic cubic(bend);
+  const auto [first, second] = cubic.split(0.37);
+  const ReferenceCurve curve({first, second}, 2);
+  for (const int j : {0, 1}) {
+    EXPECT_EQ(curve.parameter(j, curve.breaks()[j]), 0);
+    EXPECT_EQ(curve.parameter(j, curve.breaks()[j + 1]), 1);
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "fem/system/beam_system.h"
+#include "fem/system/observables.h"
 #include "fem/system/same_elements.h"
 #include "solver/consistent.h"
 #include "solver/start_tangent.h"
@@ -140,6 +142,31 @@ TEST(VelocitiesBeside, MissWhatGoesOutOfHalfTheDifference) {
       EXPECT_NEAR(ratio, 4, 1) << missed(fine).norm() / size;
       EXPECT_NEAR(odd(coarse) / odd(fine), 8, 3) << odd(fine);
     }
+}
+
+// What is found anew of all elements is the witness, of states that differ in a single place, angle or rate.
+TEST(EnergyBesideAnother, IsWhatIsFoundAnew) {
+  std::mt19937 random(23);
+  std::vector<BeamModel> models;
+  for (const int dimension : {2, 3}) models.push_back(model_with_everything(random, dimension));
+  models.push_back(torsion_model(random, 3));
+  models.push_back(testing::torsion_sliding_model(random, 0.1));
+  for (const BeamModel& model : models) {
+    const BeamSystem system(model);
+    const State first = disturbed_state(system, random);
+    const SystemEnergy known = energy(system, first);
+    const double round_off = 1e-12 * (known.kinetic + std::abs(known.gravity) + known.strain());
+    for (Eigen::Index i = 0; i < first.q.size(); ++i)
+      for (const bool moves : {false, true}) {
+        State other = first;
+        (moves ? other.v : other.q)[i] += 1e-3;
+        const SystemEnergy carried = carried_energy(known, system, first, other),
+                           anew = energy(system, other);
+        EXPECT_NEAR(carried.kinetic, anew.kinetic, round_off) << i;
+        EXPECT_NEAR(carried.gravity, anew.gravity, round_off) << i;
+        EXPECT_NEAR(carried.strain(), anew.strain(), round_off) << i;
+      }
+  }
 }
 
 }  // namespace
