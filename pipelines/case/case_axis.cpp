@@ -97,8 +97,9 @@ CaseAxis::Arc read_arc(const Json& axis, const std::string& axis_path, Findings&
   } else if (std::max(std::abs(a.dot(arc.normal)), std::abs(b.dot(arc.normal))) >
              relative * a.norm() * arc.normal.norm()) {
     findings.error(child(path, "normal"), "is not perpendicular to the plane of center, start and end");
-  } else if ((a - b).norm() <= relative * a.norm()) {
-    findings.error(path, "start and end are the same point; a full circle can be given as \"nurbs\"");
+  } else if (const double apart = (a - b).norm(); apart > 0 && apart <= relative * a.norm()) {
+    findings.error(path, "start and end are " + text_of(apart) +
+                             " m apart, too little for an arc; give the same point twice for a whole circle");
   }
   return arc;
 }

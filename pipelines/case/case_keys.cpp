@@ -65,7 +65,9 @@ Shape axis() {
       object({{"center", vector(Dimension::length), "centre of the circle", required},
               {"start", vector(Dimension::length), "start point", required},
               {"end", vector(Dimension::length), "end point", required},
-              {"normal", vector(Dimension::number), "the arc turns by the right hand about it", required}});
+              {"normal", vector(Dimension::number),
+               "the arc turns by the right hand about it; a whole circle where start and end are one point",
+               required}});
   return object(
       {{"file", any_text(), "STEP or IGES file, relative to the case file"},
        {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",

@@ -359,7 +359,8 @@ TEST_F(CaseFileTest, ImpossibleAxesAreRefused) {
   expect_error({arc("[0,0,0]", "[0,1,0]", "[0,1,1]")}, "beams[0].axis.arc.normal", {"perpendicular"});
   expect_error({arc("[0,0,0]", "[0,1,0]", "[0,0,0]")}, "beams[0].axis.arc.normal", {"direction"});
   expect_error({arc("[1,0,0]", "[0,1,0]", "[0,0,1]")}, "beams[0].axis.arc.start", {"center"});
-  expect_error({arc("[0,0,0]", "[1,0,0]", "[0,0,1]")}, "beams[0].axis.arc", {"same point", "nurbs"});
+  expect_error({arc("[0,0,0]", "[1,1e-9,0]", "[0,0,1]")}, "beams[0].axis.arc",
+               {"1e-09 m", "same point twice", "whole circle"});
   expect_error(
       {R"(beams[0].axis={"nurbs": {"degree": 1, "knots": [0,0,1,1], "control_points": [[0,0,0],[1,0,0]],
                    "weights": [1, 1, 1]}})"},

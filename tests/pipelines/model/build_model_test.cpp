@@ -45,6 +45,20 @@ TEST(BuildModel, ElementsOfEachSegmentGrowByTheGrading) {
   }
 }
 
+TEST(BuildModel, AnArcWhoseEndsAreOnePointIsAWholeCircleAndARing) {
+  const test::TemporaryDirectory directory;
+  const CaseFileReport report = read_case_file(
+      directory.write("case.json", test::smallest_case),
+      {R"(beams[0].axis={"arc": {"center": [0, 1, 0], "start": [2, 1, 0], "end": [2, 1, 0], "normal": [0, 0, 1]}})",
+       "beams[0].closed=true"});
+  ASSERT_TRUE(report.value);
+  const BuildReport built = build_model(*report.value);
+  ASSERT_TRUE(built.value);
+  const Beam& beam = built.value->model.beams.at(0);
+  EXPECT_NEAR(beam.curve.length(), 4 * std::numbers::pi, 1e-13);
+  EXPECT_TRUE(beam.is_ring());
+}
+
 TEST(BuildModel, AGradingThatLeavesNoRoomIsRefusedWithItsRange) {
   // The tightest interval is the one before the support: |k| < 2 (0.2 pi) / (3 * 2).
   const BuildReport report = build(R"({"per_segment": 3, "grading": "30 cm"})");
