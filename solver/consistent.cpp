@@ -1,6 +1,7 @@
 #include "solver/consistent.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -21,8 +22,9 @@ using Vector = Eigen::VectorXd;
 /// counts. Systems of no more unknowns than that are in the plane, of a chain of elements with four
 /// coordinates at each node, are solved for as a whole.
 constexpr int reach_of_accelerations = 40, few_unknowns = 10 * reach_of_accelerations;
-/// Masses of elements that follow one another take 0.28 from each node to the next: 4e-17 are left.
-constexpr int reach_of_velocities = 30;
+/// Masses of elements that follow one another take 0.28 from each node to the next: 2e-7 are left, which do
+/// where little is open, and 4e-17.
+constexpr std::array<int, 2> reaches_of_velocities{12, 30};
 
 /// Of accelerations.
 NearKkt near_kkt(const SecondOrderSystem& system, const std::vector<int>& around) {
@@ -94,6 +96,18 @@ std::optional<Projection> near_velocities(const SecondOrderSystem& system, const
       !near.correct(momentum, -system.constraint_rate(state), Beyond::closed, state.v, impulse))
     return std::nullopt;
   return Projection{ConsistencyStatus::done, impulse};
+}
+
+/// The same, with the fewest of these reaches that do; `near` is made where there is none.
+std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
+                                          const std::vector<int>& around, std::optional<NearKkt>& near,
+                                          State& state) {
+  for (const int reach : reaches_of_velocities) {
+    if (near && near->reach() > reach) continue;
+    if (!near || near->reach() < reach) near.emplace(system, around, reach);
+    if (auto projection = near_velocities(system, momentum, *near, state)) return projection;
+  }
+  return std::nullopt;
 }
 
 /// The state without accelerations and multipliers.
@@ -233,6 +247,7 @@ double open_constraints(const SecondOrderSystem& system, const State& state) {
 
 bool close_constraints(const SecondOrderSystem& system, double enough, State& state) {
   constexpr int most_moves = 10;
+  if (open_constraints(system, state) <= enough) return true;
   State closed = state;
   for (int i = 0; i < most_moves && open_constraints(system, closed) > enough; ++i)
     if (!move_to_constraints(system, closed)) return false;
@@ -277,8 +292,7 @@ Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen
 Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen::VectorXd& momentum,
                                     const std::vector<int>& around, ProjectionSolver& solver, State& state) {
   if (!around.empty()) {
-    if (!solver.near) solver.near.emplace(system, around, reach_of_velocities);
-    if (const auto near = near_velocities(system, momentum, *solver.near, state)) return *near;
+    if (const auto near = near_velocities(system, momentum, around, solver.near, state)) return *near;
   }
   return from_momentum(system, momentum, state, [&](const ScaledKkt& kkt, const Vector& b, Vector& x) {
     return solver.whole.solve(kkt.matrix, system.moving_unknowns(), b, x);
@@ -288,8 +302,8 @@ Projection velocities_from_momentum(const SecondOrderSystem& system, const Eigen
 Projection velocities_beside(const SecondOrderSystem& system, const Vector& momentum,
                              const std::vector<int>& around, NeighbourSolver& solver, State& state) {
   if (!around.empty()) {
-    NearKkt near(system, around, reach_of_velocities);
-    if (const auto projection = near_velocities(system, momentum, near, state)) return *projection;
+    std::optional<NearKkt> near;
+    if (const auto projection = near_velocities(system, momentum, around, near, state)) return *projection;
   }
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   if (solver.solution.size() != n + m)

@@ -11,6 +11,7 @@ NearKkt::NearKkt(const SecondOrderSystem& system, const std::vector<int>& around
     : system_(system),
       pattern_(system.tangent_pattern()),
       n_(system.coordinate_count()),
+      reach_(reach),
       fronts_(pattern_, CouplingLevels(pattern_, n_, around, reach + 3)),
       inner_(std::min(levels(), reach + 1)),
       rows_(std::min(levels(), reach + 2)),
@@ -134,9 +135,9 @@ Eigen::VectorXd NearKkt::open_rows(const Eigen::VectorXd& right, const Eigen::Ve
 }
 
 // What of these is round-off: in rows of coordinates of what moves anywhere, in those of constraints of the
-// largest of what they hold.
+// largest of what they hold. In rows beyond those that are solved for it is no more than steps leave open.
 Eigen::VectorXd NearKkt::round_off(const Eigen::VectorXd& right, const Eigen::VectorXd& left) const {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr double epsilon = std::numeric_limits<double>::epsilon(), beyond = 2000;
   const int count = static_cast<int>(right.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(left.size());
   sum.head(count) = right.cwiseAbs();
@@ -146,7 +147,7 @@ Eigen::VectorXd NearKkt::round_off(const Eigen::VectorXd& right, const Eigen::Ve
   const double largest_row = largest_coordinate(sum), largest_unknown = largest_coordinate(left);
   for (int k = 0; k < count; ++k) {
     const double largest = is_coordinate(k) ? largest_row : row_sizes_[k] * largest_unknown;
-    sum[k] = epsilon * std::max(32 * sum[k], 4 * largest);
+    sum[k] = epsilon * std::max(32 * sum[k], (k < start(inner_) ? 4 : beyond) * largest);
   }
   return sum;
 }

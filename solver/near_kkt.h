@@ -8,7 +8,7 @@
 namespace nurbeam {
 
 enum class Beyond {
-  closed,  ///< the rows next to the unknowns that are solved for must stay closed, to round-off
+  closed,  ///< the rows next to the unknowns that are solved for must stay closed, to 4e-13 of the largest
   given    ///< what x holds beyond is given, whatever it leaves open there
 };
 
@@ -21,6 +21,7 @@ class NearKkt {
 
   /// These, in order.
   std::vector<int> unknowns() const;
+  int reach() const { return reach_; }
 
   /// Takes the matrix of a state, from which the next one with the same h may differ in q alone; whether it
   /// can be eliminated so.
@@ -54,7 +55,7 @@ class NearKkt {
 
   const SecondOrderSystem& system_;
   const SparsePattern& pattern_;
-  int n_;
+  int n_, reach_;
   Fronts fronts_;     // those that are solved for and two more levels
   int inner_, rows_;  // how many levels are solved for, and have rows that are known
   std::vector<Columns> columns_;

@@ -254,6 +254,19 @@ struct ElementBatch<D>::Kernel {
     return each;
   }
 
+  NURBEAM_WITHIN std::array<double, lanes> lengths(const State& state) const {
+    Nodes e = gathered(state.q.data());
+    for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
+    Lanes8 sum = {};
+    for (const FixedLanes::Point& p : numbers.at) {
+      const LaneVector<D> rs = combination(e, p.S1);
+      sum += p.weight * square_root(dot<D>(rs, rs));
+    }
+    std::array<double, lanes> each;
+    for (int i = 0; i < lanes; ++i) each[i] = sum.of(i);
+    return each;
+  }
+
   // The tangent of add_point_forces; the blocks above the diagonal alone.
   NURBEAM_WITHIN void add_point_tangents(const Nodes& e, double stiffness, Tangents& K) const {
     const double EA = stiffness * beam.pointwise_axial_stiffness(),

@@ -32,6 +32,18 @@ NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<3>::lanes> El
 }
 
 template <>
+NURBEAM_FOR_EVERY_PROCESSOR std::array<double, ElementBatch<2>::lanes> ElementBatch<2>::lengths(
+    const State& state) const {
+  return Kernel{*this, *numbers_, *properties_}.lengths(state);
+}
+
+template <>
+NURBEAM_FOR_EVERY_PROCESSOR std::array<double, ElementBatch<3>::lanes> ElementBatch<3>::lengths(
+    const State& state) const {
+  return Kernel{*this, *numbers_, *properties_}.lengths(state);
+}
+
+template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
   Kernel{*this, *numbers_, *properties_}.tangents(state, free_strain, w, K);

@@ -39,6 +39,9 @@ class ElementBatch {
   /// Their energies, of the first count(); `load`: the dead load of which they have the potential [N/m].
   std::array<ElementEnergy, lanes> energies(const State& state, const Vector& load, double free_strain) const;
 
+  /// Their deformed lengths, of the first count() [m].
+  std::array<double, lanes> lengths(const State& state) const;
+
   /// Whether add_number_rates can take elements of these properties.
   static bool has_number_rates(const BeamProperties& properties) { return !(properties.tension_damping > 0); }
   /// How sums of the forces, each times a multiplier of its coordinate, change with the numbers of the

@@ -123,9 +123,10 @@ int find_span(const Structure& structure, const Mesh& mesh, const Eigen::VectorX
   const int first = mesh.first_span[beam], last = mesh.first_span[beam + 1] - 1;
   const double start = mesh.spans[first].start(q);
   if (structure.beams[beam].is_ring()) s = start + structure.beams[beam].curve.wrapped(s - start);
-  for (int i = first; i < last; ++i)
-    if (s < mesh.spans[i].end(q)) return i;
-  return last;
+  const auto spans = mesh.spans.begin();
+  const auto found = std::partition_point(spans + first, spans + last,
+                                          [&](const MeshSpan& span) { return !(s < span.end(q)); });
+  return static_cast<int>(found - spans);
 }
 
 bool is_arc_length_span(const Structure& structure, const Mesh& mesh, int index) {

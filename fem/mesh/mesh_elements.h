@@ -56,6 +56,22 @@ template <int D>
 std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
                                           const std::optional<MeshedBeams<D>>& like = {});
 
+/// First of the coordinates of its nodes where these follow one another, else -1.
+template <int D>
+int first_coordinate(const MeshElement<D>& e) {
+  for (int k = 1; k < ElementLayout<D>::nodal; ++k)
+    if (e.dofs[k] != e.dofs[0] + k) return -1;
+  return e.dofs[0];
+}
+
+/// The rates of its nodes.
+template <int D>
+ElementNodes<D> node_rates(const MeshElement<D>& e, const Eigen::VectorXd& v) {
+  ElementNodes<D> rates;
+  for (int k = 0; k < ElementLayout<D>::nodal; ++k) rates.reshaped()[k] = v[e.dofs[k]];
+  return rates;
+}
+
 /// The axial strain without axial force of an element's beam, as State::load has it.
 template <int D>
 double free_strain(const MeshElement<D>& e, const State& state) {

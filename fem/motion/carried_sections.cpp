@@ -109,10 +109,11 @@ class PresentSections {
 
 }  // namespace
 
-int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted) {
+int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted, int likely) {
   const auto is_same = [&](const MeshNode& node) {
     return node.home == wanted.home && node.joint == wanted.joint;
   };
+  if (likely < static_cast<int>(nodes.size()) && is_same(nodes[likely])) return likely;
   // In both meshes they are ordered by s, which that of a home node is in each.
   auto found = nodes.end();
   if (wanted.home >= 0)

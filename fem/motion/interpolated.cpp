@@ -96,9 +96,10 @@ std::vector<std::pair<int, int>> take_nodes(const State& state, const Mesh& old,
   std::vector<std::pair<int, int>> added;
   KeptCoordinates kept(state, next);
   for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
-    for (int i = 0; i < static_cast<int>(mesh.nodes[b].size()); ++i) {
+    for (int i = 0, same = -1; i < static_cast<int>(mesh.nodes[b].size()); ++i) {
       const MeshNode& node = mesh.nodes[b][i];
-      if (const int same = same_node(old.nodes[b], node); same >= 0)
+      same = same_node(old.nodes[b], node, same + 1);
+      if (same >= 0)
         kept.take(node, old.nodes[b][same], D);
       else
         added.emplace_back(b, i);

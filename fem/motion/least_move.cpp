@@ -10,7 +10,8 @@ namespace nurbeam {
 
 namespace {
 
-// By Newton's method for mu, from a value near by; nothing where that does not lead there fast.
+// By Newton's method for 1 / mu, in which small moves are linear, from a value near by; nothing where that
+// does not lead there fast.
 std::optional<LeastMove> refined(const EnergyParabola& energy, double e, double mu) {
   constexpr int most = 6;
   constexpr double small = 1e-8;  // of a correction: the next would be lost in round-off
@@ -21,17 +22,17 @@ std::optional<LeastMove> refined(const EnergyParabola& energy, double e, double 
     const Eigen::VectorXd d = stiff.solve(-sign * energy.g), inertia = energy.M * d;
     const Eigen::VectorXd rate = stiff.solve(-sign * inertia);  // of d by mu
     const double open = energy.g.dot(d) + 0.5 * d.dot(energy.K * d) + e;
-    const double correction = open / (mu * inertia.dot(rate));
-    if (!std::isfinite(correction)) return std::nullopt;
+    const double part = open / (mu * mu * inertia.dot(rate));  // of 1 / mu
+    if (!(part < 1)) return std::nullopt;
+    const double correction = mu / (1 - part) - mu;
     mu += correction;
     if (std::abs(correction) <= small * std::abs(mu)) return LeastMove{d + correction * rate, mu};
   }
   return std::nullopt;
 }
 
-}  // namespace
-
-LeastMove least_move(const EnergyParabola& energy, double e) {
+// By the modes of K in M.
+LeastMove searched(const EnergyParabola& energy, double e) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(energy.K, energy.M);
   const Eigen::ArrayXd K = modes.eigenvalues().array();
   const Eigen::ArrayXd g = (modes.eigenvectors().transpose() * energy.g).array();
@@ -51,9 +52,17 @@ LeastMove least_move(const EnergyParabola& energy, double e) {
   return {modes.eigenvectors() * (-g / (K + mu(high))).matrix(), mu(high)};
 }
 
+}  // namespace
+
 LeastMove least_move(const EnergyParabola& energy, double e, double near) {
   if (auto move = refined(energy, e, near)) return *std::move(move);
-  return least_move(energy, e);
+  return searched(energy, e);
+}
+
+LeastMove least_move(const EnergyParabola& energy, double e) {
+  // Where the parabola is but its slope.
+  const double small_move = energy.g.dot(Eigen::LLT<Eigen::MatrixXd>(energy.M).solve(energy.g)) / e;
+  return least_move(energy, e, small_move);
 }
 
 }  // namespace nurbeam

@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 #include "fem/system/material_points.h"
 
@@ -25,8 +25,24 @@ class NodeMatch {
     wanted_ << length * strain.mean_part(0, xi), length * strain.mean_part(xi, 1), length * strain.at(xi);
   }
 
-  // Newton's method with least moves; whether all conditions are met.
+  // Newton's method with least moves; whether all conditions are met, else nothing has moved.
   bool move(State& next) const {
+    const std::vector<int> moved = coordinates();
+    const Eigen::VectorXd start = next.q(moved);
+    if (meet(moved, next)) return true;
+    next.q(moved) = start;
+    return false;
+  }
+
+ private:
+  std::vector<int> coordinates() const {
+    std::vector<int> all;
+    for (const int first : {node_.r, node_.slope_left, node_.slope_right})
+      for (int d = 0; d < to_.dimension(); ++d) all.push_back(first + d);
+    return all;
+  }
+
+  bool meet(const std::vector<int>& moved, State& next) const {
     constexpr int most_moves = 12;
     const double enough = 4e-16 * length_;
     Conditions now = conditions(next);
@@ -37,17 +53,18 @@ class NodeMatch {
       solver.setThreshold(1e-9);
       solver.compute(now.gradient);
       const Eigen::Matrix<double, 6, 1> step = solver.solve(-now.excess);
-      State moved = next;
-      add(step, moved);
-      Conditions then = conditions(moved);
-      if (!(then.excess.norm() < before)) return before <= 1e-13 * length_;
-      next = std::move(moved);
+      const Eigen::VectorXd start = next.q(moved);
+      add(step, next);
+      const Conditions then = conditions(next);
+      if (!(then.excess.norm() < before)) {
+        next.q(moved) = start;
+        return before <= 1e-13 * length_;
+      }
       now = then;
     }
     return now.excess.norm() <= 1e-13 * length_;
   }
 
- private:
   Conditions conditions(const State& state) const {
     const StrainIntegral a = left_.at(state), b = right_.at(state);
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();
@@ -96,9 +113,7 @@ void match_axial_strain(const BeamSystem& from, const State& state, const BeamSy
   }
   if (left < 0 || right < 0) return;
   const double length = end - start;
-  State matched = next;
-  if (NodeMatch(to, next, added, left, right, *strain, length, (s - start) / length).move(matched))
-    next = std::move(matched);
+  (void)NodeMatch(to, next, added, left, right, *strain, length, (s - start) / length).move(next);
 }
 
 }  // namespace nurbeam

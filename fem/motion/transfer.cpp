@@ -209,8 +209,10 @@ class Remap {
     still.lambda = Eigen::VectorXd::Zero(to_.constraint_count());
     const TangentBlocks stiffness(to_, still, {.stiffness = 1}, free), mass(to_, still, {.mass = 1}, free);
     allowed = allowed_moves(mass.gradient());
+    const bool all = mass.gradient().isZero(0);
     const auto part = [&](const TangentBlocks& tangent) {
-      const Eigen::MatrixXd block = allowed.transpose() * tangent.coordinates() * allowed;
+      const Eigen::MatrixXd& whole = tangent.coordinates();
+      const Eigen::MatrixXd block = all ? whole : allowed.transpose() * whole * allowed;
       return Eigen::MatrixXd((block + block.transpose()) / 2);
     };
     return {part(stiffness), part(mass), allowed.transpose() * force_on(free, still)};

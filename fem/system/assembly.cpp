@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "fem/comparison/virtual_work.h"
 #include "fem/mesh/drawn_coordinates.h"
@@ -144,6 +145,19 @@ ElementEnergy Assembly<D>::axis_energy(const State& state, const std::vector<boo
     for (const int i : others)
       if (counts(i)) sum += elements_[i].element.energy(gather<D>(elements_[i], state), weight);
   }
+  return sum;
+}
+
+template <int D>
+double Assembly<D>::length(int beam, const State& state) const {
+  const Beam& of = model_->beams[beam];
+  double sum = of.rigid ? of.curve.length() : 0;
+  for (const ElementBatch<D>& batch : walks_[beam].batches) {
+    const auto lengths = batch.lengths(state);
+    sum = std::accumulate(lengths.begin(), lengths.begin() + batch.count(), sum);
+  }
+  for (const int i : walks_[beam].others)
+    sum += elements_[i].element.length(gather<D>(elements_[i], state.q));
   return sum;
 }
 

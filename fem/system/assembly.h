@@ -69,6 +69,8 @@ class Assembly final : public SecondOrderSystem {
   /// The sum of the elements' energies, of the axis alone; with the potential of gravity. `of`: these
   /// elements alone; null: all.
   ElementEnergy axis_energy(const State& state, const std::vector<bool>* of = nullptr) const;
+  /// That of a beam, deformed [m].
+  double length(int beam, const State& state) const;
   /// Inertia less forces of an element alone, in its own coordinates, under a load by line_load.
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
   /// The dead load of a beam per reference length, its weight included [N/m].

@@ -163,7 +163,7 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
     const MeshElement<D>& e = own.elements()[i];
     const bool is_kept = same[i] && e.element.fixed();
     if (is_kept) {
-      const ElementNodes<D> momentum = e.element.nodal_momentum(gather<D>(*same[i], state).node_rates());
+      const ElementNodes<D> momentum = e.element.nodal_momentum(node_rates(*same[i], state.v));
       for (int k = 0; k < ElementLayout<D>::nodal; ++k) kept_[e.dofs[k]] += momentum.reshaped()[k];
       if (!e.twist) continue;
     }

@@ -95,13 +95,14 @@ double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
 
 // Shape functions of positions add up to one: their rows of the momentum to that of the whole.
 template <int D>
-Eigen::Matrix<double, D, 1> momentum_of(const MeshElement<D>& e, const ElementState<D>& x) {
+Eigen::Matrix<double, D, 1> momentum_of(const MeshElement<D>& e, const State& state) {
   using Layout = ElementLayout<D>;
   using Vector = Eigen::Matrix<double, D, 1>;
   if (e.element.fixed()) {
-    const ElementNodes<D> nodal = e.element.nodal_momentum(x.node_rates());
+    const ElementNodes<D> nodal = e.element.nodal_momentum(node_rates(e, state.v));
     return nodal.col(0) + nodal.col(2);
   }
+  const ElementState<D> x = gather<D>(e, state);
   const ElementVector<D> p = e.element.tangent(x, Vector::Zero(), {.mass = 1}) * x.v;
   return p.template segment<D>(Layout::r(0)) + p.template segment<D>(Layout::r(1));
 }
@@ -121,7 +122,7 @@ void add_force_momenta(const Assembly<D>& a, const State& state, Eigen::Matrix<d
 template <int D>
 Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
-  for (const MeshElement<D>& e : a.elements()) sum += momentum_of<D>(e, gather<D>(e, state));
+  for (const MeshElement<D>& e : a.elements()) sum += momentum_of(e, state);
   add_force_momenta(a, state, sum);
   return widened<D>(sum);
 }
@@ -134,9 +135,8 @@ MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (!counts[i]) continue;
     const MeshElement<D>& e = a.elements()[i];
-    const ElementState<D> x = gather<D>(e, state);
-    momentum += momentum_of<D>(e, x);
-    if (e.span->beam == beam) sums.length += e.element.length(x.q);
+    momentum += momentum_of(e, state);
+    if (e.span->beam == beam) sums.length += e.element.length(gather<D>(e, state.q));
   }
   add_force_momenta(a, state, momentum);
   sums.momentum = widened<D>(momentum);
@@ -167,6 +167,11 @@ bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<
   if (e.twist || span.start(state.q) != of_other.start(other_state.q) ||
       span.end(state.q) != of_other.end(other_state.q))
     return false;
+  constexpr int nodal = ElementLayout<D>::nodal;
+  if (const int first = first_coordinate(e), of_first = first_coordinate(other);
+      e.element.fixed() && first >= 0 && of_first >= 0)
+    return state.q.segment<nodal>(first) == other_state.q.segment<nodal>(of_first) &&
+           state.v.segment<nodal>(first) == other_state.v.segment<nodal>(of_first);
   for (int k = 0; k < element_size<D>; ++k) {
     const int i = e.dofs[k], j = other.dofs[k];
     if (i >= 0 && (state.q[i] != other_state.q[j] || state.v[i] != other_state.v[j])) return false;
@@ -303,14 +308,7 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, in
 
 double beam_length(const BeamSystem& system, const State& state, int beam) {
   return with_assembly(
-      system,
-      [&]<int D>(const Assembly<D>& a) {
-        const Beam& of = a.model()->beams[beam];
-        double sum = of.rigid ? of.curve.length() : 0;
-        for (int i = a.mesh().first_span[beam]; i < a.mesh().first_span[beam + 1]; ++i)
-          sum += a.elements()[i].element.length(gather<D>(a.elements()[i], state.q));
-        return sum;
-      });
+      system, [&](const auto& a) { return a.length(beam, state); });
 }
 
 Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body) {

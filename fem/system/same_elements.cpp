@@ -17,14 +17,23 @@ class SpansByStart {
 
   /// -1 where there is none.
   int span_between(const MeshNode& a, const MeshNode& b) {
+    const bool follows = follower_ < mesh_.first_span[beam_ + 1] && is_between(follower_, a, b);
+    const int span = follows ? follower_ : search(a, b);
+    if (span >= 0) follower_ = span + 1;
+    return span;
+  }
+
+ private:
+  bool is_between(int span, const MeshNode& a, const MeshNode& b) const {
+    return is_same(mesh_.node_a(mesh_.spans[span]), a) && is_same(mesh_.node_b(mesh_.spans[span]), b);
+  }
+  int search(const MeshNode& a, const MeshNode& b) {
     const int node = a.home >= 0 ? at_home(a.home) : mesh_.joints[a.joint].node;
     const int span = node < 0 ? -1 : mesh_.first_span[beam_] + node;
     return span >= 0 && span < mesh_.first_span[beam_ + 1] && is_same(mesh_.node_b(mesh_.spans[span]), b)
                ? span
                : -1;
   }
-
- private:
   int at_home(int home) {
     const std::vector<MeshNode>& nodes = mesh_.nodes[beam_];
     while (next_ < nodes.size() && nodes[next_].home < home) ++next_;  // that of a moving node is -1
@@ -33,6 +42,7 @@ class SpansByStart {
 
   const Mesh& mesh_;
   int beam_;
+  int follower_ = mesh_.first_span[beam_];  // of the last one that was found
   std::size_t next_ = 0;
 };
 
