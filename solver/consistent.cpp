@@ -18,19 +18,20 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// So many levels of unknowns that are coupled: what changes an acceleration there changes none beyond that
-/// counts. Systems of no more unknowns than that are in the plane, of a chain of elements with four
-/// coordinates at each node, are solved for as a whole.
-constexpr int reach_of_accelerations = 40, few_unknowns = 10 * reach_of_accelerations;
+/// Levels of unknowns that are coupled, beyond which what is open changes no acceleration that counts: mostly
+/// the fewer ones. Systems of no more unknowns than `few_unknowns`, that is in the plane of a chain of
+/// elements with four coordinates at each node, are solved for as a whole.
+constexpr int short_reach_of_accelerations = 12, long_reach_of_accelerations = 40,
+              few_unknowns = 10 * long_reach_of_accelerations;
+
+int reach_of_accelerations(const SecondOrderSystem& system) {
+  const int size = system.tangent_pattern().size();
+  return size < few_unknowns ? size : long_reach_of_accelerations;
+}
+
 /// Masses of elements that follow one another take 0.28 from each node to the next: 2e-7 are left, which do
 /// where little is open, and 4e-17.
 constexpr std::array<int, 2> reaches_of_velocities{12, 30};
-
-/// Of accelerations.
-NearKkt near_kkt(const SecondOrderSystem& system, const std::vector<int>& around) {
-  const int size = system.tangent_pattern().size();
-  return {system, around, size < few_unknowns ? size : reach_of_accelerations};
-}
 
 /// The matrix, factorised.
 class FactorisedKkt {
@@ -92,8 +93,7 @@ Projection from_momentum(const SecondOrderSystem& system, const Vector& momentum
 std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
                                           NearKkt& near, State& state) {
   Vector impulse = Vector::Zero(system.constraint_count());
-  if (!near.factorise(state, 0) ||
-      !near.correct(momentum, -system.constraint_rate(state), Beyond::closed, state.v, impulse))
+  if (!near.factorise(state, 0) || !near.correct(momentum, -system.constraint_rate(state), state.v, impulse))
     return std::nullopt;
   return Projection{ConsistencyStatus::done, impulse};
 }
@@ -192,30 +192,19 @@ bool move_to_constraints(const SecondOrderSystem& system, State& state) {
 }  // namespace
 
 ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h, State& state) {
-  NearSolver own;
-  return make_accelerations_smooth(system, h, {}, own, state);
-}
-
-ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
-                                            const std::vector<int>& around, NearSolver& solver,
-                                            State& state) {
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   State still = unloaded(system, state);
-  const Eigen::VectorXd curvature = system.constraint_curvature(state);
   Eigen::VectorXd f = force(system, still);
-  if (!around.empty() && !system.forces_depend_on_multipliers()) {
-    NearKkt near = near_kkt(system, around);
-    if (near.factorise(still, h) && near.correct(f, -curvature, Beyond::given, state.a, state.lambda))
-      return ConsistencyStatus::done;
-  }
   const ScaledKkt kkt(system, still, h);
-  Eigen::VectorXd right(n + m), solution;
-  right << f / kkt.scale, -curvature;
+  Eigen::VectorXd right(n + m);
+  right << f / kkt.scale, -system.constraint_curvature(state);
   // The factors ask for room.
   still = {};
   f.resize(0);
-  if (!solver.solve(kkt.matrix, system.moving_unknowns(), right, solution) || !solution.allFinite())
-    return ConsistencyStatus::singular;
+  KktSolver solver;
+  if (!solver.factorise(kkt.matrix, system.moving_unknowns())) return ConsistencyStatus::singular;
+  const Eigen::VectorXd solution = solver.solve(right);
+  if (!solution.allFinite()) return ConsistencyStatus::singular;
   const auto take = [&](State& into) {
     into.a = solution.head(n);
     into.lambda = kkt.scale * solution.tail(m);
@@ -231,9 +220,34 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   return ConsistencyStatus::done;
 }
 
+Balance balance_accelerations(const SecondOrderSystem& system, double h, const std::vector<int>& around,
+                              NearSolver& solver, State& state) {
+  if (system.forces_depend_on_multipliers()) return {make_accelerations_smooth(system, h, state)};
+  const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
+  const State still = unloaded(system, state);
+  Eigen::VectorXd force(n), open(m);
+  system.residual(state, force, open);
+  force = -force;
+  open = -system.constraint_curvature(state) - system.constraint_product(state, state.a);
+  if (!around.empty())
+    for (const int reach : {short_reach_of_accelerations, reach_of_accelerations(system)}) {
+      NearKkt near(system, around, reach);
+      if (near.factorise(still, h) && near.answer(force, open, state.a, state.lambda))
+        return {ConsistencyStatus::done, true};
+    }
+  const ScaledKkt kkt(system, still, h);
+  Eigen::VectorXd right(n + m), correction;
+  right << force / kkt.scale, open;
+  if (!solver.solve(kkt.matrix, system.moving_unknowns(), right, correction) || !correction.allFinite())
+    return {ConsistencyStatus::singular};
+  state.a += correction.head(n);
+  state.lambda += kkt.scale * correction.tail(m);
+  return {ConsistencyStatus::done};
+}
+
 std::vector<int> solved_near(const SecondOrderSystem& system, const std::vector<int>& around) {
   if (around.empty() || system.forces_depend_on_multipliers()) return {};
-  std::vector<int> near = near_kkt(system, around).unknowns();
+  std::vector<int> near = NearKkt(system, around, reach_of_accelerations(system)).unknowns();
   return static_cast<int>(near.size()) < system.tangent_pattern().size() ? near : std::vector<int>{};
 }
 

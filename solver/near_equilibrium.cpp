@@ -44,7 +44,7 @@ class Settling {
   Vector open() const { return residual(*rest_.system, *rest_.state); }
 
   void correct(const Vector& correction) {
-    constexpr double slow = 0.2, little = 1e-12, round_off = 1e-16;
+    constexpr double slow = 0.2, little = 1e-12, rounding = 1e-16;
     const double size = size_of(*rest_.system, correction), contraction = size / last_;
     if (!(contraction < slow)) {
       stage_ = last_ < little ? Stage::there : Stage::astray;
@@ -52,7 +52,7 @@ class Settling {
     }
     take_off(correction, *rest_.state);
     last_ = size;
-    if (size == 0 || (contraction > 0 && size * contraction < round_off)) stage_ = Stage::there;
+    if (size == 0 || (contraction > 0 && size * contraction < rounding)) stage_ = Stage::there;
     if (!rest_.system->admissible(*rest_.state)) stage_ = Stage::astray;
   }
 

@@ -160,33 +160,80 @@ double NearKkt::largest_coordinate(const Eigen::VectorXd& of) const {
   return largest;
 }
 
-bool NearKkt::correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Beyond beyond,
-                      Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  constexpr int most_corrections = 3;
-  const int inner = start(inner_), count = start(beyond == Beyond::closed ? rows_ : inner_);
-  const std::vector<int>& unknowns = fronts_.unknowns();
-  const auto all = static_cast<Eigen::Index>(unknowns.size());
-  Eigen::VectorXd right(count), left(all);
-  for (int k = 0; k < all; ++k) {
-    const int i = unknowns[k];
-    left[k] = i < n_ ? x[i] : y[i - n_];
-    if (k < count) right[k] = i < n_ ? top[i] : bottom[i - n_];
+bool NearKkt::correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
+                      Eigen::VectorXd& y) const {
+  const Eigen::VectorXd right = near_part(top, bottom).head(start(rows_));
+  Eigen::VectorXd left = near_part(x, y);
+  if (!correct(right, round_off(right, left), left)) return false;
+  put_back(left, x, y);
+  return true;
+}
+
+bool NearKkt::answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
+                     Eigen::VectorXd& y) const {
+  const int beyond = start(rows_) - start(inner_);
+  Eigen::VectorXd left = near_part(x, y), open = near_part(top, bottom).head(start(rows_));
+  open.tail(beyond).setZero();
+  const Eigen::VectorXd right = open - open_rows(Eigen::VectorXd::Zero(open.size()), left);
+  Eigen::VectorXd correction = open.head(start(inner_));
+  solve(correction);
+  if (!correction.allFinite()) return false;
+  left.head(correction.size()) += correction;
+  Eigen::ArrayXd enough = round_off(right, left);
+  enough.tail(beyond) = faded(open, correction).tail(beyond);
+  if (!correct(right, enough, left)) return false;
+  put_back(left, x, y);
+  return true;
+}
+
+// A small part of what was open in the rows of coordinates, over the root of their diagonal entries, so that
+// forces and moments compare; and of what a correction is in those of constraints.
+Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd& correction) const {
+  constexpr double small = 1e-4;
+  const double largest = largest_coordinate(correction);
+  Eigen::ArrayXd rows = row_sizes_.head(open.size()).array() * largest;
+  double of_open = 0;
+  for (int k = 0; k < open.size(); ++k) {
+    if (!is_coordinate(k)) continue;
+    rows[k] = std::sqrt(std::abs(blocks_[fronts_.index(k, k)]));
+    if (rows[k] > 0) of_open = std::max(of_open, std::abs(open[k]) / rows[k]);
   }
+  for (int k = 0; k < open.size(); ++k)
+    if (is_coordinate(k)) rows[k] *= of_open;
+  return small * rows;
+}
+
+// Until the first rows are closed but for what is enough.
+bool NearKkt::correct(const Eigen::VectorXd& right, const Eigen::ArrayXd& enough,
+                      Eigen::VectorXd& left) const {
+  constexpr int most_corrections = 3;
   Eigen::VectorXd open = open_rows(right, left);
-  const Eigen::ArrayXd enough = round_off(right, left);
   for (int corrections = 0; !(open.array().abs() <= enough).all(); ++corrections) {
     if (corrections == most_corrections) return false;
-    Eigen::VectorXd correction = open.head(inner);
+    Eigen::VectorXd correction = open.head(start(inner_));
     solve(correction);
     if (!correction.allFinite()) return false;
-    left.head(inner) += correction;
+    left.head(correction.size()) += correction;
     open = open_rows(right, left);
   }
-  for (int k = 0; k < inner; ++k) {
-    const int i = unknowns[k];
-    (i < n_ ? x[i] : y[i - n_]) = left[k];
-  }
   return true;
+}
+
+// Of coordinates and multipliers, by place.
+Eigen::VectorXd NearKkt::near_part(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom) const {
+  const std::vector<int>& unknowns = fronts_.unknowns();
+  Eigen::VectorXd part(static_cast<Eigen::Index>(unknowns.size()));
+  for (Eigen::Index k = 0; k < part.size(); ++k)
+    part[k] = unknowns[k] < n_ ? top[unknowns[k]] : bottom[unknowns[k] - n_];
+  return part;
+}
+
+// Of those that are solved for.
+void NearKkt::put_back(const Eigen::VectorXd& part, Eigen::VectorXd& top, Eigen::VectorXd& bottom) const {
+  for (int k = 0; k < start(inner_); ++k) {
+    const int i = fronts_.unknowns()[k];
+    (i < n_ ? top[i] : bottom[i - n_]) = part[k];
+  }
 }
 
 }  // namespace nurbeam

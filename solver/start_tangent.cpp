@@ -31,10 +31,10 @@ Columns product(const Tangent& matrix, const Columns& columns) {
 
 // Each with its factor.
 std::vector<std::pair<State, double>> parts_of_rho(const SecondOrderSystem& system, double h,
-                                                   const State& state) {
+                                                   const Eigen::VectorXd& smoothed, const State& state) {
   std::vector<std::pair<State, double>> parts{{state, 1}};
   if (h == 0) return parts;
-  const Eigen::VectorXd d = h * h / 4 * state.a;
+  const Eigen::VectorXd d = h * h / 4 * smoothed;
   const double e = small_part(system, d);
   State still = state;
   still.a.setZero();
@@ -42,19 +42,24 @@ std::vector<std::pair<State, double>> parts_of_rho(const SecondOrderSystem& syst
   for (const double by : {e, -e}) {
     parts.emplace_back(still, 1 / (2 * by));
     parts.back().first.q += by * d;
-    parts.back().first.v += by * h / 2 * state.a;
+    parts.back().first.v += by * h / 2 * smoothed;
   }
   return parts;
 }
 
 }  // namespace
 
+StartTangent::StartTangent(const SecondOrderSystem& system, double h, const State& state)
+    : StartTangent(system, h, {}, Eigen::VectorXd::Zero(state.a.size()), state) {
+  smoothing_ = {};
+}
+
 StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std::vector<int>& around,
-                           const State& state)
+                           const Eigen::VectorXd& before, const State& state)
     : stiffness_(system.tangent_pattern().matrix()), damping_(stiffness_) {
   if (system.forces_depend_on_multipliers()) return;
   Tangent damping = damping_;
-  std::vector<std::pair<State, double>> parts = parts_of_rho(system, h, state);
+  std::vector<std::pair<State, double>> parts = parts_of_rho(system, h, state.a - before, state);
   parts_.reserve(parts.size());
   for (auto& [each, factor] : parts) {
     Tangent stiffness = system.tangent_pattern().matrix();
@@ -69,6 +74,8 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
   const ScaledKkt kkt(system, still, h);
   kkt_ = kkt.matrix;
   scale_ = kkt.scale;
+  smoothing_ = system.tangent_pattern().matrix();
+  system.tangent(still, {.damping = h / 2, .stiffness = h * h / 4}, smoothing_);
   unknowns_ = solved_near(system, around);
   regular_ = unknowns_.empty() ? solver_.factorise(kkt_, system.moving_unknowns())
                                : solver_.factorise(submatrix(kkt_, unknowns_));
@@ -82,7 +89,8 @@ double small_part(const SecondOrderSystem& system, const Eigen::VectorXd& d) {
 
 void StartTangent::find(const Matrix& dynamics, const Matrix& curvature, MotionTangents& tangents) const {
   const Eigen::Index n = dynamics.rows(), m = curvature.rows();
-  const Matrix change = dynamics + product(stiffness_, tangents.q) + product(damping_, tangents.v);
+  Matrix change = dynamics + product(stiffness_, tangents.q) + product(damping_, tangents.v);
+  if (smoothing_.size() > 0) change -= product(smoothing_, tangents.a);
   Matrix right(n + m, dynamics.cols()), left;
   right << -change / scale_, -curvature;
   if (unknowns_.empty()) {

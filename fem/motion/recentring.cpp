@@ -38,16 +38,17 @@ MeshedState recentred(const BeamSystem& system, const State& state, const std::v
       if (keeps_drawn_chart(system, e, end)) continue;
       const Eigen::Matrix3d section = element.end_section(x.q, end).matrix();
       const int angle = e.twist->dofs[TwistLayout::angle(end)], slope = TwistLayout::slope(end);
-      const double spin = element.spin(x, end);
-      if (of_like) {
-        const Eigen::Matrix3d& chart = now.charts[end] = of_like->charts[end];
-        next.q[angle] = angle_in(chart, section);
-        next.v[angle] = spin - spin_row<double>(chart, x.q.segment<3>(slope)).dot(x.v.segment<3>(slope));
-      } else {
-        now.charts[end] = section;
-        next.q[angle] = 0;
-        next.v[angle] = spin;
-      }
+      const Eigen::Matrix3d& chart = now.charts[end] = of_like ? of_like->charts[end] : section;
+      const auto rate = [&](double t) {
+        const TwistState then{x.q + t * x.v, x.v + t * x.a, x.a};
+        return element.spin(then, end) -
+               spin_row<double>(chart, then.q.segment<3>(slope)).dot(then.v.segment<3>(slope));
+      };
+      next.q[angle] = of_like ? angle_in(chart, section) : 0;
+      next.v[angle] = of_like ? rate(0) : element.spin(x, end);
+      // To a part in 10^10.
+      const double t = 1e-5 / std::max(1e-5, x.v.lpNorm<Eigen::Infinity>());
+      next.a[angle] = (rate(t) - rate(-t)) / (2 * t);
     }
   }
   return {system.replanned(std::move(plan), held), std::move(next)};

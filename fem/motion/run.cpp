@@ -8,21 +8,38 @@
 
 namespace nurbeam {
 
-bool Run::restart(const std::vector<int>& changed) {
-  // Other methods than this one want accelerations that are consistent everywhere.
-  const std::vector<int> around =
-      std::holds_alternative<GeneralizedAlpha>(options.integrator) ? changed : std::vector<int>{};
+bool Run::restart() {
   const double time = shortest_time();
-  NearSolver solver;
   const auto smooth = [&](MeshedState& of) {
-    return make_accelerations_smooth(*of.system, time, around, solver, of.state) == ConsistencyStatus::done;
+    return make_accelerations_smooth(*of.system, time, of.state) == ConsistencyStatus::done;
   };
   if (!smooth(at)) return fail(Failure::Kind::mass_matrix);
-  if (observer.follower) observer.follower->starts(at, time, around, smooth);
-  const Integrator* before = around.empty() ? nullptr : integrator.get();
+  if (observer.follower) observer.follower->starts(at, {.h = time}, smooth);
+  start_afresh(nullptr);
+  return true;
+}
+
+bool Run::restart_balanced(const std::vector<int>& around) {
+  // Other methods want accelerations that are consistent everywhere.
+  if (!std::holds_alternative<GeneralizedAlpha>(options.integrator)) return restart();
+  const double time = shortest_time();
+  NearSolver solver;
+  const auto balance = [&](MeshedState& of) {
+    return balance_accelerations(*of.system, time, around, solver, of.state);
+  };
+  const std::optional<Eigen::VectorXd> before = observer.follower ? std::optional(at.state.a) : std::nullopt;
+  const Balance found = balance(at);
+  if (found.status != ConsistencyStatus::done) return fail(Failure::Kind::mass_matrix);
+  if (observer.follower)
+    observer.follower->starts(at, {time, found.near ? around : std::vector<int>{}, before},
+                              [&](MeshedState& of) { return balance(of).status == ConsistencyStatus::done; });
+  start_afresh(around.empty() ? nullptr : integrator.get());
+  return true;
+}
+
+void Run::start_afresh(const Integrator* before) {
   integrator = start_integrator(options.integrator, *at.system, at.state, before);
   restarted = true;
-  return true;
 }
 
 void Run::note(RunEvent event) {

@@ -48,10 +48,10 @@ struct Run {
     if (change(own)) follow(change);
   }
   /// New integrator from the present state, with consistent accelerations.
-  bool restart() { return restart({}); }
-  /// After a change of the mesh that left all but these unknowns as they were (changed_unknowns):
-  /// accelerations beyond what is near them are carried over.
-  bool restart(const std::vector<int>& around);
+  bool restart();
+  /// After a change of the mesh or its charts, which has left all but these unknowns as they were
+  /// (changed_unknowns; none: any): accelerations are carried over but for what is out of balance.
+  bool restart_balanced(const std::vector<int>& around);
   /// Writes an event down.
   void note(RunEvent event);
 
@@ -66,6 +66,9 @@ struct Run {
   /// after an event just before an output time is not worth one [s].
   double resolution() const;
   double mechanical_energy() const;
+
+ private:
+  void start_afresh(const Integrator* before);
 };
 
 }  // namespace nurbeam

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem/motion/crossing.h"
@@ -31,6 +32,14 @@ struct FollowedTransfer {
   std::function<std::unique_ptr<BeamSystem>(const MeshedState&)> replanned;
 };
 
+/// Accelerations as make_accelerations_smooth(h) finds them, or balance_accelerations(h, around) those that
+/// were there before.
+struct FollowedStart {
+  double h;
+  std::vector<int> around = {};
+  std::optional<Eigen::VectorXd> before = {};  ///< (n)
+};
+
 /// Is told how each state of a run comes from the one before, so that neighbouring motions can go along: all
 /// that the run decides, as when the mesh changes and for how long a step is, is decided for them too.
 class RunFollower {
@@ -48,9 +57,8 @@ class RunFollower {
   /// It was a transfer to another mesh: `change` does the same.
   virtual void transfers(const MeshedState& at, const FollowedTransfer& transfer,
                          const std::function<bool(MeshedState&)>& change) = 0;
-  /// Accelerations and multipliers of `at` have been made those of its q and v, as
-  /// make_accelerations_smooth(h, around) does: `change` does it too.
-  virtual void starts(const MeshedState& at, double h, const std::vector<int>& around,
+  /// Accelerations and multipliers of `at` have been made those of its q and v: `change` does it too.
+  virtual void starts(const MeshedState& at, const FollowedStart& start,
                       const std::function<bool(MeshedState&)>& change) = 0;
   /// It is an event, at the present time.
   virtual void happens(const RunEvent& event) = 0;

@@ -77,7 +77,7 @@ bool change_due_mesh(Run& run) {
         observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
     const MeshedState own = std::exchange(run.at, std::move(changed->now));
     if (run.observer.follower) follow_change(run, own, next, *changed);
-    if (!run.restart(changed->around)) return false;
+    if (!run.restart_balanced(changed->around)) return false;
     run.at.state = run.integrator->state();
     event.support_impulse = support_impulse(run.at, changed->impulse);
     run.note(std::move(event));
@@ -103,7 +103,7 @@ bool recentre_sections(Run& run) {
     neighbour = recentred(*neighbour.system, neighbour.state, {}, &run.at.system->mesh().plan);
     return true;
   });
-  if (!run.restart()) return false;
+  if (!run.restart_balanced({})) return false;
   run.at.state = run.integrator->state();
   return true;
 }

@@ -108,9 +108,10 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
   tangents_.start_afresh();
 }
 
-void Sensitivities::starts(const MeshedState& at, double h, const std::vector<int>& around,
+void Sensitivities::starts(const MeshedState& at, const FollowedStart& of,
                            const std::function<bool(MeshedState&)>& change) {
-  const StartTangent start(*at.system, h, around, at.state);
+  const StartTangent start = of.before ? StartTangent(*at.system, of.h, of.around, *of.before, at.state)
+                                       : StartTangent(*at.system, of.h, at.state);
   if (!start.regular()) return changes(at, change);
   carry();
   MotionTangents::Matrix dynamics = MotionTangents::Matrix::Zero(dynamics_.rows(), dynamics_.cols());

@@ -111,7 +111,7 @@ class Sensitivities final : public RunFollower {
   void changes(const MeshedState& at, const std::function<bool(MeshedState&)>& change) override;
   void transfers(const MeshedState& at, const FollowedTransfer& transfer,
                  const std::function<bool(MeshedState&)>& change) override;
-  void starts(const MeshedState& at, double h, const std::vector<int>& around,
+  void starts(const MeshedState& at, const FollowedStart& start,
               const std::function<bool(MeshedState&)>& change) override;
   void happens(const RunEvent& event) override;
   void records(const MeshedState& at, bool of_the_moment) override;

@@ -390,5 +390,26 @@ TEST(Rods, SayWhatSpeedsTheyDoNotLet) {
                    .says("connectors[0]: is a rod whose"));
 }
 
+TEST(SpinningBar, WithTorsionKeepsItsEnergyOverTenTurns) {
+  // Sections take new charts every 60 degrees: what that puts out of balance is nothing.
+  const std::string bar = R"({
+    "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "bar", "axis": { "polyline": [[-0.5, 0, 0], [0.5, 0, 0]] }, "torsion": true,
+                "section": { "radius": 0.02 }, "material": { "density": 1000, "youngs_modulus": "10 GPa" },
+                "elements": { "count": 8 }, "initial": { "velocity": { "rotation": [0, 0, 10] } } }],
+    "analysis": { "end_time": 6.283185307179586, "step": "2.5 ms" },
+    "output": { "every": 0.6283185307179586, "probes": [{ "name": "tip", "beam": "bar", "at": "end" }] }
+  })";
+  const CaseRun run = run_mechanics(bar), without = run_mechanics(bar, {"beams[0].torsion=false"});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  ASSERT_EQ(without.code, 0) << without.messages;
+  const double energy = run.value(0, "energy.kinetic [J]");
+  EXPECT_NEAR(energy, 5.236, 1e-3);
+  EXPECT_LT(energy_change(run), 1e-3 * energy);
+  EXPECT_LT(energy_change(run), 3 * energy_change(without));
+  EXPECT_NEAR(run.last("tip.x [m]"), 0.5, 1e-3);
+  EXPECT_NEAR(run.last("tip.y [m]"), 0, 2 * std::abs(without.last("tip.y [m]")));
+}
+
 }  // namespace
 }  // namespace nurbeam::test

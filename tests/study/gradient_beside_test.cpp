@@ -31,7 +31,7 @@ class Alone final : public RunFollower {
     ++transfers_;
     of_.changes(at, change);
   }
-  void starts(const MeshedState& at, double, const std::vector<int>&,
+  void starts(const MeshedState& at, const FollowedStart&,
               const std::function<bool(MeshedState&)>& change) override {
     of_.changes(at, change);
   }

@@ -166,8 +166,8 @@ TEST(LocalVelocities, HaveTheMomentumThatThoseOfAllUnknownsHave) {
         });
 }
 
-TEST(LocalAccelerations, AreThoseOfAllUnknownsWhereTheOthersAre) {
-  constexpr double h = 1e-3;
+TEST(BalancedAccelerations, AnswerWhatIsOpenAndNothingElse) {
+  constexpr double h = 1e-7;
   for (const int dimension : {2, 3})
     for_each_change(dimension, [&](const BeamSystem& from, const BeamSystem& to, const BeamSystem&,
                                    std::mt19937& random) {
@@ -175,15 +175,40 @@ TEST(LocalAccelerations, AreThoseOfAllUnknownsWhereTheOthersAre) {
       State whole = disturbed_state(to, random, 1e-4);
       ASSERT_EQ(project_velocities(to, whole).status, ConsistencyStatus::done);
       ASSERT_EQ(make_accelerations_smooth(to, h, whole), ConsistencyStatus::done);
-      State local = whole;
+      // In balance, then not near the change.
+      ASSERT_EQ(make_accelerations_consistent(to, whole), ConsistencyStatus::done);
       for (const int i : around)
-        if (i < local.a.size()) local.a[i] = 0;
-      const State start = local;
-      NearSolver solver;
-      ASSERT_EQ(make_accelerations_smooth(to, h, around, solver, local), ConsistencyStatus::done);
-      EXPECT_LT((local.a - whole.a).lpNorm<Eigen::Infinity>(), 1e-9 * whole.a.lpNorm<Eigen::Infinity>());
-      EXPECT_LT((local.lambda - whole.lambda).norm(), 1e-8 * (1 + whole.lambda.norm()));
+        if (i < whole.a.size()) whole.a[i] = 0;
+      const State start = whole;
+      State local = whole;
+      NearSolver solver, other;
+      ASSERT_EQ(balance_accelerations(to, h, {}, solver, whole).status, ConsistencyStatus::done);
+      const Eigen::VectorXd correction = whole.a - start.a;
+      State still = whole;
+      still.a.setZero();
+      still.lambda.setZero();
+      const Eigen::Index n = to.coordinate_count(), m = to.constraint_count();
+      Eigen::VectorXd padded = Eigen::VectorXd::Zero(n + m), dynamics(n), constraints(m);
+      padded.head(n) = correction;
+      to.residual(whole, dynamics, constraints);
+      const double largest = dynamics.lpNorm<Eigen::Infinity>();
+      dynamics += (tangent_of(to, still, {.damping = h / 2, .stiffness = h * h / 4}) * padded).head(n);
+      EXPECT_LT(dynamics.lpNorm<Eigen::Infinity>(), 1e-9 * largest);
+      EXPECT_LT((to.constraint_product(whole, whole.a) + to.constraint_curvature(whole)).norm(),
+                1e-9 * whole.a.norm());
+
+      const Balance near = balance_accelerations(to, h, around, other, local);
+      ASSERT_EQ(near.status, ConsistencyStatus::done);
+      EXPECT_TRUE(near.near);
+      EXPECT_LT((local.a - whole.a).lpNorm<Eigen::Infinity>(), 1e-3 * correction.lpNorm<Eigen::Infinity>());
+      EXPECT_LT((local.lambda - whole.lambda).norm(), 1e-6 * (1 + whole.lambda.norm()));
       EXPECT_LT(changes(local.a, start.a), local.a.size() / 2) << "those far away";
+      State again = whole;
+      ASSERT_EQ(balance_accelerations(to, 0, {}, other, again).status, ConsistencyStatus::done);
+      const State balanced = again;
+      ASSERT_EQ(balance_accelerations(to, h, {}, other, again).status, ConsistencyStatus::done);
+      EXPECT_LT((again.a - balanced.a).lpNorm<Eigen::Infinity>(), 1e-9 * balanced.a.lpNorm<Eigen::Infinity>())
+          << "what is in balance";
     });
 }
 
