@@ -52,7 +52,7 @@ struct ReliabilityResult {
   std::optional<double> coefficient_of_variation = {};
   std::optional<double> reliability_index = {};  ///< Hasofer and Lind's; below 0 where the origin fails
   std::vector<double> design_point = {};         ///< of the free variables, where FORM finds one
-  std::vector<double> importance = {};           ///< of each free variable there, their sum is 1
+  std::vector<double> importance = {};           ///< of each free variable there, their sum is 1; empty: none
   int not_done = 0;  ///< variants that are not done: a simulation counts them as ones that do not fail
 };
 /// With derivatives where they are given. Throws std::runtime_error where the method does not end.

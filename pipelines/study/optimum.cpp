@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
@@ -16,6 +17,8 @@ namespace nurbeam {
 namespace {
 
 bool is_held(double margin) { return margin >= -1e-9; }
+
+using Sides = std::pair<double, double>;  // of a constraint: what must be greater, and the other
 
 /// What a search minimises and holds, of one variant.
 class Goal {
@@ -35,27 +38,45 @@ class Goal {
       values.push_back(optimum_.objectives[i].minimise ? quantities[indices_[i]] : -quantities[indices_[i]]);
     return values;
   }
-  /// Each 0 or more where it holds.
+  /// Each 0 or more where it holds, as a part of its unit.
   std::vector<double> margins(const std::vector<double>& quantities, const std::vector<double>& point) const {
-    const std::vector<double> variables = all_values(study_, point);
-    const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
-      for (std::size_t i = 0; i < study_.variables.size(); ++i)
-        if (study_.variables[i].name == name) return variables[i];
-      return quantities[quantity_index(study_, name)];
-    }};
     std::vector<double> margins;
-    for (const Expression& constraint : optimum_.constraints) margins.push_back(constraint.number(scope));
+    for (const auto& [greater, lesser] : sides(quantities, point))
+      margins.push_back((greater - lesser) / units_[margins.size()]);
     return margins;
   }
+  /// The units of constraints are the larger sides in the first variant that is done.
+  void measure(const std::vector<double>& quantities, const std::vector<double>& point) {
+    if (!units_.empty()) return;
+    for (const auto& [greater, lesser] : sides(quantities, point)) {
+      const double larger = std::max(std::abs(greater), std::abs(lesser));
+      units_.push_back(larger > 0 && std::isfinite(larger) ? larger : 1);
+    }
+  }
+  double unit(std::size_t constraint) const { return units_.at(constraint); }
   bool holds(const std::vector<double>& quantities, const std::vector<double>& point) const {
     const std::vector<double> all = margins(quantities, point);
     return std::all_of(all.begin(), all.end(), is_held);
   }
 
  private:
+  std::vector<Sides> sides(const std::vector<double>& quantities, const std::vector<double>& point) const {
+    const std::vector<double> variables = all_values(study_, point);
+    const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
+      for (std::size_t i = 0; i < study_.variables.size(); ++i)
+        if (study_.variables[i].name == name) return variables[i];
+      return quantities[quantity_index(study_, name)];
+    }};
+    std::vector<Sides> sides;
+    for (const StudyOptimum::Constraint& constraint : optimum_.constraints)
+      sides.emplace_back(constraint.greater.number(scope), constraint.lesser.number(scope));
+    return sides;
+  }
+
   const StudyFile& study_;
   const StudyOptimum& optimum_;
   std::vector<std::size_t> indices_;
+  std::vector<double> units_;  // of constraints; none before a variant is done
 };
 
 /// The variants that a search asks for. It sees the free variables as parts of their ranges, 0 to 1, so that
@@ -63,7 +84,7 @@ class Goal {
 class Search {
  public:
   Search(const StudyFile& study, const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
-         const Goal& goal)
+         Goal& goal)
       : study_(study),
         evaluate_(evaluate),
         derivatives_(derivatives),
@@ -180,6 +201,7 @@ class Search {
       points_.push_back(fresh[i]);
       quantities_.push_back(quantities[i]);
       if (quantities[i].empty()) continue;
+      goal_.measure(quantities[i], fresh[i]);
       const std::vector<double> values = goal_.objectives(quantities[i]);
       if (least_.empty()) least_ = most_ = values;
       for (std::size_t k = 0; k < values.size(); ++k) {
@@ -204,7 +226,7 @@ class Search {
   const StudyFile& study_;
   const StudyEvaluation& evaluate_;
   const StudyDerivatives& derivatives_;
-  const Goal& goal_;
+  Goal& goal_;
   OT::Interval range_;
   std::map<std::vector<double>, std::size_t> indices_;  // of points, in the order in which they ran
   StudyPoints points_, quantities_;
@@ -353,9 +375,9 @@ std::string none_holds(const StudyOptimum& optimum, const Search& search, const 
   std::string missed;
   for (std::size_t k = 0; k < best.size(); ++k)
     if (!is_held(best[k]))
-      missed +=
-          (missed.empty() ? "" : ", ") + in_quotes(optimum.constraint_texts[k]) +
-          (std::isfinite(best[k]) ? " is missed by " + text_of(-best[k], 4) + " at least" : " is no number");
+      missed += (missed.empty() ? "" : ", ") + in_quotes(optimum.constraints[k].text) +
+                (std::isfinite(best[k]) ? " is missed by " + text_of(-best[k] * goal.unit(k), 4) + " at least"
+                                        : " is no number");
   return "none of the " + std::to_string(done) + " variants that are done holds \"subject_to\": " +
          (missed.empty() ? "each holds in some of them, but not all together" : missed) +
          "; take wider ranges or more \"evaluations\"";
@@ -365,7 +387,7 @@ std::string none_holds(const StudyOptimum& optimum, const Search& search, const 
 
 OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
                            const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
-  const Goal goal(study, optimum);
+  Goal goal(study, optimum);
   Search search(study, evaluate, derivatives, goal);
   try {
     const OT::OptimizationProblem problem = problem_of(study, optimum, search);

@@ -90,7 +90,9 @@ ReliabilityResult simulated(const StudyReliability& reliability, const OT::Rando
   algorithm.run();
   const OT::ProbabilitySimulationResult result = algorithm.getResult();
   ReliabilityResult estimate{.probability = result.getProbabilityEstimate()};
-  if (estimate.probability > 0) estimate.coefficient_of_variation = result.getCoefficientOfVariation();
+  // Negative where there is none.
+  if (const double variation = result.getCoefficientOfVariation(); estimate.probability > 0 && variation >= 0)
+    estimate.coefficient_of_variation = variation;
   return estimate;
 }
 
@@ -126,8 +128,11 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
   const bool mostly_fails = form.getIsStandardPointOriginInFailureSpace();
   ReliabilityResult result{.probability = form.getEventProbability(),
                            .reliability_index = (mostly_fails ? -1 : 1) * form.getHasoferReliabilityIndex(),
-                           .design_point = from_point(form.getPhysicalSpaceDesignPoint()),
-                           .importance = from_point(form.getImportanceFactors())};
+                           .design_point = from_point(form.getPhysicalSpaceDesignPoint())};
+  // Of a limit at the origin there are none, and they are negative.
+  const std::vector<double> importance = from_point(form.getImportanceFactors());
+  if (std::all_of(importance.begin(), importance.end(), [](double factor) { return factor >= 0; }))
+    result.importance = importance;
   if (!std::isfinite(*result.reliability_index))
     throw std::runtime_error(
         "FORM found no design point: variants near it are not done; take \"monte_carlo\"");

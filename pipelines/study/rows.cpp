@@ -32,6 +32,12 @@ std::vector<double> numbers_of(const Json& list) {
   return numbers;
 }
 
+std::vector<std::vector<double>> rows_of(const Json& list) {
+  std::vector<std::vector<double>> rows;
+  for (const Json& each : list) rows.push_back(numbers_of(each));
+  return rows;
+}
+
 }  // namespace
 
 std::string line_of(const Variant& variant) {
@@ -52,7 +58,7 @@ Variant variant_of(const std::string& line) {
             .status = *status,
             .reason = json.at("reason").get<std::string>(),
             .quantities = numbers_of(json.at("quantities")),
-            .gradient = json.value("gradient", std::vector<std::vector<double>>{}),
+            .gradient = rows_of(json.value("gradient", Json::array())),
             .seconds = json.at("seconds").get<double>()};
   } catch (const Json::exception& problem) {
     throw std::runtime_error(std::string("is no variant: ") + problem.what());

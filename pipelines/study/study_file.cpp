@@ -220,8 +220,12 @@ class StudyReader : StudyPartReader {
     check_targets();
   }
 
-  // What study.nc can have as the name of a variable.
+  // What study.nc can have as the name of a variable, and study.csv as that of one more column.
   void check_column(const std::string& name, const std::string& path) {
+    for (const std::string_view own : study_table_columns)
+      if (name == own)
+        findings_.error(child(path, "name"),
+                        in_quotes(name) + " is a column that study.csv has already; give another");
     std::string fitting = name;
     std::replace(fitting.begin(), fitting.end(), '/', '-');
     while (!fitting.empty() && fitting.back() == ' ') fitting.pop_back();

@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -77,6 +79,10 @@ struct StudyVariable {
   std::optional<Expression> derived = {};  ///< of other variables, instead of a distribution
 };
 
+/// The columns of study.csv beside those of variables and quantities.
+inline constexpr std::array<std::string_view, 4> study_table_columns{"number", "status", "wall time [s]",
+                                                                     "reason"};
+
 /// What a study asks of a variant.
 struct StudyQuantity {
   std::string name, unit;
@@ -117,9 +123,12 @@ struct StudyOptimum {
     std::string quantity;
     bool minimise = true;
   };
-  std::vector<Objective> objectives;         ///< several: a Pareto front, by the genetic method
-  std::vector<Expression> constraints = {};  ///< over quantities and variables, each >= 0 where it holds
-  std::vector<std::string> constraint_texts = {};
+  struct Constraint {
+    Expression greater, lesser;  ///< of quantities and variables
+    std::string text;            ///< as it is written
+  };
+  std::vector<Objective> objectives;  ///< several: a Pareto front, by the genetic method
+  std::vector<Constraint> constraints = {};
   int evaluations = 100;    ///< at most
   double tolerance = 1e-4;  ///< of the variables, as a part of their ranges
 };

@@ -174,7 +174,8 @@ void tell(std::ostream& out, const StudyFile& study, const ReliabilityResult& re
   const std::vector<std::size_t> free = study.free_variables();
   for (std::size_t i = 0; i < result.design_point.size(); ++i)
     out << "  " << study.variables[free[i]].name << " = " << text_of(result.design_point[i], 6)
-        << " at the design point, importance " << text_of(result.importance[i], 3) << "\n";
+        << " at the design point"
+        << (result.importance.empty() ? "" : ", importance " + text_of(result.importance[i], 3)) << "\n";
 }
 
 // After how many variants a search had come as near to the value it found in the end.
@@ -227,11 +228,12 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
 void write_study_table(const std::filesystem::path& file, const StudyFile& study, const StudyResult& result) {
   std::ostringstream out;
   out.precision(17);
-  out << "number";
+  const auto [number, status, wall_time, reason] = study_table_columns;
+  out << number;
   for (const StudyVariable& variable : study.variables) out << "," << cell(variable.name);
   for (const StudyQuantity& quantity : study.quantities)
     out << "," << cell(heading(quantity.name, quantity.unit));
-  out << ",status,wall time [s],reason\n";
+  out << "," << status << "," << wall_time << "," << reason << "\n";
   for (const Variant& variant : result.variants) {
     out << variant.number;
     for (const double value : variant.values) out << "," << value;

@@ -258,7 +258,6 @@ class StudyTaskReader : StudyPartReader {
     calibration.observations.push_back(std::move(observation));
   }
 
-  // "a <= b" as b - a, which is 0 or more where it holds.
   void read_inequality(const std::string& source, const std::string& path, StudyOptimum& optimum) {
     const std::size_t sign = source.find_first_of("<>");
     if (sign == std::string::npos || source.find_first_of("<>", sign + 1) != std::string::npos)
@@ -266,7 +265,6 @@ class StudyTaskReader : StudyPartReader {
     const bool less = source[sign] == '<';
     const std::size_t behind = sign + (sign + 1 < source.size() && source[sign + 1] == '=' ? 2 : 1);
     const std::string left = source.substr(0, sign), right = source.substr(behind);
-    const std::string margin = less ? "(" + right + ") - (" + left + ")" : "(" + left + ") - (" + right + ")";
     std::vector<std::string> known = names_of(study_.variables);
     for (const StudyQuantity& quantity : study_.quantities) known.push_back(quantity.name);
     for (const std::string& side : {left, right}) {
@@ -274,8 +272,8 @@ class StudyTaskReader : StudyPartReader {
       if (!expression) return;
       if (check_names(*expression, path, "quantity or variable", known)) check_number(*expression, path);
     }
-    optimum.constraints.push_back(Expression::parse(margin));
-    optimum.constraint_texts.push_back(source);
+    optimum.constraints.push_back(
+        {Expression::parse(less ? right : left), Expression::parse(less ? left : right), source});
   }
 };
 

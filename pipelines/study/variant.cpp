@@ -150,10 +150,20 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
 void fill_formulas(const StudyFile& study, Variant& variant) {
   fill_quantities(study, scope_of_variables(study, variant.values), variant);
   if (!study.derivatives || variant.status != VariantStatus::done) return;
-  for (const StudyQuantity& quantity : study.quantities)
+  const std::vector<std::size_t> free = study.free_variables();
+  for (const StudyQuantity& quantity : study.quantities) {
     variant.gradient.push_back(differences(study, variant.values, [&](const std::vector<double>& values) {
       return quantity.value.number(scope_of_variables(study, values));
     }));
+    for (std::size_t i = 0; i < free.size(); ++i)
+      if (!std::isfinite(variant.gradient.back()[i])) {
+        variant.quantities.clear();
+        variant.gradient.clear();
+        return end(variant, VariantStatus::failed,
+                   "the quantity " + in_quotes(quantity.name) + " has no derivative by " +
+                       in_quotes(study.variables[free[i]].name) + " here");
+      }
+  }
 }
 
 // Of a study whose nominal variant cannot be: the others may.

@@ -331,6 +331,35 @@ TEST(Optimum, HoldsItsConstraints) {
   }
 }
 
+// A second moment of area of 5e-10 m^4, of which no fixed tolerance knows how small it is.
+TEST(Optimum, HoldsConstraintsOfSmallNumbersAsOthers) {
+  for (const char* method : {"cobyla", "gradient", "genetic"}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "r", "range": [0.002, 0.02]}],
+      "quantities": [{"name": "I", "value": "3.141592653589793 / 4 * r^4"}, {"name": "mass", "value": "r^2"}],
+      "optimise": {"minimise": "mass", "subject_to": ["I >= 5e-10"], "evaluations": 400, "tolerance": 1e-7,
+                   "method": ")json" +
+                                     std::string(method) + "\"}}");
+    const OptimumResult result =
+        find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study));
+    const double exact = std::pow(4 * 5e-10 / 3.141592653589793, 0.25);
+    EXPECT_GE(result.points[0][0], exact * (1 - 1e-8)) << method;
+    EXPECT_LE(result.points[0][0], exact * (method == std::string("genetic") ? 1.02 : 1 + 1e-5)) << method;
+  }
+}
+
+TEST(Variant, WithoutADerivativeHasFailed) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [0, 3], "nominal": 1}],
+    "quantities": [{"name": "f", "value": "sqrt(x)"}], "plan": {"gradient": [[0], [1]]}})json");
+  const Variant at_0 = run_variant(study, nullptr, 0, {0}), at_1 = run_variant(study, nullptr, 1, {1});
+  EXPECT_EQ(at_0.status, VariantStatus::failed);
+  EXPECT_EQ(at_0.reason, "the quantity \"f\" has no derivative by \"x\" here");
+  EXPECT_TRUE(at_0.gradient.empty());
+  ASSERT_EQ(at_1.status, VariantStatus::done);
+  EXPECT_NEAR(at_1.gradient[0][0], 0.5, 1e-8);
+}
+
 // A modulus and a radius: numbers of 1e11 and of 0.01.
 TEST(Optimum, IsFoundWhateverTheUnitsAndWithinTheRanges) {
   for (const char* method : {"cobyla", "nelder_mead", "gradient", "genetic"}) {

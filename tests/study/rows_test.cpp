@@ -50,6 +50,10 @@ TEST(StudyRows, AVariantSurvivesItsLine) {
   EXPECT_EQ(back.values, failed.values);
   EXPECT_EQ(back.status, failed.status);
   EXPECT_EQ(back.reason, failed.reason);
+  const Variant steep = variant_of(line_of({.number = 8, .gradient = {{1.5, HUGE_VAL}, {}}}));
+  ASSERT_EQ(steep.gradient.size(), 2U);
+  EXPECT_EQ(steep.gradient[0][0], 1.5);
+  EXPECT_TRUE(std::isnan(steep.gradient[0][1]));
   EXPECT_THROW(variant_of("{}"), std::runtime_error);
 }
 

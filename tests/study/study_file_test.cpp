@@ -70,6 +70,18 @@ TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
     EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
 }
 
+TEST(StudyFile, RefusesNamesOfOtherColumnsOfItsTable) {
+  const std::string wrong = wrong_with(R"json({
+    "nurbeam_study": 1, "variables": [{"name": "status", "range": [0, 1]}, {"name": "x", "range": [0, 1]}],
+    "quantities": [{"name": "wall time [s]", "value": "x"}, {"name": "reasons", "value": "x"}],
+    "plan": {"monte_carlo": {"count": 2}}})json");
+  for (const char* text :
+       {"variables[0].name: \"status\" is a column that study.csv has already; give another",
+        "quantities[0].name: \"wall time [s]\" is a column that study.csv has already"})
+    EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
+  EXPECT_EQ(wrong.find("reasons"), std::string::npos) << wrong;
+}
+
 TEST(StudyFile, RefusesWhatWouldBeLeftOutWithoutAWord) {
   const std::string wrong = wrong_with(R"json({
     "nurbeam_study": 1, "case": "c.json",
