@@ -137,7 +137,10 @@ std::optional<double> EnergyAccount::from_nowhere(const BeamSystem& system, cons
   strain.add(now.strain());
   gravity.add(now.gravity);
   const double moves = std::max({report.peak_kinetic_energy, now.kinetic, strain.width(), gravity.width()});
-  if (std::isfinite(created) && created <= std::max(slight, moves + report.energy_round_off())) return {};
+  constexpr double round_off = 1e-12;
+  const double passed = round_off * (std::abs(input_) + std::abs(dissipated_));
+  if (std::isfinite(created) && created <= std::max(slight, moves + report.energy_round_off() + passed))
+    return {};
   return created;
 }
 

@@ -154,7 +154,7 @@ bool settle_friction(MeshedState& at, const std::vector<int>& joints, double ste
     else if (stands && model.joints[j].friction->can_stick() && !model.joints[j].motion)
       still.push_back(j);
     else
-      remember(j, sliding(model, j, s, rate < 0 ? -1 : rate > 0 ? 1 : 0, 0));
+      remember(j, sliding(model, j, s, stands ? 0 : rate < 0 ? -1 : 1, 0));
   }
   // One that breaks loose changes the forces on the others.
   for (bool all_stick = still.empty(); !all_stick;) {
