@@ -98,14 +98,18 @@ NurbsCurve through(std::vector<RationalCubic> cubics) {
 void check_arc(const Eigen::Vector3d& center, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
                const Eigen::Vector3d& normal) {
   if (!(normal.norm() > 0)) throw std::invalid_argument("the normal of an arc must not be zero");
-  const auto across = [&](const Eigen::Vector3d& p) -> double {
-    const Eigen::Vector3d n = normal.normalized(), d = p - center;
-    return (d - n * n.dot(d)).norm();
-  };
-  const double a = across(start), b = across(end);
+  const Eigen::Vector3d n = normal.normalized(), to_start = start - center, to_end = end - center;
+  const double a = to_start.norm(), b = to_end.norm(), apart = (end - start).norm();
   if (!(a > 0) || !(std::abs(a - b) <= 1e-9 * std::max(a, b)))
     throw std::invalid_argument("the arc starts " + text_of(a) + " m from its centre and ends " + text_of(b) +
                                 " m from it; both must be its radius");
+  if (!(std::max(std::abs(n.dot(to_start)), std::abs(n.dot(to_end))) <= 1e-6 * a))
+    throw std::invalid_argument(
+        "the normal of the arc is not perpendicular to the plane of its centre, start and end");
+  if (apart > 0 && apart <= 1e-6 * a)
+    throw std::invalid_argument(
+        "the arc starts and ends at points " + text_of(apart) +
+        " m apart, too little for an arc; give the same point twice for a whole circle");
 }
 
 }  // namespace

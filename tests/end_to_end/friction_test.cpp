@@ -103,8 +103,8 @@ TEST(FrictionRun, AParkedBodyInAWindIsNotTakenForEnergyFromNowhere) {
   for (const char* joint : {R"("at": {"length": 1}, "friction": {"coefficient": 0.2, "static": 0.3})",
                             R"("at": {"length": 1}, "friction": {"force": 100})"}) {
     const CaseRun run = run_rubbing(
-        rubbing_case(R"({"polyline": [[0, 0, 0], [10, 0, 0]]})", 2, joint, R"({"end_time": 20, "step": 0.02})",
-                     R"(, "drag_area": 0.5)",
+        rubbing_case(R"({"polyline": [[0, 0, 0], [10, 0, 0]]})", 2, joint,
+                     R"({"end_time": 20, "step": 0.02})", R"(, "drag_area": 0.5)",
                      R"("gravity": [0, 0, -9.81], "air": {"density": 1.2, "wind": [4, 0, 0]}, )"));
     ASSERT_EQ(run.code, 0) << run.messages;
     EXPECT_EQ(run.last("bead.stuck [1]"), 1);

@@ -105,6 +105,11 @@ def test_what_is_no_curve_says_why():
         nb.Curve([[0, 0, 0], [1, 0, 0]], weights=[1, -1])
     with pytest.raises(ValueError, match="must both be|both must be its radius"):
         nb.Curve.arc([0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 1])
+    with pytest.raises(ValueError, match="not perpendicular"):
+        nb.Curve.arc([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 1, 1])
+    with pytest.raises(ValueError, match="1e-09 m apart.*same point twice for a whole circle"):
+        nb.Curve.arc([0, 0, 0], [1, 0, 0], [1, 1e-9, 0], [0, 0, 1])
+    assert nb.Curve.arc([0, 0, 0], [1, 0, 0], [1, 0, 0], [0, 0, 1]).length == pytest.approx(2 * np.pi, abs=1e-12)
     with pytest.raises(ValueError, match="not on the curve; must be between 0 and 1"):
         nb.Curve.line([0, 0, 0], [1, 0, 0])(1.5)
 
