@@ -275,7 +275,8 @@ TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {
   if (run.code == exit_done)
     expect_done(run);
   else
-    expect_stopped(run, {"t = ", "a shorter \"step\""});
+    expect_stopped(run, {"a shorter \"step\""});
+  EXPECT_TRUE(run.code == exit_done || run.says("the step from t = ") || run.says(" has come from nowhere"));
   EXPECT_TRUE(run.says("the total energy, less the work of loads and motions, changed by ")) << run.messages;
   EXPECT_FALSE(run_beam({}).says("the total energy"));
 }

@@ -19,6 +19,18 @@ using testing::line_cubic;
 using testing::torsion_model;
 using testing::with_sections;
 
+// Of the material, by the accelerations.
+double spin_rate(const BeamSystem& system, const State& state, double s) {
+  const auto spin = [&](double t) {
+    State then = state;
+    then.q += t * state.v;
+    then.v += t * state.a;
+    return material_spin(system, then, 0, s);
+  };
+  constexpr double t = 1e-5;
+  return (spin(t) - spin(-t)) / (2 * t);
+}
+
 TEST(Recentring, ChangesNothingThatCanBeSeen) {
   std::mt19937 random(3);
   const BeamSystem system(torsion_model(random, 3));
@@ -35,6 +47,7 @@ TEST(Recentring, ChangesNothingThatCanBeSeen) {
                        b = section_point(*after.system, after.state, 0, s);
     EXPECT_LT((a.triad.d1 - b.triad.d1).norm(), 1e-13);
     EXPECT_NEAR(a.moments.torque, b.moments.torque, 1e-12);
+    EXPECT_NEAR(spin_rate(system, state, s), spin_rate(*after.system, after.state, s), 1e-7);
   }
   // Free nodes start anew; a clamped one keeps the drawing's chart, in which its support holds it.
   const std::vector<MeshNode>& nodes = after.system->mesh().nodes[0];
