@@ -14,7 +14,8 @@ namespace nurbeam {
 namespace {
 
 constexpr double largest_growth = 2;        ///< of the step under error control
-constexpr double good_contraction = 0.1;    ///< of the corrections, for which a matrix is kept
+constexpr double good_contraction = 0.1;    ///< of the corrections, which foretells what is left
+constexpr double worst_contraction = 0.5;   ///< of the corrections, for which a matrix is kept
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
 constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
@@ -22,7 +23,7 @@ constexpr double to_spare = 5;              ///< of what is foretold so
 /// about as many.
 constexpr int worth_a_matrix = 12;
 constexpr double longest_use = 50;  ///< of a matrix, in steps
-constexpr double same_step = 1e-6;  ///< relative difference that a matrix does not feel
+constexpr double same_step = 0.03;  ///< relative difference of steps with one matrix
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -83,8 +84,8 @@ class Convergence {
   }
   /// The norm of the last one, without bound before the first.
   double last_correction() const { return correction_; }
-  /// Whether the last correction was much smaller than the one before.
-  bool contracts() const { return contraction_ <= good_contraction; }
+  /// Whether the last correction was no larger than this part of the one before.
+  bool contracts(double to = good_contraction) const { return contraction_ <= to; }
 
  private:
   double correction_ = std::numeric_limits<double>::infinity();
@@ -178,7 +179,8 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
   StepReport report{.status = StepStatus::inadmissible, .next_step = step};
   const double limit = system_->step_limit(state_);
   if (!(step > 0) || !(limit > 0)) return report;
-  double h = std::min(step, limit);
+  double h = step;
+  while (h > limit) h /= 2;  // a matrix serves many steps of one length
   for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
@@ -225,7 +227,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
-    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
+    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts(worst_contraction);
     if (stale) linearisation_ = nullptr;
     if (!done) continue;
     if (!has_served || stale)

@@ -17,9 +17,9 @@ struct GeneralizedAlpha {
 };
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
-/// and the factorised matrix between steps: it is taken anew where a correction is not at least ten times
-/// smaller than the one before, where the step's length changes, and after fifty steps. The system's moving
-/// part of it is taken anew in every step.
+/// and the factorised matrix between steps: it is taken anew where a correction is more than half of the one
+/// before, where the corrections that it takes more would pay for another, where the step's length changes by
+/// more than 3 %, and after fifty steps. The system's moving part of it is taken anew in every step.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
@@ -71,7 +71,8 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   /// Precondition: there was one.
   Eigen::Map<const Eigen::SparseMatrix<double>> iteration_matrix() const;
 
-  /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
+  /// One step of at most `step` seconds, halved until it is within system.step_limit, and shortened by
+  /// retries and error control.
   [[nodiscard]] StepReport advance(double step) override;
   State take_before() override { return std::move(trial_); }
   void rest() override;
