@@ -13,9 +13,10 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;        ///< of the step under error control
-constexpr double good_contraction = 0.1;    ///< of the corrections, which foretells what is left
-constexpr double worst_contraction = 0.5;   ///< of the corrections, for which a matrix is kept
+constexpr double largest_growth = 2;      ///< of the step under error control
+constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
+/// Of the first two, in which it is that of Newton's method more than that of the matrix.
+constexpr double first_contraction = 0.5;
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
 constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
@@ -171,16 +172,39 @@ StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const Integra
   return advance_within(step, 0, 0);
 }
 
+std::optional<TangentWeights> GeneralizedAlphaIntegrator::balance(double step) {
+  const double h = within_limit(step);
+  const Eigen::Index n = state_.q.size(), m = state_.lambda.size();
+  trial_ = state_;
+  if (!linearise(trial_point(h), trial_)) return {};
+  first_corrections_ = none_yet;
+  const TangentWeights weights = weights_of(h);
+  evaluate_residual();
+  residual_.head(n) *= weights.mass;
+  residual_.tail(m) = system_->constraint_curvature(state_) + system_->constraint_product(state_, state_.a);
+  solver_.solve(residual_, residual_);
+  if (!all_finite(residual_)) return {};
+  state_.a -= residual_.head(n);
+  state_.lambda -= residual_.tail(m) / weights.mass;
+  algorithmic_acceleration_ = state_.a;
+  return TangentWeights{1, weights.damping / weights.mass, weights.stiffness / weights.mass};
+}
+
 StepReport GeneralizedAlphaIntegrator::advance(double step) {
   return advance_within(step, settings_.max_halvings, settings_.tolerance);
 }
 
+/// Half of it, or that again, until the system's limit allows it: a matrix serves steps of one length.
+double GeneralizedAlphaIntegrator::within_limit(double step) const {
+  const double limit = system_->step_limit(state_);
+  while (step > limit && limit > 0) step /= 2;
+  return step;
+}
+
 StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvings, double tolerance) {
   StepReport report{.status = StepStatus::inadmissible, .next_step = step};
-  const double limit = system_->step_limit(state_);
-  if (!(step > 0) || !(limit > 0)) return report;
-  double h = step;
-  while (h > limit) h /= 2;  // a matrix serves many steps of one length
+  if (!(step > 0) || !(system_->step_limit(state_) > 0)) return report;
+  double h = within_limit(step);
   for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
@@ -227,10 +251,11 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
-    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts(worst_contraction);
+    const bool stale = correction > settings_.newton_tolerance &&
+                       !convergence.contracts(i == 1 ? first_contraction : good_contraction);
     if (stale) linearisation_ = nullptr;
     if (!done) continue;
-    if (!has_served || stale)
+    if (!has_served || stale || first_corrections_ == none_yet)
       first_corrections_ = i, more_corrections_ = 0;
     else if ((more_corrections_ += std::max(0, i - first_corrections_)) > worth_a_matrix)
       linearisation_ = nullptr;

@@ -219,8 +219,7 @@ struct Simulation::Implementation {
   // Whether it has begun.
   bool begin_motion() {
     run_.account.begin(*run_.at.system, run_.at.state);
-    settle_mesh(run_);
-    return run_.report.status == SimulationStatus::done;
+    return settle_mesh(run_);
   }
 
   // With the first output times behind it.
