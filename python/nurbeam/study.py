@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import operator
 import os
 import subprocess
 import tempfile
@@ -80,6 +81,17 @@ class Study(Mapping[str, Array]):
         return pandas.DataFrame(columns)
 
 
+def _jobs(jobs: int | None) -> int:
+    cores = os.cpu_count() or 1
+    try:
+        count = cores if jobs is None else operator.index(jobs)
+    except TypeError:
+        count = 0
+    if count < 1:
+        raise ValueError(f"jobs is {jobs!r}; must be a whole number of at least 1, or None: one for each core, here {cores}")
+    return count
+
+
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
     """Runs a study: a study file, or what it would hold (docs/studies.md); its case is relative to the file, or to
@@ -87,8 +99,10 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
 
     `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
     variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
-    run again. Raises CaseError where the study is wrong, and RunError where it has no answer or cannot be written.
+    run again. Raises CaseError where the study is wrong, ValueError where `jobs` is, and RunError where the study has no
+    answer or cannot be written.
     """
+    at_a_time = _jobs(jobs)
     if isinstance(what, Mapping):
         directory = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
         directory.mkdir(parents=True, exist_ok=True)
@@ -100,7 +114,7 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
     else:
         file = Path(what)
         directory = Path(out) if out is not None else Path(f"{file.stem}_study")
-    words = [str(_core.study_program()), "run", str(file), str(directory), str(jobs or os.cpu_count() or 1),
+    words = [str(_core.study_program()), "run", str(file), str(directory), str(at_a_time),
              "resume" if resume else "new", "quiet"]  # fmt: skip
     ended = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     messages = [line.removeprefix("error: ") for line in ended.stderr.splitlines()]

@@ -48,6 +48,14 @@ def test_what_is_wrong_is_a_list_of_findings(tmp_path):
         nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path)["x11"]
 
 
+@pytest.mark.parametrize("jobs", [-1, 0, 1.5, "2"])
+def test_jobs_that_are_none_are_refused(tmp_path, jobs):
+    with pytest.raises(ValueError, match=rf"^jobs is {jobs!r}; must be a whole number of at least 1, or None: one for each"):
+        nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path / "out", jobs=jobs)
+    assert not (tmp_path / "out").exists()
+    assert len(nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path / "out", jobs=np.int64(1))["y"]) == 1
+
+
 def children(process):
     """The ids of all processes that it has begun, and theirs."""
     try:
