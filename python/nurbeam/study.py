@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from . import _core
 from .errors import CaseError, Finding, RunError, unknown
+from .model import _json, _not_finite
 
 if TYPE_CHECKING:
     import pandas
@@ -94,8 +95,8 @@ def _jobs(jobs: int | None) -> int:
 
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
-    """Runs a study: a study file, or what it would hold (docs/studies.md); its case is relative to the file, or to
-    the working directory.
+    """Runs a study: a study file, or what it would hold (docs/studies.md), where arrays may stand for lists; its case is
+    relative to the file, or to the working directory.
 
     `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
     variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
@@ -104,11 +105,13 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
     """
     at_a_time = _jobs(jobs)
     if isinstance(what, Mapping):
+        described = _json(what)
+        if wrong := _not_finite(described):
+            raise CaseError([Finding(f.severity, f"study: {f.where}", f.message) for f in wrong])
+        if isinstance(described.get("case"), str):
+            described["case"] = os.path.abspath(described["case"])
         directory = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
         directory.mkdir(parents=True, exist_ok=True)
-        described = dict(what)
-        if "case" in described:
-            described["case"] = os.path.abspath(described["case"])
         file = directory / "study_file.json"
         file.write_text(json.dumps(described, indent=1), encoding="utf-8")
     else:
