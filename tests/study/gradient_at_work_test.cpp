@@ -103,7 +103,14 @@ TEST(Gradient, IsRefusedWhereThereIsNone) {
       std::string::npos);
   std::string rough = slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json");
   rough.replace(rough.find("\"speed\": 1"), 10, R"json("friction": {"coefficient": 0.1})json");
-  EXPECT_NE(refused(rough, mass).find("friction"), std::string::npos);
+  EXPECT_EQ(
+      refused(rough, mass),
+      "there is no derivative here with the friction of \"slider\" on beam \"beam\"; leave it out, or take "
+      "differences of runs\n");
+  std::string stopped = slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json");
+  stopped.insert(1, R"json("stops": [{"beam": "beam", "at": {"length": 2}}], )json");
+  EXPECT_NE(refused(stopped, mass).find("with a stop of \"slider\" on beam \"beam\""), std::string::npos)
+      << refused(stopped, mass);
 }
 
 // What is said of a variant that has no derivatives.
