@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import warnings
-from typing import TYPE_CHECKING, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
 
 if TYPE_CHECKING:
     from .results import Results
@@ -39,6 +39,10 @@ class CaseError(Error, ValueError):
         self.findings = list(findings)
         super().__init__("\n".join(str(f) for f in self.findings if f.severity == "error"))
 
+    def __reduce__(self) -> Any:
+        """Pickled as its findings: other processes raise it whole."""
+        return type(self), (self.findings,)
+
 
 class CadError(Error, OSError):
     """A CAD file that cannot be read or written. `findings` says why."""
@@ -47,6 +51,10 @@ class CadError(Error, OSError):
         self.findings = list(findings)
         super().__init__("\n".join(str(f) for f in self.findings if f.severity == "error"))
 
+    def __reduce__(self) -> Any:
+        """Pickled as its findings: other processes raise it whole."""
+        return type(self), (self.findings,)
+
 
 class RunError(Error, RuntimeError):
     """A run that has ended before its end. `results` are the results until then, None where there are none."""
@@ -54,6 +62,11 @@ class RunError(Error, RuntimeError):
     def __init__(self, message: str, results: Results | None = None):
         self.results = results
         super().__init__(message)
+
+    def __reduce__(self) -> Any:
+        """Pickled with results of a directory, without those in memory."""
+        there = self.results is not None and self.results.directory is not None
+        return type(self), (str(self), self.results if there else None)
 
 
 class CaseWarning(UserWarning):
