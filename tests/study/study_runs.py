@@ -209,8 +209,10 @@ def bad_files_are_refused():
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
     run(changed, "--out", scratch / "bad/changed")
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 3}}})
-    done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=4)
-    assert "belongs to another study" in done.stderr
+    rows = rows_of(scratch / "bad/changed")
+    done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=2)
+    assert "another study: changed since: \"plan\" of the study; run without --resume" in done.stderr, done.stderr
+    assert rows_of(scratch / "bad/changed") == rows, "they are kept"
     # A table that the case reads, changed between a study and its resumption.
     here = scratch / "table"
     here.mkdir(parents=True, exist_ok=True)
@@ -226,8 +228,8 @@ def bad_files_are_refused():
         "quantities": [{"name": "z", "value": "at(end, tip.z)"}], "plan": {"grid": 2}}))
     run(here / "study.json", "--out", here / "out")
     (here / "load.csv").write_text("t,f\n0,-20\n1,-20\n")
-    done = run(here / "study.json", "--out", here / "out", "--resume", expected=4)
-    assert "belongs to another study" in done.stderr
+    done = run(here / "study.json", "--out", here / "out", "--resume", expected=2)
+    assert f"another study: changed since: {here / 'load.csv'}; run" in done.stderr, done.stderr
 
 
 def a_full_disk_costs_nothing(expected):
