@@ -152,6 +152,18 @@ TEST(Gradient, SaysThatStressesOfMeshedSectionsHaveNone) {
   EXPECT_EQ(of(round, "radius", "at(end, P.von_mises)"), "");
 }
 
+TEST(Gradient, SaysWhyThereAreNoNeighbours) {
+  const std::string told = told_of(test::spline_case(6, 4, R"json({"type": "static"})json"),
+                                   R"json("variables": [{"name": "x", "range": [0, 1]},
+                           {"name": "n", "path": "beams[0].elements.count", "value": "4 + 2 * x"}])json",
+                                   "at(end, tip.z)");
+  for (const char* part :
+       {"no derivative by \"x\": with a little more and with a little less of it there is no model: ",
+        "beams[0].elements.count: is ",
+        "; expected an integer; take another \"nominal\" value, or a method without derivatives"})
+    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+}
+
 TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {
   const std::string plane_case = test::spline_case(6, 4, R"json({"type": "static"})json");
   const std::string out_of_plane = told_of(
