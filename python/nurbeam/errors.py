@@ -33,7 +33,8 @@ class Error(Exception):
 
 
 class CaseError(Error, ValueError):
-    """A model that cannot be one. `findings` is the list of all that is wrong, each with its place in the case."""
+    """A model or a study that cannot be one. `findings` is the list of all that is to be said of it, each with its place:
+    its text are the errors among them, warnings and notes (`severity`) stand there too."""
 
     def __init__(self, findings: Sequence[Finding]):
         self.findings = list(findings)
@@ -45,7 +46,7 @@ class CaseError(Error, ValueError):
 
 
 class CadError(Error, OSError):
-    """A CAD file that cannot be read or written. `findings` says why."""
+    """A CAD file that cannot be read or written. `findings` says why; its text are the errors among them."""
 
     def __init__(self, findings: Sequence[Finding]):
         self.findings = list(findings)

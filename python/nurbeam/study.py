@@ -95,8 +95,8 @@ def _jobs(jobs: int | None) -> int:
 
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
-    """Runs a study: a study file, or what it would hold (docs/studies.md), where arrays may stand for lists; its case is
-    relative to the file, or to the working directory.
+    """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
+    arrays may stand for lists; its case is relative to the file, or to the working directory.
 
     `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
     variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
