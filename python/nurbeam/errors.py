@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import sys
 import warnings
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
 
@@ -78,11 +79,14 @@ def findings_of(plain: Iterable[tuple[str, str, str]]) -> list[Finding]:
     return [Finding(*each) for each in plain]
 
 
-def tell(findings: Iterable[Finding], stacklevel: int = 3) -> None:
-    """Gives the warnings among the findings to Python's."""
+def tell(findings: Iterable[Finding]) -> None:
+    """Gives the warnings among the findings to Python's, of the line that has called this module."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back is not None and frame.f_globals["__name__"].startswith(f"{__package__}."):
+        frame, level = frame.f_back, level + 1
     for finding in findings:
         if finding.severity == "warning":
-            warnings.warn(CaseWarning(str(finding)), stacklevel=stacklevel + 1)
+            warnings.warn(CaseWarning(str(finding)), stacklevel=level)
 
 
 class ByName(Dict[str, T]):

@@ -140,7 +140,7 @@ class Simulation:
         report = self.report
         if not report["done"]:
             raise RunError(report["status"], self.results)
-        tell(findings_of(report["warnings"]), stacklevel=4)
+        tell(findings_of(report["warnings"]))
 
     def __repr__(self) -> str:
         return f'<Simulation of "{self._case.name}" at {self.time:.6g} of {self._case.end_time:.6g} s>'

@@ -237,6 +237,7 @@ def test_summary_and_schema_are_json(root):
 
 def test_findings_that_are_no_errors_are_warnings():
     model = straight_cantilever(tip=[0, -1, 0])
-    with pytest.warns(nb.CaseWarning, match="has no effect in a static analysis"):
+    with pytest.warns(nb.CaseWarning, match="has no effect in a static analysis") as told:
         model.run(type="static", step=0.1)
+    assert [warning.filename for warning in told] == [__file__]
     assert any("no effect" in finding.message for finding in model.check(type="static", step=0.1))
