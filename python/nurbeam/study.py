@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import CaseError, Finding, RunError, unknown
+from .errors import CaseError, Finding, RunError, tell, unknown
 from .model import _json, _not_finite
 
 if TYPE_CHECKING:
@@ -93,6 +93,15 @@ def _jobs(jobs: int | None) -> int:
     return count
 
 
+def _finding(line: str, file: Path) -> Finding:
+    """What the program says in a line: "warning: study.json: variables[0].path: ..."."""
+    severity, _, rest = line.partition(": ")
+    if severity not in ("error", "warning", "note"):
+        severity, rest = "error", line
+    where, _, message = rest.partition(": ")
+    return Finding(severity, where, message) if message else Finding(severity, str(file), rest)
+
+
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
     """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
@@ -120,9 +129,11 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
     words = [str(_core.study_program()), "run", str(file), str(directory), str(at_a_time),
              "resume" if resume else "new", "quiet"]  # fmt: skip
     ended = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    messages = [line.removeprefix("error: ") for line in ended.stderr.splitlines()]
+    findings = [_finding(line, file) for line in ended.stderr.splitlines()]
     if ended.returncode == 2:
-        raise CaseError([Finding("error", *(m.split(": ", 1) if ": " in m else (str(file), m))) for m in messages])
+        raise CaseError(findings)
+    tell(findings)
     if ended.returncode != 0:
-        raise RunError("\n".join(messages) or f"nurbeam-study ended with exit code {ended.returncode}")
+        said = [str(finding) for finding in findings if finding.severity == "error"]
+        raise RunError("\n".join(said) or f"nurbeam-study ended with exit code {ended.returncode}")
     return Study(directory)

@@ -48,6 +48,23 @@ def test_what_is_wrong_is_a_list_of_findings(tmp_path):
         nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path)["x11"]
 
 
+def test_what_is_no_error_is_a_warning(tmp_path):
+    model = straight_cantilever(tip=[0, -1e-3, 0])
+    model.set("analysis", {"type": "static"})
+    model.add_probe("tip", "rod", "end")
+    model.save(tmp_path / "case.json")
+    counts = {"nurbeam_study": 1, "case": str(tmp_path / "case.json"), "plan": {"monte_carlo": {"count": 2}},
+              "variables": [{"name": "n", "path": "beams[0].elements.count", "range": [4, 8]}],
+              "quantities": [{"name": "y", "value": "at(end, tip.y)"}]}
+    with pytest.warns(nb.CaseWarning, match="is a whole number") as told, pytest.raises(nb.RunError) as failed:
+        nb.study(counts, out=tmp_path / "out")
+    assert told[0].filename == __file__ and "is a whole number" not in str(failed.value)
+    with pytest.raises(nb.CaseError) as wrong:
+        nb.study({**counts, "constraints": ["m > 1"]}, out=tmp_path / "out")
+    assert sorted(finding.severity for finding in wrong.value.findings) == ["error", "warning"]
+    assert "whole number" not in str(wrong.value)
+
+
 def test_arrays_may_stand_for_lists(tmp_path):
     model = straight_cantilever()
     model.set("analysis", {"type": "static"})
