@@ -33,8 +33,8 @@ class PythonLaw {
     if (has_derivatives(answer)) {
       const py::tuple parts(answer);
       response.force = to_forces(parts[0], t);
-      response.by_position = to_derivative(parts[1], "positions");
-      response.by_velocity = to_derivative(parts[2], "velocities");
+      response.by_position = to_derivative(parts[1], "positions", t);
+      response.by_velocity = to_derivative(parts[2], "velocities", t);
     } else {
       response.force = to_forces(answer, t);
     }
@@ -96,7 +96,7 @@ class PythonLaw {
   }
 
   // In the model's own frame; empty for None.
-  Eigen::MatrixXd to_derivative(const py::handle& given, const char* by) const {
+  Eigen::MatrixXd to_derivative(const py::handle& given, const char* by, double t) const {
     if (given.is_none()) return {};
     const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
     const Eigen::Index n = 3 * points_;
@@ -107,6 +107,13 @@ class PythonLaw {
     Eigen::MatrixXd local =
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(array.data(),
                                                                                                  n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        if (!std::isfinite(local(i, j)))
+          throw py::value_error(name() + ": the derivative by " + by + " is " + text_of(local(i, j)) +
+                                " at [" + std::to_string(i) + ", " + std::to_string(j) +
+                                "] at t = " + text_of(t) +
+                                " s; it must be finite, or None: then it is taken by differences");
     for (Eigen::Index i = 0; i < points_; ++i)
       for (Eigen::Index j = 0; j < points_; ++j) {
         auto block = local.block<3, 3>(3 * i, 3 * j);

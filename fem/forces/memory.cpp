@@ -31,6 +31,22 @@ Eigen::VectorXd no_memory(const Structure& structure) {
   return Eigen::VectorXd::Zero(of_connector(structure, structure.connectors.size()));
 }
 
+std::vector<std::string> what_remembers(const Structure& structure) {
+  const auto body = [&](int joint) { return "\"" + structure.body_of(structure.joints[joint]).name + "\""; };
+  std::vector<std::string> all;
+  for (std::size_t j = 0; j < structure.joints.size(); ++j)
+    if (structure.joints[j].friction)
+      all.push_back("the friction of " + body(static_cast<int>(j)) + " on beam \"" +
+                    structure.beam_of(structure.joints[j]).name + "\"");
+  for (const Stop& stop : structure.stops)
+    all.push_back(stop.other < 0 ? "a stop of " + body(stop.joint) + " on beam \"" +
+                                       structure.beam_of(structure.joints[stop.joint]).name + "\""
+                                 : "the stop between " + body(stop.joint) + " and " + body(stop.other));
+  for (const Connector& connector : structure.connectors)
+    if (connector.jumps()) all.push_back("the damping of connector \"" + connector.name + "\"");
+  return all;
+}
+
 FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint) {
   const int first = first_of_joint(structure, joint);
   return {memory[first], memory[first + 1], static_cast<int>(memory[first + 2])};

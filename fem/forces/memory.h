@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "fem/forces/friction_law.h"
 #include "fem/structure/structure.h"
@@ -8,6 +10,8 @@
 /// does to its buffer; then one of each connector that jumps: 1 where it is taut.
 namespace nurbeam {
 
+/// What remembers, each by its name: the friction of "trolley" on beam "cable", ...
+std::vector<std::string> what_remembers(const Structure& structure);
 /// All zero, of a model.
 Eigen::VectorXd no_memory(const Structure& structure);
 FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint);

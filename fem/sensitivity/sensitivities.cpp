@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "fem/forces/memory.h"
@@ -25,9 +26,11 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 void check_tangents(const BeamModel& model) {
-  if (no_memory(model).size() > 0)
-    throw std::invalid_argument(
-        "friction and stops have no derivative here: leave them out, or take differences of runs");
+  std::string all;
+  for (const std::string& each : what_remembers(model)) all += (all.empty() ? "" : ", ") + each;
+  if (!all.empty())
+    throw std::invalid_argument("there is no derivative here with " + all +
+                                "; leave it out, or take differences of runs");
   if (asks_for_lengths(model))
     throw std::invalid_argument(
         "connectors whose length is to be found have no derivative here: give their lengths");

@@ -185,7 +185,7 @@ DimensionAtPath dimension_at(const std::string& path) {
   if (shape->kind == Kind::either)
     for (const Shape& item : shape->items)
       if (item.kind == Kind::quantity || item.kind == Kind::integer) shape = &item;
-  if (shape->kind == Kind::integer) return {Dimension::number, {}};
+  if (shape->kind == Kind::integer) return {Dimension::number, {}, true};
   if (shape->kind != Kind::quantity) return {{}, "is no single number; name one of its parts"};
   return {shape->dimension, {}};
 }

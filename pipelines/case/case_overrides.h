@@ -16,6 +16,7 @@ void apply_overrides(Json& root, const std::vector<std::string>& overrides, std:
 struct DimensionAtPath {
   std::optional<Dimension> dimension;
   std::string problem;  ///< empty when there is one
+  bool whole = false;   ///< only whole numbers can stand there
 };
 /// Of a path as --set has it; items of arrays are not looked up.
 DimensionAtPath dimension_at(const std::string& path);

@@ -1,3 +1,4 @@
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -37,6 +38,7 @@ class MeasuredRuns {
   const std::vector<double>& measured() const { return measured_; }
   const std::vector<double>& units() const { return unit_; }
   int evaluations() const { return static_cast<int>(runs_.size()); }
+  bool used_up() const { return used_up_; }
   void throw_if_stopped() const {
     if (stopped_) std::rethrow_exception(stopped_);
   }
@@ -63,6 +65,18 @@ class MeasuredRuns {
       derivatives.push_back(of_quantities[first_ + number][i] * unit_[i] / sd_[number]);
     return derivatives;
   }
+  /// Whether derivatives come with the run at a place, else they are differences.
+  bool has_derivatives(const std::vector<double>& place) const {
+    const auto found = gradients_.find(point_of(place));
+    return found != gradients_.end() && !found->second.empty();
+  }
+  /// Whether all runs that f() asks for are done.
+  template <class Function>
+  bool are_done(const Function& f) {
+    all_done_ = true;
+    f();
+    return all_done_;
+  }
   /// Of rows (number, place): each place runs once.
   std::vector<double> values(const OT::Sample& rows) {
     StudyPoints fresh;
@@ -78,6 +92,7 @@ class MeasuredRuns {
       const auto found = runs_.find(point_of(place_of(rows, r)));
       constexpr double far_off = 1e6;  // what is not done: the search turns back
       const bool done = found != runs_.end() && !found->second.empty();
+      all_done_ = all_done_ && done;
       values.push_back(done ? found->second[first_ + number] / sd_[number] : far_off);
     }
     return values;
@@ -102,7 +117,8 @@ class MeasuredRuns {
   void run(const StudyPoints& fresh) {
     if (fresh.empty() || stopped_) return;
     try {
-      if (evaluations() >= calibration_.evaluations)
+      used_up_ = evaluations() >= calibration_.evaluations;
+      if (used_up_)
         throw std::runtime_error("the calibration has not ended after " + std::to_string(evaluations()) +
                                  " variants; take more \"evaluations\" or narrower ranges");
       const StudyPoints quantities = evaluate_(fresh);
@@ -119,6 +135,7 @@ class MeasuredRuns {
   std::vector<double> origin_, unit_, measured_, sd_;
   std::size_t first_ = 0;  // of the observed quantities
   std::map<std::vector<double>, std::vector<double>> runs_;
+  bool all_done_ = true, used_up_ = false;
   std::exception_ptr stopped_;
 };
 
@@ -197,6 +214,73 @@ OT::CalibrationResult calibrated(const MeasuredRuns& runs, const OT::Function& m
   return algorithm.getResult();
 }
 
+// (measurements x variables) What the variables do to the measurements at a place, in units of both; empty
+// where runs for that are not done.
+Eigen::MatrixXd effects_at(MeasuredRuns& runs, const std::vector<double>& place) {
+  const MeasuredGradient gradient(runs);
+  Eigen::MatrixXd effects(static_cast<Eigen::Index>(runs.measured().size()),
+                          static_cast<Eigen::Index>(runs.variables()));
+  const bool done = runs.are_done([&] {
+    for (Eigen::Index i = 0; i < effects.rows(); ++i) {
+      OT::Point row(1, static_cast<double>(i));
+      row.add(to_point(place));
+      const OT::Matrix by = gradient.gradient(row);
+      for (Eigen::Index k = 0; k < effects.cols(); ++k)
+        effects(i, k) = by(static_cast<std::size_t>(k) + 1, 0);
+    }
+  });
+  return done && effects.allFinite() ? effects : Eigen::MatrixXd();
+}
+
+// "a", "b" and "c", of the free variables for which it is so.
+std::string names_where(const StudyFile& study, const std::vector<bool>& is_so) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < is_so.size(); ++i)
+    if (is_so[i]) names.push_back(in_quotes(study.variables[study.free_variables()[i]].name));
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  return text;
+}
+
+// Throws std::runtime_error where variables have no effect on the measurements, or effects that are parallel
+// by the singular values of their directions, to the accuracy of derivatives.
+void check_told_apart(const StudyFile& study, MeasuredRuns& runs, const std::vector<double>& place) {
+  Eigen::MatrixXd effects = effects_at(runs, place);
+  if (effects.size() == 0) return;
+  constexpr double nothing = 1e-9, of_derivatives = 3e-6, of_differences = 3e-5, part = 0.01;
+  const Eigen::RowVectorXd sizes = effects.colwise().norm();
+  std::vector<bool> without(runs.variables()), parallel(runs.variables());
+  for (std::size_t i = 0; i < without.size(); ++i)
+    without[i] = !(sizes[static_cast<Eigen::Index>(i)] > nothing * sizes.maxCoeff());
+  if (const std::string names = names_where(study, without); !names.empty())
+    throw std::runtime_error("the measurements do not change with " + names +
+                             ": leave it out, or measure what it changes");
+  effects.colwise().normalize();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(effects, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& values = svd.singularValues();
+  const double least = (runs.has_derivatives(place) ? of_derivatives : of_differences) * values[0];
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    for (std::size_t i = 0; i < parallel.size() && values[k] <= least; ++i)
+      parallel[i] = parallel[i] || std::abs(svd.matrixV()(static_cast<Eigen::Index>(i), k)) > part;
+  if (const std::string names = names_where(study, parallel); !names.empty())
+    throw std::runtime_error(
+        "the measurements do not tell " + names +
+        " apart: what one of them does to the runs others undo; give one of them a fixed "
+        "value, or measure what they change in different ways");
+}
+
+// Throws std::runtime_error where what is known of variables is less than nothing: far more than their
+// ranges.
+void check_determined(const StudyFile& study, const OT::CovarianceMatrix& covariance) {
+  constexpr double far = 100;  // times half the range
+  std::vector<bool> open;
+  for (std::size_t i = 0; i < covariance.getDimension(); ++i)
+    open.push_back(!(std::sqrt(covariance(i, i)) < far));
+  if (const std::string names = names_where(study, open); !names.empty())
+    throw std::runtime_error("the measurements do not determine " + names + ": others can make up for it");
+}
+
 }  // namespace
 
 CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& calibration,
@@ -204,28 +288,28 @@ CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& cali
   MeasuredRuns runs(study, calibration, evaluate, derivatives);
   const OT::Function model = model_of(runs);
   OT::CalibrationResult found;
+  std::string problem;
   try {
     found = calibrated(runs, model, calibration.prior);
-  } catch (const OT::Exception& problem) {
-    runs.throw_if_stopped();
-    throw std::runtime_error(std::string("the measurements do not determine the variables: ") +
-                             problem.what());
+  } catch (const OT::Exception& of_search) {
+    problem = of_search.what();
   }
+  if (!runs.used_up()) runs.throw_if_stopped();
+  const bool ended = problem.empty() && !runs.used_up();
+  const std::vector<double> place =
+      ended ? from_point(found.getParameterMAP()) : std::vector<double>(runs.variables());  // where it began
+  if (!calibration.prior) check_told_apart(study, runs, place);
   runs.throw_if_stopped();
-  const std::vector<double> place = from_point(found.getParameterMAP());
+  if (!ended) throw std::runtime_error("the measurements do not determine the variables: " + problem);
   const OT::CovarianceMatrix covariance = found.getParameterPosterior().getCovariance();
   CalibrationResult result{.point = runs.point_of(place), .quantities = runs.quantities(place)};
   if (result.quantities.empty()) throw std::runtime_error("the variant that was found is not done");
+  check_determined(study, covariance);
   const std::vector<double>& units = runs.units();
   for (std::size_t i = 0; i < units.size(); ++i) {
     result.covariance.emplace_back();
     for (std::size_t k = 0; k < units.size(); ++k)
       result.covariance[i].push_back(covariance(i, k) * units[i] * units[k]);
-    constexpr double undetermined = 100;  // times half the range
-    if (!(std::sqrt(covariance(i, i)) < undetermined))
-      throw std::runtime_error("the measurements do not determine the variable " +
-                               in_quotes(study.variables[study.free_variables()[i]].name) +
-                               ": others can make up for it");
     // About the estimate: the posterior of OpenTURNS is about another point.
     const double sd = std::sqrt(result.covariance[i][i]),
                  width = OT::DistFunc::qNormal((1 + calibration.confidence) / 2) * sd;

@@ -195,18 +195,22 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     : study_(study), model_(model), values_(values) {
   const SimulationOptions options = simulation_options(case_file);
   const Histories own_histories(study, model);
-  const auto case_of = [&](const std::vector<double>& of) {
+  const auto case_of = [&](const std::vector<double>& of, std::string& why) {
     if (std::optional<CaseFile> reshaped = study_case.reshaped(case_file, values, study.variables, of))
       return reshaped;
     CaseFileReport read = study_case.read(study.variables, of);
-    if (!read.value) return std::optional<CaseFile>();
+    if (!read.value) {
+      why = first_error(read.diagnostics);
+      return std::optional<CaseFile>();
+    }
     if (!same_times(options, simulation_options(*read.value)))
       throw std::invalid_argument("variables that change the times of a run have no derivative");
     return std::optional<CaseFile>(std::move(*read.value));
   };
-  const auto run_of = [&](std::vector<double> of) -> std::optional<NeighbouringRun> {
-    const std::optional<CaseFile> neighbour = case_of(of);
+  const auto run_of = [&](std::vector<double> of, std::string& why) -> std::optional<NeighbouringRun> {
+    const std::optional<CaseFile> neighbour = case_of(of, why);
     BuildReport report = neighbour ? build_model(*neighbour, {}, &model) : BuildReport{};
+    if (neighbour && !report.value) why = first_error(report.diagnostics);
     if (!report.value) return std::nullopt;
     check_drawn_alike(model.model, report.value->model);
     return NeighbouringRun(own_histories, std::move(of),
@@ -215,17 +219,19 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
   // On one side where there is nothing on the other, as below a damping of zero: closer, as that is of first
   // order.
   const auto pair_of = [&](std::size_t k, double step) -> Pair {
-    std::optional<NeighbouringRun> more = run_of(changed(study, values, k, step)),
-                                   less = run_of(changed(study, values, k, -step));
+    std::string why;
+    std::optional<NeighbouringRun> more = run_of(changed(study, values, k, step), why),
+                                   less = run_of(changed(study, values, k, -step), why);
     if (more && less) {
       if (asks_for_von_mises(study)) check_stresses(less->built->model, model.model, more->built->model);
       return {std::move(*more), std::move(*less), step};
     }
     const double little = step / 10;
-    std::optional<NeighbouringRun> own = run_of(values),
-                                   beside = run_of(changed(study, values, k, more ? little : -little));
+    std::optional<NeighbouringRun> own = run_of(values, why),
+                                   beside = run_of(changed(study, values, k, more ? little : -little), why);
     if (!own || !beside)
-      throw std::invalid_argument("with a little more and with a little less of it there is no model");
+      throw std::invalid_argument("with a little more and with a little less of it there is no model: " +
+                                  why + "; take another \"nominal\" value, or a method without derivatives");
     if (more) return {std::move(*beside), std::move(*own), little / 2};
     return {std::move(*own), std::move(*beside), little / 2};
   };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -100,6 +101,7 @@ class Search {
       const std::vector<double> point = point_of(each);
       if (indices_.emplace(point, points_.size() + fresh.size()).second) fresh.push_back(point);
     }
+    if (parts.size() == 1) single_ += fresh.size();
     StudyPoints result(parts.size());
     try {
       if (stopped_) return result;
@@ -134,6 +136,8 @@ class Search {
   void throw_if_stopped() const {
     if (stopped_) std::rethrow_exception(stopped_);
   }
+  /// Variants that were asked for one by one: those of differences and of generations come in batches.
+  std::size_t single() const { return single_; }
 
   std::vector<double> objectives(const std::vector<double>& quantities) const {
     std::vector<double> values = quantities.empty() ? worse_than_all() : goal_.objectives(quantities);
@@ -233,6 +237,7 @@ class Search {
   std::vector<double> least_, most_;   // of each objective
   std::vector<double> least_margins_;  // and what a variant that is not done counts as
   double unit_ = 1;
+  std::size_t single_ = 0;
   std::exception_ptr stopped_;
 };
 
@@ -290,8 +295,10 @@ OT::OptimizationAlgorithm algorithm_of(const StudyFile& study, const StudyOptimu
   if (optimum.method != Method::gradient)
     algorithm.setInitialStep(OT::Point(study.free_variables().size(), first_step));
   algorithm.setStartingPoint(to_point(search.start()));
-  algorithm.setMaximumEvaluationNumber(static_cast<std::size_t>(optimum.evaluations));
-  algorithm.setMaximumIterationNumber(static_cast<std::size_t>(optimum.evaluations));
+  // Out of the way: it counts calls, also those for a variant that has run already.
+  constexpr std::size_t calls_of_a_variant = 10;
+  algorithm.setMaximumEvaluationNumber(calls_of_a_variant * static_cast<std::size_t>(optimum.evaluations));
+  algorithm.setMaximumIterationNumber(calls_of_a_variant * static_cast<std::size_t>(optimum.evaluations));
   algorithm.setMaximumAbsoluteError(optimum.tolerance);
   algorithm.setMaximumRelativeError(optimum.tolerance);
   algorithm.setMaximumResidualError(0);  // however little the objective changes
@@ -389,12 +396,17 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
                            const StudyEvaluation& evaluate, const StudyDerivatives& derivatives) {
   Goal goal(study, optimum);
   Search search(study, evaluate, derivatives, goal);
+  const auto used_up = [&] {
+    return optimum.method != StudyOptimum::Method::genetic &&
+           search.single() >= static_cast<std::size_t>(optimum.evaluations);
+  };
+  std::function<bool()> ended = [&] { return search.stopped() || used_up(); };
   try {
     const OT::OptimizationProblem problem = problem_of(study, optimum, search);
     if (optimum.method == StudyOptimum::Method::gradient) search.set_unit(slope_at_start(search, problem));
     OT::OptimizationAlgorithm algorithm = algorithm_of(study, optimum, problem, search);
-    algorithm.setStopCallback([](void* of) -> OT::Bool { return static_cast<Search*>(of)->stopped(); },
-                              &search);
+    algorithm.setStopCallback(
+        [](void* of) -> OT::Bool { return (*static_cast<std::function<bool()>*>(of))(); }, &ended);
     algorithm.run();
   } catch (const OT::Exception& problem) {
     if (search.points().empty())
@@ -402,8 +414,7 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
   }
   search.throw_if_stopped();
   OptimumResult result = best_of(search, goal);
-  result.cut_off = optimum.method != StudyOptimum::Method::genetic &&
-                   search.points().size() >= static_cast<std::size_t>(optimum.evaluations);
+  result.cut_off = used_up();
   if (result.points.empty()) throw std::runtime_error(none_holds(optimum, search, goal));
   return result;
 }

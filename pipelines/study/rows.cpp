@@ -14,6 +14,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/results/file_hash.h"
+
 namespace nurbeam {
 
 namespace {
@@ -30,6 +33,22 @@ std::vector<double> numbers_of(const Json& list) {
   for (const Json& each : list)
     numbers.push_back(each.is_null() ? std::numeric_limits<double>::quiet_NaN() : each.get<double>());
   return numbers;
+}
+
+// The parts that a study and that of the head of a file do not have in common.
+std::string differing(const StudyIdentity& study, const Json& head) {
+  std::map<std::string, std::string> former;
+  if (head.is_object() && head.contains("parts") && head["parts"].is_object())
+    for (const auto& [name, digest] : head["parts"].items()) former[name] = digest.dump();
+  if (former.empty()) return "the study, its case, a CAD file or nurbeam";  // of earlier versions
+  std::map<std::string, std::string> names;
+  for (const auto& [name, digest] : study.parts)
+    if (!former.contains(name) || former[name] != Json(digest).dump()) names[name];
+  for (const auto& [name, digest] : former)
+    if (!study.parts.contains(name)) names[name];
+  std::string text;
+  for (const auto& [name, none] : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 std::vector<std::vector<double>> rows_of(const Json& list) {
@@ -65,30 +84,50 @@ Variant variant_of(const std::string& line) {
   }
 }
 
-StudyRows::StudyRows(std::filesystem::path file, const std::string& digest, bool resume)
-    : file_(std::move(file)) {
-  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is found by the write's failure
+StudyIdentity identity_of(const StudyFile& study, const StudyCase* study_case) {
+  std::string text = std::string(NURBEAM_VERSION) + "\n" + study.json + "\n";
+  StudyIdentity identity{.parts = {{"the version of nurbeam", NURBEAM_VERSION}}};
+  const Json keys = Json::parse(study.json);
+  for (const auto& [key, value] : keys.items())
+    identity.parts[in_quotes(key) + " of the study"] = sha256_of_text(value.dump());
+  if (study_case) {
+    text += study_case->variant(study.variables, all_values(study, study.nominal()));
+    identity.parts[study_case->file().string()] = sha256_of_text(study_case->variant({}, {}));
+    for (const auto& input : study_case->inputs()) {
+      const std::string digest = sha256_of_file(input);
+      text += digest + "\n";
+      identity.parts[input.string()] = digest;
+    }
+  }
+  identity.digest = sha256_of_text(text);
+  return identity;
+}
+
+StudyRows::StudyRows(std::filesystem::path file, const StudyIdentity& study, bool resume)
+    : StudyRows(std::move(file)) {  // which is closed whatever is thrown
+  signal(SIGXFSZ, SIG_IGN);         // a file that may not grow is found by the write's failure
   descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (resume ? 0 : O_TRUNC), 0666);
   if (descriptor_ < 0) fail(std::strerror(errno));
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("another nurbeam study writes to it");
-  if (resume) read_back(digest);
-  if (size_ == 0) write(Json{{"nurbeam_study_rows", 1}, {"digest", digest}}.dump() + "\n");
+  if (resume) read_back(study);
+  if (size_ == 0)
+    write(Json{{"nurbeam_study_rows", 1}, {"digest", study.digest}, {"parts", study.parts}}.dump() + "\n");
 }
 
 StudyRows::~StudyRows() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-void StudyRows::read_back(const std::string& digest) {
+void StudyRows::read_back(const StudyIdentity& study) {
   std::ifstream in(file_, std::ios::binary);
   std::string line;
   while (std::getline(in, line) && !in.eof()) {  // a last line without an end is not whole
     if (size_ == 0) {
       const Json head = Json::parse(line, nullptr, false);
-      if (!head.is_object() || head.value("digest", "") != digest)
-        fail(
-            "belongs to another study: the study, its case, a CAD file or nurbeam have changed since; run without "
-            "--resume");
+      if (!head.is_object() || head.value("digest", "") != study.digest)
+        throw OtherStudyError(
+            file_.string() + ": belongs to another study: changed since: " + differing(study, head) +
+            "; run without --resume, which begins anew, or into another directory by --out");
     } else {
       try {
         Variant variant = variant_of(line);

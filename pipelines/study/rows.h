@@ -17,13 +17,27 @@ struct StudyRowsError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Rows that are there belong to another study.
+struct OtherStudyError : StudyRowsError {
+  using StudyRowsError::StudyRowsError;
+};
+
+/// What rows belong to.
+struct StudyIdentity {
+  std::string digest;                        ///< of all of it
+  std::map<std::string, std::string> parts;  ///< digests by name: of keys of the study, its case, files
+};
+
+/// The program, the study, its case with what both change, the files that it reads; null without a case.
+StudyIdentity identity_of(const StudyFile& study, const StudyCase* study_case);
+
 /// The finished variants of a study in a file, one line each, appended as they come: what was written stays
 /// whatever ends the program. Everything that fails throws StudyRowsError.
 class StudyRows {
  public:
-  /// Begins anew, or goes on where `resume`: then the file must belong to the same study, by its digest; a
-  /// last line that is not whole is cut off.
-  StudyRows(std::filesystem::path file, const std::string& digest, bool resume);
+  /// Begins anew, or goes on where `resume`: then the file must belong to the same study, by its digest, else
+  /// it throws OtherStudyError; a last line that is not whole is cut off.
+  StudyRows(std::filesystem::path file, const StudyIdentity& study, bool resume);
   StudyRows(const StudyRows&) = delete;
   ~StudyRows();
 
@@ -34,7 +48,8 @@ class StudyRows {
   void synchronise();
 
  private:
-  void read_back(const std::string& digest);
+  explicit StudyRows(std::filesystem::path file) : file_(std::move(file)) {}
+  void read_back(const StudyIdentity& study);
   void write(const std::string& line);
   [[noreturn]] void fail(const std::string& what) const;
 

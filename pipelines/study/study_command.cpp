@@ -13,7 +13,6 @@
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
-#include "pipelines/results/file_hash.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/study/best_variant.h"
 #include "pipelines/study/mpi_engine.h"
@@ -80,16 +79,6 @@ std::optional<ReadyStudy> read_study(const std::filesystem::path& file, std::ost
   if (ready.study.derivatives && ready.study.derivatives_where_known)
     ready.study.derivatives = has_derivatives(ready.study, ready.study_case ? &*ready.study_case : nullptr);
   return ready;
-}
-
-/// What rows belong to: the program, the study, its case with what both change, the files that it reads.
-std::string digest_of(const ReadyStudy& ready) {
-  std::string text = std::string(NURBEAM_VERSION) + "\n" + ready.study.json + "\n";
-  if (ready.study_case) {
-    text += ready.study_case->variant(ready.study.variables, all_values(ready.study, ready.study.nominal()));
-    for (const auto& input : ready.study_case->inputs()) text += sha256_of_file(input) + "\n";
-  }
-  return sha256_of_text(text);
 }
 
 /// One line that is rewritten on a terminal; elsewhere one at every tenth of the way.
@@ -180,7 +169,8 @@ int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEng
                   std::ostream& out, std::ostream& err) {
   silence_openturns();
   const InterruptGuard guard;
-  StudyRows rows(options.out / "study.rows", digest_of(ready), options.resume);
+  StudyRows rows(options.out / "study.rows",
+                 identity_of(ready.study, ready.study_case ? &*ready.study_case : nullptr), options.resume);
   if (!options.resume) remove_former_results(options.out);
   StudyResult result;
   {
@@ -204,6 +194,9 @@ int run_at_one_rank(const ReadyStudy& ready, const StudyOptions& options, StudyE
                     std::ostream& out, std::ostream& err) {
   try {
     return run_and_write(ready, options, engine, out, err);
+  } catch (const OtherStudyError& problem) {
+    err << "error: " << problem.what() << "\n";
+    return exit_bad_input;
   } catch (const std::runtime_error& problem) {
     err << "error: " << problem.what() << "\n";
     return exit_not_written;

@@ -346,6 +346,10 @@ std::string study_plan_text(const StudyFile& study) {
 std::string answer_text(const StudyFile& study, const StudyResult& result) {
   std::ostringstream out;
   std::visit([&](const auto& answer) { tell(out, study, answer); }, result.answer);
+  const bool searched = std::holds_alternative<OptimumResult>(result.answer) ||
+                        std::holds_alternative<CalibrationResult>(result.answer);
+  if (const std::string undone = undone_text(result.variants); searched && !undone.empty())
+    out << "  variants that are not done, of " << result.variants.size() << ": " << undone << "\n";
   for (const SurrogateResult& surrogate : result.surrogates)
     out << "surrogate of " << surrogate.quantity << "  Q2 " << text_of(surrogate.q2, 4) << "  largest error "
         << text_of(surrogate.largest_error, 3) << " at the variants held back\n";

@@ -134,7 +134,31 @@ std::vector<Variant> done(const std::vector<Variant>& variants) {
   return done;
 }
 
-/// "3 failed (why the first one did), 2 rejected (likewise)"; empty where all are done.
+// Whether it is a search from the nominal values of the variables.
+bool begins_at_nominal(const StudyTask& task) {
+  if (const auto* optimum = std::get_if<StudyOptimum>(&task))
+    return optimum->method != StudyOptimum::Method::genetic;
+  if (const auto* calibration = std::get_if<StudyCalibration>(&task)) return !calibration->prior;
+  const auto* reliability = std::get_if<StudyReliability>(&task);
+  return reliability && reliability->method != StudyReliability::Method::monte_carlo;
+}
+
+/// What a method says of its end, with what has become of the variants.
+std::string whole_failure(const StudyTask& task, const std::string& of_method,
+                          const std::vector<Variant>& variants) {
+  const std::string undone = undone_text(variants);
+  if (!variants.empty() && done(variants).empty())
+    return "none of " + std::to_string(variants.size()) + " variants is done: " + undone +
+           (begins_at_nominal(task)
+                ? "; the search begins at the \"nominal\" values of the variables, in the "
+                  "middle of their ranges when omitted: give such with which a variant runs"
+                : "");
+  return of_method.empty() || undone.empty() ? of_method
+                                             : of_method + "; variants that are not done: " + undone;
+}
+
+}  // namespace
+
 std::string undone_text(const std::vector<Variant>& variants) {
   std::map<VariantStatus, std::vector<const Variant*>> undone;
   for (const Variant& variant : variants)
@@ -145,17 +169,6 @@ std::string undone_text(const std::vector<Variant>& variants) {
             (of_it.size() > 1 ? "the first: " : "") + of_it.front()->reason + ")";
   return text;
 }
-
-/// What a method says of its end, with what has become of the variants.
-std::string whole_failure(const std::string& of_method, const std::vector<Variant>& variants) {
-  const std::string undone = undone_text(variants);
-  if (!variants.empty() && done(variants).empty())
-    return "none of " + std::to_string(variants.size()) + " variants is done: " + undone;
-  return of_method.empty() || undone.empty() ? of_method
-                                             : of_method + "; variants that are not done: " + undone;
-}
-
-}  // namespace
 
 std::size_t expected_variants(const StudyFile& study) {
   return std::visit(
@@ -208,7 +221,7 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
     result.failure = problem.what();
   }
   result.variants = source.ended();
-  if (!result.interrupted) result.failure = whole_failure(result.failure, result.variants);
+  if (!result.interrupted) result.failure = whole_failure(study.task, result.failure, result.variants);
   return result;
 }
 

@@ -42,6 +42,9 @@ struct StudyResult {
   std::string failure;  ///< why there is no answer, or no variant is done; else empty
 };
 
+/// "3 failed (why the first one did), 2 rejected (likewise)"; empty where all are done.
+std::string undone_text(const std::vector<Variant>& variants);
+
 /// How many variants a study runs, at most where it is a search or a simulation.
 std::size_t expected_variants(const StudyFile& study);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_overrides.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/study/analysis.h"
 #include "pipelines/study/study_parts.h"
@@ -34,6 +35,7 @@ class StudyTaskReader : StudyPartReader {
                          .held_back = number(json, "held_back", 0.2)};
       check_enough_for_surrogate();
     }
+    check_whole_numbers();
   }
 
  private:
@@ -44,6 +46,39 @@ class StudyTaskReader : StudyPartReader {
     if (const std::string problem = too_few_for(*study_.surrogate, study_.free_variables().size(), variants);
         !problem.empty())
       findings_.error("surrogate", problem);
+  }
+
+  // Whether all variants have values that stand in the study, or at even distances.
+  bool is_in_rows() const {
+    using Way = StudyPlan::Kind;
+    const auto* plan = std::get_if<StudyPlan>(&study_.task);
+    return plan && (plan->kind == Way::list || plan->kind == Way::grid);
+  }
+
+  // What takes any values of a range comes to none that a whole number of the case can have.
+  void check_whole_numbers() {
+    const bool along_gradients = study_.derivatives && !study_.derivatives_where_known;
+    if (is_in_rows() && !along_gradients) return;
+    for (const std::size_t i : study_.free_variables()) {
+      const StudyVariable& variable = study_.variables[i];
+      const auto* numbers = variable.target ? std::get_if<CasePaths>(&*variable.target) : nullptr;
+      if (!numbers) continue;
+      for (const std::string& path : numbers->paths) {
+        if (!dimension_at(path).whole) continue;
+        const std::string where = child(variable.path, "path"),
+                          is_whole = in_quotes(path) + " is a whole number, ",
+                          cure =
+                              "; take a \"plan\" with \"list\" or \"grid\", or give it a \"value\" of whole "
+                              "numbers made of another variable, as \"4 + 2 * (x > 0.5)\"";
+        if (along_gradients)
+          findings_.error(where, is_whole + "by which nothing has a derivative" + cure);
+        else
+          findings_.warn(where, is_whole +
+                                    "and any values of the range are tried: variants in which it is none "
+                                    "are refused" +
+                                    cure);
+      }
+    }
   }
 
   static std::size_t variants_of(const StudyPlan& plan) {

@@ -58,12 +58,6 @@ void fill_quantities(const StudyFile& study, const ExpressionScope& scope, Varia
   variant.quantities.clear();
 }
 
-std::string first_error(const std::vector<Diagnostic>& diagnostics) {
-  for (const Diagnostic& d : diagnostics)
-    if (d.severity == Severity::error) return d.where + ": " + d.message;
-  return "no model can be made";
-}
-
 /// Ends a variant that did not run or did not reach its end.
 void end(Variant& variant, VariantStatus status, std::string reason) {
   variant.status = status;
@@ -251,6 +245,12 @@ void check_derivatives(const StudyFile& study, const StudyCase& study_case, cons
 }
 
 }  // namespace
+
+std::string first_error(const std::vector<Diagnostic>& diagnostics) {
+  for (const Diagnostic& d : diagnostics)
+    if (d.severity == Severity::error) return d.where + ": " + d.message;
+  return "no model can be made";
+}
 
 std::string name_of(VariantStatus status) {
   for (const auto& [each, name] : status_names)

@@ -7,6 +7,9 @@
 
 namespace nurbeam {
 
+/// Where the first error is and what it says, of a model that cannot be made.
+std::string first_error(const std::vector<Diagnostic>& diagnostics);
+
 /// How a variant ended.
 enum class VariantStatus {
   done,

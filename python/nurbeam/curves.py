@@ -173,8 +173,9 @@ class Curve:
         return [Curve._of(piece, self.name) for piece in self._nurbs.bezier()]
 
     def to_cubic(self, tolerance: float = 1e-6) -> tuple[Curve, float]:
-        """A cubic curve, as beams are made of, and a bound on its distance from this one [m]: 0 up to degree 3, else
-        at most the tolerance [m]."""
+        """A cubic curve, as beams are made of, and a bound on how far points of the two at one parameter are apart [m]: 0
+        up to degree 3, which is exact, else proven and at most the tolerance [m], greater than 0; one below 1e-14 of the
+        size of the coordinates is taken as that."""
         nurbs, deviation = self._nurbs.cubics(tolerance)
         return Curve._of(nurbs, self.name), deviation
 

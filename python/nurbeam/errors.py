@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import sys
 import warnings
-from typing import TYPE_CHECKING, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
 
 if TYPE_CHECKING:
     from .results import Results
@@ -33,19 +34,28 @@ class Error(Exception):
 
 
 class CaseError(Error, ValueError):
-    """A model that cannot be one. `findings` is the list of all that is wrong, each with its place in the case."""
+    """A model or a study that cannot be one. `findings` is the list of all that is to be said of it, each with its place:
+    its text are the errors among them, warnings and notes (`severity`) stand there too."""
 
     def __init__(self, findings: Sequence[Finding]):
         self.findings = list(findings)
         super().__init__("\n".join(str(f) for f in self.findings if f.severity == "error"))
+
+    def __reduce__(self) -> Any:
+        """Pickled as its findings: other processes raise it whole."""
+        return type(self), (self.findings,)
 
 
 class CadError(Error, OSError):
-    """A CAD file that cannot be read or written. `findings` says why."""
+    """A CAD file that cannot be read or written. `findings` says why; its text are the errors among them."""
 
     def __init__(self, findings: Sequence[Finding]):
         self.findings = list(findings)
         super().__init__("\n".join(str(f) for f in self.findings if f.severity == "error"))
+
+    def __reduce__(self) -> Any:
+        """Pickled as its findings: other processes raise it whole."""
+        return type(self), (self.findings,)
 
 
 class RunError(Error, RuntimeError):
@@ -54,6 +64,11 @@ class RunError(Error, RuntimeError):
     def __init__(self, message: str, results: Results | None = None):
         self.results = results
         super().__init__(message)
+
+    def __reduce__(self) -> Any:
+        """Pickled with results of a directory, without those in memory."""
+        there = self.results is not None and self.results.directory is not None
+        return type(self), (str(self), self.results if there else None)
 
 
 class CaseWarning(UserWarning):
@@ -64,11 +79,14 @@ def findings_of(plain: Iterable[tuple[str, str, str]]) -> list[Finding]:
     return [Finding(*each) for each in plain]
 
 
-def tell(findings: Iterable[Finding], stacklevel: int = 3) -> None:
-    """Gives the warnings among the findings to Python's."""
+def tell(findings: Iterable[Finding]) -> None:
+    """Gives the warnings among the findings to Python's, of the line that has called this module."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back is not None and frame.f_globals["__name__"].startswith(f"{__package__}."):
+        frame, level = frame.f_back, level + 1
     for finding in findings:
         if finding.severity == "warning":
-            warnings.warn(CaseWarning(str(finding)), stacklevel=stacklevel + 1)
+            warnings.warn(CaseWarning(str(finding)), stacklevel=level)
 
 
 class ByName(Dict[str, T]):

@@ -95,12 +95,12 @@ def _json(value: Any) -> Any:
         return [_json(item) for item in value]
     if value is None or isinstance(value, (str, int, float)):
         return value
-    raise TypeError(f"{value!r} is nothing that a case can hold; expected a number, a text, a list or a mapping, or for a "
-                    "beam or a body its name or what add_beam and add_body have returned")
+    raise TypeError(f"{value!r} is nothing that a case or a study can hold; expected a number, a text, a list or a mapping, "
+                    "or for a beam or a body its name or what add_beam and add_body have returned")
 
 
 def _not_finite(value: Any, path: str = "") -> list[Finding]:
-    """The numbers of a case that are none."""
+    """The numbers of a case or a study that are none."""
     if isinstance(value, dict):
         return [f for key, item in value.items() for f in _not_finite(item, f"{path}.{key}" if path else key)]
     if isinstance(value, list):

@@ -124,10 +124,14 @@ class Simulation:
         return System(_core.Equations.of(self._core))
 
     def set_load(self, load: Load | int, value: npt.ArrayLike) -> None:
-        """Gives a load another value from now on, a vector in world coordinates [N, N m or N/m]; `load` is what
-        `model.add_load` has returned, or its number among the loads of the case."""
+        """Gives a load another value from now on, a vector in world coordinates: three numbers, in N for a force, N m for
+        a moment, N/m for a force per length; texts with units are for models alone. `load` is what `model.add_load` has
+        returned, or its number among the loads of the case."""
         number = load if isinstance(load, int) else load.number
-        vector = np.asarray(value, dtype=float)
+        try:
+            vector = np.asarray(value, dtype=float)
+        except (TypeError, ValueError):
+            raise ValueError(f"the value of a load is {value!r}; expected three numbers, in N, N m or N/m") from None
         if vector.shape != (3,):
             raise ValueError(f"the value of a load has the shape {vector.shape}; expected (3,)")
         self._core.change_load(number, vector)
@@ -136,7 +140,7 @@ class Simulation:
         report = self.report
         if not report["done"]:
             raise RunError(report["status"], self.results)
-        tell(findings_of(report["warnings"]), stacklevel=4)
+        tell(findings_of(report["warnings"]))
 
     def __repr__(self) -> str:
         return f'<Simulation of "{self._case.name}" at {self.time:.6g} of {self._case.end_time:.6g} s>'

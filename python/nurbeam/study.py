@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import operator
 import os
 import subprocess
 import tempfile
@@ -16,7 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import CaseError, Finding, RunError, unknown
+from .errors import CaseError, Finding, RunError, tell, unknown
+from .model import _json, _not_finite
 
 if TYPE_CHECKING:
     import pandas
@@ -80,32 +82,58 @@ class Study(Mapping[str, Array]):
         return pandas.DataFrame(columns)
 
 
+def _jobs(jobs: int | None) -> int:
+    cores = os.cpu_count() or 1
+    try:
+        count = cores if jobs is None else operator.index(jobs)
+    except TypeError:
+        count = 0
+    if count < 1:
+        raise ValueError(f"jobs is {jobs!r}; must be a whole number of at least 1, or None: one for each core, here {cores}")
+    return count
+
+
+def _finding(line: str, file: Path) -> Finding:
+    """What the program says in a line: "warning: study.json: variables[0].path: ..."."""
+    severity, _, rest = line.partition(": ")
+    if severity not in ("error", "warning", "note"):
+        severity, rest = "error", line
+    where, _, message = rest.partition(": ")
+    return Finding(severity, where, message) if message else Finding(severity, str(file), rest)
+
+
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
-    """Runs a study: a study file, or what it would hold (docs/studies.md); its case is relative to the file, or to
-    the working directory.
+    """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
+    arrays may stand for lists; its case is relative to the file, or to the working directory.
 
     `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
     variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
-    run again. Raises CaseError where the study is wrong, and RunError where it has no answer or cannot be written.
+    run again. Raises CaseError where the study is wrong, ValueError where `jobs` is, and RunError where the study has no
+    answer or cannot be written.
     """
+    at_a_time = _jobs(jobs)
     if isinstance(what, Mapping):
+        described = _json(what)
+        if wrong := _not_finite(described):
+            raise CaseError([Finding(f.severity, f"study: {f.where}", f.message) for f in wrong])
+        if isinstance(described.get("case"), str):
+            described["case"] = os.path.abspath(described["case"])
         directory = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
         directory.mkdir(parents=True, exist_ok=True)
-        described = dict(what)
-        if "case" in described:
-            described["case"] = os.path.abspath(described["case"])
         file = directory / "study_file.json"
         file.write_text(json.dumps(described, indent=1), encoding="utf-8")
     else:
         file = Path(what)
         directory = Path(out) if out is not None else Path(f"{file.stem}_study")
-    words = [str(_core.study_program()), "run", str(file), str(directory), str(jobs or os.cpu_count() or 1),
+    words = [str(_core.study_program()), "run", str(file), str(directory), str(at_a_time),
              "resume" if resume else "new", "quiet"]  # fmt: skip
     ended = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    messages = [line.removeprefix("error: ") for line in ended.stderr.splitlines()]
+    findings = [_finding(line, file) for line in ended.stderr.splitlines()]
     if ended.returncode == 2:
-        raise CaseError([Finding("error", *(m.split(": ", 1) if ": " in m else (str(file), m))) for m in messages])
+        raise CaseError(findings)
+    tell(findings)
     if ended.returncode != 0:
-        raise RunError("\n".join(messages) or f"nurbeam-study ended with exit code {ended.returncode}")
+        said = [str(finding) for finding in findings if finding.severity == "error"]
+        raise RunError("\n".join(said) or f"nurbeam-study ended with exit code {ended.returncode}")
     return Study(directory)

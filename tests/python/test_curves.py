@@ -81,6 +81,7 @@ def test_cubics_of_a_higher_degree_keep_their_bound():
     curve = nb.Curve(np.random.default_rng(3).normal(size=(6, 3)), degree=5)
     cubic, deviation = curve.to_cubic(1e-5)
     assert cubic.degree == 3 and 0 < deviation <= 1e-5
+    assert np.linalg.norm(cubic.sample(200) - curve.sample(200), axis=1).max() <= deviation, "at equal parameters"
     distance = [cubic.closest_point(p).distance for p in curve.sample(40)]
     assert max(distance) <= deviation * (1 + 1e-6) + 1e-12
 

@@ -109,6 +109,9 @@ def test_what_a_law_raises_comes_out_unchanged(analysis, tmp_path):
         ("push", TypeError, "expected the force"),
         ([0, np.nan, 0], ValueError, "a force must be finite"),
         ([0, 0, 1.0], ValueError, "out of the plane of the model; add the law with spatial=True"),
+        (([0, 0, 0], np.full((3, 3), np.nan), None), ValueError,
+         r"^laws\[0\]: the derivative by positions is nan at \[0, 0\] at t = 0 s; it must be finite, or None: then"),
+        (([0, 0, 0], None, np.diag([0, np.inf, 0])), ValueError, r"the derivative by velocities is inf at \[1, 1\]"),
         (([0, 0, 0], [1, 2], None), TypeError, r"derivative by positions must have the shape \(3, 3\)"),
     ],
 )

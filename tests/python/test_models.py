@@ -1,4 +1,5 @@
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -191,6 +192,23 @@ def test_a_run_that_fails_says_why_and_keeps_what_there_is(tmp_path):
     assert isinstance(caught.value.results, nb.Results)
 
 
+def test_errors_are_pickled_as_they_are(tmp_path):
+    model = straight_cantilever(tip=[0, -1, 0])
+    model.case["supports"] = []
+    for ask in (lambda: model.run(), lambda: nb.read(tmp_path / "absent.step")):
+        with pytest.raises((nb.CaseError, nb.CadError)) as caught:
+            ask()
+        again = pickle.loads(pickle.dumps(caught.value))
+        assert type(again) is type(caught.value) and again.findings == caught.value.findings != []
+        assert str(again) == str(caught.value)
+    for out in (None, tmp_path / "out"):  # results in memory stay behind
+        with pytest.raises(nb.RunError) as failed:
+            model.run(type="static", out=out)
+        again = pickle.loads(pickle.dumps(failed.value))
+        assert str(again) == str(failed.value)
+        assert getattr(again.results, "directory", None) == out
+
+
 def test_places_are_said_in_words_numbers_and_points():
     def tip(at):
         model = straight_cantilever()
@@ -219,6 +237,7 @@ def test_summary_and_schema_are_json(root):
 
 def test_findings_that_are_no_errors_are_warnings():
     model = straight_cantilever(tip=[0, -1, 0])
-    with pytest.warns(nb.CaseWarning, match="has no effect in a static analysis"):
+    with pytest.warns(nb.CaseWarning, match="has no effect in a static analysis") as told:
         model.run(type="static", step=0.1)
+    assert [warning.filename for warning in told] == [__file__]
     assert any("no effect" in finding.message for finding in model.check(type="static", step=0.1))

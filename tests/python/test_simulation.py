@@ -98,6 +98,8 @@ def test_loads_that_there_are_none_of_say_so():
         simulation.set_load(0, [0, 0, 1])
     with pytest.raises(ValueError, match="expected"):
         simulation.set_load(0, [1, 2])
+    with pytest.raises(ValueError, match=r"is \['0 N', '1 N', 0\]; expected three numbers, in N, N m or N/m"):
+        simulation.set_load(0, ["0 N", "1 N", 0])
     with pytest.raises(ValueError, match="finite"):
         simulation.set_load(0, [np.nan, 0, 0])
 

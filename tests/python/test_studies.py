@@ -48,6 +48,54 @@ def test_what_is_wrong_is_a_list_of_findings(tmp_path):
         nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path)["x11"]
 
 
+def test_what_is_no_error_is_a_warning(tmp_path):
+    model = straight_cantilever(tip=[0, -1e-3, 0])
+    model.set("analysis", {"type": "static"})
+    model.add_probe("tip", "rod", "end")
+    model.save(tmp_path / "case.json")
+    counts = {"nurbeam_study": 1, "case": str(tmp_path / "case.json"), "plan": {"monte_carlo": {"count": 2}},
+              "variables": [{"name": "n", "path": "beams[0].elements.count", "range": [4, 8]}],
+              "quantities": [{"name": "y", "value": "at(end, tip.y)"}]}
+    with pytest.warns(nb.CaseWarning, match="is a whole number") as told, pytest.raises(nb.RunError) as failed:
+        nb.study(counts, out=tmp_path / "out")
+    assert told[0].filename == __file__ and "is a whole number" not in str(failed.value)
+    with pytest.raises(nb.CaseError) as wrong:
+        nb.study({**counts, "constraints": ["m > 1"]}, out=tmp_path / "out")
+    assert sorted(finding.severity for finding in wrong.value.findings) == ["error", "warning"]
+    assert "whole number" not in str(wrong.value)
+
+
+def test_arrays_may_stand_for_lists(tmp_path):
+    model = straight_cantilever()
+    model.set("analysis", {"type": "static"})
+    model.save(tmp_path / "case.json")
+    ranges = np.array([[0, 1], [2, 4.5]])
+    study = nb.study({"nurbeam_study": np.int64(1), "case": tmp_path / "case.json",
+                      "variables": ({"name": name, "range": of} for name, of in zip("ab", ranges)),
+                      "quantities": [{"name": "q", "value": "a + b"}],
+                      "plan": {"grid": np.array([2, 2])}, "time_limit": np.float32(60)}, out=tmp_path / "out")
+    np.testing.assert_array_equal(np.stack([study["a"], study["b"]], axis=1), [[0, 2], [0, 4.5], [1, 2], [1, 4.5]])
+    assert study.statuses == ["done"] * 4
+
+
+def test_what_no_study_can_hold_is_named(tmp_path):
+    with pytest.raises(nb.CaseError, match=r"^study: plan\.list\[0\]\[1\]: is nan; expected a finite number$"):
+        nb.study({**ISHIGAMI, "plan": {"list": np.array([[0, np.nan, 0]])}}, out=tmp_path / "out")
+    with pytest.raises(TypeError, match="^<object object at .* is nothing that a case or a study can hold; expected a number"):
+        nb.study({**ISHIGAMI, "plan": {"grid": object()}}, out=tmp_path / "out")
+    with pytest.raises(nb.CaseError, match="case: .*expected a text"):
+        nb.study({**ISHIGAMI, "plan": {"grid": 2}, "case": 3}, out=tmp_path / "wrong")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("jobs", [-1, 0, 1.5, "2"])
+def test_jobs_that_are_none_are_refused(tmp_path, jobs):
+    with pytest.raises(ValueError, match=rf"^jobs is {jobs!r}; must be a whole number of at least 1, or None: one for each"):
+        nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path / "out", jobs=jobs)
+    assert not (tmp_path / "out").exists()
+    assert len(nb.study({**ISHIGAMI, "plan": {"list": [[0, 0, 0]]}}, out=tmp_path / "out", jobs=np.int64(1))["y"]) == 1
+
+
 def children(process):
     """The ids of all processes that it has begun, and theirs."""
     try:

@@ -148,6 +148,81 @@ TEST(Calibration, OfWhatMeasurementsDoNotDetermineSaysSo) {
   EXPECT_THROW(calibrated(study_of(two_variables(ranges[0], ranges[1], measured)), sum), std::runtime_error);
 }
 
+// A calibration of three variables against what a model says of 1.7, 1.2 and 0.6; what it says of the answer.
+std::string told_of(double (*model)(double a, double b, double c, double t), const std::string& evaluations,
+                    bool with_derivatives) {
+  std::ostringstream rows;
+  rows.precision(17);
+  for (int i = 0; i < times; ++i)
+    rows << (i > 0 ? ", [" : "[") << time_of(i) << ", " << model(1.7, 1.2, 0.6, time_of(i)) << "]";
+  const StudyFile study = study_of(
+      R"json({"nurbeam_study": 1, "case": "c.json",
+    "variables": [{"name": "a", "path": "gravity[0]", "range": [1, 3]}, {"name": "b", "path": "gravity[1]", "range": [1, 3]},
+                  {"name": "c", "path": "gravity[2]", "range": [0, 1]}],
+    "calibrate": {"evaluations": )json" +
+      evaluations + R"json(, "observations": [{"value": "tip.x", "measured": [)json" + rows.str() + "]}]}}");
+  const auto run = [&](const std::vector<double>& p) {
+    std::vector<double> history;
+    for (int i = 0; i < times; ++i) history.push_back(model(p[0], p[1], p[2], time_of(i)));
+    return history;
+  };
+  const StudyEvaluation evaluate = [&](const StudyPoints& points) {
+    StudyPoints quantities;
+    for (const auto& point : points) quantities.push_back(run(point));
+    return quantities;
+  };
+  const StudyDerivatives derivatives = [&](const std::vector<double>& point) {
+    StudyGradient gradient(times, std::vector<double>(3));
+    for (std::size_t k = 0; k < 3; ++k) {
+      constexpr double h = 1e-5;
+      std::vector<double> more = point, less = point;
+      more[k] += h;
+      less[k] -= h;
+      const std::vector<double> above = run(more), below = run(less);
+      for (std::size_t i = 0; i < above.size(); ++i) gradient[i][k] = (above[i] - below[i]) / (2 * h);
+    }
+    return gradient;
+  };
+  try {
+    const CalibrationResult result = calibrate(study, std::get<StudyCalibration>(study.task), evaluate,
+                                               with_derivatives ? derivatives : StudyDerivatives());
+    EXPECT_NEAR(result.point[0], 1.7, 1e-6);
+    EXPECT_NEAR(result.point[1], 1.2, 1e-6);
+    EXPECT_NEAR(result.point[2], 0.6, 1e-6);
+    return "";
+  } catch (const std::runtime_error& problem) {
+    return problem.what();
+  }
+}
+
+// Without noise what is left of the squares says nothing of it.
+TEST(Calibration, NamesTheVariablesThatMeasurementsDoNotTellApart) {
+  const std::string apart =
+      " apart: what one of them does to the runs others undo; give one of them a fixed value, or measure what they "
+      "change in different ways";
+  for (const bool with_derivatives : {true, false})
+    for (const char* evaluations : {"9", "200"}) {
+      EXPECT_EQ(told_of([](double a, double b, double c, double t) { return a * b * std::exp(-c * t); },
+                        evaluations, with_derivatives),
+                "the measurements do not tell \"a\" and \"b\"" + apart);
+      EXPECT_EQ(told_of([](double a, double b, double c, double t) { return (a - 2 * b + 3 * c) * t; },
+                        evaluations, with_derivatives),
+                "the measurements do not tell \"a\", \"b\" and \"c\"" + apart);
+      EXPECT_EQ(told_of([](double a, double, double c, double t) { return a * std::exp(-c * t); },
+                        evaluations, with_derivatives),
+                "the measurements do not change with \"b\": leave it out, or measure what it changes");
+    }
+}
+
+// Columns that differ by a hundredth are told apart by what is exact.
+TEST(Calibration, LeavesVariablesAloneThatAreNearlyAlike) {
+  for (const bool with_derivatives : {true, false})
+    EXPECT_EQ(told_of([](double a, double b, double c,
+                         double t) { return a * t + b * (t + 1e-2 * t * t) + std::exp(-c * t); },
+                      "200", with_derivatives),
+              "");
+}
+
 TEST(Calibration, NeedsRangesOrNormalDistributionsAndEnoughValues) {
   const std::vector<double> measured(times, 1.0);
   const std::string normal = R"("distribution": {"normal": {"mean": 2, "sd": 0.05}})";

@@ -103,7 +103,14 @@ TEST(Gradient, IsRefusedWhereThereIsNone) {
       std::string::npos);
   std::string rough = slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json");
   rough.replace(rough.find("\"speed\": 1"), 10, R"json("friction": {"coefficient": 0.1})json");
-  EXPECT_NE(refused(rough, mass).find("friction"), std::string::npos);
+  EXPECT_EQ(
+      refused(rough, mass),
+      "there is no derivative here with the friction of \"slider\" on beam \"beam\"; leave it out, or take "
+      "differences of runs\n");
+  std::string stopped = slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json");
+  stopped.insert(1, R"json("stops": [{"beam": "beam", "at": {"length": 2}}], )json");
+  EXPECT_NE(refused(stopped, mass).find("with a stop of \"slider\" on beam \"beam\""), std::string::npos)
+      << refused(stopped, mass);
 }
 
 // What is said of a variant that has no derivatives.
@@ -143,6 +150,18 @@ TEST(Gradient, SaysThatStressesOfMeshedSectionsHaveNone) {
       << told;
   EXPECT_EQ(of(rectangle, "rectangle[1]", "at(end, P.z)"), "");
   EXPECT_EQ(of(round, "radius", "at(end, P.von_mises)"), "");
+}
+
+TEST(Gradient, SaysWhyThereAreNoNeighbours) {
+  const std::string told = told_of(test::spline_case(6, 4, R"json({"type": "static"})json"),
+                                   R"json("variables": [{"name": "x", "range": [0, 1]},
+                           {"name": "n", "path": "beams[0].elements.count", "value": "4 + 2 * x"}])json",
+                                   "at(end, tip.z)");
+  for (const char* part :
+       {"no derivative by \"x\": with a little more and with a little less of it there is no model: ",
+        "beams[0].elements.count: is ",
+        "; expected an integer; take another \"nominal\" value, or a method without derivatives"})
+    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
 }
 
 TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {

@@ -19,24 +19,43 @@ TEST(StudyRows, GoOnWhereTheyEnded) {
   const test::TemporaryDirectory directory;
   const auto file = directory.path() / "study.rows";
   {
-    StudyRows rows(file, "digest", false);
+    StudyRows rows(file, {"digest", {}}, false);
     for (const std::size_t n : {0, 2, 1}) rows.append(variant_number(n));
   }
   std::ofstream(file, std::ios::app) << R"({"number":3,"values":[0.3)";  // killed in the middle of a line
-  StudyRows rows(file, "digest", true);
+  StudyRows rows(file, {"digest", {}}, true);
   ASSERT_EQ(rows.stored().size(), 3U);
   EXPECT_EQ(rows.stored().at(2).values, variant_number(2).values) << "to the last bit";
   EXPECT_EQ(rows.stored().at(2).quantities, (std::vector<double>{1e-300}));
   rows.append(variant_number(3));
   rows.synchronise();
-  EXPECT_THROW(StudyRows(file, "digest", true), StudyRowsError) << "another one holds them";
+  EXPECT_THROW(StudyRows(file, {"digest", {}}, true), StudyRowsError) << "another one holds them";
 }
 
 TEST(StudyRows, OfAnotherStudyAreRefused) {
   const test::TemporaryDirectory directory;
   const auto file = directory.path() / "study.rows";
-  { StudyRows rows(file, "digest", false); }
-  EXPECT_THROW(StudyRows(file, "other", true), StudyRowsError);
+  const auto told = [&](const StudyIdentity& study) -> std::string {
+    try {
+      const StudyRows rows(file, study, true);
+    } catch (const OtherStudyError& problem) {
+      return problem.what();
+    }
+    return "";
+  };
+  const StudyIdentity here{"digest", {{"a", "1"}, {"b", "2"}, {"c", "3"}}};
+  { const StudyRows rows(file, here, false); }
+  EXPECT_EQ(told(here), "");
+  EXPECT_EQ(
+      told({"other", {{"a", "1"}, {"b", "3"}, {"d", "3"}}}),
+      file.string() +
+          ": belongs to another study: changed since: b, c, d; run without --resume, which begins anew, or into "
+          "another directory by --out");
+  std::ofstream(file) << R"({"nurbeam_study_rows":1,"digest":"digest"})"
+                      << "\n";  // of earlier versions
+  EXPECT_EQ(told(here), "");
+  EXPECT_NE(told({"other", here.parts}).find("changed since: the study, its case, a CAD file or nurbeam"),
+            std::string::npos);
 }
 
 TEST(StudyRows, AVariantSurvivesItsLine) {

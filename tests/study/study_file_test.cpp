@@ -11,6 +11,7 @@ namespace nurbeam {
 namespace {
 
 using test::study_of;
+using test::TemporaryDirectory;
 using test::wrong_with;
 
 TEST(StudyFile, ReadsUnitsByWhatTheVariableIs) {
@@ -230,6 +231,44 @@ TEST(StudyFile, NeedsACaseForWhatChangesOne) {
        {"\"set\" needs \"case\"", "\"refine\" needs \"case\"", "\"calibrate\" needs \"case\"",
         "variables[0]: changes a case, but the study has no \"case\""})
     EXPECT_NE(wrong.find(text), std::string::npos) << text << "\n" << wrong;
+}
+
+TEST(StudyFile, SaysWhatIsToBeDoneWithWholeNumbers) {
+  const auto told = [](const std::string& task,
+                       const std::string& more = "\"range\": [4, 9], \"nominal\": 6") {
+    const TemporaryDirectory directory;
+    std::string all;
+    for (const Diagnostic& d :
+         read_study_file(
+             directory.write(
+                 "study.json",
+                 R"json({"nurbeam_study": 1, "case": "c.json", "variables": [{"name": "x", "range": [0, 1]},
+      {"name": "n", "path": "beams[0].elements.count", )json" +
+                     more + R"json(}], "quantities": [{"name": "q", "value": "max(tip.x)"}], )json" + task +
+                     "}"))
+             .diagnostics)
+      all += (d.severity == Severity::error ? "error: " : "warning: ") + d.message + "\n";
+    return all;
+  };
+  const std::string
+      whole = "\"beams[0].elements.count\" is a whole number, ",
+      cure =
+          "; take a \"plan\" with \"list\" or \"grid\", or give it a \"value\" of whole numbers made "
+          "of another variable, as \"4 + 2 * (x > 0.5)\"\n";
+  const std::string warned =
+                        "warning: " + whole +
+                        "and any values of the range are tried: variants in which it is none are refused" +
+                        cure,
+                    refused = "error: " + whole + "by which nothing has a derivative" + cure;
+  EXPECT_EQ(told(R"("plan": {"grid": [2, 6]})"), "");
+  EXPECT_EQ(told(R"("plan": {"list": [[0, 6]]})"), "");
+  EXPECT_EQ(told(R"("plan": {"sobol": {"count": 4}})"), warned);
+  EXPECT_EQ(told(R"("optimise": {"minimise": "q"})"), warned);
+  EXPECT_EQ(told(R"("optimise": {"minimise": "q", "method": "gradient", "derivatives": "differences"})"),
+            warned);
+  EXPECT_EQ(told(R"("optimise": {"minimise": "q", "method": "gradient"})"), refused);
+  EXPECT_EQ(told(R"("plan": {"gradient": "nominal"})"), refused);
+  EXPECT_EQ(told(R"("optimise": {"minimise": "q"})", R"json("value": "4 + 2 * (x > 0.5)")json"), "");
 }
 
 TEST(StudyFile, RefusesAQuantityThatIsNamedTwice) {

@@ -209,8 +209,10 @@ def bad_files_are_refused():
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
     run(changed, "--out", scratch / "bad/changed")
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 3}}})
-    done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=4)
-    assert "belongs to another study" in done.stderr
+    rows = rows_of(scratch / "bad/changed")
+    done = run(changed, "--out", scratch / "bad/changed", "--resume", expected=2)
+    assert "another study: changed since: \"plan\" of the study; run without --resume" in done.stderr, done.stderr
+    assert rows_of(scratch / "bad/changed") == rows, "they are kept"
     # A table that the case reads, changed between a study and its resumption.
     here = scratch / "table"
     here.mkdir(parents=True, exist_ok=True)
@@ -226,8 +228,8 @@ def bad_files_are_refused():
         "quantities": [{"name": "z", "value": "at(end, tip.z)"}], "plan": {"grid": 2}}))
     run(here / "study.json", "--out", here / "out")
     (here / "load.csv").write_text("t,f\n0,-20\n1,-20\n")
-    done = run(here / "study.json", "--out", here / "out", "--resume", expected=4)
-    assert "belongs to another study" in done.stderr
+    done = run(here / "study.json", "--out", here / "out", "--resume", expected=2)
+    assert f"another study: changed since: {here / 'load.csv'}; run" in done.stderr, done.stderr
 
 
 def a_full_disk_costs_nothing(expected):
@@ -301,6 +303,22 @@ def answers_that_there_are_not_say_why():
     assert "q < 9" not in text, text
     status = json.loads((scratch / "why/out/study.json").read_text())["status"]
     assert "is missed by" in status, status
+    text = told({"quantities": [{"name": "q", "value": "log(a - 0.6)"}], "optimise": {"minimise": "q", "method": "gradient"}})
+    assert "none of 1 variants is done" in text and "search begins at the \"nominal\" values" in text, text
+    text = told({"constraints": ["a > 5"], "optimise": {"minimise": "q", "method": "genetic"}})
+    assert "nominal" not in text, text
+
+
+def answers_say_what_is_not_done():
+    study = {"nurbeam_study": 1, "variables": [{"name": "a", "range": [0, 1]}],
+             "quantities": [{"name": "q", "value": "a + 0 * log(a - 0.4)"}], "optimise": {"minimise": "q"}}
+    told = run(write(scratch / "undone", study), "--out", scratch / "undone/out").stdout
+    rows = table(scratch / "undone/out")
+    failed = sum(row[-2] == "failed" for row in rows)
+    assert f"  variants that are not done, of {len(rows) - 1}: {failed} failed (the first: the quantity \"q\" is" in told, told
+    study["quantities"][0]["value"] = "a"
+    told = run(write(scratch / "undone", study), "--out", scratch / "undone/out").stdout
+    assert "not done" not in told, told
 
 
 def the_best_variant_runs():
@@ -330,5 +348,6 @@ bad_files_are_refused()
 a_variant_that_cannot_be_built_says_why()
 no_more_processes_than_are_of_use()
 answers_that_there_are_not_say_why()
+answers_say_what_is_not_done()
 the_best_variant_runs()
 print("all studies ran as they should")
