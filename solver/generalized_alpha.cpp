@@ -24,7 +24,9 @@ constexpr double to_spare = 5;              ///< of what is foretold so
 /// about as many.
 constexpr int worth_a_matrix = 12;
 constexpr double longest_use = 50;  ///< of a matrix, in steps
-constexpr double same_step = 0.03;  ///< relative difference of steps with one matrix
+/// Relative difference of steps with one matrix; under error control, where steps must not tell how those
+/// that were refused went, one that no matrix feels.
+constexpr double same_step = 0.03, same_controlled_step = 1e-6;
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -173,7 +175,7 @@ StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const Integra
 }
 
 std::optional<TangentWeights> GeneralizedAlphaIntegrator::balance(double step) {
-  const double h = within_limit(step);
+  const double h = std::min(step, system_->step_limit(state_));
   const Eigen::Index n = state_.q.size(), m = state_.lambda.size();
   trial_ = state_;
   if (!linearise(trial_point(h), trial_)) return {};
@@ -194,17 +196,11 @@ StepReport GeneralizedAlphaIntegrator::advance(double step) {
   return advance_within(step, settings_.max_halvings, settings_.tolerance);
 }
 
-/// Half of it, or that again, until the system's limit allows it: a matrix serves steps of one length.
-double GeneralizedAlphaIntegrator::within_limit(double step) const {
-  const double limit = system_->step_limit(state_);
-  while (step > limit && limit > 0) step /= 2;
-  return step;
-}
-
 StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvings, double tolerance) {
   StepReport report{.status = StepStatus::inadmissible, .next_step = step};
-  if (!(step > 0) || !(system_->step_limit(state_) > 0)) return report;
-  double h = within_limit(step);
+  const double limit = system_->step_limit(state_);
+  if (!(step > 0) || !(limit > 0)) return report;
+  double h = std::min(step, limit);
   for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
     report.status = attempt(h, report);
     double shorter = 0.5;
@@ -271,7 +267,8 @@ void GeneralizedAlphaIntegrator::rest() {
 }
 
 bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
-  return linearisation_ && std::abs(linearisation_->step / step - 1) <= same_step &&
+  const double same = settings_.tolerance > 0 ? same_controlled_step : same_step;
+  return linearisation_ && std::abs(linearisation_->step / step - 1) <= same &&
          std::abs(trial_.t - linearisation_->state.t) <= longest_use * step;
 }
 

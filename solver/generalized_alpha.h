@@ -20,8 +20,8 @@ struct GeneralizedAlpha {
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
 /// and the factorised matrix between steps: it is taken anew where a correction is not at least ten times
 /// smaller than the one before, the second one two times, where those that it takes more would pay for
-/// another, where the step's length changes by more than 3 %, and after fifty steps. The system's moving part
-/// of it is taken anew in every step.
+/// another, where the step's length changes by more than 3 %, under error control at all, and after fifty
+/// steps. The system's moving part of it is taken anew in every step.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
@@ -88,7 +88,6 @@ class GeneralizedAlphaIntegrator final : public Integrator {
  private:
   static constexpr int none_yet = -1;
 
-  double within_limit(double step) const;
   StepReport advance_within(double step, int max_halvings, double tolerance);
   StepStatus attempt(double step, StepReport& report);
   bool predict(double step);

@@ -17,6 +17,7 @@ struct FollowedStep {
   const IntegratorHistory& history;  ///< at `before`
   const State& after;
   bool repeated;  ///< as by Integrator::repeat
+  double asked;   ///< at most of the integrator, which the system's step limit may have shortened [s]
   double rest;    ///< from `before` to the time of the run that steps lead to [s]
   /// Of a step that ends at an event: what is zero there but for a constant, of a state of this model or of a
   /// neighbouring one; else empty.

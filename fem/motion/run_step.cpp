@@ -217,8 +217,8 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   }
   run.events_at_once = 0;
   if (run.observer.follower)
-    run.observer.follower->steps(
-        {before, history, at.state, at.state.t != end, rest, distance_to(*run.model, landing, before)});
+    run.observer.follower->steps({before, history, at.state, at.state.t != end, asked, rest,
+                                  distance_to(*run.model, landing, before)});
   const double length = at.state.t == end ? taken.step : at.state.t - before.t;
   run.last_record = {at.state.t, length, taken.newton_iterations, taken.rejected};
   run.steps.push_back(run.last_record);

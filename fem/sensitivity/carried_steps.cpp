@@ -25,11 +25,39 @@ void singular_step() {
   throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
 }
 
-// Of a step, by each parameter, from the tangents at its start: its part of what is left to the next time of
-// the run; none where it lands on an event.
+// Of a step, by each parameter, from the tangents at its start: that of the system's step limit where this
+// has shortened it, or its part of what is left to the next time of the run; none where it lands on an event.
 Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
+  const double h = step.after.t - step.before.t, limit = system_->step_limit(step.before);
   if (step.beyond) return Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()));
-  return -(step.after.t - step.before.t) / step.rest * times();
+  if (step.asked <= limit) return -h / step.rest * times();
+  Eigen::RowVectorXd changes(tangents_.parameters());
+  State own = step.before;  // places alone say how long it may be, and their rates
+  const Shifts shifts = shifts_at(step.before);
+  for (Eigen::Index k = 0; k < changes.size(); ++k) {
+    const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
+    const double p = parameter.pair.step;
+    const auto limit_of = [&](double part) {
+      if (!parameter.lags) {
+        const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, part > 0);
+        return system.step_limit(state);
+      }
+      for (const MeshJoint& joint : system_->mesh().joints)
+        if (const int place = joint.place; place >= 0) {
+          own.q[place] = step.before.q[place] + part * tangents_.q(place, k);
+          own.v[place] = step.before.v[place] + part * tangents_.v(place, k);
+        }
+      for (const auto& [place, by] : shifts[static_cast<std::size_t>(k)]) own.q[place] -= part * by;
+      return system_->step_limit(own);
+    };
+    changes[k] = h / limit * (limit_of(p) - limit_of(-p)) / (2 * p);
+  }
+  return changes;
+}
+
+// Whether the state and the parameters decide how long it is: none that leads to the next time of the run.
+bool Sensitivities::has_own_length(const FollowedStep& step) const {
+  return step.beyond || step.asked > system_->step_limit(step.before);
 }
 
 // How the residual changes with t alone, constraints below (n + m), by differences over a part of h.
@@ -63,8 +91,9 @@ void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
   state_ = step.after;
   if (h == 0) return;  // what a body that starts at the end of its beam does there
-  if (by_adjoint_ && !step.beyond) return keep(step);
-  if (step.beyond) carry();
+  const bool own_length = has_own_length(step);
+  if (by_adjoint_ && !own_length) return keep(step);
+  if (own_length) carry();
   carry_over({step.before, step.history, step.after, step.repeated}, changes_of_length(step));
   if (step.beyond) {
     arrive();

@@ -40,8 +40,9 @@ struct NeighbourPair {
 ///     neighbours may be further apart than round-off reaches.
 ///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end; or StepAdjoint:
 ///   steps
-///     that end at no event are kept until something else happens, which takes the tangents over all of them.
-///     Back over those that are left at the end of the run go adjoints, to the tangents where they begin.
+///     whose length does not depend on the state are kept until something else happens, which takes the
+///     tangents over all of them. Back over those that are left at the end of the run go adjoints, to the
+///     tangents where they begin.
 ///   - Over a transfer to another mesh: TransferTangent, where it can be linearised.
 ///   - Where an integrator starts, accelerations and multipliers are those of q and v: StartTangent.
 ///   - Over all else, as a change of the mesh or an impact: half the difference of what the same does to the
@@ -49,6 +50,7 @@ struct NeighbourPair {
 ///   - A step that lands on an event is longer by dh, for which the event stays where it is: beyond(end + dh
 ///     d(end)/dh) = 0; times of what comes after are later by as much, and later steps shorter, so that the
 ///     next time of the run is met again.
+///   - A step that the system's step limit has shortened is longer as this is.
 ///
 /// dR is half the difference of the residual of the neighbours at the state of the run, where they differ,
 /// and with the places of joints where they correspond: at the same place in metres of a curve that has
@@ -148,6 +150,7 @@ class Sensitivities final : public RunFollower {
   void hold_extremes(Record& record);
   Snapshot snapshot(const Record& record, const BeamSystem& system, const State& state,
                     const std::vector<ProbePlace>& probes) const;
+  bool has_own_length(const FollowedStep& step) const;
   Eigen::RowVectorXd changes_of_length(const FollowedStep& step) const;
   Longer by_length(const FollowedStep& step) const;
   Eigen::VectorXd rates_with_time(const State& at, double h) const;
