@@ -18,6 +18,17 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
+/// Levels of unknowns that are coupled, beyond which what is open changes no acceleration that counts: mostly
+/// the fewer ones. Systems of no more unknowns than `few_unknowns`, that is in the plane of a chain of
+/// elements with four coordinates at each node, are solved for as a whole.
+constexpr int short_reach_of_accelerations = 12, long_reach_of_accelerations = 40,
+              few_unknowns = 10 * long_reach_of_accelerations;
+
+int reach_of_accelerations(const SecondOrderSystem& system) {
+  const int size = system.tangent_pattern().size();
+  return size < few_unknowns ? size : long_reach_of_accelerations;
+}
+
 /// Masses of elements that follow one another take 0.28 from each node to the next: 2e-7 are left, which do
 /// where little is open, and 4e-17.
 constexpr std::array<int, 2> reaches_of_velocities{12, 30};
@@ -26,7 +37,7 @@ constexpr std::array<int, 2> reaches_of_velocities{12, 30};
 class FactorisedKkt {
  public:
   FactorisedKkt(const SecondOrderSystem& system, const State& state, double h = 0)
-      : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system, state, averaged_over(h)) {
+      : n_(system.coordinate_count()), m_(system.constraint_count()), kkt_(system, state, h) {
     regular_ = solver_.factorise(kkt_.matrix, system.moving_unknowns());
   }
 
@@ -82,7 +93,7 @@ Projection from_momentum(const SecondOrderSystem& system, const Vector& momentum
 std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
                                           NearKkt& near, State& state) {
   Vector impulse = Vector::Zero(system.constraint_count());
-  if (!near.factorise(state) || !near.correct(momentum, -system.constraint_rate(state), state.v, impulse))
+  if (!near.factorise(state, 0) || !near.correct(momentum, -system.constraint_rate(state), state.v, impulse))
     return std::nullopt;
   return Projection{ConsistencyStatus::done, impulse};
 }
@@ -184,7 +195,7 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   State still = unloaded(system, state);
   Eigen::VectorXd f = force(system, still);
-  const ScaledKkt kkt(system, still, averaged_over(h));
+  const ScaledKkt kkt(system, still, h);
   Eigen::VectorXd right(n + m);
   right << f / kkt.scale, -system.constraint_curvature(state);
   // The factors ask for room.
@@ -209,19 +220,35 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   return ConsistencyStatus::done;
 }
 
-ConsistencyStatus balance_accelerations(const SecondOrderSystem& system, const TangentWeights& averaged,
-                                        NearSolver& solver, State& state) {
+Balance balance_accelerations(const SecondOrderSystem& system, double h, const std::vector<int>& around,
+                              NearSolver& solver, State& state) {
+  if (system.forces_depend_on_multipliers()) return {make_accelerations_smooth(system, h, state)};
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
+  const State still = unloaded(system, state);
+  Eigen::VectorXd force(n), open(m);
+  system.residual(state, force, open);
+  force = -force;
+  open = -system.constraint_curvature(state) - system.constraint_product(state, state.a);
+  if (!around.empty())
+    for (const int reach : {short_reach_of_accelerations, reach_of_accelerations(system)}) {
+      NearKkt near(system, around, reach);
+      if (near.factorise(still, h) && near.answer(force, open, state.a, state.lambda))
+        return {ConsistencyStatus::done, true};
+    }
+  const ScaledKkt kkt(system, still, h);
   Eigen::VectorXd right(n + m), correction;
-  system.residual(state, right.head(n), right.tail(m));
-  const ScaledKkt kkt(system, state, averaged);
-  right.head(n) /= -kkt.scale;
-  right.tail(m) = -system.constraint_curvature(state) - system.constraint_product(state, state.a);
+  right << force / kkt.scale, open;
   if (!solver.solve(kkt.matrix, system.moving_unknowns(), right, correction) || !correction.allFinite())
-    return ConsistencyStatus::singular;
+    return {ConsistencyStatus::singular};
   state.a += correction.head(n);
   state.lambda += kkt.scale * correction.tail(m);
-  return ConsistencyStatus::done;
+  return {ConsistencyStatus::done};
+}
+
+std::vector<int> solved_near(const SecondOrderSystem& system, const std::vector<int>& around) {
+  if (around.empty() || system.forces_depend_on_multipliers()) return {};
+  std::vector<int> near = NearKkt(system, around, reach_of_accelerations(system)).unknowns();
+  return static_cast<int>(near.size()) < system.tangent_pattern().size() ? near : std::vector<int>{};
 }
 
 ConsistencyStatus make_accelerations_consistent(const SecondOrderSystem& system, State& state) {

@@ -23,15 +23,23 @@ enum class ConsistencyStatus {
 /// h)^2.
 [[nodiscard]] ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, double h,
                                                           State& state);
+struct Balance {
+  ConsistencyStatus status;
+  bool near = false;  ///< whether some unknowns were solved for alone, of which solved_near() are the most
+};
 
 /// Corrects accelerations and multipliers that are there by what a change of the mesh has put out of balance,
-/// averaged over a step: [M + d D + k K, G'; G 0][da; dlambda] = [f - M a - G'lambda; -curvature - G a], with
-/// 1, d and k of `averaged` and D and K of all forces, those of a and lambda too. All that is in balance
-/// keeps its acceleration, however fast it moves. `solver`: of neighbouring states and systems, with the same
-/// unknowns. Precondition: forces do not depend on lambda.
-[[nodiscard]] ConsistencyStatus balance_accelerations(const SecondOrderSystem& system,
-                                                      const TangentWeights& averaged, NearSolver& solver,
-                                                      State& state);
+/// averaged over a step h: [M + (h/2) D + (h^2/4) K, G'; G 0][da; dlambda] = [f - M a - G'lambda; -curvature
+/// - G a]. All that is in balance keeps its acceleration, however fast it moves. Near these unknowns, of the
+/// coordinates and then the multipliers, where that does; none: everywhere. Where f depends
+/// on lambda: as make_accelerations_smooth. `solver`: of neighbouring states and systems, with the same
+/// unknowns.
+[[nodiscard]] Balance balance_accelerations(const SecondOrderSystem& system, double h,
+                                            const std::vector<int>& around, NearSolver& solver, State& state);
+
+/// The unknowns near these, in order, beyond which balance_accelerations corrects none that counts where it
+/// solves near them; none: all.
+std::vector<int> solved_near(const SecondOrderSystem& system, const std::vector<int>& around);
 
 /// The largest of what is left of the constraints g(q, t), in their units.
 double open_constraints(const SecondOrderSystem& system, const State& state);

@@ -13,10 +13,8 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;      ///< of the step under error control
-constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
-/// Of the first two, in which it is that of Newton's method more than that of the matrix.
-constexpr double first_contraction = 0.5;
+constexpr double largest_growth = 2;        ///< of the step under error control
+constexpr double good_contraction = 0.1;    ///< of the corrections, for which a matrix is kept
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
 constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
@@ -24,9 +22,7 @@ constexpr double to_spare = 5;              ///< of what is foretold so
 /// about as many.
 constexpr int worth_a_matrix = 12;
 constexpr double longest_use = 50;  ///< of a matrix, in steps
-/// Relative difference of steps with one matrix; under error control, where steps must not tell how those
-/// that were refused went, one that no matrix feels.
-constexpr double same_step = 0.03, same_controlled_step = 1e-6;
+constexpr double same_step = 1e-6;  ///< relative difference that a matrix does not feel
 constexpr double safety = 0.9;
 constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
@@ -87,8 +83,8 @@ class Convergence {
   }
   /// The norm of the last one, without bound before the first.
   double last_correction() const { return correction_; }
-  /// Whether the last correction was no larger than this part of the one before.
-  bool contracts(double to = good_contraction) const { return contraction_ <= to; }
+  /// Whether the last correction was much smaller than the one before.
+  bool contracts() const { return contraction_ <= good_contraction; }
 
  private:
   double correction_ = std::numeric_limits<double>::infinity();
@@ -174,24 +170,6 @@ StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const Integra
   return advance_within(step, 0, 0);
 }
 
-std::optional<TangentWeights> GeneralizedAlphaIntegrator::balance(double step) {
-  const double h = std::min(step, system_->step_limit(state_));
-  const Eigen::Index n = state_.q.size(), m = state_.lambda.size();
-  trial_ = state_;
-  if (!linearise(trial_point(h), trial_)) return {};
-  first_corrections_ = none_yet;
-  const TangentWeights weights = weights_of(h);
-  evaluate_residual();
-  residual_.head(n) *= weights.mass;
-  residual_.tail(m) = system_->constraint_curvature(state_) + system_->constraint_product(state_, state_.a);
-  solver_.solve(residual_, residual_);
-  if (!all_finite(residual_)) return {};
-  state_.a -= residual_.head(n);
-  state_.lambda -= residual_.tail(m) / weights.mass;
-  algorithmic_acceleration_ = state_.a;
-  return TangentWeights{1, weights.damping / weights.mass, weights.stiffness / weights.mass};
-}
-
 StepReport GeneralizedAlphaIntegrator::advance(double step) {
   return advance_within(step, settings_.max_halvings, settings_.tolerance);
 }
@@ -247,11 +225,10 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
-    const bool stale = correction > settings_.newton_tolerance &&
-                       !convergence.contracts(i == 1 ? first_contraction : good_contraction);
+    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
     if (stale) linearisation_ = nullptr;
     if (!done) continue;
-    if (!has_served || stale || first_corrections_ == none_yet)
+    if (!has_served || stale)
       first_corrections_ = i, more_corrections_ = 0;
     else if ((more_corrections_ += std::max(0, i - first_corrections_)) > worth_a_matrix)
       linearisation_ = nullptr;
@@ -267,8 +244,7 @@ void GeneralizedAlphaIntegrator::rest() {
 }
 
 bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
-  const double same = settings_.tolerance > 0 ? same_controlled_step : same_step;
-  return linearisation_ && std::abs(linearisation_->step / step - 1) <= same &&
+  return linearisation_ && std::abs(linearisation_->step / step - 1) <= same_step &&
          std::abs(trial_.t - linearisation_->state.t) <= longest_use * step;
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <utility>
 
 #include "solver/integrator.h"
@@ -19,9 +18,8 @@ struct GeneralizedAlpha {
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
 /// and the factorised matrix between steps: it is taken anew where a correction is not at least ten times
-/// smaller than the one before, the second one two times, where those that it takes more would pay for
-/// another, where the step's length changes by more than 3 %, under error control at all, and after fifty
-/// steps. The system's moving part of it is taken anew in every step.
+/// smaller than the one before, where the step's length changes, and after fifty steps. The system's moving
+/// part of it is taken anew in every step.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
@@ -73,21 +71,12 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   /// Precondition: there was one.
   Eigen::Map<const Eigen::SparseMatrix<double>> iteration_matrix() const;
 
-  /// Corrects accelerations and multipliers of the state by what is out of balance (balance_accelerations),
-  /// with the matrix that the first step of at most `step` seconds begins with; what that averages, or
-  /// nothing where it is singular. Precondition: there has been no step, and forces do not depend on
-  /// multipliers.
-  [[nodiscard]] std::optional<TangentWeights> balance(double step);
-
-  /// One step of at most `step` seconds, halved until it is within system.step_limit, and shortened by
-  /// retries and error control.
+  /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
   [[nodiscard]] StepReport advance(double step) override;
   State take_before() override { return std::move(trial_); }
   void rest() override;
 
  private:
-  static constexpr int none_yet = -1;
-
   StepReport advance_within(double step, int max_halvings, double tolerance);
   StepStatus attempt(double step, StepReport& report);
   bool predict(double step);
@@ -118,7 +107,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double last_step_ = 0;
   double last_error_ = 0;
   double mass_scale_ = 1;
-  int first_corrections_ = none_yet;                    ///< of the first step with the matrix
+  int first_corrections_ = 0;                           ///< of the step that took the matrix
   int more_corrections_ = 0;                            ///< beyond as many, of the steps that kept it
   std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
   std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_

@@ -117,6 +117,12 @@ class Window {
 
 }  // namespace
 
+Matrix submatrix(const SparseView& A, const std::vector<int>& unknowns) {
+  std::vector<int> place(static_cast<std::size_t>(A.cols()), -1);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) place[unknowns[k]] = static_cast<int>(k);
+  return part_of(view(A), unknowns, place);
+}
+
 bool correct_locally(const SparseView& matrix, const Eigen::VectorXd& b, const std::vector<int>& last,
                      Eigen::VectorXd& x) {
   constexpr int first_reach = 40, growth = 3;

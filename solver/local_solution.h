@@ -12,4 +12,7 @@ namespace nurbeam {
 [[nodiscard]] bool correct_locally(const SparseView& A, const Eigen::VectorXd& b,
                                    const std::vector<int>& last, Eigen::VectorXd& x);
 
+/// The rows and columns of these unknowns, in order.
+Eigen::SparseMatrix<double> submatrix(const SparseView& A, const std::vector<int>& unknowns);
+
 }  // namespace nurbeam

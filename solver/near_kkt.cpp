@@ -41,10 +41,16 @@ void NearKkt::list_entries() {
     }
 }
 
-bool NearKkt::factorise(const State& state) {
+std::vector<int> NearKkt::unknowns() const {
+  std::vector<int> inner(fronts_.unknowns().begin(), fronts_.unknowns().begin() + start(inner_));
+  std::sort(inner.begin(), inner.end());
+  return inner;
+}
+
+bool NearKkt::factorise(const State& state, double h) {
   const int renewed = renewed_levels(state);
   if (renewed == 0) return true;
-  read(state, renewed);
+  read(state, h, renewed);
   q_.resize(0);
   for (int level = std::min(renewed, inner_) - 1; level >= 0; --level)
     if (!eliminate(level)) return false;
@@ -64,7 +70,7 @@ int NearKkt::renewed_levels(const State& state) const {
 }
 
 // Takes the rows of the first levels.
-void NearKkt::read(const State& state, int levels) {
+void NearKkt::read(const State& state, double h, int levels) {
   const int *starts = pattern_.column_starts().data(), columns = start(std::min(levels + 1, this->levels()));
   // Nobody looks at the other columns.
   const auto values = std::make_unique_for_overwrite<double[]>(pattern_.rows().size());
@@ -74,7 +80,7 @@ void NearKkt::read(const State& state, int levels) {
     std::fill(values.get() + starts[unknown], values.get() + starts[unknown + 1], 0.0);
     if (k < start(levels)) near[unknown] = true;
   }
-  system_.tangent_near(state, {.mass = 1}, near, values.get());
+  system_.tangent_near(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, near, values.get());
   take(values.get(), levels);
 }
 
@@ -156,10 +162,52 @@ double NearKkt::largest_coordinate(const Eigen::VectorXd& of) const {
 
 bool NearKkt::correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
                       Eigen::VectorXd& y) const {
-  constexpr int most_corrections = 3;
   const Eigen::VectorXd right = near_part(top, bottom).head(start(rows_));
-  Eigen::VectorXd left = near_part(x, y), open = open_rows(right, left);
-  const Eigen::ArrayXd enough = round_off(right, left);
+  Eigen::VectorXd left = near_part(x, y);
+  if (!correct(right, round_off(right, left), left)) return false;
+  put_back(left, x, y);
+  return true;
+}
+
+bool NearKkt::answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
+                     Eigen::VectorXd& y) const {
+  const int beyond = start(rows_) - start(inner_);
+  Eigen::VectorXd left = near_part(x, y), open = near_part(top, bottom).head(start(rows_));
+  open.tail(beyond).setZero();
+  const Eigen::VectorXd right = open - open_rows(Eigen::VectorXd::Zero(open.size()), left);
+  Eigen::VectorXd correction = open.head(start(inner_));
+  solve(correction);
+  if (!correction.allFinite()) return false;
+  left.head(correction.size()) += correction;
+  Eigen::ArrayXd enough = round_off(right, left);
+  enough.tail(beyond) = faded(open, correction).tail(beyond);
+  if (!correct(right, enough, left)) return false;
+  put_back(left, x, y);
+  return true;
+}
+
+// A small part of what was open in the rows of coordinates, over the root of their diagonal entries, so that
+// forces and moments compare; and of what a correction is in those of constraints.
+Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd& correction) const {
+  constexpr double small = 1e-4;
+  const double largest = largest_coordinate(correction);
+  Eigen::ArrayXd rows = row_sizes_.head(open.size()).array() * largest;
+  double of_open = 0;
+  for (int k = 0; k < open.size(); ++k) {
+    if (!is_coordinate(k)) continue;
+    rows[k] = std::sqrt(std::abs(blocks_[fronts_.index(k, k)]));
+    if (rows[k] > 0) of_open = std::max(of_open, std::abs(open[k]) / rows[k]);
+  }
+  for (int k = 0; k < open.size(); ++k)
+    if (is_coordinate(k)) rows[k] *= of_open;
+  return small * rows;
+}
+
+// Until the first rows are closed but for what is enough.
+bool NearKkt::correct(const Eigen::VectorXd& right, const Eigen::ArrayXd& enough,
+                      Eigen::VectorXd& left) const {
+  constexpr int most_corrections = 3;
+  Eigen::VectorXd open = open_rows(right, left);
   for (int corrections = 0; !(open.array().abs() <= enough).all(); ++corrections) {
     if (corrections == most_corrections) return false;
     Eigen::VectorXd correction = open.head(start(inner_));
@@ -168,7 +216,6 @@ bool NearKkt::correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom,
     left.head(correction.size()) += correction;
     open = open_rows(right, left);
   }
-  put_back(left, x, y);
   return true;
 }
 

@@ -5,10 +5,10 @@
 
 namespace nurbeam {
 
-ScaledKkt::ScaledKkt(const SecondOrderSystem& system, const State& state, const TangentWeights& weights)
+ScaledKkt::ScaledKkt(const SecondOrderSystem& system, const State& state, double h)
     : values_(static_cast<Eigen::Index>(system.tangent_pattern().rows().size())),
       matrix(system.tangent_pattern().matrix_of(values_.data())) {
-  system.tangent(state, weights, matrix);
+  system.tangent(state, {.mass = 1, .damping = h / 2, .stiffness = h * h / 4}, matrix);
   scale_coordinates(system.coordinate_count());
 }
 

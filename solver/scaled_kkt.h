@@ -5,7 +5,7 @@
 
 namespace nurbeam {
 
-/// [M, G'; G 0] at one state, or with other weights than those of M, the first block divided by its scale.
+/// [M + (h/2) D + (h^2/4) K, G'; G 0] at one state, the first block divided by its scale.
 class ScaledKkt {
  private:
   Eigen::VectorXd values_;
@@ -14,8 +14,7 @@ class ScaledKkt {
   Eigen::Map<Eigen::SparseMatrix<double>> matrix;  ///< of the pattern of the system, which must outlive it
   double scale = 1;
 
-  explicit ScaledKkt(const SecondOrderSystem& system, const State& state,
-                     const TangentWeights& weights = {.mass = 1});
+  explicit ScaledKkt(const SecondOrderSystem& system, const State& state, double h = 0);
   ScaledKkt(const ScaledKkt&) = delete;
   ScaledKkt& operator=(const ScaledKkt&) = delete;
 

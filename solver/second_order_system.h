@@ -16,10 +16,6 @@ struct TangentWeights {
   double damping = 0;    ///< of d(dynamics)/dv
   double stiffness = 0;  ///< of d(dynamics)/dq
 };
-/// M + (h/2) D + (h^2/4) K: the mean over a step h.
-constexpr TangentWeights averaged_over(double h) {
-  return {.mass = 1, .damping = h / 2, .stiffness = h * h / 4};
-}
 
 /// M(q) a + G'lambda = f(q, v, t), g(q, t) = 0, and their tangents: the only thing an integrator may know.
 ///

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/consistent.h"
+#include "solver/local_solution.h"
 #include "solver/scaled_kkt.h"
 
 namespace nurbeam {
@@ -19,57 +21,45 @@ void add(double factor, const Tangent& part, Tangent& sum) {
       factor * Eigen::Map<const Values>(part.valuePtr(), part.nonZeros());
 }
 
-// The rows of coordinates of a matrix times columns for these and, where there are, for multipliers.
-Columns product(const Tangent& matrix, const Columns& coordinates, const Columns& multipliers = {}) {
-  Columns padded = Columns::Zero(matrix.cols(), coordinates.cols());
-  padded.topRows(coordinates.rows()) = coordinates;
-  padded.middleRows(coordinates.rows(), multipliers.rows()) = multipliers;
+// The rows and columns of coordinates of a matrix times columns for these.
+Columns product(const Tangent& matrix, const Columns& columns) {
+  Columns padded = Columns::Zero(matrix.cols(), columns.cols());
+  padded.topRows(columns.rows()) = columns;
   const Columns whole = matrix * padded;  // row by row, side by side
-  return whole.topRows(coordinates.rows());
+  return whole.topRows(columns.rows());
 }
 
-// What is averaged, with its factors: near a state with those accelerations and multipliers.
-std::vector<std::pair<State, double>> parts_of_average(const SecondOrderSystem& system,
-                                                       const TangentWeights& averaged, const State& near,
-                                                       const Eigen::VectorXd& b) {
-  if (averaged.stiffness == 0) return {};
-  const Eigen::VectorXd d = averaged.stiffness * b;
+// Each with its factor.
+std::vector<std::pair<State, double>> parts_of_rho(const SecondOrderSystem& system, double h,
+                                                   const Eigen::VectorXd& smoothed, const State& state) {
+  std::vector<std::pair<State, double>> parts{{state, 1}};
+  if (h == 0) return parts;
+  const Eigen::VectorXd d = h * h / 4 * smoothed;
   const double e = small_part(system, d);
-  std::vector<std::pair<State, double>> parts;
+  State still = state;
+  still.a.setZero();
+  still.lambda = Eigen::VectorXd::Zero(system.constraint_count());
   for (const double by : {e, -e}) {
-    parts.emplace_back(near, 1 / (2 * by));
+    parts.emplace_back(still, 1 / (2 * by));
     parts.back().first.q += by * d;
-    parts.back().first.v += by * averaged.damping * b;
+    parts.back().first.v += by * h / 2 * smoothed;
   }
   return parts;
 }
 
-State unloaded(State state) {
-  state.a.setZero();
-  state.lambda.setZero();
-  return state;
-}
-
 }  // namespace
 
-StartTangent::StartTangent(const SecondOrderSystem& system, const TangentWeights& averaged,
-                           const State& state)
-    : StartTangent(system, averaged, unloaded(state), state) {
-  before_ = average_ = {};
+StartTangent::StartTangent(const SecondOrderSystem& system, double h, const State& state)
+    : StartTangent(system, h, {}, Eigen::VectorXd::Zero(state.a.size()), state) {
+  smoothing_ = {};
 }
 
-StartTangent::StartTangent(const SecondOrderSystem& system, const TangentWeights& averaged,
-                           const State& before, const State& state)
-    : stiffness_(system.tangent_pattern().matrix()), damping_(stiffness_), before_(stiffness_) {
+StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std::vector<int>& around,
+                           const Eigen::VectorXd& before, const State& state)
+    : stiffness_(system.tangent_pattern().matrix()), damping_(stiffness_) {
   if (system.forces_depend_on_multipliers()) return;
-  Tangent damping = damping_, inertia = before_;
-  std::vector<std::pair<State, double>> parts =
-      parts_of_average(system, averaged, before, state.a - before.a);
-  for (const auto& [each, factor] : parts) {
-    system.tangent(each, {.mass = 1}, inertia);
-    add(factor, inertia, before_);
-  }
-  parts.emplace_back(state, 1);
+  Tangent damping = damping_;
+  std::vector<std::pair<State, double>> parts = parts_of_rho(system, h, state.a - before, state);
   parts_.reserve(parts.size());
   for (auto& [each, factor] : parts) {
     Tangent stiffness = system.tangent_pattern().matrix();
@@ -78,12 +68,17 @@ StartTangent::StartTangent(const SecondOrderSystem& system, const TangentWeights
     add(factor, stiffness, stiffness_);
     parts_.push_back({std::move(each), factor, std::move(stiffness)});
   }
-  const ScaledKkt kkt(system, before, averaged);
+  State still = state;
+  still.a.setZero();
+  still.lambda.setZero();
+  const ScaledKkt kkt(system, still, h);
   kkt_ = kkt.matrix;
   scale_ = kkt.scale;
-  average_ = std::move(inertia);
-  system.tangent(before, {.damping = averaged.damping, .stiffness = averaged.stiffness}, average_);
-  regular_ = solver_.factorise(kkt_, system.moving_unknowns());
+  smoothing_ = system.tangent_pattern().matrix();
+  system.tangent(still, {.damping = h / 2, .stiffness = h * h / 4}, smoothing_);
+  unknowns_ = solved_near(system, around);
+  regular_ = unknowns_.empty() ? solver_.factorise(kkt_, system.moving_unknowns())
+                               : solver_.factorise(submatrix(kkt_, unknowns_));
 }
 
 double small_part(const SecondOrderSystem& system, const Eigen::VectorXd& d) {
@@ -95,11 +90,20 @@ double small_part(const SecondOrderSystem& system, const Eigen::VectorXd& d) {
 void StartTangent::find(const Matrix& dynamics, const Matrix& curvature, MotionTangents& tangents) const {
   const Eigen::Index n = dynamics.rows(), m = curvature.rows();
   Matrix change = dynamics + product(stiffness_, tangents.q) + product(damping_, tangents.v);
-  if (before_.size() > 0)
-    change += product(before_, tangents.a, tangents.lambda) - product(average_, tangents.a);
+  if (smoothing_.size() > 0) change -= product(smoothing_, tangents.a);
   Matrix right(n + m, dynamics.cols()), left;
   right << -change / scale_, -curvature;
-  solver_.solve(right, left);
+  if (unknowns_.empty()) {
+    solver_.solve(right, left);
+  } else {
+    left.resize(n + m, dynamics.cols());
+    left << tangents.a, tangents.lambda / scale_;
+    right -= kkt_ * left;
+    const Matrix open = right(unknowns_, Eigen::all);
+    Matrix correction;
+    solver_.solve(open, correction);
+    left(unknowns_, Eigen::all) += correction;
+  }
   tangents.a = left.topRows(n);
   tangents.lambda = scale_ * left.bottomRows(m);
 }

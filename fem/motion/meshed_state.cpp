@@ -7,6 +7,7 @@
 #include "fem/motion/sliding_bodies.h"
 #include "fem/motion/transfer.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/same_elements.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
@@ -31,12 +32,16 @@ std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, 
   if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
     State carried = interpolated(*at.system, at.state, *to);
     if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};
-    return ChangedMesh{.now = {std::move(to), std::move(carried)}};
+    std::vector<int> around = changed_unknowns(*at.system, *to);
+    return ChangedMesh{.now = {std::move(to), std::move(carried)}, .around = std::move(around)};
   }
   std::optional<Transferred> moved = project(*to);
   if (!moved) return {};
-  return ChangedMesh{
-      {std::move(to), std::move(moved->state)}, std::move(moved->impulse), std::move(moved->moves)};
+  std::vector<int> around = changed_unknowns(*at.system, *to);
+  return ChangedMesh{{std::move(to), std::move(moved->state)},
+                     std::move(moved->impulse),
+                     std::move(moved->moves),
+                     std::move(around)};
 }
 
 std::optional<Failure> go_on_there(MeshedState& at, std::optional<ChangedMesh> changed) {

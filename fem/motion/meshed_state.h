@@ -22,6 +22,7 @@ struct ChangedMesh {
   MeshedState now;
   Eigen::VectorXd impulse = {};        ///< of the projection (see Transferred); empty where there was none
   std::vector<EnergyMove> moves = {};  ///< see Transferred
+  std::vector<int> around = {};        ///< unknowns that changed (changed_unknowns)
 };
 
 /// On the mesh that length control asks for; `at_rest`: joints are held there, and there are no velocities to

@@ -1,9 +1,7 @@
 #include "fem/motion/run.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
-#include <variant>
 
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
@@ -16,30 +14,26 @@ bool Run::restart() {
     return make_accelerations_smooth(*of.system, time, of.state) == ConsistencyStatus::done;
   };
   if (!smooth(at)) return fail(Failure::Kind::mass_matrix);
-  if (observer.follower) observer.follower->starts(at, {averaged_over(time)}, smooth);
+  if (observer.follower) observer.follower->starts(at, {.h = time}, smooth);
   start_afresh(nullptr);
   return true;
 }
 
-bool Run::restart_balanced() {
+bool Run::restart_balanced(const std::vector<int>& around) {
   // Other methods want accelerations that are consistent everywhere.
-  if (!std::holds_alternative<GeneralizedAlpha>(options.integrator) ||
-      at.system->forces_depend_on_multipliers()) {
-    if (!restart()) return false;
-    at.state = integrator->state();
-    return true;
-  }
-  std::optional<State> before;
-  if (observer.follower) before = at.state;
-  start_afresh(integrator.get());
-  const auto averaged = dynamic_cast<GeneralizedAlphaIntegrator&>(*integrator).balance(shortest_time());
-  if (!averaged) return fail(Failure::Kind::mass_matrix);
-  at.state = integrator->state();
-  if (!observer.follower) return true;
+  if (!std::holds_alternative<GeneralizedAlpha>(options.integrator)) return restart();
+  const double time = shortest_time();
   NearSolver solver;
-  observer.follower->starts(at, {*averaged, std::move(before)}, [&](MeshedState& of) {
-    return balance_accelerations(*of.system, *averaged, solver, of.state) == ConsistencyStatus::done;
-  });
+  const auto balance = [&](MeshedState& of) {
+    return balance_accelerations(*of.system, time, around, solver, of.state);
+  };
+  const std::optional<Eigen::VectorXd> before = observer.follower ? std::optional(at.state.a) : std::nullopt;
+  const Balance found = balance(at);
+  if (found.status != ConsistencyStatus::done) return fail(Failure::Kind::mass_matrix);
+  if (observer.follower)
+    observer.follower->starts(at, {time, found.near ? around : std::vector<int>{}, before},
+                              [&](MeshedState& of) { return balance(of).status == ConsistencyStatus::done; });
+  start_afresh(around.empty() ? nullptr : integrator.get());
   return true;
 }
 

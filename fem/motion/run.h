@@ -49,8 +49,9 @@ struct Run {
   }
   /// New integrator from the present state, with consistent accelerations.
   bool restart();
-  /// After a change of the mesh or its charts: accelerations are carried over but for what is out of balance.
-  bool restart_balanced();
+  /// After a change of the mesh or its charts, which has left all but these unknowns as they were
+  /// (changed_unknowns; none: any): accelerations are carried over but for what is out of balance.
+  bool restart_balanced(const std::vector<int>& around);
   /// Writes an event down.
   void note(RunEvent event);
 

@@ -32,10 +32,12 @@ struct FollowedTransfer {
   std::function<std::unique_ptr<BeamSystem>(const MeshedState&)> replanned;
 };
 
-/// Accelerations as make_accelerations_smooth finds them, or balance_accelerations those of a state before.
+/// Accelerations as make_accelerations_smooth(h) finds them, or balance_accelerations(h, around) those that
+/// were there before.
 struct FollowedStart {
-  TangentWeights averaged;
-  std::optional<State> before = {};
+  double h;
+  std::vector<int> around = {};
+  std::optional<Eigen::VectorXd> before = {};  ///< (n)
 };
 
 /// Is told how each state of a run comes from the one before, so that neighbouring motions can go along: all

@@ -77,6 +77,8 @@ bool change_due_mesh(Run& run) {
         observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
     const MeshedState own = std::exchange(run.at, std::move(changed->now));
     if (run.observer.follower) follow_change(run, own, next, *changed);
+    if (!run.restart_balanced(changed->around)) return false;
+    run.at.state = run.integrator->state();
     event.support_impulse = support_impulse(run.at, changed->impulse);
     run.note(std::move(event));
     if (observed)
@@ -87,27 +89,23 @@ bool change_due_mesh(Run& run) {
   }
 }
 
-// Exchanges the charts of sections that have turned far; whether there are any.
+}  // namespace
+
+void settle_mesh(Run& run) {
+  for (std::size_t count = 1; change_due_mesh(run); ++count)
+    if (!run.goes_on(excess_of_changes(run.at, count))) return;
+}
+
 bool recentre_sections(Run& run) {
-  if (!recentring_due(*run.at.system, run.at.state)) return false;
+  if (!recentring_due(*run.at.system, run.at.state)) return true;
   run.at = recentred(*run.at.system, run.at.state);
   run.follow([&](MeshedState& neighbour) {
     neighbour = recentred(*neighbour.system, neighbour.state, {}, &run.at.system->mesh().plan);
     return true;
   });
+  if (!run.restart_balanced({})) return false;
+  run.at.state = run.integrator->state();
   return true;
-}
-
-}  // namespace
-
-bool settle_mesh(Run& run) {
-  std::size_t changes = 0;
-  while (change_due_mesh(run))
-    if (!run.goes_on(excess_of_changes(run.at, ++changes))) return false;
-  if (run.report.status != SimulationStatus::done) return false;
-  // Twice balanced is more than once: what is averaged over a step would no longer be.
-  const bool recentred = recentre_sections(run);
-  return (changes == 0 && !recentred) || run.restart_balanced();
 }
 
 }  // namespace nurbeam

@@ -183,7 +183,8 @@ bool pass(Run& run, const Landing& landing, const State& before) {
   if (landing.crossing && !landing.ending && !step_over(run, *landing.crossing)) return false;
   if (landing.event && !landing.ending && !pass_event(run, *landing.event, Arrival::in_step)) return false;
   if (!run.goes_on(meeting_bodies(run.at))) return false;
-  return settle_mesh(run);
+  settle_mesh(run);
+  return run.report.status == SimulationStatus::done && recentre_sections(run);
 }
 
 }  // namespace

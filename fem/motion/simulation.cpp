@@ -219,7 +219,8 @@ struct Simulation::Implementation {
   // Whether it has begun.
   bool begin_motion() {
     run_.account.begin(*run_.at.system, run_.at.state);
-    return settle_mesh(run_);
+    settle_mesh(run_);
+    return run_.report.status == SimulationStatus::done;
   }
 
   // With the first output times behind it.

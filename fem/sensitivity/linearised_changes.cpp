@@ -110,8 +110,8 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
 
 void Sensitivities::starts(const MeshedState& at, const FollowedStart& of,
                            const std::function<bool(MeshedState&)>& change) {
-  const StartTangent start = of.before ? StartTangent(*at.system, of.averaged, *of.before, at.state)
-                                       : StartTangent(*at.system, of.averaged, at.state);
+  const StartTangent start = of.before ? StartTangent(*at.system, of.h, of.around, *of.before, at.state)
+                                       : StartTangent(*at.system, of.h, at.state);
   if (!start.regular()) return changes(at, change);
   carry();
   MotionTangents::Matrix dynamics = MotionTangents::Matrix::Zero(dynamics_.rows(), dynamics_.cols());

@@ -100,7 +100,7 @@ TEST(NearKkt, SolvesAsForAllWhereWhatIsOpenFades) {
     Problem problem(open);
     const Eigen::VectorXd start = problem.x, exact = problem.exact();
     NearKkt near(problem.chain, {open, open + 2}, 30);
-    ASSERT_TRUE(near.factorise(problem.state));
+    ASSERT_TRUE(near.factorise(problem.state, 0));
     ASSERT_TRUE(problem.correct(near));
     EXPECT_LT((problem.all() - exact).lpNorm<Eigen::Infinity>(), 2e-15) << open;
     EXPECT_GT(std::abs(problem.x[open] - start[open]), 0.01);
@@ -113,23 +113,52 @@ TEST(NearKkt, ChangesNothingWhereThatDoesNotSuffice) {
   Problem problem(250);
   const Eigen::VectorXd start = problem.all();
   NearKkt near(problem.chain, {250, 252}, 5);
-  ASSERT_TRUE(near.factorise(problem.state));
+  ASSERT_TRUE(near.factorise(problem.state, 0));
   EXPECT_FALSE(problem.correct(near));
   EXPECT_EQ(problem.all(), start);
+}
+
+TEST(NearKkt, HasTheUnknownsWithinItsReach) {
+  const Problem problem(250);
+  std::vector<int> expected;
+  for (int i = 245; i <= 255; ++i) expected.push_back(i);
+  EXPECT_EQ(NearKkt(problem.chain, {250}, 5).unknowns(), expected);
+}
+
+// By 1e-4 of what is open there; beyond it is as it was.
+TEST(NearKkt, AnswersWhatIsOpenWhereThatFades) {
+  for (const auto& [reach, fades] : {std::pair{4, false}, {9, true}}) {
+    Problem problem(250);
+    const Eigen::VectorXd start = problem.all();
+    Eigen::VectorXd open = problem.right - problem.chain.matrix(problem.state.q) * start;
+    open[250 + 2 + reach + 1] += 0.3;
+    open[400] += 5;
+    NearKkt near(problem.chain, {250, 252}, reach);
+    ASSERT_TRUE(near.factorise(problem.state, 0));
+    EXPECT_EQ(near.answer(open.head(start.size() - 2), open.tail(2), problem.x, problem.y), fades) << reach;
+    if (!fades) EXPECT_EQ(problem.all(), start);
+    if (!fades) continue;
+    const Eigen::VectorXd left = open - problem.chain.matrix(problem.state.q) * (problem.all() - start);
+    for (int i = 0; i < Chain::masses; ++i)
+      if (i >= 250 - reach && i <= 252 + reach)
+        EXPECT_NEAR(left[i], 0, 1e-14) << i;
+      else
+        EXPECT_NEAR(left[i], open[i], 1e-4) << i;
+  }
 }
 
 // What has been eliminated of one matrix serves the next, which differs in some of its masses.
 TEST(NearKkt, TakesTheNextMatrixAsOneThatIsMadeAnew) {
   Problem problem(250);
   NearKkt near(problem.chain, {250, 252}, 40);
-  ASSERT_TRUE(near.factorise(problem.state));
+  ASSERT_TRUE(near.factorise(problem.state, 0));
   for (const int changed : {250, 253, 256, 248}) {
     problem.state.q[changed] += 0.5;
     Problem fresh = problem;
-    ASSERT_TRUE(near.factorise(problem.state));
+    ASSERT_TRUE(near.factorise(problem.state, 0));
     ASSERT_TRUE(problem.correct(near));
     NearKkt anew(fresh.chain, {250, 252}, 40);
-    ASSERT_TRUE(anew.factorise(fresh.state));
+    ASSERT_TRUE(anew.factorise(fresh.state, 0));
     ASSERT_TRUE(fresh.correct(anew));
     EXPECT_EQ(problem.all(), fresh.all()) << changed;
     EXPECT_LT((problem.all() - problem.exact()).lpNorm<Eigen::Infinity>(), 2e-15) << changed;
@@ -140,7 +169,7 @@ TEST(NearKkt, RefusesWhatCannotBeEliminatedSo) {
   Problem problem(250);
   problem.state.q[251] = std::numeric_limits<double>::quiet_NaN();
   NearKkt near(problem.chain, {250, 252}, 30);
-  EXPECT_FALSE(near.factorise(problem.state));
+  EXPECT_FALSE(near.factorise(problem.state, 0));
 }
 
 }  // namespace
