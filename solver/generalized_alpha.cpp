@@ -13,8 +13,10 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;        ///< of the step under error control
-constexpr double good_contraction = 0.1;    ///< of the corrections, for which a matrix is kept
+constexpr double largest_growth = 2;      ///< of the step under error control
+constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
+/// Of the first two, in which it is that of Newton's method more than that of the matrix.
+constexpr double first_contraction = 0.5;
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
 constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
@@ -83,8 +85,8 @@ class Convergence {
   }
   /// The norm of the last one, without bound before the first.
   double last_correction() const { return correction_; }
-  /// Whether the last correction was much smaller than the one before.
-  bool contracts() const { return contraction_ <= good_contraction; }
+  /// Whether the last correction was no larger than this part of the one before.
+  bool contracts(double to = good_contraction) const { return contraction_ <= to; }
 
  private:
   double correction_ = std::numeric_limits<double>::infinity();
@@ -225,7 +227,8 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
-    const bool stale = correction > settings_.newton_tolerance && !convergence.contracts();
+    const bool stale = correction > settings_.newton_tolerance &&
+                       !convergence.contracts(i == 1 ? first_contraction : good_contraction);
     if (stale) linearisation_ = nullptr;
     if (!done) continue;
     if (!has_served || stale)
