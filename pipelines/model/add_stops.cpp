@@ -29,6 +29,10 @@ class Stops {
         refuse("stands at the end of beam " + in_quotes(from_.beam) +
                ", where \"at_beam_end\": \"stop\" stops body " + in_quotes(name(j)) +
                " already; keep one of them");
+      if (from_.buffer && !curve_.closed() && (s == 0 || s == curve_.length()))
+        refuse("is an end of beam " + in_quotes(from_.beam) +
+               ", where a buffer has no way to be pressed in; put it as far before the end as it may be, or "
+               "leave \"stiffness\" out for a hard stop");
       // On a ring it is met from both ways, before and behind the body.
       if (curve_.closed()) {
         if (from_.side != CaseStop::Side::after) add(j, below ? s : s + curve_.length(), true);
