@@ -239,16 +239,19 @@ double tolerance(const BeamSystem& system, const State& before, const FrictionCh
 }
 
 std::optional<FrictionChange> first_friction_change(const BeamSystem& system, const State& before,
-                                                    const State& after) {
+                                                    const State& after, bool nothing_turns) {
   std::optional<FrictionChange> first;
   const std::vector<bool> blocked = blocked_joints(system);
   for (const int j : joints_with_friction(system)) {
     const SlidingJoint& joint = system.model().joints[j];
     if (blocked[j] || joint.motion || !joint.friction->can_stick()) continue;
     FrictionChange change{j, sliding_way(system, before, j) != 0, 0};
-    const double from = beyond(system, before, before, change), to = beyond(system, before, after, change);
-    if (!(from < -tolerance(system, before, change)) || !(to > 0)) continue;
-    change.part = from / (from - to);
+    const double from = beyond(system, before, before, change), to = beyond(system, before, after, change),
+                 near = tolerance(system, before, change);
+    const bool in_step = from < -near && to > 0,
+               as_it_begins = change.turns && !nothing_turns && from >= -near && to > near;
+    if (!in_step && !as_it_begins) continue;
+    change.part = in_step ? from / (from - to) : 0;
     if (!first || change.part < first->part) first = change;
   }
   return first;

@@ -41,8 +41,9 @@ struct FrictionChange {
   double part;  ///< of the step, about, at which it does
 };
 /// The first such change between two states of the system; the step began with the memory of `before`.
+/// `nothing_turns`: as it began, which a body does that has come to rest just then.
 std::optional<FrictionChange> first_friction_change(const BeamSystem& system, const State& before,
-                                                    const State& after);
+                                                    const State& after, bool nothing_turns);
 /// How near a state of the step is to the change, negative before it; nearer than the tolerance is at it.
 double beyond(const BeamSystem& system, const State& before, const State& state,
               const FrictionChange& change);

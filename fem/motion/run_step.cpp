@@ -87,14 +87,14 @@ bool is_sudden(const BeamModel& model, const StepEvent& event) {
 // Repeats a step in which an event happens so that it ends there, or that it does not begin where that is
 // sooner than steps resolve.
 std::optional<StepEvent> land_on_event(Run& run, const State& before, const IntegratorHistory& history,
-                                       bool nothing_leaves) {
+                                       StepStart start) {
   std::optional<StepEvent> found;
   const BeamModel& model = *run.model;
   if (!has_events(model)) return found;
   State& state = run.at.state;
   // The first found need not come first.
   for (std::size_t i = 0; i <= kinds_of_event(model) && state.t > before.t; ++i) {
-    const std::optional<StepEvent> event = first_event(*run.at.system, before, state, nothing_leaves);
+    const std::optional<StepEvent> event = first_event(*run.at.system, before, state, start);
     if (!event) break;
     const State after = state;
     state = landed(*run.at.system, *run.integrator, {before, history, after, after.t - before.t}, *event);
@@ -137,17 +137,38 @@ struct Landing {
   std::optional<StepEvent> event;
 };
 
-Landing land(Run& run, const State& before, const IntegratorHistory& history, double step,
-             bool nothing_leaves) {
+// Repeats a step so that it ends where `find`, of its end, finds something: the first of all that it has
+// passed, of which the first found need not come first.
+template <class Find>
+std::optional<Crossing> land_at_first(Run& run, const State& before, const IntegratorHistory& history,
+                                      const Find& find) {
+  std::optional<Crossing> first;
+  const State& state = run.at.state;
+  for (std::size_t i = 0; i <= run.model->joints.size() && state.t > before.t; ++i) {
+    const std::optional<Crossing> found = find(state);
+    if (!found) break;
+    first = found;
+    land_at(run, {before, history, State(state), state.t - before.t}, *first);
+  }
+  return first;
+}
+
+Landing land(Run& run, const State& before, const IntegratorHistory& history, StepStart start) {
   MeshedState& at = run.at;
+  const double step = at.state.t - before.t;
   Landing landing;
-  landing.crossing = first_crossing(*at.system, before, at.state);
-  if (landing.crossing) land_at(run, {before, history, at.state, step}, *landing.crossing);
-  landing.event = land_on_event(run, before, history, nothing_leaves);
+  landing.crossing = land_at_first(
+      run, before, history, [&](const State& state) { return first_crossing(*at.system, before, state); });
+  landing.event = land_on_event(run, before, history, start);
+  if (landing.crossing && !landing.event) {
+    State over = carried_over(*at.system, at.state, step, *landing.crossing);
+    // What happens at the place itself comes before.
+    landing.event = first_event(*at.system, before, over, start);
+    if (!landing.event) at.state = std::move(over);
+  }
   if (landing.event) landing.crossing.reset();
-  if (landing.crossing) at.state = carried_over(*at.system, std::move(at.state), step, *landing.crossing);
-  landing.ending = end_passed(*at.system, at.state);
-  if (landing.ending) land_at(run, {before, history, at.state, at.state.t - before.t}, *landing.ending);
+  landing.ending =
+      land_at_first(run, before, history, [&](const State& state) { return end_passed(*at.system, state); });
   if (!landing.crossing && !landing.event && !landing.ending && !run.options.step)
     land_on_change(run, {before, history, at.state, step});
   return landing;
@@ -209,7 +230,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   at.state = run.integrator->state();
   const bool first = std::exchange(run.restarted, false);
   const double end = at.state.t;
-  const Landing landing = land(run, before, history, taken.step, nothing_leaves);
+  const Landing landing = land(run, before, history, {nothing_leaves, run.events_at_once > 0});
   if (landing.event && at.state.t == before.t) {
     if (!pass_event(run, *landing.event, arrival_at_once(run))) return false;
     if (++run.events_at_once > most_at_once(*run.model)) return run.goes_on(endless(run, *landing.event));

@@ -17,10 +17,10 @@ void keep_sooner(std::optional<StepEvent>& first, const std::optional<Event>& fo
 }  // namespace
 
 std::optional<StepEvent> first_event(const BeamSystem& system, const State& before, const State& after,
-                                     bool nothing_leaves) {
+                                     StepStart start) {
   std::optional<StepEvent> first;
-  keep_sooner(first, first_friction_change(system, before, after));
-  keep_sooner(first, first_contact(system, before, after, nothing_leaves));
+  keep_sooner(first, first_friction_change(system, before, after, start.nothing_turns));
+  keep_sooner(first, first_contact(system, before, after, start.nothing_leaves));
   keep_sooner(first, first_taut(system, before, after));
   return first;
 }

@@ -15,9 +15,13 @@ namespace nurbeam {
 /// it happens, and beyond(), tolerance() and apply().
 using StepEvent = std::variant<FrictionChange, ContactEvent, TautEvent>;
 
-/// The first event between two states of the system; `nothing_leaves` as for first_contact.
+/// What a step does not begin with: see first_contact and first_friction_change.
+struct StepStart {
+  bool nothing_leaves, nothing_turns;
+};
+/// The first event between two states of the system.
 std::optional<StepEvent> first_event(const BeamSystem& system, const State& before, const State& after,
-                                     bool nothing_leaves);
+                                     StepStart start);
 /// The state to which a step of another length leads, just before the event; the state before the step where
 /// that begins at the event.
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,

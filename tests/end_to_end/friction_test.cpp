@@ -125,6 +125,23 @@ TEST(FrictionRun, ADrivenBodyThatStandsIsNotRubbed) {
   }
 }
 
+// A brake that stops its body as a step ends, but for round-off, holds it there.
+TEST(FrictionRun, ABodyThatComesToRestAsAStepEndsStaysThere) {
+  const char* const level = R"({"polyline": [[0, 0, 0], [4, 0, 0]]})";
+  for (const char* joint : {R"("at": {"length": 1.91}, "speed": 1.5, "friction": {"force": 3})",
+                            R"("at": {"length": 2.09}, "speed": -1.5, "friction": {"force": 3})"})
+    for (const char* analysis :
+         {R"({"end_time": 2})", R"({"end_time": 2, "step": 0.125})", R"({"end_time": 2, "step": "1 ms"})",
+          R"({"end_time": 2, "tolerance": 1e-6})"}) {
+      const CaseRun run = run_rubbing(rubbing_case(level, 2, joint, analysis, "",
+                                                   R"("gravity": [0, 0, 0], "output": {"every": 0.25}, )"));
+      ASSERT_EQ(run.code, 0) << run.messages;
+      const double way = std::string(joint).find("-1.5") == std::string::npos ? 1 : -1;
+      EXPECT_NEAR(run.last("bead.s [m]"), way > 0 ? 2.66 : 1.34, 2e-6) << joint << analysis;
+      EXPECT_LT(drift_of(run), 1e-5) << joint << analysis;
+    }
+}
+
 TEST(FrictionRun, OnACircleABodySwingsUpComesToRestAndGoesBack) {
   // F2. Clockwise from the height of the centre, by the angle phi from there.
   const double R = 3, mu = 0.25;

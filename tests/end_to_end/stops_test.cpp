@@ -504,6 +504,73 @@ TEST(StopsRun, AtRestABodyLeansAgainstItsStop) {
   EXPECT_NEAR(buffer.run.last("bead.s [m]"), 2 + 5 * weight / 2 / 1000, 1e-6);
 }
 
+// Which of two bodies passes its end first in a step does not hang on their order.
+TEST(StopsRun, BodiesThatReachEndsInOneStepReachThemWhenTheyDo) {
+  const double slope = weight / std::sqrt(5), length = std::sqrt(20);
+  const auto two_bodies = [](const char* first, const char* second, const char* analysis) {
+    return std::string(R"({"nurbeam": 1, "beams": [{"name": "rail", "rigid": true,
+        "axis": {"polyline": [[0, 0, 0], [4, 0, -2]]}}],
+      "bodies": [{"name": "m", "mass": 1}, {"name": "n", "mass": 1}], "sliding_joints": [)") +
+           first + ", " + second + R"(], "output": {"every": 0.25, "report": false}, "analysis": )" +
+           analysis + "}";
+  };
+  const char *const m = R"({"body": "m", "beam": "rail", "at": {"length": 1.3}})",
+                    *const n = R"({"body": "n", "beam": "rail", "at": {"length": 1.8}})";
+  for (const char* analysis : {R"({"end_time": 2})", R"({"end_time": 2, "step": 0.25})"})
+    for (const bool n_first : {false, true}) {
+      const StopRun run = run_stops(n_first ? two_bodies(n, m, analysis) : two_bodies(m, n, analysis));
+      ASSERT_EQ(run.run.code, 0) << run.run.messages;
+      const std::vector<double> left = run.times("left the beam");
+      ASSERT_EQ(left.size(), 2u);
+      for (const int i : {0, 1}) {
+        const double t = std::sqrt(2 * (length - (i == 0 ? 1.8 : 1.3)) / slope);
+        EXPECT_NEAR(left[i], t, 1e-9) << n_first;
+        EXPECT_NEAR(run.run.last(i == 0 ? "n.x [m]" : "m.x [m]"), 4 + slope * t * (2 - t) * 2 / std::sqrt(5),
+                    1e-8);
+      }
+    }
+}
+
+// A stop where the body would go over to another element: a support, a vertex, a seam.
+TEST(StopsRun, AtASupportAVertexAndASeamAreAsElsewhere) {
+  const auto speed_behind = [](const std::string& beam, const std::string& at, const std::string& stop,
+                               const std::string& joint = "") {
+    const StopRun run = run_stops(
+        R"({"nurbeam": 1, "gravity": [0, 0, 0], "beams": [{"name": "rail", )" + beam +
+        R"(}], "bodies": [{"name": "bead", "mass": 1}],
+        "sliding_joints": [{"body": "bead", "beam": "rail", "speed": 3, "at": {"length": )" +
+        at + "}" + joint + R"(}], "stops": [{"beam": "rail", "at": {"length": )" + stop +
+        R"(}], "analysis": {"end_time": 0.9, "step": "1 ms"}, "output": {"every": 0.9, "report": false}})");
+    EXPECT_EQ(run.run.code, 0) << run.run.messages;
+    return run.run.last("bead.vx [m/s]");
+  };
+  const std::string hard = R"(}, "restitution": 0.8)", soft = R"(}, "stiffness": 1e4)";
+  const std::string vertices = R"("rigid": true, "axis": {"polyline": [[0, 0, 0], [2, 0, 0], [4, 0, 0]]})";
+  const std::string supported = R"("axis": {"polyline": [[0, 0, 0], [4, 0, 0]]}, "elements": {"count": 20},
+      "section": {"radius": 0.05}, "material": "steel")";
+  EXPECT_NEAR(speed_behind(vertices, "1", "2" + hard), -2.4, 1e-9);
+  EXPECT_NEAR(speed_behind(vertices, "1", "2" + soft), -3, 1e-3);
+  EXPECT_NEAR(speed_behind(supported + R"(}], "supports": [{"beam": "rail", "at": "start", "type": "clamped"},
+      {"beam": "rail", "at": {"length": 2}, "type": "pinned")",
+                           "1", "2" + hard),
+              -2.4, 1e-6);
+  // The beam takes a part of the impulse.
+  const std::string clamped =
+      supported + R"(}], "supports": [{"beam": "rail", "at": "start", "type": "clamped")";
+  const std::string as_point = R"(, "carried_as": "point")";
+  EXPECT_NEAR(speed_behind(clamped, "1", "2.2" + hard, as_point),
+              speed_behind(clamped, "1", "2.19999" + hard, as_point), 1e-4);
+  // Round a circle of one metre back from where it starts, on the other side of its seam.
+  const StopRun ring =
+      run_stops(R"({"nurbeam": 1, "gravity": [0, 0, 0], "beams": [{"name": "rail", "rigid": true,
+      "closed": true, "axis": {"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [1, 0, 0],
+      "normal": [0, 0, 1]}}}], "bodies": [{"name": "bead", "mass": 1}],
+      "sliding_joints": [{"body": "bead", "beam": "rail", "speed": -2, "at": {"length": 0.6}}],
+      "stops": [{"beam": "rail", "at": "start", "restitution": 1}], "analysis": {"end_time": 1}})");
+  ASSERT_EQ(ring.run.code, 0) << ring.run.messages;
+  EXPECT_NEAR(ring.run.last("bead.s [m]"), 1.4, 2e-4);
+}
+
 TEST(StopsRun, WhatCannotStopIsRefused) {
   const std::string text =
       one_body(thirty_degrees, 5, R"("at": {"length": 3})", R"([{"beam": "rail", "at": {"length": 5}}])",
@@ -520,6 +587,7 @@ TEST(StopsRun, WhatCannotStopIsRefused) {
   says({"stops[0].bodies=[\"bed\"]"}, "there is no body \"bed\"");
   says({"stops[0].beam=rial"}, "there is no beam \"rial\"");
   says({"stops[0].at=end", "sliding_joints[0].at_beam_end=stop"}, "keep one of them");
+  says({"stops[0].at=end", "stops[0].stiffness=100"}, "a buffer has no way to be pressed in");
   says({R"(sliding_joints[0].motion={"speed": 1})"}, "is prescribed by its \"motion\"");
   says({"analysis.integrator.type=ida"}, "is a stop");
   says(
