@@ -110,7 +110,7 @@ bool EnergyAccount::creates_energy(const BeamSystem& system, const State& before
   if (is_driven(system.model())) gained -= input_work(system, before, after);
   const double strain = old.strain(), fallen = std::abs(now.gravity - old.gravity);
   const double scale = std::max({report.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
-  return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report.strain_noise;
+  return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report.energy_noise;
 }
 
 void EnergyAccount::enter(Snapshot& snapshot) const {
@@ -156,15 +156,17 @@ double slight_bending(const BeamModel& model) {
   return energy;
 }
 
-double strain_noise(const BeamModel& model) {
+double energy_noise(const BeamModel& model) {
   constexpr double round_off = 1e-11, of_heat = 1e-3;
-  double noise = 0;
+  double noise = 0, longest = 0;
   for (const Beam& beam : model.beams) {
+    longest = std::max(longest, beam.curve.length());
     double strain = round_off;
     for (const auto& [time, expansion] : beam.properties.free_strain.thermal)
       strain = std::max(strain, of_heat * std::abs(expansion));
     noise += beam.properties.axial_stiffness * beam.curve.length() * strain * strain / 2;
   }
+  for (const Body& body : model.bodies) noise += round_off * body.mass * model.gravity.norm() * longest;
   return noise;
 }
 
@@ -176,7 +178,7 @@ bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEv
     return false;
   const double jump = event.energy_after - event.energy_before;
   const double moves = std::max(now.kinetic, now.strain());
-  const double allowed = most * moves + round_off * (moves + std::abs(now.gravity)) + report.strain_noise;
+  const double allowed = most * moves + round_off * (moves + std::abs(now.gravity)) + report.energy_noise;
   return !(std::abs(jump) <= allowed);
 }
 

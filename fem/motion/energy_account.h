@@ -49,9 +49,10 @@ class EnergyAccount {
 /// The energy of bending each beam by a tenth of a radian [J].
 double slight_bending(const BeamModel& model);
 
-/// The energy in all beams of strains that are round-off, 1e-11, or a thousandth of what heat makes of them:
-/// where a beam expands freely, nothing else is there to compare an error with [J].
-double strain_noise(const BeamModel& model);
+/// The energy in all beams of strains that are round-off, 1e-11, or a thousandth of what heat makes of them,
+/// and what lifts bodies by as much of the longest beam: where a beam expands freely, or nothing moves,
+/// nothing else is there to compare an error with [J].
+double energy_noise(const BeamModel& model);
 
 /// A change of the mesh that changes the energy, which is this by `now`, by too much, as its event has it;
 /// beams with the elements and rules of the papers, which are there for comparison, do as they do.

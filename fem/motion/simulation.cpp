@@ -54,7 +54,7 @@ struct Simulation::Implementation {
     } else {
       run_.at = MeshedState::drawn(run_.model);
       if (run_.observer.follower) run_.observer.follower->begins(run_.at);
-      run_.report.strain_noise = strain_noise(*run_.model);
+      run_.report.energy_noise = energy_noise(*run_.model);
       run_.step = run_.options.step.value_or(run_.step);
     }
   }
@@ -242,7 +242,7 @@ struct Simulation::Implementation {
     run_.account = EnergyAccount(point.dissipated, point.input, point.start_energy);
     run_.steps = point.steps;
     run_.report = point.report;
-    run_.report.strain_noise = strain_noise(*run_.model);
+    run_.report.energy_noise = energy_noise(*run_.model);
     iterations_written_ = point.iterations_in_snapshots;
     next_output_ = point.snapshots;
     seconds_ = run_.report.motion_seconds + run_.report.length_control_seconds;

@@ -144,6 +144,21 @@ TEST(GuideRun, ABeamThatDeformsMayBeInTheSameModel) {
   EXPECT_EQ(run.left_half_files(), false);
 }
 
+// Round-off is no energy that comes from nowhere.
+TEST(GuideRun, WhereNothingMovesNothingIsAmiss) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("still.json", R"({"nurbeam": 1, "beams": [{"name": "rail", "rigid": true,
+      "axis": {"polyline": [[0, 0, 0], [1, 0, 0], [4, 0, 0]]}}], "bodies": [{"name": "bead", "mass": 1}],
+      "sliding_joints": [{"body": "bead", "beam": "rail", "at": {"length": 1}, "release": 0.5}],
+      "analysis": {"end_time": 1}})");
+  for (const std::vector<std::string>& step : {std::vector<std::string>{}, {"analysis.step=1e-3"}}) {
+    const CaseRun run = run_file(file, step);
+    EXPECT_EQ(run.code, 0) << run.messages;
+    EXPECT_FALSE(run.says("warning")) << run.messages;
+    EXPECT_NEAR(run.last("bead.s [m]"), 1, 1e-12);
+  }
+}
+
 TEST(GuideRun, WhatAGuideDoesNotTakeIsRefused) {
   const std::string text = on_guide(quarter_arc, R"("at": "start")", R"({"end_time": 0.1, "step": 0.01})");
   const auto says = [&](const std::string& override, const std::string& part) {
