@@ -219,9 +219,11 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   return LoadStiffness{coordinate_block(geometric + of_loads, n), 1 / fastest};
 }
 
-std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions& options,
+std::optional<Failure> find_buckling(const std::vector<Force>& forces, const ModesOptions& options,
                                      const std::function<void()>& between, ModesReport& report) {
   const MeshedState& at = report.at;
+  BeamModel model = at.system->model();  // with the lengths of its connectors that were found
+  model.forces = forces;
   const int n = at.system->coordinate_count();
   const Matrix kkt = tangent(*at.system, at.state, {.stiffness = 1});
   if (auto failure = instability(at, kkt)) return failure;
@@ -284,7 +286,7 @@ ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOption
     if (interrupted && interrupted()) throw Interruption{};
   };
   try {
-    report.rest.failure = buckling ? find_buckling(*model, options, between, report)
+    report.rest.failure = buckling ? find_buckling(model->forces, options, between, report)
                                    : find_vibrations(options, between, report);
   } catch (const Interruption&) {
     report.rest.interrupted = true;

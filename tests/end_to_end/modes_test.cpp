@@ -109,6 +109,46 @@ TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
   EXPECT_EQ(left.table.substr(0, 13), "number,factor");
 }
 
+/// The factor on a thrust of 1 N at the end of a bar of 2 m between a pin and a guide, where something pulls.
+double factor_of_pulled_bar(const std::string& guide, const std::string& rest, double gravity = 0) {
+  Left left;
+  run_modes_text(R"({ "nurbeam": 1, "gravity": [0, )" + std::to_string(-gravity) +
+                     R"(, 0],
+      "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                  "material": { "density": 7800, "youngs_modulus": 2e11 }, "elements": { "count": 16 } }],
+      "supports": [{ "beam": "bar", "at": "start", "type": "pinned" },
+                   { "beam": "bar", "at": "end", "type": "guided", "direction": [1, 0, 0])" +
+                     guide + R"( }],
+      "loads": [{ "beam": "bar", "at": "end", "force": [-1, 0, 0] }],)" +
+                     rest + R"(
+      "analysis": { "type": "buckling", "modes": { "count": 1 } }, "output": { "report": false } })",
+                 left);
+  EXPECT_EQ(left.code, 0) << left.messages;
+  return left.code == 0 ? left.run["buckling"][0]["factor"].get<double>() : 0;
+}
+
+const double euler_of_pulled_bar = pi * pi * 2e11 * pi * 1e-8 / 4 / 4;
+
+// A spring of 1000 N/m and 0.5 m over the metre between the end and a wall: its force is there before the
+// load.
+TEST(Buckling, DoesNotMultiplyWhatAConnectorPullsAnyway) {
+  for (const char* length : {R"("force": 500)", R"("length": 0.5)"})
+    EXPECT_NEAR(factor_of_pulled_bar("", std::string(R"("connectors": [{ "name": "k", "type": "spring",
+      "from": { "beam": "bar", "at": "end" }, "to": { "point": [3, 0, 0] }, "stiffness": 1000,)") +
+                                             length + "}],"),
+                euler_of_pulled_bar + 500, 1)
+        << length;
+}
+
+// With what it is held up by it stands as drawn, a column half of whose length counts.
+TEST(Buckling, HasConnectorsAsLongAsTheyAreFoundUnderGravity) {
+  EXPECT_NEAR(
+      factor_of_pulled_bar("", R"("connectors": [{ "name": "k", "type": "spring", "length": "as-drawn",
+      "from": { "beam": "bar", "at": { "fraction": 0.5 } }, "to": { "point": [1, 1, 0] }, "stiffness": 1e7 }],)",
+                           9.81),
+      4 * euler_of_pulled_bar, 0.01 * euler_of_pulled_bar);
+}
+
 TEST(Modes, ThatCannotBeAreRefusedInWords) {
   const auto expect = [](const std::string& text, int code, const std::string& words) {
     Left left;
