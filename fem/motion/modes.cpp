@@ -255,6 +255,12 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, const Mod
   return std::nullopt;
 }
 
+// Whether it is there before the loads: the weight of lumps, and what pulls at guided supports.
+bool is_permanent(const Force& force) {
+  const auto* load = std::get_if<PointLoad>(&force);
+  return std::holds_alternative<PlaceMass>(force) || (load && load->permanent);
+}
+
 // ---- Shapes ----
 
 double size_of(const MeshedState& at) {
@@ -277,7 +283,7 @@ ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOption
   const bool buckling = options.kind == ModesOptions::Kind::buckling;
   if (buckling) {
     BeamModel dead = *model;
-    dead.forces.clear();
+    std::erase_if(dead.forces, [](const Force& force) { return !is_permanent(force); });
     at_rest = std::make_shared<const BeamModel>(std::move(dead));
   }
   report.at = state_at_rest(at_rest, options, interrupted, report.rest);

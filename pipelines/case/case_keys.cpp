@@ -443,8 +443,8 @@ Shape analysis() {
         "sliding bodies are held at their `at`, or slide, about where they rest; held when omitted"}});
   return object(
       {{"type", choice({"dynamic", "static", "modes", "buckling"}),
-        "motion, equilibrium, natural frequencies, or the factors of the loads that are not gravity "
-        "under which it buckles; dynamic when omitted"},
+        "motion, equilibrium, natural frequencies, or the factors of the loads under which it "
+        "buckles; dynamic when omitted"},
        {"modes", modes, "of modes and buckling"},
        {"initial", choice({"as-drawn", "equilibrium"}),
         "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "

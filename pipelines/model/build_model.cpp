@@ -272,8 +272,8 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
 void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
   support.guide = frame.direction_to_local(from.direction->stableNormalized());
   if (from.force != 0)
-    model.forces.push_back(
-        PointLoad{{.beam = support.beam, .s = support.s, .value = from.force * *support.guide}});
+    model.forces.push_back(PointLoad{
+        {.beam = support.beam, .s = support.s, .value = from.force * *support.guide, .permanent = true}});
   if (from.mass > 0)
     model.forces.push_back(
         PlaceMass{.beam = support.beam, .s = support.s, .mass = from.mass, .weighs = false});

@@ -149,6 +149,26 @@ TEST(Buckling, HasConnectorsAsLongAsTheyAreFoundUnderGravity) {
       4 * euler_of_pulled_bar, 0.01 * euler_of_pulled_bar);
 }
 
+TEST(Buckling, DoesNotMultiplyWhatAGuidedSupportPulls) {
+  EXPECT_NEAR(factor_of_pulled_bar(R"(, "force": 500)", ""), euler_of_pulled_bar + 500, 1);
+}
+
+// A lump of 10 kg on a light column, whose weight is 98.1 N of its load.
+TEST(Buckling, DoesNotMultiplyTheWeightOfLumps) {
+  Left left;
+  run_modes_text(R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+      "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [0, 0, 2]] }, "section": { "radius": 0.01 },
+                  "material": { "density": 1, "youngs_modulus": 2e11 }, "elements": { "count": 16 } }],
+      "supports": [{ "beam": "bar", "at": "start", "type": "clamped" }],
+      "connectors": [{ "name": "k", "from": { "beam": "bar", "at": "end" }, "end_masses": [10, 0], "to": { "point": [0, 0, 3] },
+                       "direction": [0, 0, 1], "stiffness": 1e-6 }],
+      "loads": [{ "beam": "bar", "at": "end", "force": [0, 0, -1] }],
+      "analysis": { "type": "buckling", "modes": { "count": 1 } }, "output": { "report": false } })",
+                 left);
+  ASSERT_EQ(left.code, 0) << left.messages;
+  EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler_of_pulled_bar / 4 - 98.1, 0.5);
+}
+
 TEST(Modes, ThatCannotBeAreRefusedInWords) {
   const auto expect = [](const std::string& text, int code, const std::string& words) {
     Left left;
