@@ -310,9 +310,10 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
   return places;
 }
 
-// The factor of a load over time; in load steps time is the load factor.
+// The factor of a load over time; in load steps time is the load factor. What goes with it is the place of a
+// force that moves, which is there in full.
 TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
-  if (!load.time.empty() || analysis.load_factors.empty()) return load.time;
+  if (!load.time.empty() || load.moving_speed || analysis.load_factors.empty()) return load.time;
   const double last = analysis.load_factors.back();
   return last > 0 ? TimeTable{{0, 0}, {last, last}} : TimeTable{{0, 0}};
 }

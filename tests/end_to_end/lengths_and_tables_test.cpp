@@ -153,6 +153,14 @@ const std::string cantilever = R"({
   "output": { "report": false, "probes": [{ "name": "tip", "beam": "b", "at": "end" }] }
 })";
 
+void expect_same(const CaseRun& a, const CaseRun& b) {
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    for (const char* column :
+         {"time [s]", "tip.x [m]", "tip.y [m]", "tip.moment [N m]", "energy.bending [J]"})
+      EXPECT_EQ(a.value(i, column), b.value(i, column)) << column;
+}
+
 TEST(LoadSteps, EachIsTheStateUnderItsShareOfTheLoads) {
   const CaseRun steps = run_text(cantilever, {"analysis.load_steps=4"});
   ASSERT_EQ(steps.code, 0) << steps.messages;
@@ -166,6 +174,22 @@ TEST(LoadSteps, EachIsTheStateUnderItsShareOfTheLoads) {
   }
 }
 
+// A force of 1 N that runs over a beam of 2 m on two supports: what is left of one is on the other.
+TEST(LoadSteps, AForceThatMovesGivesInfluenceLines) {
+  for (const char* time : {"null", "[[0, 1]]"}) {
+    const CaseRun run = run_text(
+        bar,
+        {R"(supports[1]={"beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0], "name": "right"})",
+         R"(loads=[{"beam": "b", "at": "start", "force": [0, -1, 0], "moves": {"speed": 2}}])",
+         std::string("loads[0].time=") + time, "analysis.load_steps=4"});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    for (int k = 1; k <= 4; ++k) {
+      EXPECT_NEAR(run.value(k - 1, "left.fy [N]"), 1 - k / 4.0, 1e-6) << time;
+      EXPECT_NEAR(run.value(k - 1, "right.fy [N]"), k / 4.0, 1e-6) << time;
+    }
+  }
+}
+
 TEST(LoadSteps, MustIncreaseAndBelongToStatics) {
   const CaseRun falling = run_text(cantilever, {"analysis.load_steps=[0.5, 0.2]"});
   EXPECT_EQ(falling.code, 2);
@@ -174,16 +198,6 @@ TEST(LoadSteps, MustIncreaseAndBelongToStatics) {
   const CaseRun moving = run_text(cantilever, {"analysis={\"end_time\": 1, \"load_steps\": 2}"});
   EXPECT_EQ(moving.code, 2);
   EXPECT_TRUE(moving.says("analysis.load_steps: is for a static analysis")) << moving.messages;
-}
-
-// A load that is asked for beyond what the structure carries names the share it reached: a flat arch of two
-// hinged bars snaps through.
-void expect_same(const CaseRun& a, const CaseRun& b) {
-  ASSERT_EQ(a.rows.size(), b.rows.size());
-  for (std::size_t i = 0; i < a.rows.size(); ++i)
-    for (const char* column :
-         {"time [s]", "tip.x [m]", "tip.y [m]", "tip.moment [N m]", "energy.bending [J]"})
-      EXPECT_EQ(a.value(i, column), b.value(i, column)) << column;
 }
 
 TEST(LoadSteps, ATableInAFileIsTheSameAsItsRows) {
