@@ -190,6 +190,27 @@ TEST(LoadSteps, AForceThatMovesGivesInfluenceLines) {
   }
 }
 
+TEST(LoadSteps, ThatAreLeftOutAreTheFullLoad) {
+  const std::string ramp = "loads[0].time=[[0, 0], [1, 1], [2, 3]]";
+  const CaseRun full = run_text(cantilever), ramped = run_text(cantilever, {ramp});
+  ASSERT_EQ(ramped.code, 0) << ramped.messages;
+  expect_same(ramped, full);
+  const CaseRun moved = run_text(bar, {"supports[1].motion=[[0, 0, 0, 0], [1, 0.01, 0, 0]]"});
+  ASSERT_EQ(moved.code, 0) << moved.messages;
+  EXPECT_NEAR(moved.last("right.fx [N]"), tension(1.005), 1e-6);
+  const CaseRun warmed = run_text(bar, {"beams[0].temperature=[[0, 0], [1, 50]]"});
+  ASSERT_EQ(warmed.code, 0) << warmed.messages;
+  EXPECT_NEAR(warmed.last("p.axial_force [N]"), -EA * 1.2e-5 * 50, 1e-6);
+}
+
+TEST(LoadSteps, DivideABeamForItsFullLoad) {
+  const std::string fine = R"(beams[0].elements={"tolerance": 1e-7})";
+  const CaseRun full = run_text(cantilever, {fine});
+  ASSERT_EQ(full.code, 0) << full.messages;
+  expect_same(run_text(cantilever, {fine, "loads[0].time=[[0, 0], [1, 1]]"}), full);
+  expect_same(run_text(cantilever, {fine, "analysis.load_steps=1"}), full);
+}
+
 TEST(LoadSteps, MustIncreaseAndBelongToStatics) {
   const CaseRun falling = run_text(cantilever, {"analysis.load_steps=[0.5, 0.2]"});
   EXPECT_EQ(falling.code, 2);
