@@ -282,9 +282,9 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
       output.cad_times = numbers(cad, "times");
     }
   }
-  for_each_item(json, "probes", "output", [&](const Json& probe, const std::string&) {
+  for_each_item(json, "probes", "output", [&](const Json& probe, const std::string& path) {
     output.probes.push_back(
-        {.name = text(probe, "name"), .beam = text(probe, "beam"), .at = read_place(probe)});
+        {.name = text(probe, "name"), .beam = text(probe, "beam"), .path = path, .at = read_place(probe)});
   });
   output.paraview = flag(json, "paraview");
   output.report = !has(json, "report") || flag(json, "report");

@@ -257,6 +257,7 @@ struct CaseAnalysis {
 
 struct CaseProbe {
   std::string name, beam;
+  std::string path;
   Place at;
 };
 

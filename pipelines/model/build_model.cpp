@@ -539,7 +539,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);
-    const double s = place_on(beams[b], probe.at, "output.probes", findings);
+    const double s = place_on(beams[b], probe.at, probe.path, findings);
     built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
   }
   for (const CaseLaw& law : resolved.laws) built.laws.push_back(law_points(law, resolved, beams, findings));
