@@ -227,7 +227,9 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, const Mod
   const int n = at.system->coordinate_count();
   const Matrix kkt = tangent(*at.system, at.state, {.stiffness = 1});
   if (auto failure = instability(at, kkt)) return failure;
-  const std::vector<bool> held(model.joints.size(), options.bodies_held);
+  std::vector<bool> held;  // or at rest against a stop or an end
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    held.push_back(row_of_place(*at.system, static_cast<int>(j)).has_value());
   const BeamSystem loaded(model, at.system->mesh().plan, held);
   if (loaded.constraint_count() != at.system->constraint_count())
     return failure_of(Failure::Kind::resting_place);

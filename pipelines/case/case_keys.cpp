@@ -348,7 +348,7 @@ Shape sliding_joint() {
         "where statics find the body: held at its `at`, or free, where it rests; when omitted free in a static "
         "analysis, held at the start of a motion"},
        {"release", quantity(Dimension::time, positive()),
-        "time until which the body is held where it is; free from the start when omitted"},
+        "time of a motion until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
         "whether the beam may have a kink at the body; continuous when omitted"},
        {"carried_as", choice({"node", "point"}),
@@ -440,7 +440,8 @@ Shape analysis() {
         "the state: in equilibrium under all loads, for buckling under gravity; or as drawn, without loads; "
         "equilibrium when omitted"},
        {"bodies", choice({"held", "free"}),
-        "sliding bodies are held at their `at`, or slide, about where they rest; held when omitted"}});
+        "sliding bodies are held at their `at`, or slide without friction, about where they rest; held when "
+        "omitted"}});
   return object(
       {{"type", choice({"dynamic", "static", "modes", "buckling"}),
         "motion, equilibrium, natural frequencies, or the factors of the loads under which it "
