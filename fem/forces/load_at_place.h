@@ -15,6 +15,7 @@ struct LoadAtPlace {
   TimeTable time = {};    ///< factor
   /// Of a force on a beam with torsion: of where it acts from the axis, along d1 and d2 [m].
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  bool permanent = false;  ///< part of the state that buckling is about, not of the loads that it multiplies
 };
 
 }  // namespace nurbeam

@@ -1,13 +1,16 @@
 #include "fem/forces/point_load.h"
 
+#include "fem/forces/load_place.h"
+
 namespace nurbeam {
 
 template <int D>
 std::optional<LoadedPoint<D>> LoadedPoint<D>::of(const LoadAtPlace& load, const MeshedBeams<D>& at,
                                                  const State& state) {
   const Beam& beam = at.structure.beams[load.beam];
-  const double s = load.s + load.speed * state.t;
-  if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) return std::nullopt;
+  const std::optional<double> there = place_of(load, beam, state.t);
+  if (!there) return std::nullopt;
+  const double s = *there;
   const int index = find_span(at.structure, at.mesh, state.q, load.beam, s);
   const MeshElement<D>& e = at.elements[index];
   const PointShape<D> shape = point_shape<D>(e, state.q, s);

@@ -1,5 +1,6 @@
 #include "fem/forces/section_load.h"
 
+#include "fem/forces/load_place.h"
 #include "fem/mesh/point_on_beam.h"
 
 namespace nurbeam {
@@ -17,8 +18,9 @@ SectionMoment moment_of(const LoadAtPlace& load, const DrawnSection& drawn, cons
 std::optional<SectionLoad> SectionLoad::of(const LoadAtPlace& load, OnSection kind, const MeshedBeams<3>& at,
                                            const State& state, bool with_gradient) {
   const Beam& beam = at.structure.beams[load.beam];
-  const double s = load.s + load.speed * state.t;
-  if (!beam.is_ring() && (s < 0 || s > beam.curve.length())) return std::nullopt;
+  const std::optional<double> there = place_of(load, beam, state.t);
+  if (!there) return std::nullopt;
+  const double s = *there;
   SectionLoad on{find_span(at.structure, at.mesh, state.q, load.beam, s), {}, {}};
   const MeshElement<3>& e = at.elements[on.element];
   const TwistElement& twist = e.twist->element;

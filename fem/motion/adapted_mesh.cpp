@@ -72,8 +72,12 @@ std::vector<Interval> intervals(const std::vector<int>& nodes, const std::vector
 class Adaption {
  public:
   Adaption(BeamModel& model, const std::vector<std::optional<double>>& tolerances, int most_elements,
-           const std::function<bool()>& interrupted)
-      : model_(model), tolerances_(tolerances), most_elements_(most_elements), interrupted_(interrupted) {}
+           const std::function<bool()>& interrupted, double time)
+      : model_(model),
+        tolerances_(tolerances),
+        most_elements_(most_elements),
+        interrupted_(interrupted),
+        time_(time) {}
 
   AdaptedMesh run() {
     constexpr int most_rounds = 12;
@@ -94,6 +98,7 @@ class Adaption {
   MeshedState equilibrium() {
     const auto model = std::make_shared<const BeamModel>(model_);
     MeshedState at = MeshedState::drawn(model);
+    at.state.t = time_;
     const RestReport found = find_held_equilibrium(at, interrupted_);
     result_.interrupted = found.interrupted;
     result_.from_equilibrium = !found.failure;
@@ -141,14 +146,15 @@ class Adaption {
   const std::vector<std::optional<double>>& tolerances_;
   int most_elements_;
   const std::function<bool()>& interrupted_;
+  double time_;
   AdaptedMesh result_;
 };
 
 }  // namespace
 
 AdaptedMesh adapt_mesh(BeamModel& model, const std::vector<std::optional<double>>& tolerances,
-                       int most_elements, const std::function<bool()>& interrupted) {
-  return Adaption(model, tolerances, most_elements, interrupted).run();
+                       int most_elements, const std::function<bool()>& interrupted, double time) {
+  return Adaption(model, tolerances, most_elements, interrupted, time).run();
 }
 
 }  // namespace nurbeam

@@ -19,10 +19,10 @@ struct AdaptedMesh {
 /// they start: the estimated error of positions over the beam's length is to be within the beam's tolerance.
 /// Between two places that no element may cross elements are of one length; beams without tolerance stay as
 /// they are. Only refines what is there. `most_elements`: of one beam. `interrupted` is asked at every Newton
-/// iteration.
+/// iteration. `time`: of the loads [s].
 ///
 /// The estimate of a beam is the sum of position_error() over its elements.
 AdaptedMesh adapt_mesh(BeamModel& model, const std::vector<std::optional<double>>& tolerances,
-                       int most_elements, const std::function<bool()>& interrupted = {});
+                       int most_elements, const std::function<bool()>& interrupted = {}, double time = 0);
 
 }  // namespace nurbeam

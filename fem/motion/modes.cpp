@@ -219,13 +219,17 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   return LoadStiffness{coordinate_block(geometric + of_loads, n), 1 / fastest};
 }
 
-std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions& options,
+std::optional<Failure> find_buckling(const std::vector<Force>& forces, const ModesOptions& options,
                                      const std::function<void()>& between, ModesReport& report) {
   const MeshedState& at = report.at;
+  BeamModel model = at.system->model();  // with the lengths of its connectors that were found
+  model.forces = forces;
   const int n = at.system->coordinate_count();
   const Matrix kkt = tangent(*at.system, at.state, {.stiffness = 1});
   if (auto failure = instability(at, kkt)) return failure;
-  const std::vector<bool> held(model.joints.size(), options.bodies_held);
+  std::vector<bool> held;  // or at rest against a stop or an end
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    held.push_back(row_of_place(*at.system, static_cast<int>(j)).has_value());
   const BeamSystem loaded(model, at.system->mesh().plan, held);
   if (loaded.constraint_count() != at.system->constraint_count())
     return failure_of(Failure::Kind::resting_place);
@@ -253,6 +257,12 @@ std::optional<Failure> find_buckling(const BeamModel& model, const ModesOptions&
   return std::nullopt;
 }
 
+// Whether it is there before the loads: the weight of lumps, and what pulls at guided supports.
+bool is_permanent(const Force& force) {
+  const auto* load = std::get_if<PointLoad>(&force);
+  return std::holds_alternative<PlaceMass>(force) || (load && load->permanent);
+}
+
 // ---- Shapes ----
 
 double size_of(const MeshedState& at) {
@@ -275,7 +285,7 @@ ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOption
   const bool buckling = options.kind == ModesOptions::Kind::buckling;
   if (buckling) {
     BeamModel dead = *model;
-    dead.forces.clear();
+    std::erase_if(dead.forces, [](const Force& force) { return !is_permanent(force); });
     at_rest = std::make_shared<const BeamModel>(std::move(dead));
   }
   report.at = state_at_rest(at_rest, options, interrupted, report.rest);
@@ -284,7 +294,7 @@ ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOption
     if (interrupted && interrupted()) throw Interruption{};
   };
   try {
-    report.rest.failure = buckling ? find_buckling(*model, options, between, report)
+    report.rest.failure = buckling ? find_buckling(model->forces, options, between, report)
                                    : find_vibrations(options, between, report);
   } catch (const Interruption&) {
     report.rest.interrupted = true;

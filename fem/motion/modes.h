@@ -14,12 +14,12 @@ namespace nurbeam {
 struct ModesOptions {
   enum class Kind {
     vibration,  ///< (K - omega^2 M) x = 0
-    buckling    ///< (K + factor K_g) x = 0, K_g by the loads that are not gravity
+    buckling    ///< (K + factor K_g) x = 0, K_g by the loads: neither weight nor what is permanent
   };
   Kind kind = Kind::vibration;
   int count = 10;
   bool about_equilibrium =
-      true;                 ///< under all loads, for buckling under gravity; else as drawn, without loads
+      true;                 ///< under all loads, for buckling under what is no load; else as drawn, without
   bool bodies_held = true;  ///< where they are drawn; else they slide, about the place where they rest
   LengthControl length_control = {};
 };

@@ -195,7 +195,7 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
 }
 
 std::vector<double> read_load_factors(const Json& json, Findings& findings) {
-  if (!has(json, "load_steps")) return {};
+  if (!has(json, "load_steps")) return {1};
   std::vector<double> factors;
   if (json["load_steps"].is_array()) {
     factors = numbers(json, "load_steps");
@@ -232,9 +232,10 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
         findings.add(Severity::warning, child("analysis", key),
                      analysis.has_modes() ? "has no effect on modes and buckling"
                                           : "has no effect in a static analysis");
-    if (analysis.type == CaseAnalysis::Type::statics)
+    if (analysis.type == CaseAnalysis::Type::statics) {
       analysis.load_factors = read_load_factors(json, findings);
-    if (!analysis.load_factors.empty()) analysis.end_time = analysis.load_factors.back();
+      analysis.end_time = analysis.load_factors.back();
+    }
   }
   if (analysis.type != CaseAnalysis::Type::statics && has(json, "load_steps"))
     findings.error("analysis.load_steps",
@@ -281,9 +282,9 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
       output.cad_times = numbers(cad, "times");
     }
   }
-  for_each_item(json, "probes", "output", [&](const Json& probe, const std::string&) {
+  for_each_item(json, "probes", "output", [&](const Json& probe, const std::string& path) {
     output.probes.push_back(
-        {.name = text(probe, "name"), .beam = text(probe, "beam"), .at = read_place(probe)});
+        {.name = text(probe, "name"), .beam = text(probe, "beam"), .path = path, .at = read_place(probe)});
   });
   output.paraview = flag(json, "paraview");
   output.report = !has(json, "report") || flag(json, "report");

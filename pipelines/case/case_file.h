@@ -244,8 +244,8 @@ struct CaseAnalysis {
   enum class Type { dynamic, statics, modes, buckling } type = Type::dynamic;
   CaseModes modes;
   bool start_from_equilibrium = false;
-  double end_time = 0;               ///< [s]; with load factors the last one
-  std::vector<double> load_factors;  ///< of a static analysis, increasing; empty: 1
+  double end_time = 0;               ///< [s]; of a static analysis the last load factor
+  std::vector<double> load_factors;  ///< of a static analysis, increasing
   std::optional<double> step;        ///< fixed steps [s]; else those of the integrator's tolerance
   IntegratorSettings integrator;
   LengthControl length_control;
@@ -257,6 +257,7 @@ struct CaseAnalysis {
 
 struct CaseProbe {
   std::string name, beam;
+  std::string path;
   Place at;
 };
 

@@ -348,7 +348,7 @@ Shape sliding_joint() {
         "where statics find the body: held at its `at`, or free, where it rests; when omitted free in a static "
         "analysis, held at the start of a motion"},
        {"release", quantity(Dimension::time, positive()),
-        "time until which the body is held where it is; free from the start when omitted"},
+        "time of a motion until which the body is held where it is; free from the start when omitted"},
        {"slope", choice({"continuous", "discontinuous"}),
         "whether the beam may have a kink at the body; continuous when omitted"},
        {"carried_as", choice({"node", "point"}),
@@ -440,11 +440,12 @@ Shape analysis() {
         "the state: in equilibrium under all loads, for buckling under gravity; or as drawn, without loads; "
         "equilibrium when omitted"},
        {"bodies", choice({"held", "free"}),
-        "sliding bodies are held at their `at`, or slide, about where they rest; held when omitted"}});
+        "sliding bodies are held at their `at`, or slide without friction, about where they rest; held when "
+        "omitted"}});
   return object(
       {{"type", choice({"dynamic", "static", "modes", "buckling"}),
-        "motion, equilibrium, natural frequencies, or the factors of the loads that are not gravity "
-        "under which it buckles; dynamic when omitted"},
+        "motion, equilibrium, natural frequencies, or the factors of the loads under which it "
+        "buckles; dynamic when omitted"},
        {"modes", modes, "of modes and buckling"},
        {"initial", choice({"as-drawn", "equilibrium"}),
         "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
@@ -461,7 +462,7 @@ Shape analysis() {
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "
         "in full), increasing, or under so many equal steps up to 1; tables over time are read at the "
-        "factor"},
+        "factor, and a force that moves is there in full where it is at that time; 1 when omitted"},
        {"integrator", integrator, "time integrator"},
        {"length_control", length_control,
         "when elements beside a sliding body change, in standard element lengths"}},

@@ -152,6 +152,17 @@ std::vector<int> stopped_joints(const CaseStop& stop, int beam, const BeamModel&
   return joints;
 }
 
+// Of modes and buckling, where bodies rest or are held.
+void check_modes(const CaseStop& stop, const CaseAnalysis& analysis, Findings& findings) {
+  if (!analysis.has_modes()) return;
+  const bool meets_bodies = analysis.modes.about_equilibrium && !analysis.modes.bodies_held;
+  if (!meets_bodies)
+    findings.warn(stop.path, "has no effect on modes and buckling about where bodies are held or drawn");
+  else if (!stop.buffer)
+    findings.add(Severity::note, stop.path,
+                 "holds what rests against it: in modes and buckling such a body does not leave it");
+}
+
 }  // namespace
 
 void add_stops(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, BeamModel& model,
@@ -179,7 +190,7 @@ void add_stops(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
                      "is \"ida\", but " + stop.path +
                          " is a stop, whose impacts \"ida\" has no memory for; use "
                          "\"generalized-alpha\"");
-    if (analysis.has_modes()) findings.warn(stop.path, "has no effect on modes and buckling");
+    check_modes(stop, analysis, findings);
   }
   check_room(model, findings);
 }

@@ -272,8 +272,8 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
 void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
   support.guide = frame.direction_to_local(from.direction->stableNormalized());
   if (from.force != 0)
-    model.forces.push_back(
-        PointLoad{{.beam = support.beam, .s = support.s, .value = from.force * *support.guide}});
+    model.forces.push_back(PointLoad{
+        {.beam = support.beam, .s = support.s, .value = from.force * *support.guide, .permanent = true}});
   if (from.mass > 0)
     model.forces.push_back(
         PlaceMass{.beam = support.beam, .s = support.s, .mass = from.mass, .weighs = false});
@@ -310,9 +310,10 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
   return places;
 }
 
-// The factor of a load over time; in load steps time is the load factor.
+// The factor of a load over time; in load steps time is the load factor. What goes with it is the place of a
+// force that moves, which is there in full.
 TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
-  if (!load.time.empty() || analysis.load_factors.empty()) return load.time;
+  if (!load.time.empty() || load.moving_speed || analysis.load_factors.empty()) return load.time;
   const double last = analysis.load_factors.back();
   return last > 0 ? TimeTable{{0, 0}, {last, last}} : TimeTable{{0, 0}};
 }
@@ -470,7 +471,9 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
     if (beam.elements.tolerance && path.empty()) path = beam.path + ".elements.tolerance";
   }
   if (path.empty()) return {};
-  const AdaptedMesh adapted = adapt_mesh(model, tolerances, most_elements, interrupted);
+  const std::vector<double>& factors = resolved.analysis.load_factors;
+  const AdaptedMesh adapted =
+      adapt_mesh(model, tolerances, most_elements, interrupted, factors.empty() ? 0 : factors.back());
   if (adapted.interrupted) {
     findings.error(path, "the search for the number of elements was interrupted");
     return {};
@@ -536,7 +539,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);
-    const double s = place_on(beams[b], probe.at, "output.probes", findings);
+    const double s = place_on(beams[b], probe.at, probe.path, findings);
     built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
   }
   for (const CaseLaw& law : resolved.laws) built.laws.push_back(law_points(law, resolved, beams, findings));

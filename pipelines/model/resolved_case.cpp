@@ -145,9 +145,9 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
                        "is " + in_quotes(end.beam) +
                            ", which is several beams; choose one: " + quoted_list(names.at(end.beam)));
   for (const CaseProbe& probe : resolved.probes)
-    if (known(probe.beam, "output.probes") && names.at(probe.beam).size() > 1)
-      findings.error("output.probes",
-                     "probe " + in_quotes(probe.name) + " is on " + in_quotes(probe.beam) +
+    if (known(probe.beam, probe.path) && names.at(probe.beam).size() > 1)
+      findings.error(probe.path + ".beam",
+                     "is " + in_quotes(probe.beam) +
                          ", which is several beams; choose one: " + quoted_list(names.at(probe.beam)));
 }
 

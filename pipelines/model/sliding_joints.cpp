@@ -105,6 +105,14 @@ void check_friction(const CaseSlidingJoint& joint, const CaseAnalysis& analysis,
   if (analysis.has_modes()) findings.warn(joint.path + ".friction", "has no effect on modes and buckling");
 }
 
+// Nothing is let go where nothing moves on.
+void check_release(const CaseSlidingJoint& joint, const CaseAnalysis& analysis, Findings& findings) {
+  if (!joint.release || analysis.type == CaseAnalysis::Type::dynamic) return;
+  findings.warn(joint.path + ".release", analysis.has_modes()
+                                             ? "has no effect on modes and buckling"
+                                             : "has no effect in a static analysis: bodies come to rest");
+}
+
 // Nothing on a beam runs faster than the waves along it.
 void warn_of_speed(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
                    Findings& findings) {
@@ -237,18 +245,19 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
   for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
     const int b = resolved.beam_index(joint.beam);
     const ReferenceCurve& curve = beams[b].curve;
+    const CaseAnalysis& analysis = resolved.analysis;
     SlidingJoint added{0,
                        b,
                        place_on(beams[b], joint.at, joint.path, findings),
                        joint.speed.value_or(0),
                        std::nullopt,
-                       joint.release,
+                       analysis.type == CaseAnalysis::Type::dynamic ? joint.release : std::nullopt,
                        joint.continuous_slope,
                        joint.leave_at_end,
                        joint.follows_section,
                        joint.offset.value_or(Eigen::Vector2d::Zero()),
                        joint.rest,
-                       joint.friction,
+                       analysis.has_modes() ? std::nullopt : joint.friction,
                        joint.as_point};
     if (joint.as_point && !joint.continuous_slope)
       findings.error(
@@ -256,7 +265,8 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
           "is \"point\", but the slope is \"discontinuous\", and inside an element there is no kink; use "
           "\"node\", or \"slope\": \"continuous\"");
     check_following(joint, findings);
-    check_friction(joint, resolved.analysis, findings);
+    check_friction(joint, analysis, findings);
+    check_release(joint, analysis, findings);
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
       if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
     if (!joint.motion_table.empty()) {
@@ -265,11 +275,9 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       added.s = value_and_slope(joint.motion_table, 0).first;
     }
     if (joint.motion_speed)
-      added.motion = steady_motion(added.s, *joint.motion_speed, curve, resolved.analysis.end_time);
-    if (joint.leave_at_end && resolved.analysis.type == CaseAnalysis::Type::dynamic)
+      added.motion = steady_motion(added.s, *joint.motion_speed, curve, analysis.end_time);
+    if (joint.leave_at_end && analysis.type == CaseAnalysis::Type::dynamic)
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
-    if (joint.release && resolved.analysis.type == CaseAnalysis::Type::statics)
-      findings.warn(joint.path + ".release", "has no effect in a static analysis: bodies come to rest");
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);
     model.joints.push_back(std::move(added));

@@ -127,6 +127,10 @@ TEST(BadInput, APlaceTooFarFromTheBeam) {
   expect_refused(run_beam({"sliding_joints[0].at={\"near\":[0.5,0.3,0]}"}),
                  {"sliding_joints[0].at.near", "0.3 m from beam \"beam\"", "closest point"});
   expect_refused(run_beam({"sliding_joints[0].at={\"length\":1.3}"}), {"sliding_joints[0].at", "1 m long"});
+  expect_refused(
+      run_beam(
+          {R"(output.probes=[{"name":"a","beam":"beam","at":"end"},{"name":"b","beam":"beam","at":{"length":3}}])"}),
+      {"output.probes[1].at: 3 m is not on beam \"beam\""});
 }
 
 TEST(BadInput, MoreElementsThanABeamCanHave) {

@@ -153,6 +153,14 @@ const std::string cantilever = R"({
   "output": { "report": false, "probes": [{ "name": "tip", "beam": "b", "at": "end" }] }
 })";
 
+void expect_same(const CaseRun& a, const CaseRun& b) {
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    for (const char* column :
+         {"time [s]", "tip.x [m]", "tip.y [m]", "tip.moment [N m]", "energy.bending [J]"})
+      EXPECT_EQ(a.value(i, column), b.value(i, column)) << column;
+}
+
 TEST(LoadSteps, EachIsTheStateUnderItsShareOfTheLoads) {
   const CaseRun steps = run_text(cantilever, {"analysis.load_steps=4"});
   ASSERT_EQ(steps.code, 0) << steps.messages;
@@ -166,6 +174,43 @@ TEST(LoadSteps, EachIsTheStateUnderItsShareOfTheLoads) {
   }
 }
 
+// A force of 1 N that runs over a beam of 2 m on two supports: what is left of one is on the other.
+TEST(LoadSteps, AForceThatMovesGivesInfluenceLines) {
+  for (const char* time : {"null", "[[0, 1]]"}) {
+    const CaseRun run = run_text(
+        bar,
+        {R"(supports[1]={"beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0], "name": "right"})",
+         R"(loads=[{"beam": "b", "at": "start", "force": [0, -1, 0], "moves": {"speed": 2}}])",
+         std::string("loads[0].time=") + time, "analysis.load_steps=4"});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    for (int k = 1; k <= 4; ++k) {
+      EXPECT_NEAR(run.value(k - 1, "left.fy [N]"), 1 - k / 4.0, 1e-6) << time;
+      EXPECT_NEAR(run.value(k - 1, "right.fy [N]"), k / 4.0, 1e-6) << time;
+    }
+  }
+}
+
+TEST(LoadSteps, ThatAreLeftOutAreTheFullLoad) {
+  const std::string ramp = "loads[0].time=[[0, 0], [1, 1], [2, 3]]";
+  const CaseRun full = run_text(cantilever), ramped = run_text(cantilever, {ramp});
+  ASSERT_EQ(ramped.code, 0) << ramped.messages;
+  expect_same(ramped, full);
+  const CaseRun moved = run_text(bar, {"supports[1].motion=[[0, 0, 0, 0], [1, 0.01, 0, 0]]"});
+  ASSERT_EQ(moved.code, 0) << moved.messages;
+  EXPECT_NEAR(moved.last("right.fx [N]"), tension(1.005), 1e-6);
+  const CaseRun warmed = run_text(bar, {"beams[0].temperature=[[0, 0], [1, 50]]"});
+  ASSERT_EQ(warmed.code, 0) << warmed.messages;
+  EXPECT_NEAR(warmed.last("p.axial_force [N]"), -EA * 1.2e-5 * 50, 1e-6);
+}
+
+TEST(LoadSteps, DivideABeamForItsFullLoad) {
+  const std::string fine = R"(beams[0].elements={"tolerance": 1e-7})";
+  const CaseRun full = run_text(cantilever, {fine});
+  ASSERT_EQ(full.code, 0) << full.messages;
+  expect_same(run_text(cantilever, {fine, "loads[0].time=[[0, 0], [1, 1]]"}), full);
+  expect_same(run_text(cantilever, {fine, "analysis.load_steps=1"}), full);
+}
+
 TEST(LoadSteps, MustIncreaseAndBelongToStatics) {
   const CaseRun falling = run_text(cantilever, {"analysis.load_steps=[0.5, 0.2]"});
   EXPECT_EQ(falling.code, 2);
@@ -174,16 +219,6 @@ TEST(LoadSteps, MustIncreaseAndBelongToStatics) {
   const CaseRun moving = run_text(cantilever, {"analysis={\"end_time\": 1, \"load_steps\": 2}"});
   EXPECT_EQ(moving.code, 2);
   EXPECT_TRUE(moving.says("analysis.load_steps: is for a static analysis")) << moving.messages;
-}
-
-// A load that is asked for beyond what the structure carries names the share it reached: a flat arch of two
-// hinged bars snaps through.
-void expect_same(const CaseRun& a, const CaseRun& b) {
-  ASSERT_EQ(a.rows.size(), b.rows.size());
-  for (std::size_t i = 0; i < a.rows.size(); ++i)
-    for (const char* column :
-         {"time [s]", "tip.x [m]", "tip.y [m]", "tip.moment [N m]", "energy.bending [J]"})
-      EXPECT_EQ(a.value(i, column), b.value(i, column)) << column;
 }
 
 TEST(LoadSteps, ATableInAFileIsTheSameAsItsRows) {

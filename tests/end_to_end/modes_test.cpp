@@ -96,6 +96,63 @@ TEST(Modes, OfABeadThatSlidesAreFoundWhereverItIsDrawn) {
   }
 }
 
+/// The lowest frequency [Hz], or the first factor, of a bead of 0.5 kg that slides on a rigid half circle of
+/// 2 m radius, with what else its joint and the case say; what is said of it.
+std::pair<double, std::string> bead_in_half_circle(const std::string& joint, const std::string& rest = "",
+                                                   const std::string& type = "modes") {
+  Left left;
+  run_modes_text(R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+      "beams": [{ "name": "d", "axis": { "polyline": [[0, 3, 0], [0.1, 3, 0]] }, "section": { "radius": 0.02 },
+                  "material": "steel", "elements": { "count": 2 } },
+                { "name": "r", "rigid": true, "axis": { "arc": { "center": [0, 0, 0], "start": [-2, 0, 0],
+                                                                  "end": [2, 0, 0], "normal": [0, -1, 0] } } }],
+      "supports": [{ "beam": "d", "at": "start", "type": "clamped" }],
+      "bodies": [{ "name": "m", "mass": 0.5 }],
+      "sliding_joints": [{ "body": "m", "beam": "r", "at": { "fraction": 0.3 })" +
+                     joint + "}]," + rest + R"(
+      "analysis": { "type": ")" +
+                     type +
+                     R"(", "modes": { "count": 1, "bodies": "free" } }, "output": { "report": false } })",
+                 left);
+  EXPECT_EQ(left.code, 0) << left.messages;
+  if (left.code != 0) return {0, left.messages};
+  const nlohmann::json& first = left.run[type][0];
+  return {first[type == "modes" ? "frequency [Hz]" : "factor"].get<double>(), left.messages};
+}
+
+TEST(Modes, OfABeadThatSlidesAreWithoutFrictionAndRelease) {
+  const double pendulum = std::sqrt(9.81 / 2) / (2 * pi);
+  for (const char* held : {R"(, "friction": { "coefficient": 0.5 })", R"(, "release": 1)"}) {
+    const auto [frequency, messages] = bead_in_half_circle(held);
+    EXPECT_NEAR(frequency, pendulum, 1e-6 * pendulum) << held;
+    EXPECT_NE(messages.find("has no effect on modes and buckling"), std::string::npos) << messages;
+  }
+}
+
+// A pressed buffer, 0.1 pi before the bottom, is a spring: k e = m g sin(a) with the bead at the angle a.
+TEST(Modes, OfABeadAtAStopAreWhatIsSaidOfIt) {
+  const double k = 100, m = 0.5, R = 2;
+  double a = 0.1 * pi;
+  for (int i = 0; i < 50; ++i) a = 0.1 * pi - m * 9.81 * std::sin(a) / k / R;
+  const double on_buffer = std::sqrt(k / m + 9.81 * std::cos(a) / R) / (2 * pi);
+  const auto [frequency, messages] =
+      bead_in_half_circle("", R"("stops": [{ "beam": "r", "at": { "fraction": 0.4 }, "stiffness": 100 }],)");
+  EXPECT_NEAR(frequency, on_buffer, 1e-6 * on_buffer);
+  EXPECT_EQ(messages.find("stops[0]"), std::string::npos) << messages;
+  const auto [held, note] =
+      bead_in_half_circle("", R"("stops": [{ "beam": "r", "at": { "fraction": 0.4 } }],)");
+  EXPECT_GT(held, 1000);  // of the beam beside it
+  EXPECT_NE(note.find("stops[0]: holds what rests against it"), std::string::npos) << note;
+}
+
+// One that rests against a stop is held in the state with the loads too.
+TEST(Buckling, IsFoundWhereABodyRestsAgainstAStop) {
+  const std::string load = R"("loads": [{ "beam": "d", "at": "end", "force": [-1, 0, 0] }],)",
+                    stop = R"("stops": [{ "beam": "r", "at": { "fraction": 0.4 } }],)";
+  const double alone = bead_in_half_circle("", load, "buckling").first;
+  EXPECT_NEAR(bead_in_half_circle("", load + stop, "buckling").first, alone, 1e-9 * alone);
+}
+
 TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
   const double EI = 210e9 * pi * 1e-8 / 4, euler = pi * pi * EI / 16;
   Left left;
@@ -107,6 +164,66 @@ TEST(Buckling, OfACantileverGivesTheFactorOfItsLoad) {
   ASSERT_EQ(left.code, 0) << left.messages;
   EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler / 100, 1e-4 * euler / 100);
   EXPECT_EQ(left.table.substr(0, 13), "number,factor");
+}
+
+/// The factor on a thrust of 1 N at the end of a bar of 2 m between a pin and a guide, where something pulls.
+double factor_of_pulled_bar(const std::string& guide, const std::string& rest, double gravity = 0) {
+  Left left;
+  run_modes_text(R"({ "nurbeam": 1, "gravity": [0, )" + std::to_string(-gravity) +
+                     R"(, 0],
+      "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                  "material": { "density": 7800, "youngs_modulus": 2e11 }, "elements": { "count": 16 } }],
+      "supports": [{ "beam": "bar", "at": "start", "type": "pinned" },
+                   { "beam": "bar", "at": "end", "type": "guided", "direction": [1, 0, 0])" +
+                     guide + R"( }],
+      "loads": [{ "beam": "bar", "at": "end", "force": [-1, 0, 0] }],)" +
+                     rest + R"(
+      "analysis": { "type": "buckling", "modes": { "count": 1 } }, "output": { "report": false } })",
+                 left);
+  EXPECT_EQ(left.code, 0) << left.messages;
+  return left.code == 0 ? left.run["buckling"][0]["factor"].get<double>() : 0;
+}
+
+const double euler_of_pulled_bar = pi * pi * 2e11 * pi * 1e-8 / 4 / 4;
+
+// A spring of 1000 N/m and 0.5 m over the metre between the end and a wall: its force is there before the
+// load.
+TEST(Buckling, DoesNotMultiplyWhatAConnectorPullsAnyway) {
+  for (const char* length : {R"("force": 500)", R"("length": 0.5)"})
+    EXPECT_NEAR(factor_of_pulled_bar("", std::string(R"("connectors": [{ "name": "k", "type": "spring",
+      "from": { "beam": "bar", "at": "end" }, "to": { "point": [3, 0, 0] }, "stiffness": 1000,)") +
+                                             length + "}],"),
+                euler_of_pulled_bar + 500, 1)
+        << length;
+}
+
+// With what it is held up by it stands as drawn, a column half of whose length counts.
+TEST(Buckling, HasConnectorsAsLongAsTheyAreFoundUnderGravity) {
+  EXPECT_NEAR(
+      factor_of_pulled_bar("", R"("connectors": [{ "name": "k", "type": "spring", "length": "as-drawn",
+      "from": { "beam": "bar", "at": { "fraction": 0.5 } }, "to": { "point": [1, 1, 0] }, "stiffness": 1e7 }],)",
+                           9.81),
+      4 * euler_of_pulled_bar, 0.01 * euler_of_pulled_bar);
+}
+
+TEST(Buckling, DoesNotMultiplyWhatAGuidedSupportPulls) {
+  EXPECT_NEAR(factor_of_pulled_bar(R"(, "force": 500)", ""), euler_of_pulled_bar + 500, 1);
+}
+
+// A lump of 10 kg on a light column, whose weight is 98.1 N of its load.
+TEST(Buckling, DoesNotMultiplyTheWeightOfLumps) {
+  Left left;
+  run_modes_text(R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+      "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [0, 0, 2]] }, "section": { "radius": 0.01 },
+                  "material": { "density": 1, "youngs_modulus": 2e11 }, "elements": { "count": 16 } }],
+      "supports": [{ "beam": "bar", "at": "start", "type": "clamped" }],
+      "connectors": [{ "name": "k", "from": { "beam": "bar", "at": "end" }, "end_masses": [10, 0], "to": { "point": [0, 0, 3] },
+                       "direction": [0, 0, 1], "stiffness": 1e-6 }],
+      "loads": [{ "beam": "bar", "at": "end", "force": [0, 0, -1] }],
+      "analysis": { "type": "buckling", "modes": { "count": 1 } }, "output": { "report": false } })",
+                 left);
+  ASSERT_EQ(left.code, 0) << left.messages;
+  EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler_of_pulled_bar / 4 - 98.1, 0.5);
 }
 
 TEST(Modes, ThatCannotBeAreRefusedInWords) {
