@@ -195,7 +195,7 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
 }
 
 std::vector<double> read_load_factors(const Json& json, Findings& findings) {
-  if (!has(json, "load_steps")) return {1};
+  if (!has(json, "load_steps")) return {};
   std::vector<double> factors;
   if (json["load_steps"].is_array()) {
     factors = numbers(json, "load_steps");
@@ -232,10 +232,8 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
         findings.add(Severity::warning, child("analysis", key),
                      analysis.has_modes() ? "has no effect on modes and buckling"
                                           : "has no effect in a static analysis");
-    if (analysis.type == CaseAnalysis::Type::statics) {
+    if (analysis.type == CaseAnalysis::Type::statics)
       analysis.load_factors = read_load_factors(json, findings);
-      analysis.end_time = analysis.load_factors.back();
-    }
   }
   if (analysis.type != CaseAnalysis::Type::statics && has(json, "load_steps"))
     findings.error("analysis.load_steps",
@@ -291,6 +289,19 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   return output;
 }
 
+// Whether something has values over time, which a static analysis reads at its factor.
+bool has_tables(const CaseFile& read) {
+  const auto any = [](const auto& list, const auto& has) {
+    return std::any_of(list.begin(), list.end(), has);
+  };
+  return any(read.beams, [](const CaseBeam& beam) { return beam.temperature.size() > 1; }) ||
+         any(read.loads, [](const CaseLoad& load) { return !load.time.empty() || load.moving_speed; }) ||
+         any(read.supports, [](const CaseSupport& s) { return !s.motion.empty() || s.motion_law; }) ||
+         any(read.sliding_joints, [](const CaseSlidingJoint& joint) {
+           return joint.motion_speed || !joint.motion_table.empty() || joint.motion_law;
+         });
+}
+
 CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings& findings) {
   CaseFile result;
   result.path = file;
@@ -330,6 +341,11 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   read_all("joints", result.joints, read_beam_joint);
   read_all("connectors", result.connectors, read_connector);
   result.analysis = read_analysis(part(json, "analysis"), findings);
+  if (result.analysis.type == CaseAnalysis::Type::statics) {
+    result.analysis.reads_tables = has_tables(result);
+    const std::vector<double> factors = result.analysis.factors();
+    if (!factors.empty()) result.analysis.end_time = factors.back();
+  }
   result.output = read_output(part(json, "output"), result.analysis);
   return result;
 }

@@ -244,12 +244,17 @@ struct CaseAnalysis {
   enum class Type { dynamic, statics, modes, buckling } type = Type::dynamic;
   CaseModes modes;
   bool start_from_equilibrium = false;
-  double end_time = 0;               ///< [s]; of a static analysis the last load factor
-  std::vector<double> load_factors;  ///< of a static analysis, increasing
+  double end_time = 0;               ///< [s]; of a static analysis the last of its factors
+  std::vector<double> load_factors;  ///< of a static analysis, increasing; empty: 1
+  bool reads_tables = false;         ///< something in a static analysis changes with the factor of its own
   std::optional<double> step;        ///< fixed steps [s]; else those of the integrator's tolerance
   IntegratorSettings integrator;
   LengthControl length_control;
 
+  /// Of the states of a static analysis; empty: one, that nothing tells from factor 0 as from 1.
+  std::vector<double> factors() const {
+    return load_factors.empty() && reads_tables ? std::vector<double>{1} : load_factors;
+  }
   bool has_modes() const { return type == Type::modes || type == Type::buckling; }
   /// An explicit method, which is for models without constraints between moving parts.
   bool is_explicit() const { return std::holds_alternative<ExplicitRungeKutta>(integrator); }

@@ -471,7 +471,7 @@ std::optional<AdaptedMesh> adapt_elements(const ResolvedCase& resolved, BeamMode
     if (beam.elements.tolerance && path.empty()) path = beam.path + ".elements.tolerance";
   }
   if (path.empty()) return {};
-  const std::vector<double>& factors = resolved.analysis.load_factors;
+  const std::vector<double> factors = resolved.analysis.factors();
   const AdaptedMesh adapted =
       adapt_mesh(model, tolerances, most_elements, interrupted, factors.empty() ? 0 : factors.back());
   if (adapted.interrupted) {

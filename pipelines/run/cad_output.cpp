@@ -53,7 +53,7 @@ CadOutput::CadOutput(const CaseFile& case_file, const BuiltModel& built, std::fi
 
 bool CadOutput::is_wanted(const Snapshot& frame) const {
   const bool one_frame =
-      case_.analysis.type == CaseAnalysis::Type::statics && case_.analysis.load_factors.size() == 1;
+      case_.analysis.type == CaseAnalysis::Type::statics && case_.analysis.load_factors.empty();
   if (one_frame || case_.output.cad_at_all_times) return true;
   const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
   return std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
@@ -66,8 +66,7 @@ std::string CadOutput::stem(const Snapshot& frame) const {
   name << "deformed";
   const bool statics = case_.analysis.type == CaseAnalysis::Type::statics;
   const std::vector<double>& factors = case_.analysis.load_factors;
-  if (statics &&
-      (factors.size() == 1 || (!case_.output.cad_at_all_times && case_.output.cad_times.size() == 1)))
+  if (statics && (factors.empty() || (!case_.output.cad_at_all_times && case_.output.cad_times.size() == 1)))
     return name.str();
   if (!case_.output.cad_at_all_times) {
     name << "_t" << frame.time;

@@ -35,7 +35,7 @@ SimulationOptions simulation_options(const CaseFile& c) {
   options.step = a.step;
   options.integrator = a.integrator;
   options.length_control = a.length_control;
-  options.output_times = options.statics ? a.load_factors : output_times(c);
+  options.output_times = options.statics ? a.factors() : output_times(c);
   return options;
 }
 

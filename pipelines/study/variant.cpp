@@ -208,7 +208,9 @@ bool ends_vary(const StudyFile& study) {
 void check_times(const StudyFile& study, const CaseFile& case_file, Findings& findings) {
   const SimulationOptions options = simulation_options(case_file);
   if (ends_vary(study)) return;
-  const double begin = options.output_times.front(), end = options.output_times.back();
+  const bool is_one = options.output_times.empty();  // equilibrium
+  const double begin = is_one ? 0 : options.output_times.front(),
+               end = is_one ? 0 : options.output_times.back();
   const std::string extent =
       std::string(options.statics ? "the load steps of the case go" : "a run of this case goes") + " from " +
       text_of(begin) + " s to " + text_of(end) + " s";
