@@ -16,6 +16,7 @@ struct PlaceMass {
   double s;            ///< [m]
   double mass;         ///< [kg]
   bool weighs = true;  ///< else it has inertia alone: what hangs over a pulley pulls as a force
+  static constexpr bool permanent = true;
 
   template <int D>
   using Bound = BoundPlaceMass<D>;

@@ -259,8 +259,15 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, const Mod
 
 // Whether it is there before the loads: the weight of lumps, and what pulls at guided supports.
 bool is_permanent(const Force& force) {
-  const auto* load = std::get_if<PointLoad>(&force);
-  return std::holds_alternative<PlaceMass>(force) || (load && load->permanent);
+  return std::visit(
+      [](const auto& described) {
+        if constexpr (
+            requires { described.permanent; })
+          return bool(described.permanent);
+        else
+          return false;
+      },
+      force);
 }
 
 // ---- Shapes ----

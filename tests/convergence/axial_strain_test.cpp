@@ -21,8 +21,10 @@ using std::numbers::pi;
 // The cantilever of `nurbeam verify axial-strain-cantilever`, which asks the assumed strain for 4e-6 m.
 TEST(PointwiseAxialStrain, LocksInASlenderCantilever) {
   constexpr double EA = 1e8, P = 10;
-  BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
-                                      BeamProperties(EA, 1, 1), 16, {{0, true}});
+  BeamProperties properties(EA, 1, 1);
+  properties.axial_strain = AxialStrain::pointwise;
+  BeamModel model =
+      testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2, properties, 16, {{0, true}});
   model.gravity.setZero();
   model.forces.push_back(PointLoad{{.s = 1, .value = {0, -P, 0}}});
   const BeamSystem system(model);
