@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_analysis.h"
 #include "pipelines/case/case_beam.h"
 #include "pipelines/case/case_check.h"
 #include "pipelines/case/case_connector.h"
@@ -171,87 +172,6 @@ CaseBeamJoint read_beam_joint(const Json& json, const std::string& path, Finding
   return joint;
 }
 
-// Steps are fixed unless there is none: then the integrator chooses them by the tolerance.
-IntegratorSettings read_integrator(const Json& json, std::optional<double> tolerance, bool fixed_steps,
-                                   Findings& findings) {
-  enum class Method { generalized_alpha, ida, rk4 };
-  const auto method = chosen<Method>(
-      json, "type",
-      {{"generalized-alpha", Method::generalized_alpha}, {"ida", Method::ida}, {"rk4", Method::rk4}});
-  if (method != Method::generalized_alpha && has(json, "rho_infinity"))
-    findings.add(Severity::warning, "analysis.integrator.rho_infinity",
-                 "has an effect with \"generalized-alpha\" only");
-  switch (method) {
-    case Method::ida:
-      return Ida{.tolerance = tolerance.value_or(Ida{}.tolerance)};
-    case Method::rk4:
-      return ExplicitRungeKutta{};
-    case Method::generalized_alpha:
-      break;
-  }
-  constexpr double default_tolerance = 1e-4;
-  return GeneralizedAlpha{.rho_infinity = number(json, "rho_infinity", GeneralizedAlpha{}.rho_infinity),
-                          .tolerance = fixed_steps ? 0 : tolerance.value_or(default_tolerance)};
-}
-
-std::vector<double> read_load_factors(const Json& json, Findings& findings) {
-  if (!has(json, "load_steps")) return {};
-  std::vector<double> factors;
-  if (json["load_steps"].is_array()) {
-    factors = numbers(json, "load_steps");
-  } else {
-    const int count = json["load_steps"].get<int>();
-    for (int k = 1; k <= count; ++k) factors.push_back(k / static_cast<double>(count));
-  }
-  for (std::size_t i = 0; i + 1 < factors.size(); ++i)
-    if (!(factors[i] < factors[i + 1]))
-      findings.error(child("analysis.load_steps", i + 1), "is " + text_of(factors[i + 1], all_digits) +
-                                                              " after " + text_of(factors[i], all_digits) +
-                                                              "; factors must increase");
-  return factors;
-}
-
-CaseAnalysis read_analysis(const Json& json, Findings& findings) {
-  CaseAnalysis analysis;
-  analysis.type = chosen<CaseAnalysis::Type>(json, "type",
-                                             {{"dynamic", CaseAnalysis::Type::dynamic},
-                                              {"static", CaseAnalysis::Type::statics},
-                                              {"modes", CaseAnalysis::Type::modes},
-                                              {"buckling", CaseAnalysis::Type::buckling}});
-  analysis.start_from_equilibrium = text(json, "initial") == "equilibrium";
-  const Json& control = part(json, "length_control");
-  analysis.length_control = {number(control, "min", analysis.length_control.min),
-                             number(control, "max", analysis.length_control.max)};
-  const bool dynamic = analysis.type == CaseAnalysis::Type::dynamic;
-  if (dynamic) {
-    analysis.end_time = number(json, "end_time", 0);
-    analysis.step = optional_number(json, "step");
-  } else {
-    for (const char* key : {"end_time", "step", "tolerance", "initial"})
-      if (has(json, key))
-        findings.add(Severity::warning, child("analysis", key),
-                     analysis.has_modes() ? "has no effect on modes and buckling"
-                                          : "has no effect in a static analysis");
-    if (analysis.type == CaseAnalysis::Type::statics)
-      analysis.load_factors = read_load_factors(json, findings);
-  }
-  if (analysis.type != CaseAnalysis::Type::statics && has(json, "load_steps"))
-    findings.error("analysis.load_steps",
-                   "is for a static analysis; give loads a \"time\" table, or \"type\": \"static\"");
-  const Json& modes = part(json, "modes");
-  if (has(json, "modes") && !analysis.has_modes())
-    findings.add(Severity::warning, "analysis.modes",
-                 "has no effect but with the type \"modes\" or \"buckling\"");
-  analysis.modes = {.count = optional_integer(modes, "count").value_or(CaseModes{}.count),
-                    .about_equilibrium = text(modes, "about") != "drawn",
-                    .bodies_held = text(modes, "bodies") != "free"};
-  analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
-                                        analysis.step.has_value(), findings);
-  if (dynamic && analysis.is_explicit() && !analysis.step)
-    findings.error("analysis.step", "is missing; the explicit method \"rk4\" needs a fixed step");
-  return analysis;
-}
-
 CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   CaseOutput output;
   output.every = optional_number(json, "every");
@@ -287,19 +207,6 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   output.paraview = flag(json, "paraview");
   output.report = !has(json, "report") || flag(json, "report");
   return output;
-}
-
-// Whether something has values over time, which a static analysis reads at its factor.
-bool has_tables(const CaseFile& read) {
-  const auto any = [](const auto& list, const auto& has) {
-    return std::any_of(list.begin(), list.end(), has);
-  };
-  return any(read.beams, [](const CaseBeam& beam) { return beam.temperature.size() > 1; }) ||
-         any(read.loads, [](const CaseLoad& load) { return !load.time.empty() || load.moving_speed; }) ||
-         any(read.supports, [](const CaseSupport& s) { return !s.motion.empty() || s.motion_law; }) ||
-         any(read.sliding_joints, [](const CaseSlidingJoint& joint) {
-           return joint.motion_speed || !joint.motion_table.empty() || joint.motion_law;
-         });
 }
 
 CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings& findings) {

@@ -246,12 +246,12 @@ struct CaseAnalysis {
   bool start_from_equilibrium = false;
   double end_time = 0;               ///< [s]; of a static analysis the last of its factors
   std::vector<double> load_factors;  ///< of a static analysis, increasing; empty: 1
-  bool reads_tables = false;         ///< something in a static analysis changes with the factor of its own
+  bool reads_tables = false;         ///< at the factor, of a static analysis (has_tables)
   std::optional<double> step;        ///< fixed steps [s]; else those of the integrator's tolerance
   IntegratorSettings integrator;
   LengthControl length_control;
 
-  /// Of the states of a static analysis; empty: one, that nothing tells from factor 0 as from 1.
+  /// Of the states of a static analysis; empty: one under full loads, in which nothing is read at a factor.
   std::vector<double> factors() const {
     return load_factors.empty() && reads_tables ? std::vector<double>{1} : load_factors;
   }

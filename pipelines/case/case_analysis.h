@@ -1,0 +1,13 @@
+#pragma once
+#include "pipelines/case/case_values.h"
+#include "pipelines/diagnostics/findings.h"
+
+namespace nurbeam {
+
+/// Reads "analysis", which has been checked against its shape; reports what it cannot be by itself.
+CaseAnalysis read_analysis(const Json& json, Findings& findings);
+
+/// Whether something has values over time, which a static analysis reads at its factor.
+bool has_tables(const CaseFile& read);
+
+}  // namespace nurbeam
