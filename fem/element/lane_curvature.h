@@ -26,7 +26,7 @@ struct Curvature {
       const double m = material ? 2 : 3;
       const Lanes8 G = dot<D>(rss, rss), F = dot<D>(rs, rss);
       const Lanes8 i = 1 / A, p = material ? i * i : i * i * i;
-      const Lanes8 square = p * (A * G - F * F);
+      const Lanes8 square = p * positive(A * G - F * F);
       value = square_root(square + curvature_rounding * curvature_rounding);
       const Lanes8 q = p / value, along = m * i * square / value;
       for (int d = 0; d < D; ++d) {
@@ -82,7 +82,7 @@ NURBEAM_WITHIN PairMatrix<D> bending_hessian(const LaneVector<D>& rs, const Lane
     scale_by_stretch<D>(rs, m, material ? 1 / A : 1 / (A * square_root(A)), value, gradient, H);
   } else {
     const Lanes8 G = dot<D>(rss, rss), F = dot<D>(rs, rss);
-    value = A * G - F * F;
+    value = positive(A * G - F * F);
     for (int a = 0; a < D; ++a) {
       gradient[a] = 2 * (G * rs[a] - F * rss[a]);
       gradient[D + a] = 2 * (A * rss[a] - F * rs[a]);

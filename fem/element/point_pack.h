@@ -72,7 +72,7 @@ struct CurvatureLanes {
       const double m = material ? 2 : 3;
       const Lanes G = dot<D>(rss, rss), F = dot<D>(rs, rss);
       const Lanes p = material ? Lanes(1 / (A * A)) : Lanes(1 / (A * A * A));
-      const Lanes square = p * (A * G - F * F);
+      const Lanes square = p * (A * G - F * F).max(0.0);
       value = (square + curvature_rounding * curvature_rounding).sqrt();
       const Lanes q = p / value, along = m * square / (A * value);
       for (int d = 0; d < D; ++d) {

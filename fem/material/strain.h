@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -56,7 +57,7 @@ Strain<D, wanted> cross_measure(const Eigen::Matrix<double, D, 1>& rs,
     }
   } else {
     const double A = rs.squaredNorm(), G = rss.squaredNorm(), F = rs.dot(rss);
-    c.value = A * G - F * F;
+    c.value = std::max(0.0, A * G - F * F);
     c.gradient.template head<D>() = 2 * (G * rs - F * rss);
     c.gradient.template tail<D>() = 2 * (A * rss - F * rs);
     if constexpr (wanted == Derivatives::two) {
@@ -96,8 +97,9 @@ Strain<D, wanted> scaled_by_stretch(const Strain<D, wanted>& c, const Eigen::Mat
 
 /// Curvature in space is rounded near zero, sqrt(K^2 + curvature_rounding^2) [1/m], so that K = 0 is no
 /// singular point: with kappa_0 = 0 forces are those of EI K^2/2 exactly, and the energy differs by a
-/// constant.
-inline constexpr double curvature_rounding = 1e-4;
+/// constant. Damping sees none of a rate where K is far below it: it is as small as the round-off of r_ss
+/// along r_s lets it be.
+inline constexpr double curvature_rounding = 1e-6;
 
 /// Signed curvature of a planar axis, rounded curvature of a spatial one [1/m]; undefined at r_s = 0.
 template <int D, Derivatives wanted = Derivatives::two>
