@@ -111,6 +111,18 @@ void slide_sections(const BeamSystem& system, const MeshNode& node, int left, in
   }
 }
 
+// The field at a place as what lies ahead of a body has it, which moves there at this speed along the beam.
+MaterialPoint<3> point_ahead(const BeamSystem& system, const State& state, int beam, double s, double speed) {
+  const Mesh& mesh = system.mesh();
+  const int first = mesh.first_span[beam], end = mesh.first_span[beam + 1];
+  if (!(speed < 0) || first == end) return material_point(system, state, beam, s);
+  const int span = find_span(system.model(), mesh, state.q, beam, s);
+  if (s > mesh.spans[span].start(state.q)) return material_point_in(system, state, span, s);
+  if (span > first) return material_point_in(system, state, span - 1, s);
+  return system.model().beams[beam].is_ring() ? material_point_in(system, state, end - 1, s)
+                                              : material_point(system, state, beam, s);
+}
+
 }  // namespace
 
 State drawn_state(const BeamSystem& system) {
@@ -135,8 +147,8 @@ void start_moving(const BeamSystem& system, State& state) {
     const double speed = joint.motion ? joint.motion->at(state.t).speed : joint.speed;
     const double s = state.q[at.place];
     const int first = mesh.first_span[joint.beam], end = mesh.first_span[joint.beam + 1];
-    state.v.segment(mesh.bodies[joint.body], D) =
-        speed * material_point(system, state, joint.beam, s).rs.head(D);
+    const Eigen::VectorXd velocity = speed * point_ahead(system, state, joint.beam, s, speed).rs.head(D);
+    state.v.segment(mesh.bodies[joint.body], D) = velocity;
     state.v[at.place] = speed;
     if (at.node < 0) continue;
     const int index = first + at.node;
@@ -144,7 +156,7 @@ void start_moving(const BeamSystem& system, State& state) {
     // The material is at rest, so the slopes at the moving node change by what the node meets.
     const MaterialPoint<3> left = material_point_in(system, state, (index > first ? index : end) - 1, s);
     const MeshNode& node = mesh.nodes[joint.beam][at.node];
-    state.v.segment(node.r, D) = speed * right.rs.head(D);
+    state.v.segment(node.r, D) = velocity;
     const bool shared = node.slope_left == node.slope_right;
     state.v.segment(node.slope_left, D) =
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);

@@ -43,5 +43,32 @@ TEST(StiffHinge, IsNoneWhereTheSlopeIsContinuous) {
   EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 2e-3);
 }
 
+// Two motions that are each other's image in the plane of symmetry.
+TEST(KinkedCable, IsLeftAlongThePartAheadInBothDirections) {
+  const auto leave = [](const std::string& speed) {
+    const TemporaryDirectory directory;
+    return run_file(directory.write("cable.json", R"({"nurbeam": 1, "gravity": [0, 0, -9.81],
+      "beams": [{"name": "cable", "axis": {"polyline": [[0, 0, 0], [40, 0, 0]]}, "unstressed_length": 40.5,
+                 "stress_free": "straight", "section": {"radius": 0.006},
+                 "material": {"density": 5200, "youngs_modulus": 6e10}, "elements": {"count": 20}}],
+      "supports": [{"beam": "cable", "at": "start", "type": "pinned"},
+                   {"beam": "cable", "at": "end", "type": "pinned"}],
+      "bodies": [{"name": "m", "mass": 80}],
+      "sliding_joints": [{"body": "m", "beam": "cable", "at": {"fraction": 0.5}, "slope": "discontinuous",
+                          "speed": )" + speed + R"(}],
+      "analysis": {"initial": "equilibrium", "end_time": 0.2, "step": 1e-3},
+      "output": {"report": false, "every": 0.05}})"));
+  };
+  const CaseRun on = leave("3"), back = leave("-3");
+  EXPECT_GT(on.value(0, "m.vz [m/s]"), 0.3);  // up, as the cable ahead of it
+  ASSERT_EQ(on.rows.size(), back.rows.size());
+  for (std::size_t i = 0; i < on.rows.size(); ++i) {
+    EXPECT_NEAR(on.value(i, "m.x [m]") - 20, 20 - back.value(i, "m.x [m]"), 1e-4) << i;
+    EXPECT_NEAR(on.value(i, "m.z [m]"), back.value(i, "m.z [m]"), 1e-4) << i;
+  }
+  EXPECT_NEAR(on.value(0, "m.vx [m/s]"), -back.value(0, "m.vx [m/s]"), 1e-6);
+  EXPECT_NEAR(on.value(0, "m.vz [m/s]"), back.value(0, "m.vz [m/s]"), 1e-6);
+}
+
 }  // namespace
 }  // namespace nurbeam::test
