@@ -38,9 +38,10 @@ void check_motion(const CaseSlidingJoint& joint, double s, const ReferenceCurve&
   }
 }
 
-// The motion at a constant speed from s, to the end of the beam or of the analysis.
+// The motion at a constant speed from s, to the end of the beam or for twice as long as the analysis: with it
+// the body would stand still at its end.
 TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, double end_time) {
-  const double end = curve.closed() ? s + speed * end_time : speed > 0 ? curve.length() : 0;
+  const double end = curve.closed() ? s + speed * 2 * end_time : speed > 0 ? curve.length() : 0;
   if (speed == 0 || end == s) return {{0, s}, {1, s}};
   return {{0, s}, {(end - s) / speed, end}};
 }
