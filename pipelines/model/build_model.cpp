@@ -536,6 +536,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
   mention_plane(resolved, built.frame.dimension, findings);
+  if (resolved.analysis.type == CaseAnalysis::Type::dynamic)
+    mention_damping(resolved.beams, built.model, findings);
   built.frame.gravity_energy = -mass_of(built.model) * resolved.gravity.dot(built.frame.origin);
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);

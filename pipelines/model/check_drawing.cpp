@@ -57,7 +57,26 @@ bool bends_alike(const SectionStiffness& section) {
   return difference <= little * std::max(section.bending_1, section.bending_2);
 }
 
+// Whether a beam resists bending as bars do: cables are damped by other things.
+bool is_bar(const Beam& beam) {
+  constexpr double most_slender = 3000;  // length over radius of gyration
+  const double length = beam.curve.length(), EA = beam.properties.axial_stiffness,
+               EI = beam.properties.bending_stiffness;
+  return EI * most_slender * most_slender >= EA * length * length;
+}
+
 }  // namespace
+
+void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings) {
+  if (model.dimension != 3) return;
+  for (std::size_t b = 0; b < model.beams.size(); ++b) {
+    const Beam& beam = model.beams[b];
+    if (beam.rigid || beam.has_torsion() || !(beam.properties.damping > 0) || !is_bar(beam)) continue;
+    findings.add(Severity::note, beams[b].path + ".material",
+                 "a beam without torsion is damped in how much it bends, not in where to: vibrations across the "
+                 "plane in which it is bent go on; with \"torsion\": true of the beam they decay too");
+  }
+}
 
 void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, const ModelFrame& frame,
                  Findings& findings) {

@@ -15,4 +15,7 @@ namespace nurbeam {
 void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, const ModelFrame& frame,
                  Findings& findings);
 
+/// Notes what the damping of bars in space without torsion does not reach.
+void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings);
+
 }  // namespace nurbeam

@@ -93,5 +93,21 @@ TEST(CheckCase, WarnsOfSectionsThatTurnByMoreThan30DegreesInAnElement) {
   EXPECT_EQ(warnings(R"({"radius": "5 mm"})", 5).find("turns by"), std::string::npos);
 }
 
+TEST(CheckCase, NotesWhatDampingDoesNotReachInBarsInSpaceWithoutTorsion) {
+  const std::string sideways = R"(loads=[{"beam": "cable", "at": "end", "force": [0, 1, 1]},
+    {"beam": "cable", "at": "start", "force": [0, 1, 0]}])";
+  const std::string damped = "beams[0].material.damping=1e-3";
+  const std::string thick = "beams[0].section.radius=\"50 mm\"", thin = "beams[0].section.radius=\"0.5 mm\"";
+  const auto notes = [](const std::vector<std::string>& overrides) {
+    return checked_both(overrides).err.find("a beam without torsion is damped in how much it bends") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(notes({sideways, damped, thick}));
+  EXPECT_FALSE(notes({sideways, thick})) << "no damping";
+  EXPECT_FALSE(notes({damped, thick})) << "a plane";
+  EXPECT_FALSE(notes({sideways, damped, thin})) << "a cable";
+  EXPECT_FALSE(notes({sideways, damped, thick, "beams[0].torsion=true"}));
+}
+
 }  // namespace
 }  // namespace nurbeam
