@@ -72,9 +72,10 @@ void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model,
   for (std::size_t b = 0; b < model.beams.size(); ++b) {
     const Beam& beam = model.beams[b];
     if (beam.rigid || beam.has_torsion() || !(beam.properties.damping > 0) || !is_bar(beam)) continue;
-    findings.add(Severity::note, beams[b].path + ".material",
-                 "a beam without torsion is damped in how much it bends, not in where to: vibrations across the "
-                 "plane in which it is bent go on; with \"torsion\": true of the beam they decay too");
+    findings.add(
+        Severity::note, beams[b].path + ".material",
+        "a beam without torsion is damped in how much it bends, not in where to: vibrations across the "
+        "plane in which it is bent go on; with \"torsion\": true of the beam they decay too");
   }
 }
 

@@ -241,7 +241,8 @@ TEST(RingRun, APrescribedSpeedIsThatOfTheLastMomentToo) {
     const CaseRun run = run_ring(circle(0), R"("bodies": [{"name": "bead", "mass": 0.1}],
       "supports": [{"beam": "ring", "at": "start", "type": "clamped"}],
       "sliding_joints": [{"body": "bead", "beam": "ring", "at": {"fraction": 0.25}, "motion": {"speed": 3.3}}],
-      "analysis": {"end_time": )" + std::string(end) + R"(, "step": "1 ms"}, "output": {"every": 0.05})");
+      "analysis": {"end_time": )" + std::string(end) +
+                                                R"(, "step": "1 ms"}, "output": {"every": 0.05})");
     ASSERT_EQ(run.code, 0) << run.messages;
     EXPECT_NEAR(run.last("bead.speed [m/s]"), 3.3, 0.5) << end;  // the ring gives way
   }
