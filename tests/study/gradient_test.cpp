@@ -247,6 +247,36 @@ TEST(Gradient, OfARopeThatIsDrawnTaut) {
   expect_gradient(of, 0.01, 1e-4);
 }
 
+// EA is a million times as large as the loads: the derivative is that of differences of whole runs however
+// narrow its range is, and whichever way the control point is named.
+TEST(Gradient, OfForcesByControlPointsWithNarrowRanges) {
+  const auto by = [](const char* target, const char* range) {
+    return StudyOfCase(
+        R"json({"nurbeam": 1, "gravity": [-5.65, 3.37, -5.54], "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0, 0], [3, 0, -0.27]]}},
+      "torsion": true, "section": {"area": 1e-3, "second_moments": [3e-8, 9e-8], "product": 2e-8, "torsion_constant": 4e-8},
+      "material": {"density": 7800, "youngs_modulus": "210 GPa", "poissons_ratio": 0.3}, "elements": {"count": 24}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "A"},
+                 {"beam": "beam", "at": {"fraction": 0.54}, "type": "pinned", "name": "B"}],
+    "loads": [{"beam": "beam", "at": "end", "force": [-11.5, 54, 45.6]}],
+    "analysis": {"type": "static"}})json",
+        std::string("\"variables\": [{\"name\": \"y\", ") + target + ", \"range\": " + range +
+            R"json(}], "quantities": [{"name": "A", "value": "at(end, A.fz)"}], "plan": {"grid": 2})json");
+  };
+  const char *point = R"json("control_point": {"beam": "beam", "index": 0, "axis": "y"})json",
+             *path = R"json("path": "beams[0].axis.nurbs.control_points[0][1]")json";
+  StudyOfCase wide = by(point, "[-0.1, 0.1]");
+  const auto force = [&](double y) { return wide.run({y}, false).quantities[0]; };
+  constexpr double step = 2e-3;
+  const double expected = (force(step) - force(-step)) / (2 * step);
+  EXPECT_GT(std::abs(expected), 1);
+  for (const char* target : {point, path})
+    for (const char* range : {"[-1e-5, 1e-5]", "[-1e-3, 1e-3]", "[-0.1, 0.1]"}) {
+      StudyOfCase of = by(target, range);
+      EXPECT_NEAR(of.run({0}, true).gradient[0][0], expected, 1e-4 * std::abs(expected)) << target << range;
+    }
+}
+
 // A force is a small difference of great numbers: EA is ten thousand times as large as the loads.
 TEST(Gradient, OfForcesInAStiffCable) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "cable",
