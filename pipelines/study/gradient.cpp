@@ -55,12 +55,19 @@ std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vec
   return times;
 }
 
-/// Throws std::invalid_argument where beams of a neighbouring model are drawn in another way.
-void check_drawn_alike(const BeamModel& own, const BeamModel& other) {
-  if (other.dimension != own.dimension)
+// Throws std::invalid_argument where a neighbouring model is in space, or has been put into a plane that it
+// is out of by little: what a parameter does out of it is left out.
+void check_planar_alike(const BuiltModel& own, const BuiltModel& other) {
+  constexpr double round_off = 1e-14;
+  const bool leaves_out = std::abs(other.frame.off_plane - own.frame.off_plane) > round_off;
+  if (other.model.dimension != own.model.dimension || leaves_out)
     throw std::invalid_argument(
         "the model is plane, and one in space with another value; take a nominal value that is out of the "
         "plane, or differences of runs");
+}
+
+/// Throws std::invalid_argument where beams of a neighbouring model are drawn in another way.
+void check_drawn_alike(const BeamModel& own, const BeamModel& other) {
   for (std::size_t b = 0; b < own.beams.size(); ++b) {
     const int parts = own.beams[b].curve.segment_count(), others = other.beams[b].curve.segment_count();
     if (parts != others)
@@ -240,6 +247,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     BuildReport report = neighbour ? build_model(*neighbour, {}, &model) : BuildReport{};
     if (neighbour && !report.value) why = first_error(report.diagnostics);
     if (!report.value) return std::nullopt;
+    check_planar_alike(model, *report.value);
     check_drawn_alike(model.model, report.value->model);
     return NeighbouringRun(own_histories, std::move(of),
                            std::make_unique<const BuiltModel>(std::move(*report.value)));
