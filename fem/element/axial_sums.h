@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "fem/element/inertia.h"
 #include "fem/material/assumed_axial.h"
@@ -55,16 +56,16 @@ struct AxialSums {
 };
 
 /// The viscosity eta = beta S of a tension S = EA I / l, without the strain that carries no force; none where
-/// that is compression.
+/// that is compression, or as it is held to be.
 template <int D>
 struct TautViscosity {
   double value = 0;                                      ///< [N s]
   ElementVector<D> gradient = ElementVector<D>::Zero();  ///< in q
 
   TautViscosity() = default;
-  TautViscosity(const BeamProperties& properties, const AxialSums<D>& sums) {
+  TautViscosity(const BeamProperties& properties, const AxialSums<D>& sums, std::optional<bool> taut) {
     const double I = sums.y[0], l = sums.y[3];
-    if (!(properties.tension_damping > 0) || !(I > 0)) return;
+    if (!(properties.tension_damping > 0) || !taut.value_or(I > 0)) return;
     const double factor = properties.tension_damping * properties.axial_stiffness / l;
     value = factor * I;
     gradient = factor * (sums.y_q.row(0) - I / l * sums.y_q.row(3)).transpose();

@@ -114,16 +114,22 @@ struct ElementBatch<D>::Kernel {
             b};
   }
 
+  // I where it is tension, or held to be; else 0.
+  NURBEAM_WITHIN Lanes8 tension(const Lanes8& I, const Eigen::VectorXd& sides) const {
+    if (sides.size() == 0) return positive(I);
+    return gathered(sides.data(), batch.sides_) * I;
+  }
+
   // The assumed axial strain, its damping and that of the tension (TautViscosity).
-  NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, double free_strain,
-                                       Nodes& force) const {
+  NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, const Eigen::VectorXd& sides,
+                                       double free_strain, Nodes& force) const {
     const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
     if (!assumed && !(beam.tension_damping > 0)) return;
     const auto [I_e, I] = stretch(e, free_strain);
     const Lanes8 l = numbers.length;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
-      const Lanes8 eta = factor / l * positive(I);
+      const Lanes8 eta = factor / l * tension(I, sides);
       add(eta, product(e_rate, numbers.stretch), force);
     }
     if (!assumed) return;
@@ -142,6 +148,10 @@ struct ElementBatch<D>::Kernel {
     }
   }
 
+  NURBEAM_WITHIN static Lanes8 gathered(const double* values, const std::array<int, lanes>& at) {
+    return Lanes8{{{values[at[0]], values[at[1]], values[at[2]], values[at[3]]},
+                   {values[at[4]], values[at[5]], values[at[6]], values[at[7]]}}};
+  }
   NURBEAM_WITHIN Nodes gathered(const double* values) const {
     Nodes nodes;
     for (int k = 0; k < nodal; ++k) {
@@ -150,8 +160,7 @@ struct ElementBatch<D>::Kernel {
         nodes[k / D][k % D] = Lanes8{} + values[at[0]];
         continue;
       }
-      nodes[k / D][k % D] = Lanes8{{{values[at[0]], values[at[1]], values[at[2]], values[at[3]]},
-                                    {values[at[4]], values[at[5]], values[at[6]], values[at[7]]}}};
+      nodes[k / D][k % D] = gathered(values, at);
     }
     return nodes;
   }
@@ -170,7 +179,7 @@ struct ElementBatch<D>::Kernel {
     for (int k = 0; k < 4; ++k)
       for (int d = 0; d < D; ++d) force[k][d] -= load[d] * numbers.load_factor[k];
     add_point_forces(e, e_rate, force);
-    add_axial_forces(e, e_rate, free_strain, force);
+    add_axial_forces(e, e_rate, state.sides, free_strain, force);
     scatter(force, forces, stride);
   }
 
@@ -211,15 +220,15 @@ struct ElementBatch<D>::Kernel {
   }
 
   // As add_axial_forces.
-  NURBEAM_WITHIN void add_axial_energies(const Nodes& e, const Nodes& e_rate, double free_strain,
-                                         Energies& sum) const {
+  NURBEAM_WITHIN void add_axial_energies(const Nodes& e, const Nodes& e_rate, const Eigen::VectorXd& sides,
+                                         double free_strain, Energies& sum) const {
     const bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
     if (!assumed && !(beam.tension_damping > 0)) return;
     const auto [I_e, I] = stretch(e, free_strain);
     const Lanes8 l = numbers.length;
     if (beam.tension_damping > 0) {
       const double factor = beam.tension_damping * beam.axial_stiffness;
-      const Lanes8 eta = factor / l * positive(I);
+      const Lanes8 eta = factor / l * tension(I, sides);
       sum.dissipation += eta * sum_of_products(e_rate, product(e_rate, numbers.stretch));
     }
     if (!assumed) return;
@@ -242,7 +251,7 @@ struct ElementBatch<D>::Kernel {
     sum.kinetic = sum_of_products(e_rate, product(e_rate, numbers.mass)) / 2;
     sum.dissipation = 2 * beam.mass_damping * sum.kinetic;
     add_point_energies(e, e_rate, sum);
-    add_axial_energies(e, e_rate, free_strain, sum);
+    add_axial_energies(e, e_rate, state.sides, free_strain, sum);
     std::array<ElementEnergy, lanes> each;
     for (int i = 0; i < batch.count_; ++i) {
       each[i].kinetic = sum.kinetic.of(i);

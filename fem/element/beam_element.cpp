@@ -111,7 +111,7 @@ TautViscosity<D> BeamElement<D>::taut_viscosity(const ElementState<D>& x) const 
   if (!(properties_->tension_damping > 0)) return {};
   AxialSums<D> sums = axial_sums(x.q);
   sums.take_out(x.free_strain);
-  return {*properties_, sums};
+  return {*properties_, sums, x.taut};
 }
 
 template <int D>

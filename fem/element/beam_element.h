@@ -106,6 +106,8 @@ class BeamElement {
   ElementNodes<D> nodal_momentum(const ElementNodes<D>& rates) const {
     return with_sums([&](const FixedSums& sums) { return ElementNodes<D>(rates * sums.mass); });
   }
+  /// Whether it is in tension, as its damping has it.
+  bool is_taut(const ElementState<D>& x) const { return taut_viscosity(x).value > 0; }
   /// Deformed [m].
   double length(const ElementVector<D>& q) const;
   /// What the assumed strain is made of, with its gradient in q.

@@ -79,7 +79,7 @@ FixedLanes ElementBatch<D>::numbers(const BeamElement<D>& element) {
 
 template <int D>
 void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
-                          const Vector& slope_offset, std::ptrdiff_t forces_at) {
+                          const Vector& slope_offset, int side, std::ptrdiff_t forces_at) {
   take_numbers(element);
   forces_at_[count_] = forces_at;
   // The first element fills the lanes beyond it until others take them.
@@ -87,6 +87,7 @@ void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, e
   for (int i = count_; i < end; ++i) {
     for (int k = 0; k < nodal; ++k) dofs_[k][i] = dofs[k];
     for (int d = 0; d < D; ++d) slope_offset_[d].set(i, slope_offset[d]);
+    sides_[i] = side;
   }
   for (int k = 0; k < nodal; ++k) same_dofs_ = same_dofs_ && dofs_[k][count_] == dofs_[k][0];
   ++count_;

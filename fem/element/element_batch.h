@@ -25,10 +25,10 @@ class ElementBatch {
   bool is_full() const { return count_ == lanes; }
   int count() const { return count_; }
   /// Adds an element of the same properties; `dofs`: its global coordinates; `slope_offset`: of the slope at
-  /// its end B from what stands there; `forces_at`: where its forces begin, of those that are added to.
-  /// Precondition: takes(element), !is_full().
+  /// its end B from what stands there; `side`: its place in State::sides; `forces_at`: where its forces
+  /// begin, of those that are added to. Precondition: takes(element), !is_full().
   void add(const BeamElement<D>& element, const std::array<int, element_size<D>>& dofs,
-           const Vector& slope_offset, std::ptrdiff_t forces_at = 0);
+           const Vector& slope_offset, int side, std::ptrdiff_t forces_at = 0);
 
   /// Adds the forces of the elements to those of all coordinates, which are `stride` apart. `load`: as
   /// BeamElement::force has it; `free_strain`: as ElementState has it. Takes least where a full batch is of
@@ -69,6 +69,7 @@ class ElementBatch {
   std::shared_ptr<FixedLanes> numbers_;  ///< of the elements, where these have them, or put together
   int count_ = 0;
   std::array<std::array<int, lanes>, nodal> dofs_ = {};
+  std::array<int, lanes> sides_ = {};
   std::array<std::ptrdiff_t, lanes> forces_at_ = {};
   bool same_dofs_ = true;             ///< in all elements
   bool forces_stand_beside_ = false;  ///< of a full batch with the same dofs

@@ -95,7 +95,7 @@ ElementVector<D> BeamElement<D>::fixed_force(const FixedSums& sums, const Elemen
   ElementVector<D> f = ElementVector<D>::Zero();
   ElementNodes<D> force = ElementLayout<D>::nodes(x.a) * sums.mass - load * sums.load_factor.transpose();
   if (properties_->mass_damping > 0) force += properties_->mass_damping * x.node_rates() * sums.mass;
-  if (const double eta = taut_viscosity(x).value; eta > 0) force += eta * x.node_rates() * sums.stretch;
+  if (const double eta = taut_viscosity(x).value; eta != 0) force += eta * x.node_rates() * sums.stretch;
   if (strains_at_points(*properties_)) add_point_forces(x, force);
   f.template head<4 * D>() = force.reshaped();
   if (!assumes_strain()) return f;
@@ -143,7 +143,7 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const FixedSums& sums, const Elem
       (w.mass + w.damping * properties_->mass_damping) * sums.mass + w.damping * eta.value * sums.stretch;
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l) K.template block<D, D>(k * D, l * D).diagonal().array() += nodal(k, l);
-  if (eta.value > 0) {
+  if (eta.value != 0) {
     const ElementNodes<D> by_eta = w.stiffness * e_rate * sums.stretch;
     K.template topRows<4 * D>() += by_eta.reshaped() * eta.gradient.transpose();
   }
@@ -209,7 +209,7 @@ ElementEnergy BeamElement<D>::fixed_energy(const FixedSums& sums, const ElementS
   const ElementNodes<D> e_rate = x.node_rates();
   sum.kinetic = e_rate.cwiseProduct(e_rate * sums.mass).sum() / 2;
   sum.dissipation = 2 * properties_->mass_damping * sum.kinetic;
-  if (const double eta = taut_viscosity(x).value; eta > 0)
+  if (const double eta = taut_viscosity(x).value; eta != 0)
     sum.dissipation += eta * e_rate.cwiseProduct(e_rate * sums.stretch).sum();
   sum.external = -load.dot(x.nodes() * sums.load_factor);
   if (strains_at_points(*properties_)) add_point_energies(x, sum);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 
 namespace nurbeam {
 
@@ -45,7 +46,8 @@ using ElementNodes = typename ElementLayout<D>::Nodes;
 template <int D>
 struct ElementState {
   ElementVector<D> q, v, a;
-  double free_strain = 0;  ///< axial strain without axial force at the time (FreeStrain)
+  double free_strain = 0;         ///< axial strain without axial force at the time (FreeStrain)
+  std::optional<bool> taut = {};  ///< as which TautViscosity is held; none: as it is
 
   ElementNodes<D> nodes() const { return ElementLayout<D>::nodes(q); }
   ElementNodes<D> node_rates() const { return ElementLayout<D>::nodes(v); }

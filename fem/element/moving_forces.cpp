@@ -91,7 +91,7 @@ class ForceSum {
     axial.y[0] = stretch_integral_;
     axial.y_q.row(0) = stretch_.vector().transpose();
     axial.take_out(x_.free_strain);
-    f += TautViscosity<D>(properties_, axial).value * taut_.vector();
+    f += TautViscosity<D>(properties_, axial, x_.taut).value * taut_.vector();
     if (!assumed) return f;
     axial.add_force(properties_.axial_stiffness, f);
     if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, f);

@@ -152,7 +152,7 @@ class TangentSum {
     axial.y[0] = stretch_integral_;
     axial.y_q.row(0) = stretch_.vector().transpose();
     axial.take_out(x_.free_strain);
-    if (const TautViscosity<D> eta(properties_, axial); eta.value > 0)
+    if (const TautViscosity<D> eta(properties_, axial, x_.taut); eta.value != 0)
       K += eta.value * taut_.matrix() + t_.stiffness * taut_force_.vector() * eta.gradient.transpose();
     if (!assumed_) return K;
     PlaceSums<D> I_qq = stretch_rates_;

@@ -6,14 +6,15 @@
 
 namespace nurbeam {
 
-ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double rate, bool taut) {
+ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double rate, bool taut,
+                             std::optional<bool> carries) {
   const int sign = connector.sign();
   const double k = connector.stiffness, c = sign != 0 && !taut ? 0 : connector.damping;
-  const bool stretched = sign == 0 || sign * stretch > 0;
+  const bool stretched = carries.value_or(sign == 0 || sign * stretch > 0);
   if (stretched) elastic = k * stretch;
   if (!stretched && c == 0) return;
   force = k * stretch + c * rate;
-  if (sign != 0 && !(sign * force > 0)) {
+  if (!carries.has_value() && sign != 0 && !(sign * force > 0)) {
     force = 0;
     return;
   }
@@ -22,27 +23,35 @@ ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double 
 }
 
 template <int D>
-ConnectorPull Spring<D>::pull(const MeshedBeams<D>& at, const Line& line,
-                              const Eigen::VectorXd& memory) const {
+ConnectorPull Spring<D>::pull(const MeshedBeams<D>& at, const Line& line, const State& state) const {
   const Connector& connector = described(at);
   const double stretch = line.length - connector.length;
-  const bool taut = connector.jumps() && memory.size() > 0 ? is_taut(at.structure, memory, number_)
-                                                           : connector.sign() * stretch > 0;
-  return {connector, stretch, line.rate, taut};
+  const bool taut = connector.jumps() && state.memory.size() > 0
+                        ? is_taut(at.structure, state.memory, number_)
+                        : connector.sign() * stretch > 0;
+  std::optional<bool> held;
+  if (carries_one_sign(at) && state.sides.size() > 0) held = state.sides[side(at)] != 0;
+  return {connector, stretch, line.rate, taut, held};
+}
+
+template <int D>
+bool Spring<D>::carries(const MeshedBeams<D>& at, const State& state) const {
+  const Connector& connector = described(at);
+  return connector.sign() == 0 || connector.sign() * (axis_.line(state).length - connector.length) > 0;
 }
 
 template <int D>
 void Spring<D>::add_force(const MeshedBeams<D>& at, const State& state,
                           Eigen::Ref<Eigen::VectorXd> dynamics) const {
   const Line line = axis_.line(state);
-  axis_.add_pull(pull(at, line, state.memory).force * line.n, dynamics);
+  axis_.add_pull(pull(at, line, state).force * line.n, dynamics);
 }
 
 template <int D>
 typename Spring<D>::Matrix Spring<D>::tangent(const MeshedBeams<D>& at, const State& state,
                                               const TangentWeights& w) const {
   const Line line = axis_.line(state);
-  const ConnectorPull now = pull(at, line, state.memory);
+  const ConnectorPull now = pull(at, line, state);
   const Eigen::Matrix<double, D, 1> by_d =
       w.stiffness * (now.by_stretch * line.n + now.by_rate * line.rate_gradient) +
       w.damping * now.by_rate * line.n;
@@ -55,14 +64,14 @@ typename Spring<D>::Matrix Spring<D>::tangent(const MeshedBeams<D>& at, const St
 template <int D>
 void Spring<D>::add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const {
   const Line line = axis_.line(state);
-  sum.spring += pull(at, line, state.memory).elastic * (line.length - described(at).length) / 2;
+  sum.spring += pull(at, line, state).elastic * (line.length - described(at).length) / 2;
 }
 
 template <int D>
 double Spring<D>::loss(const MeshedBeams<D>& at, const State& from, const State& to) const {
   if (described(at).damping == 0) return 0;
   const Line before = axis_.line(from), after = axis_.line(to);
-  const ConnectorPull first = pull(at, before, from.memory), last = pull(at, after, from.memory);
+  const ConnectorPull first = pull(at, before, from), last = pull(at, after, from);
   return (first.force - first.elastic + last.force - last.elastic) / 2 * (after.length - before.length);
 }
 
@@ -72,7 +81,7 @@ void Spring<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::Vect
   if (!connector.jumps() || memory.size() == 0) return;
   const Line line = axis_.line(state);
   // One that has been slack and come back within the step pulls on: the force goes on over its end.
-  const bool pulls = pull(at, line, state.memory).force != 0;
+  const bool pulls = pull(at, line, state).force != 0;
   const double stretch = connector.sign() * (line.length - connector.length);
   set_taut(at.structure, memory, number_, pulls || stretch > -connector.least_stretch(line.length));
 }
@@ -80,14 +89,14 @@ void Spring<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::Vect
 template <int D>
 std::pair<double, double> Spring<D>::length_and_force(const MeshedBeams<D>& at, const State& state) const {
   const Line line = axis_.line(state);
-  return {line.length, pull(at, line, state.memory).force};
+  return {line.length, pull(at, line, state).force};
 }
 
 template <int D>
 Eigen::Matrix<double, D, 1> Spring<D>::on_body(const MeshedBeams<D>& at, int body, const State& state) const {
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
   const Line line = axis_.line(state);
-  const Eigen::Matrix<double, D, 1> force = pull(at, line, state.memory).force * line.n;
+  const Eigen::Matrix<double, D, 1> force = pull(at, line, state).force * line.n;
   for (const int end : {0, 1})
     if (axis_.body(end) == body) sum += end == 0 ? force : Eigen::Matrix<double, D, 1>(-force);
   return sum;

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "fem/forces/energy.h"
@@ -9,13 +10,14 @@ namespace nurbeam {
 
 /// The pull of a connector of that stretch e and rate of it, and its derivatives. One that carries one sign
 /// and is not `taut` at the start of a step has no damping in it; one that is, wherever it comes to: within a
-/// step nothing jumps.
+/// step nothing jumps. `carries`: whether its stretch does, where that is not to be seen from its sign.
 struct ConnectorPull {
   double force = 0;    ///< N [N]
   double elastic = 0;  ///< its part k e, whose energy is stored [N]
   double by_stretch = 0, by_rate = 0;
 
-  ConnectorPull(const Connector& connector, double stretch, double rate, bool taut);
+  ConnectorPull(const Connector& connector, double stretch, double rate, bool taut,
+                std::optional<bool> carries = {});
 };
 
 /// A connector but a rod, in one mesh.
@@ -48,6 +50,13 @@ class Spring {
   bool is_damper(const MeshedBeams<D>& at) const { return described(at).damping > 0; }
   /// In the model.
   int connector() const { return number_; }
+  /// Whether its law has a kink, and whether it is stretched so that it carries.
+  bool carries_one_sign(const MeshedBeams<D>& at) const { return described(at).sign() != 0; }
+  bool carries(const MeshedBeams<D>& at, const State& state) const;
+  /// Its place in State::sides.
+  Eigen::Index side(const MeshedBeams<D>& at) const {
+    return static_cast<Eigen::Index>(at.elements.size()) + number_;
+  }
   /// |d| or n . d [m], and N [N].
   std::pair<double, double> length_and_force(const MeshedBeams<D>& at, const State& state) const;
   /// What it gives to a body [N].
@@ -57,7 +66,7 @@ class Spring {
   using Matrix = Eigen::Matrix<double, 2 * D, 2 * D>;
   using Line = typename ConnectorAxis<D>::Line;
   Matrix tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
-  ConnectorPull pull(const MeshedBeams<D>& at, const Line& line, const Eigen::VectorXd& memory) const;
+  ConnectorPull pull(const MeshedBeams<D>& at, const Line& line, const State& state) const;
   const Connector& described(const MeshedBeams<D>& at) const { return at.structure.connectors[number_]; }
 
   int number_;

@@ -229,7 +229,7 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
         ends == Ends::fixed ? others.find(elements.size(), mesh.spans.size(), span, chart, beam) : nullptr;
     const bool of_model = same && &same->element.curve() == &beam.curve;
     elements.push_back(
-        {&span, dofs_of<D>(mesh, span),
+        {&span, i, dofs_of<D>(mesh, span),
          of_model ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
          ends == Ends::fixed
              ? fixed_element(beam, std::move(chart), span, by_eights.counterpart(span.beam), same)

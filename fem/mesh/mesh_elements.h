@@ -22,6 +22,7 @@ struct MeshTwist {
 template <int D>
 struct MeshElement {
   const MeshSpan* span;
+  int index;                              ///< of the span
   std::array<int, element_size<D>> dofs;  ///< global coordinates; -1 where a fixed end has none
   /// Of the slope at the right end from the node's, which is the one of the element after it: the small angle
   /// of the drawing there, kept so that the drawn shape is exact. Fixed in space, so only to first order of
@@ -87,6 +88,7 @@ template <int D>
 ElementState<D> gather(const MeshElement<D>& e, const State& state) {
   ElementState<D> x = gather(e, state.q, state.v, state.a);
   x.free_strain = free_strain(e, state);
+  if (state.sides.size() > 0) x.taut = state.sides[e.index] != 0;
   return x;
 }
 /// Without rates.

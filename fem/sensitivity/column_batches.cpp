@@ -45,7 +45,7 @@ void ColumnBatches<D>::put(Each begin, Each end, const std::array<int, element_s
   for (auto each = begin; each != end; ++each) {
     if (!std::exchange(fit, true) || batches.back().is_full())
       batches.emplace_back(each->element->element.properties());
-    batches.back().add(each->element->element, dofs, each->element->slope_offset, each->column);
+    batches.back().add(each->element->element, dofs, each->element->slope_offset, each->now, each->column);
     group.columns.push_back(each->column);
   }
 }

@@ -42,7 +42,7 @@ MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const Mo
     for (const auto& [place, by] : shifts[k]) moved(place, static_cast<Eigen::Index>(k)) -= by;
   Eigen::MatrixXd by_tangents;
   both([&] { by_tangents = TangentRows(*system_, at, {.stiffness = 1}, rows).product(moved); },
-       [&] { differences_->find(at, tangents_.t, shifts, dynamics_, constraints_); });
+       [&] { differences_->find(*system_, at, tangents_.t, shifts, dynamics_, constraints_); });
   work_.residuals += differences_->work();
   MotionTangents::Matrix changes = dynamics_;
   changes(rows, Eigen::all) += by_tangents;

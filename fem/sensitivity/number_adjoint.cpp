@@ -13,7 +13,7 @@ NumberAdjoint<D>::NumberAdjoint(const Assembly<D>& system, const std::vector<int
                         std::vector<FixedLanes>(static_cast<std::size_t>(sums))});
     ElementBatch<D>& batch = parts_.back().batch;
     places_[i] = {parts_.size() - 1, batch.count()};
-    batch.add(e.element, e.dofs, e.slope_offset);
+    batch.add(e.element, e.dofs, e.slope_offset, e.index);
   }
 }
 

@@ -369,10 +369,12 @@ ResidualDifferences::~ResidualDifferences() = default;
 ResidualDifferences::ResidualDifferences(ResidualDifferences&&) noexcept = default;
 ResidualDifferences& ResidualDifferences::operator=(ResidualDifferences&&) noexcept = default;
 
-void ResidualDifferences::find(const State& at, const Eigen::RowVectorXd& later,
+void ResidualDifferences::find(const BeamSystem& system, const State& at, const Eigen::RowVectorXd& later,
                                const std::vector<std::vector<Shift>>& shifts, Columns& dynamics,
                                Columns& constraints) {
-  in_->find(at, later, shifts, dynamics, constraints);
+  State held = at;
+  held.sides = with_assembly(system, [&](const auto& assembly) { return assembly.sides(at); });
+  in_->find(held, later, shifts, dynamics, constraints);
 }
 
 void ResidualDifferences::go_back(const BeamSystem& system, const State& at,

@@ -36,9 +36,11 @@ class ResidualDifferences {
   /// Half the difference over `step` for each pair: more at a time step x `later` after that of `at`, and
   /// with coordinates that are shifted so far; less as much before it, and as far the other way. Into
   /// `dynamics` (n rows) and `constraints` (m rows), always the same two: of those without shifts as the call
-  /// before has left them.
-  void find(const State& at, const Eigen::RowVectorXd& later, const std::vector<std::vector<Shift>>& shifts,
-            Columns& dynamics, Columns& constraints);
+  /// before has left them. `system`: that of `at`; laws with a kink are on the side on which they are there,
+  /// as its tangents have it: numbers of elements that change at the same coordinates strain them by more
+  /// than what carries.
+  void find(const BeamSystem& system, const State& at, const Eigen::RowVectorXd& later,
+            const std::vector<std::vector<Shift>>& shifts, Columns& dynamics, Columns& constraints);
 
   /// For sums of residuals times multipliers back over steps of a system, as many as these have columns: from
   /// here on `find` leaves columns of pairs zero that differ in nothing but numbers of elements, and what

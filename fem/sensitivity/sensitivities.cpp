@@ -161,7 +161,7 @@ Sensitivities::Shifts Sensitivities::shifts_at(const State& at) const {
 // joints are those that correspond, by the shifts that it returns.
 Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
   Shifts shifts = shifts_at(at);
-  differences_->find(at, time, shifts, dynamics_, constraints_);
+  differences_->find(*system_, at, time, shifts, dynamics_, constraints_);
   work_.residuals += differences_->work();
   return shifts;
 }

@@ -67,7 +67,7 @@ void Assembly<D>::batch_elements() {
       batches.emplace_back(model_->beams[b].properties);
       for (int i = first; i < std::min(first + lanes, count); ++i) {
         const MeshElement<D>& e = elements_[batched[i]];
-        batches.back().add(e.element, e.dofs, e.slope_offset);
+        batches.back().add(e.element, e.dofs, e.slope_offset, e.index);
       }
     }
   }

@@ -88,6 +88,9 @@ class Assembly final : public SecondOrderSystem {
   /// and weight of bodies, no motions, and what there is the same to round-off at these states, which must be
   /// general ones that correspond.
   bool differs_in_elements(const Assembly& other, const State& own, const State& of_other) const;
+  /// On which side of 0 laws are that have a kink there, as State::sides has it: of each element whether it
+  /// is taut, then of each connector of one sign whether it carries. Empty where there are none.
+  Eigen::VectorXd sides(const State& state) const;
   /// Adds to the dynamics of a residual the forces of these elements and of all that is no element, which is
   /// all that the constraints need.
   void add_residual_of(const std::vector<int>& elements, const State& state,

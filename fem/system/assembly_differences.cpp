@@ -68,6 +68,27 @@ bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, c
          round_off * here.template lpNorm<Eigen::Infinity>();
 }
 
+template <int D>
+Eigen::VectorXd Assembly<D>::sides(const State& state) const {
+  const MeshedBeams<D> at = beams();
+  Eigen::VectorXd sides =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(elements_.size() + model_->connectors.size()));
+  bool has_kinks = false;
+  for (const MeshElement<D>& e : elements_) {
+    if (!(e.element.properties().tension_damping > 0)) continue;
+    has_kinks = true;
+    sides[e.index] = e.element.is_taut(gather<D>(e, state)) ? 1 : 0;
+  }
+  for (const BoundForce<D>& force : forces_)
+    if (const auto* spring = std::get_if<Spring<D>>(&force); spring && spring->carries_one_sign(at)) {
+      has_kinks = true;
+      sides[spring->side(at)] = spring->carries(at, state) ? 1 : 0;
+    }
+  return has_kinks ? sides : Eigen::VectorXd();
+}
+
+template Eigen::VectorXd Assembly<2>::sides(const State&) const;
+template Eigen::VectorXd Assembly<3>::sides(const State&) const;
 template std::vector<bool> Assembly<2>::elements_unlike(const Assembly&, const std::vector<State>&,
                                                         const std::vector<std::optional<bool>>&) const;
 template std::vector<bool> Assembly<3>::elements_unlike(const Assembly&, const std::vector<State>&,

@@ -82,14 +82,15 @@ ModelFrame model_frame(const std::vector<RationalCubic>& segments, const std::ve
   in_plane.insert(in_plane.end(), along_forces.begin(), along_forces.end());
 
   const Eigen::Vector3d normal = plane_normal(in_plane, across);
-  const auto off_plane = [&](const Eigen::Vector3d& v) { return std::abs(v.dot(normal)) > flat; };
-  const auto off_normal = [&](const Eigen::Vector3d& v) { return v.cross(normal).norm() > flat; };
-  const bool planar = !torsion && std::none_of(in_plane.begin(), in_plane.end(), off_plane) &&
-                      std::none_of(across.begin(), across.end(), off_normal);
+  double off = 0;
+  for (const Eigen::Vector3d& v : in_plane) off = std::max(off, std::abs(v.dot(normal)));
+  for (const Eigen::Vector3d& v : across) off = std::max(off, v.cross(normal).norm());
+  const bool planar = !torsion && off <= flat;
   ModelFrame frame;
   frame.dimension = planar ? 2 : 3;
   frame.origin = origin;
   if (planar) {
+    frame.off_plane = off;
     const Eigen::Vector3d ahead =
         std::abs(normal.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
     const Eigen::Vector3d e1 = (ahead - ahead.dot(normal) * normal).normalized();

@@ -12,6 +12,7 @@ struct ModelFrame {
   int dimension = 3;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double off_plane = 0;       ///< of a planar model the most that has been left out, in parts of its size
   double gravity_energy = 0;  ///< of the whole mass at the origin, which the local potential leaves out [J]
 
   Eigen::Vector3d to_local(const Eigen::Vector3d& world) const { return rotation * (world - origin); }

@@ -55,12 +55,19 @@ std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vec
   return times;
 }
 
-/// Throws std::invalid_argument where beams of a neighbouring model are drawn in another way.
-void check_drawn_alike(const BeamModel& own, const BeamModel& other) {
-  if (other.dimension != own.dimension)
+// Throws std::invalid_argument where a neighbouring model is in space, or has been put into a plane that it
+// is out of by little: what a parameter does out of it is left out.
+void check_planar_alike(const BuiltModel& own, const BuiltModel& other) {
+  constexpr double round_off = 1e-14;
+  const bool leaves_out = std::abs(other.frame.off_plane - own.frame.off_plane) > round_off;
+  if (other.model.dimension != own.model.dimension || leaves_out)
     throw std::invalid_argument(
         "the model is plane, and one in space with another value; take a nominal value that is out of the "
         "plane, or differences of runs");
+}
+
+/// Throws std::invalid_argument where beams of a neighbouring model are drawn in another way.
+void check_drawn_alike(const BeamModel& own, const BeamModel& other) {
   for (std::size_t b = 0; b < own.beams.size(); ++b) {
     const int parts = own.beams[b].curve.segment_count(), others = other.beams[b].curve.segment_count();
     if (parts != others)
@@ -109,6 +116,21 @@ bool targets(const StudyVariable& variable) {
   return variable.target && std::holds_alternative<Target>(*variable.target);
 }
 
+// Of the beam of which a variable moves control points or corners, one by one: its name, or its number in the
+// case where a path has that; empty: none.
+std::string beam_of_points(const StudyVariable& variable) {
+  if (!variable.target) return {};
+  if (const auto* point = std::get_if<ControlPointCoordinate>(&*variable.target)) return point->beam;
+  const auto* numbers = std::get_if<CasePaths>(&*variable.target);
+  if (!numbers || numbers->paths.empty()) return {};
+  const std::string &path = numbers->paths.front(), begin = "beams[";
+  const std::size_t end = path.find("].axis.");
+  const bool moves =
+      path.find(".control_points[") != std::string::npos || path.find(".polyline[") != std::string::npos;
+  if (!moves || !path.starts_with(begin) || end == std::string::npos) return {};
+  return path.substr(begin.size(), end - begin.size());
+}
+
 }  // namespace
 
 double derivative_step(const StudyVariable& variable, double value, bool settles) {
@@ -122,7 +144,7 @@ double derivative_step(const StudyVariable& variable, double value, bool settles
     // slender beams are stiff against what is of second order in it. Neighbours that settle answer as their
     // loads are, with an error of the square of the step.
     constexpr double settled = 4e-4;
-    if (targets<ControlPointCoordinate>(variable) || targets<CurveTransform>(variable))
+    if (!beam_of_points(variable).empty() || targets<CurveTransform>(variable))
       return std::max(settles ? settled * width : 0, 1e-6 * greater);
     const double part = !targets<ControlPointWeight>(variable) ? 1e-4 : settles ? settled : 1e-5;
     return part * std::max(lesser, 0.1 * greater);
@@ -145,11 +167,22 @@ namespace {
 
 // The beam of which a variable moves a control point; null: none.
 const Beam* beam_of_point(const StudyVariable& variable, const BeamModel& model) {
-  const auto* point = variable.target ? std::get_if<ControlPointCoordinate>(&*variable.target) : nullptr;
-  if (!point) return nullptr;
-  const auto beam = std::find_if(model.beams.begin(), model.beams.end(),
-                                 [&](const Beam& each) { return each.name == point->beam; });
-  return beam == model.beams.end() ? nullptr : &*beam;
+  const std::string of = beam_of_points(variable);
+  for (std::size_t b = 0; !of.empty() && b < model.beams.size(); ++b)
+    if (model.beams[b].name == of || std::to_string(b) == of) return &model.beams[b];
+  return nullptr;
+}
+
+double element_length(const Beam& beam) {
+  return beam.curve.length() / static_cast<double>(beam.home.size() - 1);
+}
+
+// Of a control point, where its range is narrow: no less than a part of an element, in whose numbers less is
+// lost in round-off.
+double step_of_residuals(const StudyVariable& variable, const BeamModel& model, double by_value) {
+  constexpr double part = 1e-6;
+  const Beam* beam = beam_of_point(variable, model);
+  return beam && !beam->rigid ? std::max(part * element_length(*beam), by_value) : by_value;
 }
 
 // Adjoints of motions are linear in the numbers of elements: of a control point they take a part of the
@@ -158,15 +191,17 @@ double step_of_elements(const StudyVariable& variable, const BeamModel& model, d
   constexpr double part = 5e-6, far = 100, near = 0.1;
   const Beam* beam = beam_of_point(variable, model);
   if (!beam || beam->has_torsion() || !model.joints.empty()) return by_value;
-  const double length = beam->curve.length() / static_cast<double>(beam->home.size() - 1);
-  return std::clamp(part * length, near * by_value, far * by_value);
+  return std::clamp(part * element_length(*beam), near * by_value, far * by_value);
 }
 
-// Of a control point whose neighbours settle, where its range is wide: no more than a part of what it bends.
+// Of a control point whose neighbours settle: where its range is wide no more than a part of what it bends,
+// and where it is narrow no less, as round-off of forces does not get smaller with the range.
 double step_of_spans(const StudyVariable& variable, const BeamModel& model, double by_value) {
-  constexpr double part = 2e-4;
+  constexpr double least = 5e-5, most = 2e-4;
   const Beam* beam = beam_of_point(variable, model);
-  return beam ? std::min(part * beam->curve.length() / beam->curve.segment_count(), by_value) : by_value;
+  if (!beam) return by_value;
+  const double span = beam->curve.length() / beam->curve.segment_count();
+  return std::clamp(by_value, least * span, most * span);
 }
 
 }  // namespace
@@ -212,6 +247,7 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     BuildReport report = neighbour ? build_model(*neighbour, {}, &model) : BuildReport{};
     if (neighbour && !report.value) why = first_error(report.diagnostics);
     if (!report.value) return std::nullopt;
+    check_planar_alike(model, *report.value);
     check_drawn_alike(model.model, report.value->model);
     return NeighbouringRun(own_histories, std::move(of),
                            std::make_unique<const BuiltModel>(std::move(*report.value)));
@@ -244,10 +280,11 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
     const auto k = static_cast<std::size_t>(i);
     const StudyVariable& variable = study.variables[free[k]];
     const double by_value = derivative_step(variable, values[free[k]], settles);
+    const double of_residuals = step_of_residuals(variable, model.model, by_value);
     const double step = settles ? step_of_spans(variable, model.model, by_value)
                         : is_by_adjoint_ && !options.statics
-                            ? step_of_elements(variable, model.model, by_value)
-                            : by_value;
+                            ? step_of_elements(variable, model.model, of_residuals)
+                            : of_residuals;
     try {
       pairs[k].emplace(pair_of(k, step));
     } catch (const std::invalid_argument& problem) {

@@ -240,5 +240,24 @@ TEST(Gradient, OfABodyThatStartsAtTheEndOfItsBeam) {
   expect_gradient(of, 0.004, 1e-4);
 }
 
+// Elements whose ends move have the kink of what tension damps too.
+TEST(Gradient, OfABodyOnABeamWhoseTensionIsDamped) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0, 0], [3, 0, 0]]}},
+      "section": {"radius": "20 mm"},
+      "material": {"density": 7800, "youngs_modulus": "2 GPa", "stiffness_damping": 0.001}, "elements": {"count": 12}}],
+    "bodies": [{"name": "slider", "mass": 5}],
+    "sliding_joints": [{"body": "slider", "beam": "beam", "at": {"length": 1.3}, "speed": 1}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "root"}],
+    "analysis": {"end_time": 0.06, "step": "0.5 ms"},
+    "output": {"every": 0.01, "probes": [{"name": "mid", "beam": "beam", "at": {"fraction": 0.5}}]}})json",
+                 R"json("variables": [
+      {"name": "x", "control_point": {"beam": "beam", "index": 1, "axis": "x"}, "range": [2.9, 3.1]}],
+    "quantities": [{"name": "z", "value": "at(end, mid.z)"}, {"name": "force", "value": "at(end, root.fz)"}],
+    "plan": {"grid": 2})json");
+  expect_gradient(of, 0.005, 1e-4);
+}
+
 }  // namespace
 }  // namespace nurbeam

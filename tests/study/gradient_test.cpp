@@ -204,6 +204,79 @@ TEST(Gradient, OfWhatIsZeroAsDrawn) {
   expect_gradient(of, 1e-2, 1e-5);
 }
 
+// A straight beam of three metres that falls, an end of which moves along it.
+std::string falling_beam(const char* damping, const char* others) {
+  return std::string(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0, 0], [3, 0, 0]]}},
+      "section": {"radius": "20 mm"}, "material": {"density": 7800, "youngs_modulus": "2 GPa")json") +
+         damping + R"json(}, "elements": {"count": 16}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "root"}], )json" +
+         others + R"json("analysis": {"end_time": 0.06, "step": 0.0005},
+    "output": {"every": 0.01, "probes": [{"name": "mid", "beam": "beam", "at": {"fraction": 0.5}}]}})json";
+}
+
+std::string by_its_end(const char* quantities) {
+  return std::string(R"json("variables": [
+      {"name": "x", "control_point": {"beam": "beam", "index": 1, "axis": "x"}, "range": [2.9, 3.1]},
+      {"name": "E", "path": "beams[0].material.youngs_modulus", "range": [1.9e9, 2.1e9]}],
+    "quantities": [)json") +
+         quantities + R"json(], "plan": {"grid": 2})json";
+}
+
+// What tension damps has a kink where this comes to 0, and numbers of elements that change at the same
+// coordinates strain them by more than all loads do: by tangents and, of one quantity, by adjoints.
+TEST(Gradient, OfABeamWhoseTensionIsDamped) {
+  const std::string falling =
+      falling_beam(R"json(, "stiffness_damping": 0.001)json",
+                   R"json("loads": [{"beam": "beam", "at": "end", "force": [0, 0, -5]}], )json");
+  const char *place = R"json({"name": "z", "value": "at(end, mid.z)"})json",
+             *force = R"json({"name": "root", "value": "at(end, root.fz)"})json",
+             *along = R"json({"name": "along", "value": "at(end, mid.ux)"})json";
+  StudyOfCase by_tangents(falling, by_its_end((std::string(place) + ", " + force + ", " + along).c_str()));
+  expect_gradient(by_tangents, 0.01, 1e-4);
+  StudyOfCase by_adjoints(falling, by_its_end(place));
+  expect_gradient(by_adjoints, 0.01, 1e-4);
+}
+
+// It is as long as it is drawn, so that it is just about to pull.
+TEST(Gradient, OfARopeThatIsDrawnTaut) {
+  StudyOfCase of(falling_beam("", R"json("connectors": [{"name": "rope", "type": "tension-only",
+      "from": {"beam": "beam", "at": {"fraction": 0.6}}, "to": {"point": [2.2, 0, 0.8]}, "stiffness": 5000}], )json"),
+                 by_its_end(R"json({"name": "z", "value": "at(end, mid.z)"},
+      {"name": "root", "value": "at(end, root.fz)"}, {"name": "rope", "value": "at(end, rope.force)"})json"));
+  expect_gradient(of, 0.01, 1e-4);
+}
+
+// EA is a million times as large as the loads: the derivative is that of differences of whole runs however
+// narrow its range is, and whichever way the control point is named.
+TEST(Gradient, OfForcesByControlPointsWithNarrowRanges) {
+  const auto by = [](const char* target, const char* range) {
+    return StudyOfCase(
+        R"json({"nurbeam": 1, "gravity": [-5.65, 3.37, -5.54], "beams": [{"name": "beam",
+      "axis": {"nurbs": {"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0, 0], [3, 0, -0.27]]}},
+      "torsion": true, "section": {"area": 1e-3, "second_moments": [3e-8, 9e-8], "product": 2e-8, "torsion_constant": 4e-8},
+      "material": {"density": 7800, "youngs_modulus": "210 GPa", "poissons_ratio": 0.3}, "elements": {"count": 24}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "A"},
+                 {"beam": "beam", "at": {"fraction": 0.54}, "type": "pinned", "name": "B"}],
+    "loads": [{"beam": "beam", "at": "end", "force": [-11.5, 54, 45.6]}],
+    "analysis": {"type": "static"}})json",
+        std::string("\"variables\": [{\"name\": \"y\", ") + target + ", \"range\": " + range +
+            R"json(}], "quantities": [{"name": "A", "value": "at(end, A.fz)"}], "plan": {"grid": 2})json");
+  };
+  const char *point = R"json("control_point": {"beam": "beam", "index": 0, "axis": "y"})json",
+             *path = R"json("path": "beams[0].axis.nurbs.control_points[0][1]")json";
+  StudyOfCase wide = by(point, "[-0.1, 0.1]");
+  const auto force = [&](double y) { return wide.run({y}, false).quantities[0]; };
+  constexpr double step = 2e-3;
+  const double expected = (force(step) - force(-step)) / (2 * step);
+  EXPECT_GT(std::abs(expected), 1);
+  for (const char* target : {point, path})
+    for (const char* range : {"[-1e-5, 1e-5]", "[-1e-3, 1e-3]", "[-0.1, 0.1]"}) {
+      StudyOfCase of = by(target, range);
+      EXPECT_NEAR(of.run({0}, true).gradient[0][0], expected, 1e-4 * std::abs(expected)) << target << range;
+    }
+}
+
 // A force is a small difference of great numbers: EA is ten thousand times as large as the loads.
 TEST(Gradient, OfForcesInAStiffCable) {
   StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "cable",

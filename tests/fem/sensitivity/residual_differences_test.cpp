@@ -47,9 +47,9 @@ TEST_P(ResidualDifferencesIn, AreTheSameInSums) {
   for (int i = 0; i < 3; ++i) {
     const State state = testing::disturbed_state(own, random);
     const Columns mu = Columns::Random(n + m, count);
-    all.find(state, same_time, shifts, dynamics, constraints);
+    all.find(own, state, same_time, shifts, dynamics, constraints);
     by_find += mu.topRows(n).transpose() * dynamics + mu.bottomRows(m).transpose() * constraints;
-    back.find(state, same_time, shifts, of_back, constraints_of_back);
+    back.find(own, state, same_time, shifts, of_back, constraints_of_back);
     EXPECT_TRUE(of_back.col(0).isZero(0) && constraints_of_back.col(0).isZero(0));
     EXPECT_EQ(of_back.col(1), dynamics.col(1));
     by_sums += mu.topRows(n).transpose() * of_back + mu.bottomRows(m).transpose() * constraints_of_back;
