@@ -150,6 +150,7 @@ Krylov arnoldi(int n, const std::function<Vector(const Vector&)>& times) {
 /// given, made regular and at most of order 1.
 class Pencil {
  public:
+  Pencil(const Matrix& kkt, int n) : Pencil(kkt, n, Matrix(n, n), 1) {}
   Pencil(const Matrix& kkt, int n, const Matrix& mass) : Pencil(kkt, n, mass, 1e-9) {}
 
   /// What falls in an eigenvector whose lambda is at least -`least` and has a negative real part, and is more
@@ -239,11 +240,11 @@ std::optional<Stability> stability(const Matrix& kkt, int n) {
   for (double r = first_regularisation; r >= least_regularisation; r *= finer) {
     tangent.set_regularisation(r);
     const int unstable = tangent.factorise(tangent.round_off());
-    // Unless what was found before is too flat to be seen now.
-    if (unstable == 0) return descent > tangent.round_off() ? Stability{} : result;
-    const Vector lowest = lowest_of(tangent);
-    if (!(tangent.descent(lowest) > tangent.round_off()))  // pivots of round-off
-      return descent > tangent.round_off() ? Stability{} : result;
+    const Vector lowest = unstable > 0 ? lowest_of(tangent) : Vector();
+    if (unstable == 0 || !(tangent.descent(lowest) > tangent.round_off())) {  // or pivots of round-off
+      // What was found before may be too flat to be seen now.
+      return descent > tangent.round_off() ? Stability{} : Pencil(kkt, n).falls(2 * descent);
+    }
     descent = tangent.descent(lowest);
     result = {.unstable_directions = unstable, .direction = tangent.direction(lowest)};
     if (tangent.descent(tangent.allowed(lowest)) > tangent.round_off()) return result;

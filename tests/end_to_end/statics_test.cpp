@@ -127,6 +127,18 @@ TEST(Strut, InAPlaneBucklesBesideALoadThatFollows) {
   EXPECT_NEAR(std::abs(r.last("e.ux [m]")), buckled_end(4).across, 2e-3);
 }
 
+// Without anything that breaks the symmetry about its axis one state is as good as all around it.
+TEST(Strut, ThatIsRoundAndHasTorsionBucklesIntoAnyPlane) {
+  for (const double lateral : {0.0, 1e-3, 1e-2, 0.1}) {
+    const CaseRun r =
+        run_text(strut(round + R"(, "torsion": true)", force(R"("end")", 0, -3.9 * pi * pi / 16 * round_EI) +
+                                                           ", " + force(R"("end")", lateral, 0)));
+    ASSERT_EQ(r.code, 0) << lateral << r.messages;
+    EXPECT_NEAR(r.last("e.z [m]"), buckled_end(3.9).along, 2e-3) << lateral;
+    EXPECT_NEAR(std::hypot(r.last("e.ux [m]"), r.last("e.uy [m]")), buckled_end(3.9).across, 2e-3) << lateral;
+  }
+}
+
 // Beck's column flutters above 20.05 EI/L^2, and never leaves without it: not above the 2.47 of a force that
 // keeps its direction. The force of 40 nothing holds, with any damping.
 TEST(Strut, UnderAForceThatFollowsItsEndStaysStraight) {
