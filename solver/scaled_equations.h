@@ -90,11 +90,14 @@ class ScaledEquations {
 
   /// Puts the scaled derivative of the rows at `x` into tangent(); returns whether it is finite.
   [[nodiscard]] bool differentiate(const Eigen::Ref<const Vector>& x) {
-    evaluate_tangent(state_of(x), {.mass = proximity_, .stiffness = 1});
-    for (int column = 0; column < size(); ++column)
-      for (Matrix::InnerIterator entry(tangent_, column); entry; ++entry)
-        entry.valueRef() *= row_factor_[entry.row()] * unknown_scale_[column];
+    evaluate_scaled_tangent(state_of(x), {.mass = proximity_, .stiffness = 1});
     return tangent_.coeffs().allFinite();
+  }
+
+  /// (n x n) That of the dynamics by accelerations, as tangent() is scaled, which it takes the place of.
+  Matrix inertia(const State& state) {
+    evaluate_scaled_tangent(state, {.mass = 1});
+    return tangent_.topLeftCorner(n_, n_);
   }
 
   /// Largest scaled residual at `x` and what each may be: `tolerance` and its own round-off; a residual that
@@ -119,6 +122,12 @@ class ScaledEquations {
 
   void evaluate_tangent(const State& state, const TangentWeights& weights) {
     system_.tangent(state, weights, tangent_);
+  }
+  void evaluate_scaled_tangent(const State& state, const TangentWeights& weights) {
+    evaluate_tangent(state, weights);
+    for (int column = 0; column < size(); ++column)
+      for (Matrix::InnerIterator entry(tangent_, column); entry; ++entry)
+        entry.valueRef() *= row_factor_[entry.row()] * unknown_scale_[column];
   }
 
   const SecondOrderSystem& system_;

@@ -28,8 +28,11 @@ constexpr double departing_change = 1e-2;  ///< from an unstable equilibrium, of
 /// One search: the state and load factor of the last equilibrium, and what was spent so far.
 class EquilibriumSearch {
  public:
-  EquilibriumSearch(const StaticEquilibrium& settings, const SecondOrderSystem& system, const State& start)
+  /// `may_diverge`: what is unstable without an energy will do.
+  EquilibriumSearch(const StaticEquilibrium& settings, const SecondOrderSystem& system, const State& start,
+                    bool may_diverge)
       : settings_(settings),
+        may_diverge_(may_diverge),
         system_(system),
         scale_(system.coordinate_scale()),
         state_(at_rest(start, system)),
@@ -51,6 +54,11 @@ class EquilibriumSearch {
   }
 
   const State& state() const { return state_; }
+  bool ended() const { return ended_; }
+  /// Whether it failed for want of one that does not diverge.
+  bool wants_stability() const {
+    return diverged_ && !may_diverge_ && !ended_ && report_.status != StaticStatus::converged;
+  }
 
  private:
   struct Outcome {
@@ -58,9 +66,9 @@ class EquilibriumSearch {
     bool singular_at_start = false;
     int iterations = 0;
     double residual_norm = 0;
-    std::optional<Stability> stability = {};  // of what it converged to, where that is known
+    Stability stability = {};  // of what it converged to
 
-    bool unstable() const { return stability && stability->unstable_directions > 0; }
+    bool unstable() const { return stability.unstable_directions > 0; }
   };
 
   static State at_rest(State state, const SecondOrderSystem& system) {
@@ -137,7 +145,7 @@ class EquilibriumSearch {
       const bool is_left = left && change(trial.q, *left) <= settled_change;
       if (settled.unstable() && settling <= settled_change && !is_left) {
         left = trial.q;
-        centre.q = trial.q + departure(*settled.stability);
+        centre.q = trial.q + departure(settled.stability);
         continue;
       }
       proximity *= step.iterations <= easy_iterations ? 0.2 : 0.5;
@@ -191,12 +199,24 @@ class EquilibriumSearch {
       outcome.residual_norm =
           equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance).residual_norm;
     }
-    if (outcome.converged) outcome.stability = stability(equations_.tangent(), equations_.coordinates());
+    if (outcome.converged) outcome.stability = stability_of(trial);
     report_.status = outcome.unstable()          ? StaticStatus::unstable
                      : outcome.singular_at_start ? StaticStatus::singular_matrix
                                                  : StaticStatus::not_converged;
     report_.residual_norm = outcome.residual_norm;
     return outcome;
+  }
+
+  /// Of the equilibrium whose tangent the equations have.
+  Stability stability_of(const State& equilibrium) {
+    const int n = equations_.coordinates();
+    report_.diverges = false;
+    if (const auto by_energy = stability(equations_.tangent(), n)) return *by_energy;
+    const Eigen::SparseMatrix<double> tangent = equations_.tangent();
+    const Stability found = divergence(tangent, n, [&] { return equations_.inertia(equilibrium); });
+    diverged_ = diverged_ || found.unstable_directions > 0;
+    report_.diverges = found.unstable_directions > 0;
+    return may_diverge_ ? Stability{} : found;
   }
 
   /// Newton's corrections of what is converged, as long as they shrink. Returns the largest one, in scaled
@@ -300,9 +320,14 @@ class EquilibriumSearch {
     ended_ = factor != 1 && settings_.ends_at && settings_.ends_at(state_);
   }
 
-  bool steps_left() const { return report_.load_steps < settings_.max_load_steps; }
+  bool steps_left() const {
+    constexpr int share = 4;  // for another search
+    const bool another = diverged_ && !may_diverge_;
+    return report_.load_steps < (another ? settings_.max_load_steps / share : settings_.max_load_steps);
+  }
 
   const StaticEquilibrium& settings_;
+  const bool may_diverge_;
   const SecondOrderSystem& system_;
   Vector scale_;
   State state_;
@@ -310,6 +335,7 @@ class EquilibriumSearch {
   StaticReport report_;
   bool lost_in_round_off_ = false;  // since the last equilibrium
   bool ended_ = false;              // by the settings
+  bool diverged_ = false;           // an equilibrium on the way
   ScaledEquations equations_;
   Kinsol kinsol_;
   KktSolver kkt_solver_;
@@ -324,8 +350,16 @@ StaticReport find_static_equilibrium(const StaticEquilibrium& settings, const Se
   require(settings.max_iterations > 0, method, "max_iterations ", settings.max_iterations,
           " is not positive");
   require_size(method, "q", state.q.size(), system.coordinate_count());
-  EquilibriumSearch search(settings, system, state);
+  EquilibriumSearch search(settings, system, state, false);
   const StaticReport report = search.run();
+  if (search.wants_stability()) {
+    EquilibriumSearch another(settings, system, state, true);
+    const StaticReport found = another.run();
+    if (found.status == StaticStatus::converged || another.ended()) {
+      state = another.state();
+      return found;
+    }
+  }
   state = search.state();
   return report;
 }

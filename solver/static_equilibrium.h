@@ -28,6 +28,8 @@ struct StaticReport {
   int newton_iterations = 0;
   double load_factor = 0;    ///< reached
   double residual_norm = 0;  ///< scaled as `tolerance` is
+  bool diverges =
+      false;  ///< left by what touches it: loads without energy, and none was found that is stable
 };
 
 /// Equilibrium f(q, 0, t) = G'lambda, g(q, t) = 0 by KINSOL (full Newton steps, then line search; KLU), in
@@ -36,7 +38,8 @@ struct StaticReport {
 /// State::load in [0, 1] scales the system's loads. The full load is tried directly. When that does not
 /// converge, or moves a coordinate by more than its coordinate_scale(), the load is applied in adaptive
 /// increments under the same bound, so that the branch of equilibria that starts at `state` is followed.
-/// An equilibrium that is not stable (stability.h) is none: it is left along its unstable direction. Where no
+/// An equilibrium that is not stable (stability.h) is none: it is left along its unstable direction; but
+/// where loads have no energy and nothing stable is found, one that diverges is better than nothing. Where no
 /// increment converges (a straight or slack cable without tension has a singular tangent, a snap-through
 /// no equilibrium nearby) the load is reached by proximal steps M(q)(q - q_k)/tau^2 - f + G'lambda = 0 with
 /// growing tau, which decrease the potential energy.

@@ -223,6 +223,7 @@ class RestSearch {
     at.state.t = reached.t;
     report_.newton_iterations += found.newton_iterations;
     report_.load_steps += found.load_steps;
+    report_.diverges = report_.diverges || (found.diverges && found.status == StaticStatus::converged);
     return found;
   }
 

@@ -13,6 +13,7 @@ struct RestReport {
   /// Whether what rests anywhere but at an end, a stop or by friction is free to slide there in the state
   /// that was found; else it is held, as nothing was found nearby with which it is free.
   bool freed = true;
+  bool diverges = false;  ///< StaticReport::diverges of an equilibrium on the way
   long load_steps = 0, newton_iterations = 0;
   double length_control_seconds = 0;
 };

@@ -195,6 +195,7 @@ struct Simulation::Implementation {
     run_.report.newton_iterations += rest.newton_iterations;
     run_.report.steps += rest.load_steps;
     run_.report.length_control_seconds += rest.length_control_seconds;
+    run_.report.diverges = run_.report.diverges || rest.diverges;
     if (rest.interrupted) run_.report.status = SimulationStatus::interrupted;
     return !rest.interrupted && run_.goes_on(std::move(rest.failure));
   }

@@ -217,8 +217,8 @@ class Run {
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
     for (const auto& warning :
-         {compression_warning(case_.path, outputs.least_strain()), energy_warning(case_.path, simulated),
-          short_steps_note(case_.path, simulated)}) {
+         {compression_warning(case_.path, outputs.least_strain()), divergence_warning(case_.path, simulated),
+          energy_warning(case_.path, simulated), short_steps_note(case_.path, simulated)}) {
       if (!warning) continue;
       print_diagnostics(messages_, {*warning});
       print_diagnostics(*log_, {*warning});

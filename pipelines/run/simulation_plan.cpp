@@ -67,6 +67,14 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
           "most; longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
 }
 
+std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run) {
+  if (!run.diverges) return {};
+  return Diagnostic{
+      Severity::warning, file.string() + ": loads",
+      "the equilibrium is unstable, and no stable one was found: loads that follow the section and moments in "
+      "space have no energy that it could be the least of; see with a damped dynamic analysis where it goes"};
+}
+
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run) {
   const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
   const bool between_events = run.integration_error > noticed;

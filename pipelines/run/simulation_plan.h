@@ -23,6 +23,7 @@ std::optional<Diagnostic> compression_warning(const std::filesystem::path& file,
 std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run);
 
 /// A warning where energy comes from nowhere or is lost; `file` heads it.
+std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run);
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
 
 }  // namespace nurbeam

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 namespace nurbeam {
 namespace {
 
+using std::numbers::pi;
 using test::CaseRun;
 using namespace verification;
 
@@ -51,6 +54,102 @@ TEST(Elastica, ADeadTipLoadBendsTheBeamAsMattiassonSays) {
     EXPECT_NEAR(r.last("tip.x [m]"), elastica_tip(q).x, 1e-5) << q;
     EXPECT_NEAR(r.last("tip.y [m]"), elastica_tip(q).y, 1e-5) << q;
   }
+}
+
+// ---- Struts ----
+
+CaseRun run_text(const std::string& text) {
+  const test::TemporaryDirectory directory;
+  return test::run_file(directory.write("case.json", text));
+}
+
+/// A steel bar of 2 m along z, clamped at its start A; its middle is p, its end e.
+std::string strut(const std::string& of_the_beam, const std::string& loads, bool held = false) {
+  const std::string end = held ? R"(, { "beam": "b", "at": "end", "type": "clamped" })" : "";
+  return R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [0, 0, 2]] }, "elements": { "count": 20 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3,
+                              "thermal_expansion": 1e-5 }, )" +
+         of_the_beam + R"( }],
+    "supports": [{ "beam": "b", "at": "start", "type": "clamped", "name": "A" })" +
+         end + R"(], "loads": [)" + loads + R"(], "analysis": { "type": "static" },
+    "output": { "report": false, "probes": [{ "name": "p", "beam": "b", "at": { "fraction": 0.5 } },
+                                            { "name": "e", "beam": "b", "at": "end" }] } })";
+}
+
+// By 100 K to three times Euler's load N = 4 pi^2 EI/L^2. It bends to a/2 (1 - cos(2 pi z/L)), as far as it
+// is too long under N: pi^2 a^2/(4 L).
+TEST(Strut, ThatIsHeatedBucklesUnderLoadsWithoutEnergyToo) {
+  const double EI = 2.1e11 * 0.03 * std::pow(0.02, 3) / 12, EA = 2.1e11 * 6e-4, N = pi * pi * EI;
+  const double a = 4 / pi * std::sqrt(1e-3 - N / EA);
+  for (const std::string load :
+       {R"({ "beam": "b", "at": { "fraction": 0.4 }, "force": [50, 0, 0], "follower": true })",
+        R"({ "beam": "b", "at": { "fraction": 0.4 }, "moment": [0, 20, 0] })",
+        R"({ "beam": "b", "at": { "fraction": 0.4 }, "moment": [0, 0, 20] })",
+        R"({ "beam": "b", "torque_per_length": 20 })"}) {
+    const CaseRun r = run_text(strut(
+        R"("section": { "rectangle": [0.02, 0.03] }, "torsion": true, "temperature": 100)", load, true));
+    ASSERT_EQ(r.code, 0) << load << r.messages;
+    EXPECT_NEAR(r.last("A.fz [N]"), N, 2e-3 * N) << load;
+    EXPECT_NEAR(std::abs(r.last("p.uy [m]")), a, 2e-3 * a) << load;
+  }
+}
+
+/// The end of an elastica that is clamped at its start, of length 2, under q times its critical load.
+struct ElasticaEnd {
+  double along, across;
+};
+ElasticaEnd buckled_end(double q) {
+  double low = 0, high = 1;  // p with K(p) = pi/2 sqrt(q)
+  for (int i = 0; i < 60; ++i) {
+    const double p = (low + high) / 2;
+    (std::comp_ellint_1(p) < pi / 2 * std::sqrt(q) ? low : high) = p;
+  }
+  const double K = std::comp_ellint_1(low);
+  return {2 * (2 * std::comp_ellint_2(low) / K - 1), 4 * low / K};
+}
+
+std::string force(const std::string& at, double x, double z, bool follower = false) {
+  std::ostringstream text;
+  text.precision(17);
+  text << R"({ "beam": "b", "at": )" << at << R"(, "force": [)" << x << ", 0, " << z << R"(], "follower": )"
+       << (follower ? "true }" : "false }");
+  return text.str();
+}
+const std::string round = R"("section": { "radius": 0.01 })";
+const double round_EI = 2.1e11 * pi * 1e-8 / 4;
+
+TEST(Strut, InAPlaneBucklesBesideALoadThatFollows) {
+  const CaseRun r = run_text(strut(round, force(R"("end")", 0, -4 * pi * pi / 16 * round_EI) + ", " +
+                                              force(R"({ "fraction": 0.5 })", 0.01, 0, true)));
+  ASSERT_EQ(r.code, 0) << r.messages;
+  EXPECT_NEAR(r.last("e.z [m]"), buckled_end(4).along, 2e-3);
+  EXPECT_NEAR(std::abs(r.last("e.ux [m]")), buckled_end(4).across, 2e-3);
+}
+
+// Without anything that breaks the symmetry about its axis one state is as good as all around it.
+TEST(Strut, ThatIsRoundAndHasTorsionBucklesIntoAnyPlane) {
+  for (const double lateral : {0.0, 1e-3, 1e-2, 0.1}) {
+    const CaseRun r =
+        run_text(strut(round + R"(, "torsion": true)", force(R"("end")", 0, -3.9 * pi * pi / 16 * round_EI) +
+                                                           ", " + force(R"("end")", lateral, 0)));
+    ASSERT_EQ(r.code, 0) << lateral << r.messages;
+    EXPECT_NEAR(r.last("e.z [m]"), buckled_end(3.9).along, 2e-3) << lateral;
+    EXPECT_NEAR(std::hypot(r.last("e.ux [m]"), r.last("e.uy [m]")), buckled_end(3.9).across, 2e-3) << lateral;
+  }
+}
+
+// Beck's column flutters above 20.05 EI/L^2, and never leaves without it: not above the 2.47 of a force that
+// keeps its direction. The force of 40 nothing holds, with any damping.
+TEST(Strut, UnderAForceThatFollowsItsEndStaysStraight) {
+  for (const double P : {2.4, 5.0, 10.0, 19.0}) {
+    const CaseRun r = run_text(strut(round, force(R"("end")", 0, -P * round_EI / 4, true)));
+    ASSERT_EQ(r.code, 0) << P << r.messages;
+    EXPECT_LT(std::abs(r.last("e.ux [m]")), 1e-9) << P;
+    EXPECT_FALSE(r.says("unstable")) << P;
+  }
+  const CaseRun r = run_text(strut(round, force(R"("end")", 0, -40 * round_EI / 4, true)));
+  EXPECT_TRUE(r.says("the equilibrium is unstable")) << r.messages;
 }
 
 // ---- Hanging cables ----

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <random>
 
 namespace nurbeam {
@@ -65,6 +66,66 @@ TEST(Stability, SaysNothingOfAnUnsymmetricTangent) {
   Eigen::MatrixXd K = Eigen::MatrixXd::Identity(3, 3);
   K(0, 1) = 0.5;
   EXPECT_FALSE(stability(kkt(K, Eigen::MatrixXd::Zero(0, 3)), 3));
+}
+
+Stability divergence_of(const Eigen::MatrixXd& K, const Eigen::MatrixXd& G, const Eigen::MatrixXd& M) {
+  return divergence(
+      kkt(K, G), static_cast<int>(K.rows()), [&] { return M.sparseView().eval(); });
+}
+
+/// Against the real parts of the eigenvalues of (Z'MZ)^-1 Z'KZ; a direction that is told falls.
+TEST(Divergence, IsANegativeRealPartOfAnEigenvalueOnTheNullSpaceOfTheConstraints) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> number(-1, 1);
+  int stable = 0, unstable = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 4 + trial % 7, m = trial % 4;
+    const auto matrix = [&](int rows, int columns) {
+      return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return number(random); }).eval();
+    };
+    const Eigen::MatrixXd A = matrix(n, n), B = matrix(n, n), G = matrix(m, n);
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n), M = B * B.transpose() + one;
+    const Eigen::MatrixXd K = A * A.transpose() + 0.5 * matrix(n, n) - 0.2 * (1 + number(random)) * one;
+    const Eigen::MatrixXd Z = m > 0 ? Eigen::FullPivLU<Eigen::MatrixXd>(G).kernel().eval() : one;
+    const Eigen::MatrixXd inertia = Z.transpose() * M * Z, stiffness = Z.transpose() * K * Z;
+    const double least =
+        Eigen::EigenSolver<Eigen::MatrixXd>(inertia.llt().solve(stiffness)).eigenvalues().real().minCoeff();
+    if (std::abs(least) < 0.01) continue;
+    const Stability found = divergence_of(K, G, M);
+    ASSERT_EQ(found.unstable_directions, least < 0 ? 1 : 0) << trial;
+    ++(least < 0 ? unstable : stable);
+    if (least > 0) continue;
+    EXPECT_LT(found.direction.dot(K * found.direction), 0);
+    EXPECT_NEAR(found.direction.norm(), 1, 1e-12);
+    EXPECT_LT((G * found.direction).norm(), 1e-9);
+  }
+  EXPECT_GT(stable, 50);
+  EXPECT_GT(unstable, 50);
+}
+
+// Ziegler's double pendulum, of masses 2 and 1, unit lengths and springs, under a force P that follows its
+// end. Its tangent [[2 - P, P - 1], [-1, 1]] has the determinant 1. Its eigenvalues are real and positive up
+// to P = 7/2 - sqrt(2), and of negative real parts above 7/2.
+TEST(Divergence, OfZieglersPendulumBeginsAboveItsFlutter) {
+  const Eigen::Matrix2d M{{3, 1}, {1, 1}};
+  for (const double P : {1.0, 2.0, 3.4, 3.6, 4.0, 10.0, 1e3}) {
+    const Eigen::Matrix2d K{{2 - P, P - 1}, {-1, 1}};
+    EXPECT_EQ(divergence_of(K, Eigen::MatrixXd(0, 2), M).unstable_directions, P > 3.5 ? 1 : 0) << P;
+  }
+}
+
+// A soft direction that falls among stiff ones, with a coordinate that has no mass.
+TEST(Divergence, IsFoundAmongSoftAndStiffDirections) {
+  for (const double softest : {-1e-3, -1e-7, 1e-7, 1e-3}) {
+    Eigen::MatrixXd K = Eigen::VectorXd{{1, 1, 1, 1, 1e9}}.asDiagonal(), M = K;
+    const Eigen::MatrixXd couple{{1, -1 + softest}, {-1, 1}};
+    K.topLeftCorner(2, 2) = couple;
+    K(0, 2) = 3;
+    K(2, 0) = 1e-9;  // of hardly any influence on its eigenvalues, as their product says
+    M.setIdentity();
+    M(3, 3) = 0;
+    EXPECT_EQ(divergence_of(K, Eigen::MatrixXd(0, 5), M).unstable_directions, softest < 0 ? 1 : 0) << softest;
+  }
 }
 
 TEST(Stability, APositiveTangentWithSoftAndStiffDirectionsIsStable) {

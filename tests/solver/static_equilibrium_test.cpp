@@ -348,6 +348,42 @@ TEST(StaticEquilibrium, AnUnstableEquilibriumIsLeftForAStableOne) {
   EXPECT_NEAR(std::abs(q), 1.0267, 1e-3);
 }
 
+/// The same with a spring of its own that the bar pushes, and that does not push back.
+class InvertedPusher : public Inverted {
+ public:
+  int coordinate_count() const override { return 2; }
+  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
+                Eigen::Ref<Eigen::VectorXd> constraints) const override {
+    Inverted::residual(state, dynamics.head(1), constraints);
+    dynamics[1] = state.a[1] + state.q[1] - push * state.q[0];
+  }
+  double push = 5;
+
+ protected:
+  Eigen::MatrixXd mass(const State&) const override { return Eigen::MatrixXd::Identity(2, 2); }
+  Eigen::MatrixXd stiffness(const State& state) const override {
+    return Eigen::Matrix2d{{Inverted::stiffness(state)(0, 0), 0}, {-push, 1}};
+  }
+};
+
+TEST(StaticEquilibrium, AnUnstableEquilibriumUnderForcesWithoutEnergyIsLeftToo) {
+  InvertedPusher bar;
+  State state = resting(Eigen::VectorXd::Zero(2));
+  ASSERT_EQ(find_static_equilibrium({}, bar, state).status, StaticStatus::converged);
+  EXPECT_NEAR(state.q[0] / std::sin(state.q[0]), bar.weight, 1e-9);
+  EXPECT_NEAR(std::abs(state.q[0]), 1.0267, 1e-3);
+  EXPECT_NEAR(state.q[1], bar.push * state.q[0], 1e-9);
+}
+
+// Its tangent is not positive definite: the push is ten times what that takes.
+TEST(StaticEquilibrium, BelowTheCriticalWeightForcesWithoutEnergyLeaveItUpright) {
+  InvertedPusher bar;
+  bar.weight = 0.99;
+  State state = resting(Eigen::VectorXd::Zero(2));
+  ASSERT_EQ(find_static_equilibrium({}, bar, state).status, StaticStatus::converged);
+  EXPECT_EQ(state.q.norm(), 0);
+}
+
 TEST(StaticEquilibrium, BelowTheCriticalWeightTheBarStaysUpright) {
   Inverted bar;
   bar.weight = 0.99;
