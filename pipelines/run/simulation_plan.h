@@ -22,8 +22,10 @@ std::optional<Diagnostic> compression_warning(const std::filesystem::path& file,
 /// A note where every tenth step of a fixed length or more had to be shorter; `file` heads it.
 std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run);
 
-/// A warning where energy comes from nowhere or is lost; `file` heads it.
+/// A warning where an equilibrium is unstable and no stable one was found; `file` heads it.
 std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run);
+
+/// A warning where energy comes from nowhere or is lost; `file` heads it.
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
 
 }  // namespace nurbeam
