@@ -321,7 +321,7 @@ class EquilibriumSearch {
   }
 
   bool steps_left() const {
-    constexpr int share = 4;  // for another search
+    constexpr int share = 2;  // for another search
     const bool another = diverged_ && !may_diverge_;
     return report_.load_steps < (another ? settings_.max_load_steps / share : settings_.max_load_steps);
   }

@@ -80,10 +80,15 @@ Eigen::VectorXd Assembly<D>::sides(const State& state) const {
     sides[e.index] = e.element.is_taut(gather<D>(e, state)) ? 1 : 0;
   }
   for (const BoundForce<D>& force : forces_)
-    if (const auto* spring = std::get_if<Spring<D>>(&force); spring && spring->carries_one_sign(at)) {
-      has_kinks = true;
-      sides[spring->side(at)] = spring->carries(at, state) ? 1 : 0;
-    }
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (requires { f.carries_one_sign(at); }) {
+            if (!f.carries_one_sign(at)) return;
+            has_kinks = true;
+            sides[f.side(at)] = f.carries(at, state) ? 1 : 0;
+          }
+        },
+        force);
   return has_kinks ? sides : Eigen::VectorXd();
 }
 

@@ -247,7 +247,7 @@ TEST(Buckling, OfABarThatLiesAskewIsThatOfOneAlongAnAxis) {
       "supports": [{ "beam": "b", "at": "start", "type": "clamped" },
                    { "beam": "b", "at": { "fraction": 0.267 }, "type": "pinned" }],
       "loads": [{ "beam": "b", "force_per_length": )" +
-            text({-9, 17, -12}) + R"( }],
+            text({-900, 17, -12}) + R"( }],
       "analysis": { "type": "buckling", "modes": { "count": 3 } }, "output": { "report": false } })",
         left);
     EXPECT_EQ(left.code, 0) << left.messages;
