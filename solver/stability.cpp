@@ -189,8 +189,10 @@ class Pencil {
   Vector falling(double a) const {
     constexpr double aside = 1.3;  // of what is an eigenvalue itself
     KktSolver solver;
-    if (!solver.factorise(Matrix(kkt_ + a * mass_))) a *= aside;
-    if (!solver.factorise(Matrix(kkt_ + a * mass_))) return {};
+    if (!solver.factorise(Matrix(kkt_ + a * mass_))) {
+      a *= aside;
+      if (!solver.factorise(Matrix(kkt_ + a * mass_))) return {};
+    }
     return falling(a, arnoldi(n_, [&](const Vector& x) -> Vector {
                      Vector padded = Vector::Zero(kkt_.rows());
                      padded.head(n_) = x;

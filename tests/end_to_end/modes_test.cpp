@@ -231,12 +231,11 @@ TEST(Buckling, DoesNotMultiplyTheWeightOfLumps) {
 // Differences of a stiff bar that lies askew left less of the symmetry than was asked for, and how far the
 // loads may be multiplied was told by components of its way.
 TEST(Buckling, OfABarThatLiesAskewIsThatOfOneAlongAnAxis) {
-  const auto factors = [](const Eigen::Matrix3d& turn) {
+  const auto buckle = [](const Eigen::Vector3d& load, const Eigen::Matrix3d& turn, Left& left) {
     const auto text = [&](const Eigen::Vector3d& v) {
       const Eigen::Vector3d turned = turn * v;
       return nlohmann::json{turned[0], turned[1], turned[2]}.dump();
     };
-    Left left;
     run_modes_text(
         R"({ "nurbeam": 1, "gravity": [0, 0, 0],
       "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], )" +
@@ -247,19 +246,32 @@ TEST(Buckling, OfABarThatLiesAskewIsThatOfOneAlongAnAxis) {
       "supports": [{ "beam": "b", "at": "start", "type": "clamped" },
                    { "beam": "b", "at": { "fraction": 0.267 }, "type": "pinned" }],
       "loads": [{ "beam": "b", "force_per_length": )" +
-            text({-900, 17, -12}) + R"( }],
+            text(load) + R"( }],
       "analysis": { "type": "buckling", "modes": { "count": 3 } }, "output": { "report": false } })",
         left);
+  };
+  const auto factors = [&](const Eigen::Matrix3d& turn) {
+    Left left;
+    buckle({-900, 17, -12}, turn, left);
     EXPECT_EQ(left.code, 0) << left.messages;
     std::vector<double> result;
     if (left.code == 0)
       for (const auto& mode : left.run["buckling"]) result.push_back(mode["factor"].get<double>());
     return result;
   };
+  // What bends it by its own size before it buckles is no load that has no energy.
+  const auto bends = [&](const Eigen::Matrix3d& turn) {
+    Left left;
+    buckle({-9, 17, -12}, turn, left);
+    EXPECT_EQ(left.code, 3);
+    EXPECT_NE(left.messages.find("nothing buckles under the loads"), std::string::npos) << left.messages;
+  };
+  bends(Eigen::Matrix3d::Identity());
   const std::vector<double> along = factors(Eigen::Matrix3d::Identity());
   ASSERT_FALSE(along.empty());
   for (const double angle : {0.3, 1.0, 2.0}) {
     const Eigen::AngleAxisd turn(angle, Eigen::Vector3d(1, -2, 3).normalized());
+    bends(turn.toRotationMatrix());
     const std::vector<double> askew = factors(turn.toRotationMatrix());
     ASSERT_EQ(askew.size(), along.size()) << angle;
     for (std::size_t i = 0; i < along.size(); ++i)
