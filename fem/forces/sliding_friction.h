@@ -59,7 +59,10 @@ class SlidingFriction {
   Slopes slopes(const MeshedBeams<D>& at, const State& state) const;
   FrictionForce force_of(const MeshedBeams<D>& at, const Slopes& slopes, const State& state) const;
   Matrix tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
-  double stored(const FrictionMemory& memory) const { return body_.stiffness * memory.z * memory.z / 2; }
+  // One that slides stores nothing: what the spring has, as far out as friction goes, does not come back.
+  double stored(const FrictionMemory& memory) const {
+    return memory.slides == 0 ? body_.stiffness * memory.z * memory.z / 2 : 0;
+  }
 
   FrictionOfBody body_;
   int joint_, multiplier_, place_;

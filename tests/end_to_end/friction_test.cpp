@@ -142,6 +142,22 @@ TEST(FrictionRun, ABodyThatComesToRestAsAStepEndsStaysThere) {
     }
 }
 
+// The spring of what sticks is no store of one that slides: a strong brake would put more into it than a
+// light body has.
+TEST(FrictionRun, WhatABrakeTakesIsLostAsTheBodySlides) {
+  const CaseRun run =
+      run_rubbing(rubbing_case(R"({"polyline": [[0, 0, 0], [2, 0, 0]]})", 1,
+                               R"("at": {"length": 0.5}, "speed": 0.45, "friction": {"force": 2000})",
+                               R"({"type": "dynamic", "end_time": 0.0004, "step": 1e-5})", "",
+                               R"("gravity": [0, 0, 0], "output": {"every": 1e-5, "report": false}, )"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const double slid = run.value(i, "bead.s [m]") - 0.5;
+    EXPECT_NEAR(run.value(i, "energy.dissipated [J]"), 2000 * slid, 1e-9) << run.value(i, "time [s]");
+  }
+  EXPECT_NEAR(run.last("energy.dissipated [J]"), 0.45 * 0.45 / 2, 1e-9);
+}
+
 TEST(FrictionRun, OnACircleABodySwingsUpComesToRestAndGoesBack) {
   // F2. Clockwise from the height of the centre, by the angle phi from there.
   const double R = 3, mu = 0.25;
