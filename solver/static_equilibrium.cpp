@@ -17,10 +17,13 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double largest_change = 1;         ///< of a coordinate in one increment, over its scale
+constexpr double noticeable_change = 1e-6;   ///< that is no round-off
 constexpr double settled_change = 0.05;      ///< in a proximal step, from which plain Newton is tried
-constexpr double proximal_tolerance = 1e-6;  ///< on the scaled residual of a proximal step
+constexpr double proximal_tolerance = 1e-6;  ///< on the scaled residual of a proximal step, where it moves
 constexpr double first_increment = 0.1;
-constexpr double smallest_increment = 1e-3;
+constexpr double smallest_increment = 1e-6;
+constexpr double branching_increment = 1e-3;  ///< the smallest where the branch itself becomes unstable
+constexpr double leap = 1e-2;  ///< to where a branch has ended or is unstable by more than a little
 constexpr int easy_iterations = 6;
 constexpr int proximal_iterations = 15;
 constexpr double departing_change = 1e-2;  ///< from an unstable equilibrium, of a coordinate over its scale
@@ -42,9 +45,11 @@ class EquilibriumSearch {
 
   StaticReport run() {
     if (!reach(1).converged) {
-      if (reach(0).converged)
+      const Outcome start = reach(0);
+      const bool diverges = start.unstable() && diverged_;  // what ended another search, if anything
+      if (start.converged)
         follow_load();
-      else
+      else if (!diverges)
         relax(1);
     }
     state_.load = report_.load_factor;
@@ -64,11 +69,13 @@ class EquilibriumSearch {
   struct Outcome {
     bool converged = false;
     bool singular_at_start = false;
+    bool turns_back = false;  // against where the tangent leads
     int iterations = 0;
     double residual_norm = 0;
     Stability stability = {};  // of what it converged to
 
     bool unstable() const { return stability.unstable_directions > 0; }
+    bool branches() const { return unstable() && !turns_back; }
   };
 
   static State at_rest(State state, const SecondOrderSystem& system) {
@@ -82,13 +89,14 @@ class EquilibriumSearch {
   void follow_load() {
     double increment = first_increment;
     while (report_.status != StaticStatus::converged && steps_left() && !ended_) {
-      const double factor = std::min(1.0, report_.load_factor + increment);
+      const double factor = load_after(increment);
       const Outcome outcome = reach(factor);
       if (outcome.converged) {
         if (outcome.iterations <= easy_iterations) increment *= 2;
-      } else if (increment > smallest_increment && !outcome.singular_at_start) {
+      } else if (increment > (outcome.branches() ? branching_increment : smallest_increment) &&
+                 !outcome.singular_at_start) {
         increment /= 2;
-      } else if (relax(factor)) {
+      } else if (relax(diverged_ ? factor : load_after(std::max(increment, leap)))) {
         increment = first_increment;
       } else {
         return;
@@ -96,16 +104,37 @@ class EquilibriumSearch {
     }
   }
 
-  /// Newton at a load factor from the last equilibrium to a stable one within the bound on the change. From a
-  /// singular tangent its direction means nothing, and so does the equilibrium it may end in.
+  double load_after(double increment) const { return std::min(1.0, report_.load_factor + increment); }
+
+  /// Newton at a load factor from the last equilibrium to a stable one within the bound on the change, and on
+  /// its branch. From a singular tangent its direction means nothing, and so does the equilibrium it may end
+  /// in.
   Outcome reach(double factor) {
     ++report_.load_steps;
     State trial = state_;
+    const Vector way = heading(factor);
     Outcome outcome = newton(factor, trial);
+    const double moved = change(trial, state_);
+    outcome.turns_back = moved > noticeable_change && (trial.q - state_.q).cwiseQuotient(scale_).dot(way) < 0;
     outcome.converged = outcome.converged && !outcome.singular_at_start && !outcome.unstable() &&
-                        change(trial, state_) <= largest_change;
+                        moved <= largest_change && !outcome.turns_back;
     if (outcome.converged) accept(factor, trial, outcome);
     return outcome;
+  }
+
+  /// Where a load factor moves the last equilibrium by its tangent, in scaled coordinates; zero where that is
+  /// singular.
+  Vector heading(double factor) {
+    equations_.clear_proximity();
+    equations_.set_load(report_.load_factor);
+    const Vector x = equations_.scaled_unknowns(state_);
+    Vector rows(equations_.size());
+    if (!equations_.differentiate(x) || !kkt_solver_.factorise(equations_.tangent()))
+      return Vector::Zero(scale_.size());
+    equations_.set_load(factor);
+    if (!equations_.evaluate(x, rows)) return Vector::Zero(scale_.size());
+    const Vector move = -kkt_solver_.solve(rows).head(scale_.size());
+    return move.allFinite() ? move : Vector::Zero(scale_.size());
   }
 
   /// Proximal steps at a load factor from the last equilibrium until plain Newton converges nearby, to an
@@ -116,15 +145,16 @@ class EquilibriumSearch {
     centre.load = factor;
     const double inertia = equations_.inertial_work(centre);
     if (!(inertia > 0)) return false;
-    double proximity = 10 * largest_force(centre) / inertia;
+    double proximity = 10 * largest_force(centre) / inertia, tolerance = proximal_tolerance;
     std::optional<Vector> left;  // the unstable equilibrium
     while (steps_left()) {
       ++report_.load_steps;
       State trial = centre;
-      const Outcome step = proximal_step(proximity, trial);
+      const Outcome step = proximal_step(proximity, tolerance, trial);
       const double moved = change(trial, centre);
       // The energy falls from step to step, and never leads there again.
-      const bool back = left && change(trial.q, *left) < departing_change / 10;
+      const bool back =
+          left && change(trial.q, *left) < std::min(0.9 * change(centre.q, *left), settled_change);
       if (!step.converged || !(moved <= largest_change) || back) {
         proximity *= 10;
         continue;
@@ -141,13 +171,16 @@ class EquilibriumSearch {
         accept(factor, trial, settled);
         return true;
       }
-      // From one after the other: what is pressed together hard has many.
-      const bool is_left = left && change(trial.q, *left) <= settled_change;
-      if (settled.unstable() && settling <= settled_change && !is_left) {
+      // From one after the other, what is pressed together hard has many; but from where descent ends.
+      const double passed = left ? change(trial.q, *left) : std::numeric_limits<double>::infinity();
+      const bool arrived = settling <= departing_change / 10 && passed > departing_change / 10;
+      if (settled.unstable() && settling <= settled_change && (passed > settled_change || arrived)) {
         left = trial.q;
         centre.q = trial.q + departure(settled.stability);
         continue;
       }
+      // What is soft beside large forces moves only where they are closed well.
+      if (step.iterations == 0) tolerance = std::max(tolerance / 100, settings_.tolerance);
       proximity *= step.iterations <= easy_iterations ? 0.2 : 0.5;
     }
     return false;
@@ -240,13 +273,13 @@ class EquilibriumSearch {
   }
 
   /// Solves M(q)(q - q_k) proximity - f + G'lambda = 0 from q_k = trial.q, in place.
-  Outcome proximal_step(double proximity, State& trial) {
+  Outcome proximal_step(double proximity, double tolerance, State& trial) {
     equations_.rescale(trial, largest_force(trial));
     equations_.set_proximity(proximity, trial.q);
     Vector x = equations_.scaled_unknowns(trial);
     Outcome outcome;
-    improve(x, Vector::Constant(x.size(), proximal_tolerance), KIN_NONE, proximal_iterations, outcome);
-    outcome.converged = equations_.quality(x, proximal_tolerance).acceptable;
+    improve(x, Vector::Constant(x.size(), tolerance), KIN_NONE, proximal_iterations, outcome);
+    outcome.converged = equations_.quality(x, tolerance).acceptable;
     trial = equations_.state_of(x);
     equations_.clear_proximity();
     return outcome;
