@@ -172,14 +172,28 @@ struct Simulation::Implementation {
     const auto& asked = run_.observer.interrupted;
     const std::vector<double>& times = run_.options.output_times;
     const LengthControl& control = run_.options.length_control;
-    if (phase_ == Phase::start && !times.empty()) run_.at.state.t = times.front();
     const bool found = phase_ == Phase::start
-                           ? find_lengths() && book(find_rest(run_.at, control, asked))
+                           ? start_rest() && book(find_rest(run_.at, control, asked))
                            : book(find_next_rest(run_.at, times[next_output_], control, asked));
     if (found && run_.observer.follower) run_.observer.follower->rests(run_.at);
     if (found) take_snapshot();
     ++next_output_;
     phase_ = found && next_output_ < times.size() ? Phase::rest : Phase::ended;
+  }
+
+  // At the first of the output times, with the lengths of connectors that the whole loads ask for: the same
+  // structure by whatever steps they come.
+  bool start_rest() {
+    const std::vector<double>& times = run_.options.output_times;
+    const double first = times.empty() ? run_.at.state.t : times.front();
+    const bool whole = times.size() <= 1 && (first == 0 || first == 1);  // without tables at 0
+    if (!whole && asks_for_lengths(*run_.model)) {
+      run_.at.state.t = 1;
+      if (!find_lengths()) return false;
+      run_.at = MeshedState::drawn(run_.model);
+    }
+    run_.at.state.t = first;
+    return find_lengths();
   }
 
   // The free lengths of connectors that the equilibrium gives; whether the run goes on.

@@ -415,7 +415,8 @@ Shape connector() {
         "free length, of a rod its length; drawn: the distance of its ends as drawn; as-drawn: that for which its "
         "first end stands where it is drawn when all is in equilibrium; drawn when omitted"},
        {"force", quantity(Dimension::force, plausible(-1e12, 1e12)),
-        "force at the start, positive where it pulls, which gives the free length"},
+        "force at the start, in statics under the full loads, positive where it pulls, which gives the free "
+        "length"},
        {"direction", vector(Dimension::number),
         "it acts along this direction alone, on the distance along it from the first end to the second"},
        {"end_masses", masses(), "[kg, kg] lumped at its ends, as of clamps; none when omitted"}},

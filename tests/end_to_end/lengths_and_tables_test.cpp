@@ -190,6 +190,30 @@ TEST(LoadSteps, AForceThatMovesGivesInfluenceLines) {
   }
 }
 
+// What is asked of connectors is so under the full loads, by whatever steps they come.
+TEST(LoadSteps, LeaveConnectorsTheirLengths) {
+  for (const char* length : {R"("force": 50)", R"("length": "as-drawn")"}) {
+    const std::string text = std::string(R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+      "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
+                  "material": "steel", "elements": { "count": 8 } }],
+      "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
+      "connectors": [{ "name": "guy", "from": { "beam": "b", "at": "end" }, "to": { "point": [2, 0, 1] },
+                       "stiffness": 5000, )") +
+                             length + R"( }],
+      "loads": [{ "beam": "b", "at": "end", "force": [0, 0, -60] }], "analysis": { "type": "static" },
+      "output": { "report": false, "probes": [{ "name": "e", "beam": "b", "at": "end" }] } })";
+    const CaseRun plain = run_text(text);
+    ASSERT_EQ(plain.code, 0) << plain.messages;
+    for (const char* steps : {"2", "[0, 1]", "[0.3, 1]", "[1, 2]"}) {
+      const CaseRun run = run_text(text, {std::string("analysis.load_steps=") + steps});
+      ASSERT_EQ(run.code, 0) << run.messages;
+      const std::size_t full = steps[1] == '1' ? 0 : run.rows.size() - 1;
+      EXPECT_NEAR(run.value(full, "e.z [m]"), plain.last("e.z [m]"), 1e-9) << length << steps;
+      EXPECT_NEAR(run.value(full, "guy.force [N]"), plain.last("guy.force [N]"), 1e-6) << length << steps;
+    }
+  }
+}
+
 TEST(LoadSteps, ThatAreLeftOutAreTheFullLoad) {
   const std::string ramp = "loads[0].time=[[0, 0], [1, 1], [2, 3]]";
   const CaseRun full = run_text(cantilever, {"analysis.load_steps=1"}), ramped = run_text(cantilever, {ramp}),
