@@ -114,15 +114,16 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
     connector.length = from.length.value_or(drawn);
     check_drawing(from, connector, drawn, findings);
     const CaseAnalysis& analysis = resolved.analysis;
-    const bool starts_drawn =
-        analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium;
+    const bool starts_drawn = analysis.has_modes() ? !analysis.modes.about_equilibrium
+                                                   : analysis.type == CaseAnalysis::Type::dynamic &&
+                                                         !analysis.start_from_equilibrium;
     if (connector.type == ConnectorType::rod && starts_drawn &&
         std::abs(connector.length - drawn) > 1e-9 * std::abs(drawn))
       findings.error(
           from.path + ".length",
           "is " + text_of(connector.length) + " m, but the ends of the rod are " + text_of(drawn) +
-              " m apart as drawn, where the run starts; leave \"length\" out, move an end, or start with "
-              "\"initial\": \"equilibrium\"");
+              " m apart as drawn, where it is to start; leave \"length\" out, move an end, or say " +
+              (analysis.has_modes() ? "\"about\"" : "\"initial\"") + ": \"equilibrium\"");
     if (connector.length_rule == ConnectorLength::force && starts_drawn) {
       connector.length_rule = ConnectorLength::given;
       connector.length = drawn - from.force / from.stiffness;
