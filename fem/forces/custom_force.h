@@ -31,6 +31,9 @@ struct CustomForce {
   /// rows zero in the plane).
   using Law = std::function<Response(double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v)>;
 
+  /// A law knows of no factor of the loads: it is there as connectors are.
+  static constexpr bool permanent = true;
+
   std::vector<Attachment> points;
   Law law;
 };

@@ -26,11 +26,11 @@ template <int D>
 ConnectorPull Spring<D>::pull(const MeshedBeams<D>& at, const Line& line, const State& state) const {
   const Connector& connector = described(at);
   const double stretch = line.length - connector.length;
-  const bool taut = connector.jumps() && state.memory.size() > 0
-                        ? is_taut(at.structure, state.memory, number_)
-                        : connector.sign() * stretch > 0;
   std::optional<bool> held;
   if (carries_one_sign(at) && state.sides.size() > 0) held = state.sides[side(at)] != 0;
+  const bool taut = connector.jumps() && state.memory.size() > 0
+                        ? is_taut(at.structure, state.memory, number_)
+                        : held.value_or(connector.sign() * stretch > 0);
   return {connector, stretch, line.rate, taut, held};
 }
 

@@ -9,6 +9,7 @@
 #include "fem/motion/free_lengths.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/observables.h"
+#include "fem/system/with_assembly.h"
 #include "solver/eigenpairs.h"
 #include "solver/equilibrated_kkt.h"
 #include "solver/stability.h"
@@ -67,16 +68,19 @@ std::optional<Failure> instability(const MeshedState& at, const Matrix& kkt) {
 
 // ---- Vibration ----
 
-// What round-off leaves of a vanishing x'K x / x'M x.
-double round_off(const Matrix& K, const Matrix& M, const Vector& x) {
-  const Vector size = x.cwiseAbs();
-  return 100 * std::numeric_limits<double>::epsilon() * size.dot(Matrix(K.cwiseAbs()) * size) / x.dot(M * x);
-}
-
 struct SquaredFrequencies {
   Vector values;           // increasing [1/s^2]
   Eigen::MatrixXd shapes;  // x'M x = 1
+  double resolution = 0;   // what the shift leaves of one that vanishes
 };
+
+// Whether a squared frequency is round-off: of x'K x / x'M x, or of the way in which it was found.
+bool is_rigid(const SquaredFrequencies& found, Eigen::Index i, const Matrix& K) {
+  const Vector size = found.shapes.col(i).cwiseAbs();
+  const double round_off =
+      100 * std::numeric_limits<double>::epsilon() * size.dot(Matrix(K.cwiseAbs()) * size);
+  return std::abs(found.values[i]) <= std::max(round_off, found.resolution);
+}
 
 // The lowest, by the inverse of K + shift M: as many digits are lost as the shift is away from them.
 std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_kkt, int n, int count,
@@ -91,7 +95,9 @@ std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_k
   shifted += shift * mass_alone;
   std::optional<Eigenpairs> found = largest_eigenpairs(shift * M, shifted, count, between);
   if (!found) return std::nullopt;
-  SquaredFrequencies result{shift * (found->values.cwiseInverse().array() - 1).matrix(), found->vectors};
+  constexpr double accuracy = 1e-12;  // of an eigenvalue near 1
+  SquaredFrequencies result{shift * (found->values.cwiseInverse().array() - 1).matrix(), found->vectors,
+                            accuracy * shift};
   for (Eigen::Index i = 0; i < result.values.size(); ++i) {
     Vector x = result.shapes.col(i) / std::sqrt(result.shapes.col(i).dot(M * result.shapes.col(i)));
     Eigen::Index largest = 0;
@@ -149,7 +155,7 @@ std::optional<Failure> find_vibrations(const ModesOptions& options, const std::f
     Mode mode;
     mode.shape = found->shapes.col(i);
     const double square = found->values[i];
-    const bool rigid = std::abs(square) <= round_off(K, M, mode.shape);
+    const bool rigid = is_rigid(*found, i, K);
     if (!rigid && square < 0) return failure_of(Failure::Kind::unstable_state, std::sqrt(-square));
     mode.omega = rigid ? 0 : std::sqrt(square);
     for (int axis = 0; axis < 3; ++axis)
@@ -163,6 +169,13 @@ std::optional<Failure> find_vibrations(const ModesOptions& options, const std::f
 
 // ---- Buckling ----
 
+// The same with all laws held on the side of their kinks where they are, by what they are there.
+State with_sides(const BeamSystem& system, State state) {
+  state.memory.resize(0);
+  state.sides = with_assembly(system, [&](const auto& assembly) { return assembly.sides(state); });
+  return state;
+}
+
 // The state a little way along the path that starts at a state under gravity.
 State along(const State& from, const Vector& direction, double amount) {
   State state = from;
@@ -172,10 +185,12 @@ State along(const State& from, const Vector& direction, double amount) {
   return state;
 }
 
-// That with dampers that are as stiff in strain rates as its beams are in strains, beside its own.
-BeamModel with_viscous_beams(const BeamModel& model) {
+// That with dampers that are as stiff in strain rates as its beams and connectors are in strains, beside its
+// own.
+BeamModel with_viscous_strains(const BeamModel& model) {
   BeamModel viscous = model;
   for (Beam& beam : viscous.beams) beam.properties.damping += 1;
+  for (Connector& connector : viscous.connectors) connector.damping += connector.stiffness;
   return viscous;
 }
 
@@ -210,7 +225,7 @@ double longest(const BeamSystem& system, const Vector& change) {
 
 // By how much the section forces, multipliers and loads of `loaded` beside those of `system` stiffen it, by
 // what they are in first order.
-// `viscous`: `system` with viscous beams.
+// `viscous`: `system` with viscous strains.
 std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const BeamSystem& loaded,
                                                 const BeamSystem& viscous, const State& state,
                                                 const Matrix& kkt) {
@@ -220,7 +235,7 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   loaded.residual(state, with.head(n), with.tail(m));
   const EquilibratedKkt solver(kkt, n);
   if (!solver.regular()) return std::nullopt;
-  const Vector path = solver.solve(without - with);
+  Vector path = solver.solve(without - with);
   const Vector scale = system.coordinate_scale();
   const double fastest = longest(system, path.head(n));
   // What the loads could move were nothing else there: loads on supports move round-off of it.
@@ -228,23 +243,34 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   for (int i = 0; i < n; ++i)
     if (kkt.coeff(i, i) > 0)
       free = std::max(free, std::abs(without[i] - with[i]) / kkt.coeff(i, i) / scale[i]);
-  if (!(fastest > 1e-10 * free)) return LoadStiffness{Matrix(n, n)};
+  const bool moves = fastest > 1e-10 * free;
+  if (!moves) path.head(n).setZero();  // constraints carry them all
+  const State here = with_sides(system, state);
   // What stiffness of the strains, turned by the path, would change is of second order in the loads.
   const auto of_stresses = [&](const State& at) -> Matrix {
     const Matrix of_strains = tangent(viscous, at, {.damping = 1}) - tangent(system, at, {.damping = 1});
     return tangent(system, at, {.stiffness = 1}) - of_strains;
   };
   const auto slope = [&](double h) -> Matrix {
-    return (of_stresses(along(state, path, h)) - of_stresses(along(state, path, -h))) / (2 * h);
+    return (of_stresses(along(here, path, h)) - of_stresses(along(here, path, -h))) / (2 * h);
   };
-  const double h = 2e-3 / fastest;  // extrapolated: errors of h^4, round-off of 1e-13
+  const double h = moves ? 2e-3 / fastest : 1;  // extrapolated: errors of h^4, round-off of 1e-13
   const Matrix geometric = (4 * slope(h / 2) - slope(h)) / 3;
   const Matrix of_loads = tangent(loaded, state, {.stiffness = 1}) - kkt;
   // Stresses have an energy, of which differences leave less of the symmetry than of exact tangents is left.
   const Matrix unsymmetric = coordinate_block(of_loads - Matrix(of_loads.transpose()), n);
   const double allowed = 1e-9 * largest_entry(of_loads) + 1e-15 * largest_entry(kkt);
-  return LoadStiffness{coordinate_block(geometric + of_loads, n), 1 / fastest,
+  return LoadStiffness{coordinate_block(geometric + of_loads, n),
+                       moves ? 1 / fastest : std::numeric_limits<double>::infinity(),
                        largest_entry(unsymmetric) <= allowed};
+}
+
+// Whether it can move without strain.
+bool moves_rigidly(const MeshedState& at, const Matrix& kkt, const std::function<void()>& between) {
+  const Matrix mass = tangent(*at.system, at.state, {.mass = 1});
+  const auto found = lowest(kkt, mass, at.system->coordinate_count(), 1, between);
+  return found && found->values.size() > 0 &&
+         is_rigid(*found, 0, coordinate_block(kkt, at.system->coordinate_count()));
 }
 
 std::optional<Failure> find_buckling(const std::vector<Force>& forces, const ModesOptions& options,
@@ -255,6 +281,7 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, const Mod
   const int n = at.system->coordinate_count();
   const Matrix kkt = tangent(*at.system, at.state, {.stiffness = 1});
   if (auto failure = instability(at, kkt)) return failure;
+  if (moves_rigidly(at, kkt, between)) return failure_of(Failure::Kind::not_held);
   std::vector<bool> held;  // or at rest against a stop or an end
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     held.push_back(row_of_place(*at.system, static_cast<int>(j)).has_value());
@@ -263,7 +290,7 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, const Mod
     return failure_of(Failure::Kind::resting_place);
   State state = at.state;
   state.load = 1;
-  const BeamSystem viscous(with_viscous_beams(at.system->model()), at.system->mesh().plan, held);
+  const BeamSystem viscous(with_viscous_strains(at.system->model()), at.system->mesh().plan, held);
   const auto by_loads = stiffness_of_loads(*at.system, loaded, viscous, state, kkt);
   if (!by_loads) return failure_of(Failure::Kind::not_held);
   const Matrix& geometric = by_loads->geometric;

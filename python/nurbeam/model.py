@@ -287,7 +287,7 @@ class Model:
         (3 points, 3 points); else, or where they are None, they are taken by differences, which calls it 6 times for
         each point. It must have no memory: a step may be tried several times. What it raises ends the run and comes
         out unchanged. `spatial`: it may act out of the plane in which a model lies by itself; the model is then one in
-        space."""
+        space. Buckling does not multiply it, and modes about the drawing leave it out, as they do loads."""
         if not callable(law):
             raise TypeError(f"a law is a function law(t, position, velocity), not {law!r}")
         if points is None:

@@ -279,6 +279,119 @@ TEST(Buckling, OfABarThatLiesAskewIsThatOfOneAlongAnAxis) {
   }
 }
 
+/// Beams without weight and what else there is; its factors.
+std::vector<double> factors_of(const std::string& rest) {
+  Left left;
+  run_modes_text(
+      R"({ "nurbeam": 1, "gravity": [0, 0, 0], "analysis": { "type": "buckling", "modes": { "count": 2 } },
+      "output": { "report": false }, )" +
+          rest + "}",
+      left);
+  EXPECT_EQ(left.code, 0) << left.messages;
+  std::vector<double> result;
+  if (left.code == 0)
+    for (const auto& mode : left.run["buckling"]) result.push_back(mode["factor"].get<double>());
+  return result;
+}
+const std::string steel =
+    R"("material": { "density": 7800, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3 })";
+
+// The stiffness of a spring that turns as the load bends the column is no load: it is that of a bar that is
+// pinned in its place.
+TEST(Buckling, HasConnectorsThatTurnAsBarsThatDo) {
+  const std::string column = R"({ "name": "b", "axis": { "polyline": [[0, 0, 0], [0, 0, 2]] },
+      "section": { "rectangle": [0.02, 0.02] }, "elements": { "count": 12 }, )" +
+                             steel + "}",
+                    clamp = R"({ "beam": "b", "at": "start", "type": "clamped" })";
+  const std::string load = R"("loads": [{ "beam": "b", "at": "end", "force": [200, 0, -500] }])";
+  const std::vector<double> spring = factors_of(
+      R"("beams": [)" + column + R"(], "supports": [)" + clamp +
+      R"(], "connectors": [{ "name": "k", "from": { "beam": "b", "at": "end" }, "to": { "point": [0, 0, 3] },
+             "stiffness": 1e6 }], )" +
+      load);
+  const std::vector<double> bar = factors_of(
+      R"("beams": [)" + column + R"(, { "name": "k", "axis": { "polyline": [[0, 0, 2], [0, 0, 3]] },
+          "section": { "area": 4.761904761904762e-6, "second_moment": 1e-5 }, "elements": { "count": 1 }, )" +
+      steel + R"(}], "joints": [{ "beams": ["b", "k"], "type": "hinged" }], "supports": [)" + clamp +
+      R"(, { "beam": "k", "at": "end", "type": "pinned" }], )" + load);
+  ASSERT_EQ(spring.size(), 1u);
+  ASSERT_EQ(bar.size(), 1u);
+  EXPECT_NEAR(spring[0], bar[0], 1e-6 * bar[0]);
+  EXPECT_NEAR(spring[0], 3.6785, 1e-4);
+}
+
+// Stays that are tight carry either way, however little that is.
+TEST(Buckling, HasTightStaysAsSprings) {
+  const auto factors = [](const std::string& type) {
+    const auto stay = [&](const std::string& name, const std::string& x) {
+      return R"({ "name": ")" + name + R"(", "from": { "beam": "b", "at": "end" }, "to": { "point": [)" + x +
+             R"(, 0, 0] }, "stiffness": 2e5, "type": ")" + type + R"(", "force": 500 })";
+    };
+    return factors_of(R"("beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [0, 0, 10]] },
+          "section": { "area": 0.01, "second_moment": 8.33e-6 }, "elements": { "count": 16 }, )" +
+                      steel + R"(}], "supports": [{ "beam": "b", "at": "start", "type": "pinned" }],
+        "loads": [{ "beam": "b", "at": "end", "force": [3, 0, -10] }], "connectors": [)" +
+                      stay("left", "-5") + ", " + stay("right", "5") + "]");
+  };
+  const std::vector<double> ropes = factors("tension-only"), springs = factors("spring");
+  ASSERT_EQ(ropes.size(), springs.size());
+  for (std::size_t i = 0; i < ropes.size(); ++i) EXPECT_NEAR(ropes[i], springs[i], 1e-9 * springs[i]);
+}
+
+// The rod carries it all: P d turns the end sideways, 3 EI/L^3 turns it back.
+TEST(Buckling, IsThatOfALoadThatARodCarries) {
+  const std::vector<double> factors = factors_of(
+      R"("beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] },
+          "section": { "area": 4e-4, "second_moments": [1.3e-8, 1.3e-9], "torsion_constant": 2e-9 },
+          "orientation": { "up": [0, 0, 1] }, "elements": { "count": 12 }, )" +
+      steel + R"(}], "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
+      "loads": [{ "beam": "b", "at": "end", "force": [0, 0, -1] }],
+      "connectors": [{ "name": "strut", "type": "rod", "from": { "beam": "b", "at": "end" },
+                       "to": { "point": [1, 0, -0.7] } }])");
+  ASSERT_FALSE(factors.empty());
+  EXPECT_NEAR(factors[0], 3 * 2.1e11 * 1.3e-9 * 0.7, 1e-4 * factors[0]);
+}
+
+// What a drawing says of a connector is its force, which gives its length.
+TEST(Modes, AboutTheDrawingHaveTheForcesOfConnectors) {
+  const auto frequencies = [](const std::string& length) {
+    Left left;
+    run_modes_text(cantilever_case(R"({ "type": "modes", "modes": { "count": 3, "about": "drawn" } })",
+                                   R"("connectors": [{ "name": "p", "from": { "beam": "bar", "at": "end" },
+          "to": { "point": [2, 0.5, 0] }, "stiffness": 2e4, "type": "tension-only", )" +
+                                       length + "}],"),
+                   left);
+    EXPECT_EQ(left.code, 0) << left.messages;
+    std::vector<double> result;
+    if (left.code == 0)
+      for (const auto& mode : left.run["modes"]) result.push_back(mode["frequency [Hz]"].get<double>());
+    return result;
+  };
+  const std::vector<double> by_force = frequencies(R"("force": 500)"),
+                            by_length = frequencies(R"("length": 0.475)");
+  ASSERT_EQ(by_force.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(by_force[i], by_length[i], 1e-9 * by_length[i]);
+}
+
+// A load that hangs on a stiff spring swings as drawn without weight: round-off of that was a growing motion.
+TEST(Modes, OfFreeMotionsBesideStiffOnesAreZero) {
+  for (const char* stiffness : {"300", "3e5"})
+    for (const int count : {4, 8, 12}) {
+      Left left;
+      run_modes_text(cantilever_case(R"({ "type": "modes", "modes": { "about": "drawn", "count": )" +
+                                         std::to_string(count) + "}}",
+                                     R"("bodies": [{ "name": "h", "mass": 2, "position": [2, 0, -1] }],
+          "connectors": [{ "name": "k", "from": { "beam": "bar", "at": "end" }, "to": { "body": "h" },
+                           "stiffness": )" +
+                                         std::string(stiffness) + "}],"),
+                     left);
+      ASSERT_EQ(left.code, 0) << left.messages;
+      EXPECT_EQ(left.run["modes"][0]["frequency [Hz]"].get<double>(), 0);
+      EXPECT_EQ(left.run["modes"][1]["frequency [Hz]"].get<double>(), 0);
+      EXPECT_GT(left.run["modes"][2]["frequency [Hz]"].get<double>(), 1);
+    }
+}
+
 TEST(Modes, ThatCannotBeAreRefusedInWords) {
   const auto expect = [](const std::string& text, int code, const std::string& words) {
     Left left;
@@ -294,6 +407,15 @@ TEST(Modes, ThatCannotBeAreRefusedInWords) {
   expect(cantilever_case(R"({ "type": "modes" })",
                          R"("loads": [{ "beam": "bar", "at": "end", "moment": [50, 20, 10] }],)"),
          3, "moments in space");
+  // An arch that turns about the line between its pins.
+  expect(R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "bar", "section": { "radius": 0.01 }, "material": { "density": 7850, "youngs_modulus": 2e11 },
+                "torsion": true, "axis": { "arc": { "center": [0, 0, 0], "start": [-0.8, 0, 0.6], "end": [0.8, 0, 0.6],
+                "normal": [0, 1, 0] } }, "elements": { "count": 24 } }],
+    "supports": [{ "beam": "bar", "at": "start", "type": "pinned" }, { "beam": "bar", "at": "end", "type": "pinned" }],
+    "loads": [{ "beam": "bar", "at": { "fraction": 0.5 }, "force": [0, 0, -1000] }],
+    "analysis": { "type": "buckling" } })",
+         3, "is the model held everywhere?");
   expect(R"({ "nurbeam": 1,
     "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
                 "material": { "density": 7850, "youngs_modulus": 2e11 } }],

@@ -44,6 +44,27 @@ def test_a_force_on_a_place_is_the_load_of_the_case():
     assert abs(expected[-1, 1]) > 1 / (4 * bending_stiffness())
 
 
+def test_buckling_multiplies_loads_and_no_laws():
+    def column():
+        model = nb.Model(gravity=[0, 0, 0])
+        model.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(0.005), material="steel", elements=16, name="b")
+        model.add_support("b", at="start", type="clamped")
+        model.add_load("b", at="end", force=[-1, 0, 0])
+        return model
+
+    held = column()
+    held.add("connectors", name="k", **{"from": {"beam": "b", "at": "end"}}, to={"point": [1, -1, 0]},
+             direction=[0, -1, 0], stiffness=100)
+    by_law = column()
+    by_law.add_force(lambda t, r, v: [0, -100 * r[1], 0], beam="b", at="end")
+    expected = [mode.factor for mode in held.run(type="buckling").modes]
+    assert [mode.factor for mode in by_law.run(type="buckling").modes][:2] == pytest.approx(expected[:2], rel=1e-6)
+    pulled = column()
+    pulled.add_force(lambda t, r, v: [100, 0, 0], beam="b", at="end")
+    alone = column().run(type="buckling").modes[0].factor
+    assert pulled.run(type="buckling").modes[0].factor == pytest.approx(alone + 100, rel=1e-3)
+
+
 def test_laws_see_world_coordinates_wherever_the_model_lies():
     seen = []
 
