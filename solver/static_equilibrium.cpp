@@ -6,6 +6,7 @@
 
 #include "solver/arguments.h"
 #include "solver/equilibrated_kkt.h"
+#include "solver/force_sizes.h"
 #include "solver/kinsol.h"
 #include "solver/kkt_solver.h"
 #include "solver/stability.h"
@@ -38,7 +39,8 @@ class EquilibriumSearch {
         may_diverge_(may_diverge),
         system_(system),
         scale_(system.coordinate_scale()),
-        state_(at_rest(start, system)),
+        sizes_(system),
+        state_(resting(system, start)),
         start_(state_),
         equations_(system, state_),
         kinsol_(equations_) {}
@@ -77,13 +79,6 @@ class EquilibriumSearch {
     bool unstable() const { return stability.unstable_directions > 0; }
     bool branches() const { return unstable() && !turns_back; }
   };
-
-  static State at_rest(State state, const SecondOrderSystem& system) {
-    state.v.setZero(system.coordinate_count());
-    state.a.setZero(system.coordinate_count());
-    if (state.lambda.size() != system.constraint_count()) state.lambda.setZero(system.constraint_count());
-    return state;
-  }
 
   /// Applies the load in increments from the equilibrium without load.
   void follow_load() {
@@ -145,7 +140,7 @@ class EquilibriumSearch {
     centre.load = factor;
     const double inertia = equations_.inertial_work(centre);
     if (!(inertia > 0)) return false;
-    double proximity = 10 * largest_force(centre) / inertia, tolerance = proximal_tolerance;
+    double proximity = 10 * sizes_.largest_force(centre) / inertia, tolerance = proximal_tolerance;
     std::optional<Vector> left;  // the unstable equilibrium
     while (steps_left()) {
       ++report_.load_steps;
@@ -161,7 +156,7 @@ class EquilibriumSearch {
       }
       centre = trial;
       if (settings_.ends_at && settings_.ends_at(centre)) {
-        state_ = at_rest(centre, system_);
+        state_ = resting(system_, centre);
         ended_ = true;
         return false;
       }
@@ -198,13 +193,13 @@ class EquilibriumSearch {
     trial.load = factor;
     equations_.set_load(factor);
     equations_.clear_proximity();
-    equations_.rescale(trial, largest_force(trial));
+    equations_.rescale(trial, sizes_.largest_force(trial));
     auto quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
     Outcome outcome{.converged = quality.residual_norm <= settings_.tolerance,
                     .residual_norm = quality.residual_norm};
     // Without loads, beside which it could be small, a residual of round-off is as good as none: of what
     // moves freely nothing tells where to look for less.
-    const bool is_loaded = applied_force(trial) > 0;
+    const bool is_loaded = sizes_.applied_force(trial) > 0;
     if (quality.acceptable && !is_loaded) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
     const auto improve_by = [&](int strategy, int iterations) {
@@ -215,7 +210,7 @@ class EquilibriumSearch {
       const bool settles = found.acceptable && !quality.acceptable;
       const bool better = settles || found.residual_norm <= outcome.residual_norm;
       if (better) trial = equations_.state_of(x);
-      equations_.rescale(trial, largest_force(trial));
+      equations_.rescale(trial, sizes_.largest_force(trial));
       quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
       outcome.residual_norm = quality.residual_norm;
       outcome.converged = quality.acceptable;
@@ -274,7 +269,7 @@ class EquilibriumSearch {
 
   /// Solves M(q)(q - q_k) proximity - f + G'lambda = 0 from q_k = trial.q, in place.
   Outcome proximal_step(double proximity, double tolerance, State& trial) {
-    equations_.rescale(trial, largest_force(trial));
+    equations_.rescale(trial, sizes_.largest_force(trial));
     equations_.set_proximity(proximity, trial.q);
     Vector x = equations_.scaled_unknowns(trial);
     Outcome outcome;
@@ -291,61 +286,13 @@ class EquilibriumSearch {
     report_.newton_iterations += iterations;
   }
 
-  /// The largest of full load and constraint force, as work over coordinate scale.
-  double applied_force(const State& state) const {
-    State free = at_rest(state, system_);
-    const Vector with_multipliers = dynamics(free);
-    free.lambda.setZero();
-    const Vector without_multipliers = dynamics(free);
-    free.load = 0;
-    const Vector unloaded = dynamics(free);
-    free.load = 1;
-    const Vector loaded = dynamics(free);
-    return std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
-  }
-
-  /// That, else of the unbalanced internal force, else of that which moved supports would make, else 1.
-  double largest_force(const State& state) const {
-    if (const double applied = applied_force(state); applied > 0) return applied;
-    State free = at_rest(state, system_);
-    free.lambda.setZero();
-    free.load = 0;
-    const double internal = work(dynamics(free));
-    free.load = 1;
-    const double held = work(dynamics(towards_constraints(free)));
-    if (held > 10 * internal) return held;  // beside it the other is round-off
-    return internal > 0 ? internal : 1;
-  }
-
-  /// What is held moved by G'g to where it is to be: of the size of what the constraints ask for.
-  State towards_constraints(State state) const {
-    const int n = system_.coordinate_count(), m = system_.constraint_count();
-    Vector rows(n), constraints(m);
-    system_.residual(state, rows, constraints);
-    Eigen::SparseMatrix<double> kkt = system_.tangent_pattern().matrix();
-    system_.tangent(state, {}, kkt);
-    for (int row = 0; row < m; ++row)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt, n + row); entry; ++entry)
-        if (entry.row() < n) state.q[entry.row()] -= entry.value() * constraints[row];
-    return state;
-  }
-
-  Vector dynamics(const State& state) const {
-    Vector rows(system_.coordinate_count());
-    Vector constraints(system_.constraint_count());
-    system_.residual(state, rows, constraints);
-    return rows;
-  }
-
-  double work(const Vector& force) const { return force.cwiseProduct(scale_).lpNorm<Eigen::Infinity>(); }
-
   double change(const Vector& a, const Vector& b) const {
     return (a - b).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
   }
   double change(const State& a, const State& b) const { return change(a.q, b.q); }
 
   void accept(double factor, const State& equilibrium, const Outcome& outcome) {
-    state_ = at_rest(equilibrium, system_);
+    state_ = resting(system_, equilibrium);
     report_.load_factor = factor;
     report_.residual_norm = outcome.residual_norm;
     report_.status = factor == 1 ? StaticStatus::converged : StaticStatus::not_converged;
@@ -363,6 +310,7 @@ class EquilibriumSearch {
   const bool may_diverge_;
   const SecondOrderSystem& system_;
   Vector scale_;
+  const ForceSizes sizes_;
   State state_;
   const State start_;
   StaticReport report_;

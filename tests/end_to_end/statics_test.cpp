@@ -23,6 +23,11 @@ CaseRun run(const std::string& name, const std::vector<std::string>& overrides =
   return result;
 }
 
+CaseRun run_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const test::TemporaryDirectory directory;
+  return test::run_file(directory.write("case.json", text), overrides);
+}
+
 std::string set(const std::string& path, double value) {
   std::ostringstream text;
   text.precision(17);
@@ -34,6 +39,21 @@ std::string set_y(const std::string& path, double value) {
 }
 
 // ---- Cantilevers ----
+
+// Full Newton steps also lead to another of its equilibria.
+TEST(Frame, IsWhereItsLoadInStepsBringsIt) {
+  const std::string frame = R"({ "nurbeam": 1, "beams": [{ "name": "w", "corners": "rigid",
+      "axis": { "polyline": [[0, 0, 0], [5, 0, 0], [5, 0, 5]] }, "section": { "radius": 0.027 },
+      "material": { "density": 7850, "youngs_modulus": 2e11 }, "elements": { "count": 5 } }],
+    "supports": [{ "beam": "w", "at": "start", "type": "clamped" }],
+    "loads": [{ "beam": "w", "at": "end", "force": [-12089.8, 0, -31007.9] }], "analysis": { "type": "static" },
+    "output": { "report": false, "probes": [{ "name": "e", "beam": "w", "at": "end" }] } })";
+  const CaseRun once = run_text(frame), steps = run_text(frame, {"analysis.load_steps=50"});
+  ASSERT_EQ(once.code, 0) << once.messages;
+  ASSERT_EQ(steps.code, 0) << steps.messages;
+  EXPECT_NEAR(once.last("e.x [m]"), steps.last("e.x [m]"), 1e-7);
+  EXPECT_NEAR(once.last("e.z [m]"), steps.last("e.z [m]"), 1e-7);
+}
 
 TEST(RollUp, ClosesTheCircle) {
   const CaseRun r = run("rollup.json", {set("beams[0].elements.count", 200)});
@@ -57,11 +77,6 @@ TEST(Elastica, ADeadTipLoadBendsTheBeamAsMattiassonSays) {
 }
 
 // ---- Struts ----
-
-CaseRun run_text(const std::string& text) {
-  const test::TemporaryDirectory directory;
-  return test::run_file(directory.write("case.json", text));
-}
 
 /// A steel bar of 2 m along z, clamped at its start A; its middle is p, its end e.
 std::string strut(const std::string& of_the_beam, const std::string& loads, bool held = false) {

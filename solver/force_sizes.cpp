@@ -1,0 +1,60 @@
+#include "solver/force_sizes.h"
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+
+namespace nurbeam {
+
+using Vector = Eigen::VectorXd;
+
+State resting(const SecondOrderSystem& system, State state) {
+  state.v.setZero(system.coordinate_count());
+  state.a.setZero(system.coordinate_count());
+  if (state.lambda.size() != system.constraint_count()) state.lambda.setZero(system.constraint_count());
+  return state;
+}
+
+double ForceSizes::applied_force(const State& state) const {
+  State free = resting(system_, state);
+  const Vector with_multipliers = dynamics(free);
+  free.lambda.setZero();
+  const Vector without_multipliers = dynamics(free);
+  free.load = 0;
+  const Vector unloaded = dynamics(free);
+  free.load = 1;
+  const Vector loaded = dynamics(free);
+  return std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
+}
+
+double ForceSizes::largest_force(const State& state) const {
+  if (const double applied = applied_force(state); applied > 0) return applied;
+  State free = resting(system_, state);
+  free.lambda.setZero();
+  free.load = 0;
+  const double internal = work(dynamics(free));
+  free.load = 1;
+  const double held = work(dynamics(towards_constraints(free)));
+  if (held > 10 * internal) return held;  // beside it the other is round-off
+  return internal > 0 ? internal : 1;
+}
+
+// What is held moved by G'g to where it is to be: of the size of what the constraints ask for.
+State ForceSizes::towards_constraints(State state) const {
+  const int n = system_.coordinate_count(), m = system_.constraint_count();
+  Vector rows(n), constraints(m);
+  system_.residual(state, rows, constraints);
+  Eigen::SparseMatrix<double> kkt = system_.tangent_pattern().matrix();
+  system_.tangent(state, {}, kkt);
+  for (int row = 0; row < m; ++row)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt, n + row); entry; ++entry)
+      if (entry.row() < n) state.q[entry.row()] -= entry.value() * constraints[row];
+  return state;
+}
+
+Vector ForceSizes::dynamics(const State& state) const {
+  Vector rows(system_.coordinate_count()), constraints(system_.constraint_count());
+  system_.residual(state, rows, constraints);
+  return rows;
+}
+
+}  // namespace nurbeam
