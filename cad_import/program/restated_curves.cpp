@@ -2,6 +2,7 @@
 
 #include <HeaderSection_FileName.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <IGESData_TransfEntity.hxx>
 #include <IGESGeom_CircularArc.hxx>
 #include <IGESGeom_ConicArc.hxx>
 #include <IGESGeom_OffsetCurve.hxx>
@@ -17,8 +18,11 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cad_import/iges/conic_position.h"
+#include "cad_import/iges/location.h"
 #include "cad_import/iges/offset_curve.h"
 #include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
@@ -69,8 +73,25 @@ class Remarks {
 
 // ---------------------------------------------------------------------------------------------------- IGES
 
-/// Offsets first: they refer to the parameters of the arcs as these are in the file.
+/// Those that place other entities; all are read before one is changed, for they share those that they go on
+/// to.
+void chain_matrices(const IGESData_IGESModel& model, Remarks& remarks) {
+  EntitySet seen;
+  std::vector<std::pair<Handle(IGESData_TransfEntity), Eigen::Affine3d>> chained;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto entity = Handle(IGESData_IGESEntity)::DownCast(model.Value(i));
+    if (entity->IsKind(STANDARD_TYPE(IGESData_TransfEntity)) || !entity->HasTransf()) continue;
+    const Handle(IGESData_TransfEntity) matrix = entity->Transf();
+    if (!matrix->HasTransf() || !seen.insert(matrix.get()).second) continue;
+    remarks.attempt(matrix, [&] { chained.emplace_back(matrix, chained_location(*matrix)); });
+  }
+  for (const auto& [matrix, location] : chained) set_matrix(*matrix, location);
+}
+
+/// Matrices before what they place, and offsets before arcs: they refer to the parameters of the arcs as
+/// these are in the file.
 void restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
+  chain_matrices(model, remarks);
   const double unit = model.GlobalSection().UnitValue();  // [mm]
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto offset = Handle(IGESGeom_OffsetCurve)::DownCast(model.Value(i)))
