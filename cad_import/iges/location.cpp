@@ -24,9 +24,12 @@ Handle(TColStd_HArray2OfReal) rows_of(const Eigen::Affine3d& location) {
 
 }  // namespace
 
+Eigen::Affine3d location_of(const IGESData_IGESEntity& entity) {
+  return entity.HasTransf() ? in_metres(entity.Location(), 1) : Eigen::Affine3d::Identity();
+}
+
 Eigen::Affine3d rigid_location(const IGESData_IGESEntity& entity) {
-  if (!entity.HasTransf()) return Eigen::Affine3d::Identity();
-  const Eigen::Affine3d location = in_metres(entity.Location(), 1);
+  const Eigen::Affine3d location = location_of(entity);
   const Eigen::Matrix3d gram = location.linear().transpose() * location.linear();
   constexpr double digits = 1e-3;  // as files round the matrix
   if (const double off = (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(); !(off <= digits))

@@ -6,7 +6,10 @@ class IGESData_TransfEntity;
 
 namespace nurbeam {
 
-/// Where the transformation (124) of an entity puts it, in the unit of the file. Throws std::runtime_error
+/// Where the transformation (124) of an entity puts it, in the unit of the file.
+Eigen::Affine3d location_of(const IGESData_IGESEntity& entity);
+
+/// The same. Throws std::runtime_error
 /// where that neither turns nor mirrors only: OpenCASCADE would leave radii and offsets as they were.
 Eigen::Affine3d rigid_location(const IGESData_IGESEntity& entity);
 

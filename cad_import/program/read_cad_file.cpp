@@ -56,11 +56,11 @@ LostCurves add_curves(const XSControl_Reader& reader, const RestatedCurves& rest
                       ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return add_lost_curves(reader, restated, tolerance, report);
-  const Origins origins = origins_of_edges_and_faces(reader, restated.refused, report);
-  const PartNames parts = part_names(reader, shape);
-  add_edges(shape, origins, parts, tolerance, report);
+  const ShapeFacts facts{origins_of_edges_and_faces(reader, restated.refused, report),
+                         part_names(reader, shape), true_places(reader, restated)};
+  add_edges(shape, facts, tolerance, report);
   LostCurves lost = add_lost_curves(reader, restated, tolerance, report);
-  add_centre_lines(shape, origins, parts, tolerance, report);
+  add_centre_lines(shape, facts, tolerance, report);
   return lost;
 }
 
@@ -189,8 +189,8 @@ void read_brep(const std::string& content, double tolerance, ImportReport& repor
   const TopoDS_Shape shape = brep_shape(content);
   report_unit(metres_per_millimetre, report);
   add_diagnostic(report, Severity::note, "", "BREP files declare no length unit; millimetres are assumed");
-  add_edges(shape, {}, {}, tolerance, report);
-  add_centre_lines(shape, {}, {}, tolerance, report);
+  add_edges(shape, {}, tolerance, report);
+  add_centre_lines(shape, {}, tolerance, report);
 }
 
 void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,

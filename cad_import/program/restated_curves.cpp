@@ -1,6 +1,7 @@
 #include "cad_import/program/restated_curves.h"
 
 #include <HeaderSection_FileName.hxx>
+#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESData_TransfEntity.hxx>
 #include <IGESGeom_CircularArc.hxx>
@@ -12,6 +13,10 @@
 #include <StepGeom_CurveReplica.hxx>
 #include <StepGeom_OffsetCurve3d.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cctype>
@@ -24,6 +29,7 @@
 #include "cad_import/iges/conic_position.h"
 #include "cad_import/iges/location.h"
 #include "cad_import/iges/offset_curve.h"
+#include "cad_import/iges/subfigure_instance.h"
 #include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/curve_replica.h"
@@ -53,14 +59,16 @@ class Remarks {
     }
     return false;
   }
-  void warn(const Entity& entity, const std::string& message) {
-    const std::string name = entity_name(entity);
-    add_diagnostic(report_, Severity::warning,
-                   entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"), message);
-  }
+  void warn(const Entity& entity, const std::string& message) { say(Severity::warning, entity, message); }
+  void note(const Entity& entity, const std::string& message) { say(Severity::note, entity, message); }
   const EntitySet& refused() const { return refused_; }
 
  private:
+  void say(Severity severity, const Entity& entity, const std::string& message) {
+    const std::string name = entity_name(entity);
+    add_diagnostic(report_, severity, entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"),
+                   message);
+  }
   void refuse(const Entity& entity, const std::string& why) {
     refused_.insert(entity.get());
     warn(entity, "skipped with all that is made of it: " + why);
@@ -88,9 +96,37 @@ void chain_matrices(const IGESData_IGESModel& model, Remarks& remarks) {
   for (const auto& [matrix, location] : chained) set_matrix(*matrix, location);
 }
 
+/// OpenCASCADE scales no shape: it leaves out the scale, or the shape. `unit`: [mm].
+RestatedPlace restate_scaled(const Handle(IGESBasic_SingularSubfigure) & instance, double unit,
+                             Remarks& remarks) {
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  const bool is_read = remarks.attempt(instance, [&] { place = place_of(*instance); });
+  set_place(*instance, stand_in(place));
+  place.translation() *= unit * metres_per_millimetre;
+  return {Entity(instance), is_read ? std::optional(place) : std::nullopt};
+}
+
+std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, double unit, Remarks& remarks) {
+  std::vector<RestatedPlace> places;
+  std::vector<Entity> turned_and_moved;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(model.Value(i));
+    if (instance.IsNull() || instance->Subfigure().IsNull()) continue;
+    if (is_moved_after_turning(*instance)) turned_and_moved.push_back(instance);
+    if (is_scaled(*instance)) places.push_back(restate_scaled(instance, unit, remarks));
+  }
+  if (!turned_and_moved.empty())
+    remarks.note(turned_and_moved[0],
+                 "its X, Y, Z move what its matrix (124) has turned, and are not turned by it; so in " +
+                     std::to_string(turned_and_moved.size()) +
+                     " instance(s) of subfigures (408): where that is not meant, write the whole place "
+                     "into the matrix");
+  return places;
+}
+
 /// Matrices before what they place, and offsets before arcs: they refer to the parameters of the arcs as
-/// these are in the file.
-void restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
+/// these are in the file. Returns what scales.
+std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
   chain_matrices(model, remarks);
   const double unit = model.GlobalSection().UnitValue();  // [mm]
   for (int i = 1; i <= model.NbEntities(); ++i)
@@ -102,6 +138,7 @@ void restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
     if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
       remarks.attempt(conic, [&] { put_into_position(*conic); });
   }
+  return restate_instances(model, unit, remarks);
 }
 
 // ---------------------------------------------------------------------------------------------------- STEP
@@ -186,7 +223,8 @@ class StepCurves {
 RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& report) {
   RestatedCurves restated;
   Remarks remarks(*reader.Model(), report);
-  if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model())) restate_iges(*iges, remarks);
+  if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model()))
+    restated.places = restate_iges(*iges, remarks);
   if (const auto step = Handle(StepData_StepModel)::DownCast(reader.Model())) {
     StepCurves curves(*step, reader.WS()->Graph(), remarks);
     for (int i = 1; i <= step->NbEntities(); ++i) curves.restate(step->Value(i));
@@ -194,6 +232,16 @@ RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& repo
   }
   restated.refused = remarks.refused();
   return restated;
+}
+
+TruePlaces true_places(const XSControl_Reader& reader, const RestatedCurves& restated) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  TruePlaces places;
+  for (const RestatedPlace& restated_place : restated.places) {
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, restated_place.entity);
+    if (!shape.IsNull()) places.add(shape.Location(), restated_place.place);
+  }
+  return places;
 }
 
 }  // namespace nurbeam
