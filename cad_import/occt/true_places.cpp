@@ -18,6 +18,8 @@ Eigen::Affine3d stand_in(const Eigen::Affine3d& place) {
   return rigid;
 }
 
+bool is_rigid(const Eigen::Affine3d& place) { return std::abs(place.linear().determinant() - 1) <= 1e-12; }
+
 void TruePlaces::add(const TopLoc_Location& location, const std::optional<Eigen::Affine3d>& place) {
   if (location.IsIdentity()) return;
   TopLoc_Location last = location;

@@ -13,6 +13,9 @@ struct ImportedCurve;
 /// scale or mirror, and is left out where it does nothing.
 Eigen::Affine3d stand_in(const Eigen::Affine3d& place);
 
+/// Whether the placement of axes at right angles neither scales nor mirrors.
+bool is_rigid(const Eigen::Affine3d& place);
+
 /// The placements that scale or mirror, by the locations that stand in for them. [m]
 class TruePlaces {
  public:

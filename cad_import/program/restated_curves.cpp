@@ -10,9 +10,14 @@
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_Axis2Placement3d.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_CurveReplica.hxx>
 #include <StepGeom_OffsetCurve3d.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_MappedItem.hxx>
+#include <StepRepr_RepresentationMap.hxx>
+#include <StepShape_ShapeRepresentation.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
@@ -34,6 +39,7 @@
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/curve_replica.h"
 #include "cad_import/step/step_units.h"
+#include "cad_import/step/transformation_operator.h"
 #include "cad_import/step/trimmed_conic.h"
 
 namespace nurbeam {
@@ -155,6 +161,24 @@ bool is_by_open_cascade(const StepData_StepModel& model) {
   return systems.find("opencascade") != std::string::npos || systems.find("freecad") != std::string::npos;
 }
 
+bool places_a_shape(const StepRepr_MappedItem& item) {
+  return !item.MappingSource().IsNull() && !item.MappingSource()->MappedRepresentation().IsNull() &&
+         item.MappingSource()->MappedRepresentation()->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation));
+}
+
+bool is_between_axes(const StepRepr_MappedItem& item) {
+  return !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingSource()->MappingOrigin()).IsNull() &&
+         !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingTarget()).IsNull();
+}
+
+const StepGeom_CartesianTransformationOperator3d& operator_of(const StepRepr_MappedItem& item) {
+  const auto known = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(item.MappingTarget());
+  if (known.IsNull())
+    throw std::runtime_error(
+        "its target is neither AXIS2_PLACEMENT_3D nor CARTESIAN_TRANSFORMATION_OPERATOR_3D; place it by one");
+  return *known;
+}
+
 class StepCurves {
  public:
   StepCurves(const StepData_StepModel& model, const Interface_Graph& graph, Remarks& remarks)
@@ -180,12 +204,37 @@ class StepCurves {
     } else if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(entity)) {
       restate(trimmed->BasisCurve());
       restate_piece(trimmed);
+    } else if (const auto item = Handle(StepRepr_MappedItem)::DownCast(entity)) {
+      restate_mapped(item);
     }
   }
 
   const EntitySet& parents() const { return parents_; }
+  const std::vector<RestatedPlace>& places() const { return places_; }
 
  private:
+  /// OpenCASCADE leaves out the scale, turns where the operator mirrors, and knows no axes but given ones.
+  void restate_mapped(const Handle(StepRepr_MappedItem) & item) {
+    if (!places_a_shape(*item) || is_between_axes(*item)) return;
+    Eigen::Affine3d place = Eigen::Affine3d::Identity();
+    double unit = 1;  // [mm]
+    bool is_right = false;
+    const bool is_read = remarks_.attempt(item, [&] {
+      is_right = is_location(operator_of(*item));
+      if (is_right) return;
+      unit = use_unit(item);
+      place = place_of(operator_of(*item));
+    });
+    if (is_right) return;
+    const bool only_axes_lack = is_read && is_rigid(place);
+    Eigen::Affine3d in_file = only_axes_lack ? place : stand_in(place);
+    in_file.translation() /= unit;
+    item->SetMappingTarget(transformation_operator(in_file));
+    if (only_axes_lack) return;
+    place.translation() *= metres_per_millimetre;
+    places_.push_back({Entity(item), is_read ? std::optional(place) : std::nullopt});
+  }
+
   void restate_piece(const Handle(StepGeom_TrimmedCurve) & trimmed) {
     std::optional<std::string> warning;
     remarks_.attempt(trimmed, [&] {
@@ -216,6 +265,7 @@ class StepCurves {
   Entity context_;
   bool has_one_unit_;
   EntitySet seen_, parents_;
+  std::vector<RestatedPlace> places_;
 };
 
 }  // namespace
@@ -229,6 +279,7 @@ RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& repo
     StepCurves curves(*step, reader.WS()->Graph(), remarks);
     for (int i = 1; i <= step->NbEntities(); ++i) curves.restate(step->Value(i));
     restated.parents = curves.parents();
+    restated.places = curves.places();
   }
   restated.refused = remarks.refused();
   return restated;
