@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <new>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
+#include "cad_import/dxf/drawing_unit.h"
 #include "cad_import/dxf/dxf_entities.h"
 #include "cad_import/report/length_unit.h"
 
@@ -205,11 +205,10 @@ std::string colour_of(const DxfEntity& entity) {
   return number > 0 && number < 8 ? numbered[number] : "";
 }
 
-std::optional<double> unit_in_metres(int insunits) {
-  static const std::map<int, double> known{{1, 0.0254}, {2, 0.3048},  {4, 1e-3},  {5, 1e-2}, {6, 1},
-                                           {7, 1e3},    {10, 0.9144}, {13, 1e-6}, {14, 0.1}};
-  const auto at = known.find(insunits);
-  return at == known.end() ? std::nullopt : std::optional(at->second);
+std::string without_unit(int insunits) {
+  if (insunits == 0) return "the drawing declares no length unit ($INSUNITS); millimetres are assumed";
+  return "$INSUNITS is " + std::to_string(insunits) +
+         ", which is no unit; the units of DXF are 1 to 24: millimetres are assumed";
 }
 
 ImportedCurve imported(Drawn drawn, const DxfEntity& entity, double unit) {
@@ -229,13 +228,11 @@ ImportedCurve imported(Drawn drawn, const DxfEntity& entity, double unit) {
 
 ImportReport read_dxf(const std::string& content) {
   const DxfDrawing drawing = dxf_drawing(content);
-  const std::optional<double> unit = unit_in_metres(drawing.unit);
-  const NamedUnit named = named_unit(unit.value_or(metres_per_millimetre));
+  const std::optional<NamedUnit> unit = drawing_unit(drawing.unit);
+  const NamedUnit named = unit.value_or(named_unit(metres_per_millimetre));
   ImportReport report{
       .file = "", .unit = named.name, .unit_in_metres = named.in_metres, .curves = {}, .diagnostics = {}};
-  if (!unit)
-    report.diagnostics.push_back(
-        {Severity::warning, "", "the drawing declares no length unit ($INSUNITS); millimetres are assumed"});
+  if (!unit) report.diagnostics.push_back({Severity::warning, "", without_unit(drawing.unit)});
   for (const DxfEntity& entity : drawing.entities) {
     try {
       for (Drawn& drawn : curves_of(entity, drawing.entities))

@@ -44,11 +44,43 @@ void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { EXPECT_LE
 
 TEST(ReadDxf, LinesHaveTheUnitOfTheDrawing) {
   const std::string line = "0 LINE 8 0 10 1 20 2 30 3 11 4 21 6 31 3";
-  for (const auto& [insunits, metres] : {std::pair{1, 0.0254}, {4, 1e-3}, {5, 1e-2}, {6, 1.0}}) {
-    const NurbsCurve curve = only_dxf_curve(line, insunits);
-    expect_near(start_of(curve), metres * Eigen::Vector3d(1, 2, 3));
-    expect_near(end_of(curve), metres * Eigen::Vector3d(4, 6, 3));
+  const std::vector<std::pair<std::string, double>> units{{"inch", 0.0254},
+                                                          {"ft", 0.3048},
+                                                          {"mile", 1609.344},
+                                                          {"mm", 1e-3},
+                                                          {"cm", 1e-2},
+                                                          {"m", 1},
+                                                          {"km", 1e3},
+                                                          {"microinch", 2.54e-8},
+                                                          {"mil", 2.54e-5},
+                                                          {"yard", 0.9144},
+                                                          {"angstrom", 1e-10},
+                                                          {"nm", 1e-9},
+                                                          {"um", 1e-6},
+                                                          {"dm", 0.1},
+                                                          {"dam", 10},
+                                                          {"hm", 100},
+                                                          {"Gm", 1e9},
+                                                          {"au", 149597870700.0},
+                                                          {"light year", 9460730472580800.0},
+                                                          {"parsec", 3.0856775814913673e16},
+                                                          {"US survey ft", 1200.0 / 3937},
+                                                          {"US survey inch", 100.0 / 3937},
+                                                          {"US survey yard", 3600.0 / 3937},
+                                                          {"US survey mile", 6336000.0 / 3937}};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const auto& [name, metres] = units[i];
+    const ImportReport report = import_dxf(dxf_of(line, static_cast<int>(i) + 1));
+    ASSERT_EQ(report.curves.size(), 1U) << name;
+    EXPECT_TRUE(report.diagnostics.empty()) << name;
+    EXPECT_EQ(report.unit, name);
+    EXPECT_DOUBLE_EQ(report.unit_in_metres, metres);
+    EXPECT_LE((start_of(report.curves[0].curve) / metres - Eigen::Vector3d(1, 2, 3)).norm(), 1e-15) << name;
+    EXPECT_LE((end_of(report.curves[0].curve) / metres - Eigen::Vector3d(4, 6, 3)).norm(), 2e-15) << name;
   }
+  const ImportReport unknown = import_dxf(dxf_of(line, 25));
+  ASSERT_EQ(unknown.diagnostics.size(), 1U);
+  EXPECT_NE(unknown.diagnostics[0].message.find("$INSUNITS is 25"), std::string::npos);
   const ImportReport without = import_dxf(dxf_of(line, 0));
   ASSERT_EQ(without.diagnostics.size(), 1U);
   EXPECT_NE(without.diagnostics[0].message.find("$INSUNITS"), std::string::npos);
