@@ -91,13 +91,22 @@ Drawn ellipse(const DxfEntity& entity) {
                                from, sweep_of(from, to, 2 * pi))};
 }
 
+void check_count(std::size_t count, std::size_t points, const std::string& what) {
+  if (count != points)
+    throw std::runtime_error("it has " + std::to_string(points) + " x of control points (group 10) and " +
+                             std::to_string(count) + " " + what + "; each point needs its own");
+}
+
+/// A spline without group 30 lies in the plane z = 0, one without group 41 is not rational.
 Drawn spline(const DxfEntity& entity) {
-  const std::vector<double> x = entity.numbers_of(10), y = entity.numbers_of(20), z = entity.numbers_of(30);
-  std::vector<double> weights = entity.numbers_of(41);
+  const std::vector<double> x = entity.numbers_of(10), y = entity.numbers_of(20);
+  std::vector<double> z = entity.numbers_of(30), weights = entity.numbers_of(41);
   if (x.empty()) throw std::runtime_error("it has fit points only; draw it with control points");
+  if (z.empty()) z.assign(x.size(), 0);
   if (weights.empty()) weights.assign(x.size(), 1);
-  if (y.size() != x.size() || z.size() != x.size() || weights.size() != x.size())
-    throw std::runtime_error("its control points and weights differ in number");
+  check_count(y.size(), x.size(), "y (group 20)");
+  check_count(z.size(), x.size(), "z (group 30)");
+  check_count(weights.size(), x.size(), "weights (group 41)");
   Eigen::Matrix3Xd points(3, x.size());
   for (std::size_t i = 0; i < x.size(); ++i) points.col(static_cast<Eigen::Index>(i)) << x[i], y[i], z[i];
   return {"bspline",

@@ -123,6 +123,19 @@ TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
   for (double u = 0; u <= 1; u += 0.125) EXPECT_NEAR(arc.point(u).norm(), 1, 1e-15);
 }
 
+TEST(ReadDxf, ASplineWithoutZLiesInThePlane) {
+  const std::string start = "0 SPLINE 70 8 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1 ";
+  const NurbsCurve flat = only_dxf_curve(start + "10 1 20 0 10 1 20 1 10 0 20 1", 6);
+  expect_near(start_of(flat), {1, 0, 0});
+  expect_near(middle_of(flat), {0.75, 0.75, 0});
+  expect_near(end_of(flat), {0, 1, 0});
+  const ImportReport uneven = import_dxf(dxf_of(start + "10 1 20 0 30 2 10 1 20 1 10 0 20 1 0 LINE 11 1"));
+  ASSERT_EQ(uneven.diagnostics.size(), 1U);
+  EXPECT_NE(uneven.diagnostics[0].message.find("3 x of control points (group 10) and 1 z (group 30)"),
+            std::string::npos)
+      << uneven.diagnostics[0].message;
+}
+
 TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
   const NurbsCurve square =
       only_dxf_curve("0 LWPOLYLINE 90 4 70 1 38 2 10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1", 6);
