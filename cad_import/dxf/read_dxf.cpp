@@ -220,6 +220,27 @@ std::string without_unit(int insunits) {
          ", which is no unit; the units of DXF are 1 to 24: millimetres are assumed";
 }
 
+/// Layers are one where their names differ in the case of letters only.
+std::string layer_key(std::string name) {
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// Those that are frozen, or switched off by a negative colour.
+std::set<std::string> hidden_layers(const DxfDrawing& drawing) {
+  constexpr int frozen = 1;
+  std::set<std::string> hidden;
+  for (const DxfEntity& layer : drawing.layers)
+    if ((static_cast<int>(layer.number_of(70, 0)) & frozen) || layer.number_of(62, 7) < 0)
+      hidden.insert(layer_key(layer.text_of(2)));
+  return hidden;
+}
+
+std::string label_of(const DxfEntity& entity) {
+  return "entity " + std::to_string(entity.number) + " " + entity.type;
+}
+
 ImportedCurve imported(Drawn drawn, const DxfEntity& entity, double unit) {
   Eigen::Matrix4Xd points = drawn.curve.control_points();
   points.topRows<3>() *= unit;
@@ -242,6 +263,7 @@ ImportReport read_dxf(const std::string& content) {
   ImportReport report{
       .file = "", .unit = named.name, .unit_in_metres = named.in_metres, .curves = {}, .diagnostics = {}};
   if (!unit) report.diagnostics.push_back({Severity::warning, "", without_unit(drawing.unit)});
+  const std::set<std::string> hidden = hidden_layers(drawing);
   for (const DxfEntity& entity : drawing.entities) {
     try {
       for (Drawn& drawn : curves_of(entity, drawing.entities))
@@ -249,11 +271,11 @@ ImportReport read_dxf(const std::string& content) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      report.diagnostics.push_back({Severity::warning,
-                                    "entity " + std::to_string(entity.number) + " " + entity.type,
-                                    std::string("not read: ") + e.what()});
+      report.diagnostics.push_back(
+          {Severity::warning, label_of(entity), std::string("not read: ") + e.what()});
     }
   }
+  for (ImportedCurve& curve : report.curves) curve.hidden |= hidden.contains(layer_key(curve.layer));
   return report;
 }
 

@@ -176,6 +176,22 @@ TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   EXPECT_TRUE(report.curves[1].hidden);
 }
 
+TEST(ReadDxf, CurvesOfFrozenAndSwitchedOffLayersAreHidden) {
+  const std::string tables =
+      "0 SECTION 2 TABLES 0 TABLE 2 LAYER 70 4 0 LAYER 2 off 70 0 62 -3 0 LAYER 2 Frozen 70 1 62 5 "
+      "0 LAYER 2 locked 70 4 62 1 0 LAYER 2 0 70 0 62 7 0 ENDTAB 0 ENDSEC 0 SECTION 2 ENTITIES";
+  std::string text = dxf_of(
+      "0 LINE 8 off 11 1 0 LINE 8 FROZEN 11 2 0 LINE 8 locked 11 3 0 LINE 8 0 11 4 0 LINE 8 unlisted 11 5");
+  std::string lines = tables;
+  std::replace(lines.begin(), lines.end(), ' ', '\n');
+  const ImportReport report = import_dxf(with(text, "0\nSECTION\n2\nENTITIES", lines));
+  ASSERT_EQ(report.curves.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(report.curves[i].hidden, i < 2) << i;
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
+  EXPECT_NE(report.diagnostics[0].message.find("2 curve(s) are hidden"), std::string::npos);
+}
+
 TEST(ReadDxf, WhatCannotBeReadIsNamedAndHarmsNothing) {
   for (const auto& [entity, reason] : {std::pair{"0 INSERT 2 block", "INSERT"},
                                        {"0 ARC 40 -1", "radius"},
