@@ -237,6 +237,14 @@ std::set<std::string> hidden_layers(const DxfDrawing& drawing) {
   return hidden;
 }
 
+bool is_curve(const DxfEntity& entity) {
+  static const std::set<std::string> kinds{"LINE",   "ARC",        "CIRCLE",  "ELLIPSE",
+                                           "SPLINE", "LWPOLYLINE", "POLYLINE"};
+  return kinds.contains(entity.type);
+}
+
+bool is_in_paper_space(const DxfEntity& entity) { return entity.number_of(67, 0) == 1; }
+
 std::string label_of(const DxfEntity& entity) {
   return "entity " + std::to_string(entity.number) + " " + entity.type;
 }
@@ -264,8 +272,13 @@ ImportReport read_dxf(const std::string& content) {
       .file = "", .unit = named.name, .unit_in_metres = named.in_metres, .curves = {}, .diagnostics = {}};
   if (!unit) report.diagnostics.push_back({Severity::warning, "", without_unit(drawing.unit)});
   const std::set<std::string> hidden = hidden_layers(drawing);
+  std::vector<const DxfEntity*> on_paper;
   for (const DxfEntity& entity : drawing.entities) {
     try {
+      if (is_in_paper_space(entity)) {
+        if (is_curve(entity)) on_paper.push_back(&entity);
+        continue;
+      }
       for (Drawn& drawn : curves_of(entity, drawing.entities))
         report.curves.push_back(imported(std::move(drawn), entity, report.unit_in_metres));
     } catch (const std::bad_alloc&) {
@@ -276,6 +289,12 @@ ImportReport read_dxf(const std::string& content) {
     }
   }
   for (ImportedCurve& curve : report.curves) curve.hidden |= hidden.contains(layer_key(curve.layer));
+  if (!on_paper.empty())
+    report.diagnostics.push_back(
+        {Severity::warning, label_of(*on_paper[0]),
+         "not read, for it lies in the paper space (group 67), which is no part of the "
+         "model; so do " +
+             std::to_string(on_paper.size()) + " curve(s) in all: move what is wanted to the model space"});
   return report;
 }
 

@@ -192,6 +192,18 @@ TEST(ReadDxf, CurvesOfFrozenAndSwitchedOffLayersAreHidden) {
   EXPECT_NE(report.diagnostics[0].message.find("2 curve(s) are hidden"), std::string::npos);
 }
 
+TEST(ReadDxf, ThePaperSpaceIsNoPartOfTheModel) {
+  const ImportReport report = import_dxf(
+      dxf_of("0 LINE 67 1 11 1 0 VIEWPORT 67 1 0 INSERT 67 1 2 frame 0 POLYLINE 67 1 66 1 0 VERTEX 67 1 10 0 "
+             "0 VERTEX 67 1 10 1 0 SEQEND 67 1 0 LINE 67 0 11 2 0 LINE 11 3"));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_NEAR(length(report.curves[0].curve), 2e-3, 1e-17);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].where.find("entity 1 LINE"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("2 curve(s)"), std::string::npos);
+}
+
 TEST(ReadDxf, WhatCannotBeReadIsNamedAndHarmsNothing) {
   for (const auto& [entity, reason] : {std::pair{"0 INSERT 2 block", "INSERT"},
                                        {"0 ARC 40 -1", "radius"},
