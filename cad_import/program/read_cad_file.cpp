@@ -22,6 +22,7 @@
 
 #include "cad_import/dxf/read_dxf.h"
 #include "cad_import/iges/iges_global.h"
+#include "cad_import/iges/line_forms.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/brep_text.h"
 #include "cad_import/program/damaged_entities.h"
@@ -165,6 +166,7 @@ void read_iges(const std::string& content, double tolerance, ImportReport& repor
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
   IGESControl_Reader reader;
   read(reader, content, report);
+  restore_line_forms(content, *reader.IGESModel());
   compare_units(global, reader.IGESModel()->GlobalSection());
   const double resolution = reader.IGESModel()->GlobalSection().Resolution();
   if (std::isfinite(resolution) && resolution > 0) report.resolution = resolution * global.unit_in_metres;
@@ -225,10 +227,9 @@ ImportReport read_cad_file(const std::filesystem::path& file, const std::string&
   } catch (const std::runtime_error& e) {
     add_diagnostic(report, Severity::error, "", e.what());
   }
-  if (report.ok() && report.curves.empty()) {
+  if (report.ok() && report.curves.empty())
     add_diagnostic(report, Severity::error, "",
                    "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)");
-  }
   return report;
 }
 

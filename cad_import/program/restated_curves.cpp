@@ -6,7 +6,9 @@
 #include <IGESData_TransfEntity.hxx>
 #include <IGESGeom_CircularArc.hxx>
 #include <IGESGeom_ConicArc.hxx>
+#include <IGESGeom_Line.hxx>
 #include <IGESGeom_OffsetCurve.hxx>
+#include <IGESGeom_SurfaceOfRevolution.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
@@ -32,6 +34,7 @@
 #include <vector>
 
 #include "cad_import/iges/conic_position.h"
+#include "cad_import/iges/line_forms.h"
 #include "cad_import/iges/location.h"
 #include "cad_import/iges/offset_curve.h"
 #include "cad_import/iges/subfigure_instance.h"
@@ -102,6 +105,15 @@ void chain_matrices(const IGESData_IGESModel& model, Remarks& remarks) {
   for (const auto& [matrix, location] : chained) set_matrix(*matrix, location);
 }
 
+/// Lines that need no ends.
+EntitySet axes_of_revolution(const IGESData_IGESModel& model) {
+  EntitySet axes;
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto surface = Handle(IGESGeom_SurfaceOfRevolution)::DownCast(model.Value(i)))
+      axes.insert(surface->AxisOfRevolution().get());
+  return axes;
+}
+
 /// OpenCASCADE scales no shape: it leaves out the scale, or the shape. `unit`: [mm].
 RestatedPlace restate_scaled(const Handle(IGESBasic_SingularSubfigure) & instance, double unit,
                              Remarks& remarks) {
@@ -134,11 +146,15 @@ std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, do
 /// these are in the file. Returns what scales.
 std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
   chain_matrices(model, remarks);
+  const EntitySet axes = axes_of_revolution(model);
   const double unit = model.GlobalSection().UnitValue();  // [mm]
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto offset = Handle(IGESGeom_OffsetCurve)::DownCast(model.Value(i)))
       remarks.attempt(offset, [&] { restate_offset(*offset, unit); });
   for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (const auto line = Handle(IGESGeom_Line)::DownCast(model.Value(i));
+        !line.IsNull() && !axes.contains(line.get()))
+      remarks.attempt(line, [&] { check_bounded(*line); });
     if (const auto circle = Handle(IGESGeom_CircularArc)::DownCast(model.Value(i)))
       remarks.attempt(circle, [&] { put_into_position(*circle); });
     if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))

@@ -25,9 +25,9 @@ struct RestatedCurves {
 
 /// Says those curves of a model anew that OpenCASCADE reads otherwise than the standards have them, before it
 /// translates them: in IGES chains of matrices (124), circular and conic arcs (100, 104), offset curves
-/// (130) and scaled instances of subfigures (408), in STEP offset curves, replicas,
-/// pieces of parabolas and mapped items that scale or mirror. A
-/// warning names each that cannot be read as it is meant. To be called once.
+/// (130) and scaled instances of subfigures (408), in STEP offset curves, replicas, pieces of parabolas and
+/// mapped items by transformation operators. A warning names each that cannot be read as it is meant, rays
+/// and infinite lines of IGES too. To be called once.
 RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& report);
 
 /// Where the shapes truly stand that OpenCASCADE has made, after all that can be read have been translated.

@@ -273,6 +273,19 @@ TEST(RestatedIges, ConicsThatContradictThemselvesAreNamed) {
       "stretches");
 }
 
+TEST(RestatedIges, RaysAndInfiniteLinesAreNamed) {
+  expect_refused({{.type = 110, .parameters = "110,0,0,0,10,0,0;", .form = 1}}, "it is a ray (form 1)");
+  expect_refused({{.type = 110, .parameters = "110,0,0,0,10,0,0;", .form = 2}},
+                 "it is an infinite line (form 2)");
+  const ImportReport turned = import_text(
+      iges_text_of({{.type = 110, .parameters = "110,0,0,0,0,0,1;", .form = 2, .status = dependent},
+                    {.type = 110, .parameters = "110,5,0,0,5,0,9;", .status = dependent},
+                    {.type = 120, .parameters = "120,1,3,0.,6.283185307179586;"}}));
+  EXPECT_TRUE(turned.diagnostics.empty());
+  EXPECT_TRUE(std::any_of(turned.curves.begin(), turned.curves.end(),
+                          [](const ImportedCurve& curve) { return curve.is_centre_line(); }));
+}
+
 IgesEntity offset_of(const std::string& range, int matrix = 0) {
   return {.type = 130,
           .parameters = "130,3,1,0,0,1,1.,0.,0.,0.,0.,0.,1.," + range + ";",
