@@ -195,6 +195,22 @@ void read_brep(const std::string& content, double tolerance, ImportReport& repor
   add_centre_lines(shape, {}, tolerance, report);
 }
 
+// Why there is no curve: what was said of the entities of the file.
+std::string without_curves(const ImportReport& report) {
+  std::string reason;
+  int others = -1;
+  for (const auto& [severity, where, message] : report.diagnostics) {
+    const std::size_t file = report.file.size() + 2;  // "file: entity"
+    if (severity != Severity::warning || where.size() <= file) continue;
+    if (reason.empty()) reason = where.substr(file) + ": " + message;
+    ++others;
+  }
+  if (reason.empty())
+    return "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)";
+  return "no curve of the file can be read; " + reason +
+         (others > 0 ? " (and " + std::to_string(others) + " more warning(s))" : "");
+}
+
 void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,
                  ImportReport& report) {
   switch (format) {
@@ -228,8 +244,7 @@ ImportReport read_cad_file(const std::filesystem::path& file, const std::string&
     add_diagnostic(report, Severity::error, "", e.what());
   }
   if (report.ok() && report.curves.empty())
-    add_diagnostic(report, Severity::error, "",
-                   "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)");
+    add_diagnostic(report, Severity::error, "", without_curves(report));
   return report;
 }
 
