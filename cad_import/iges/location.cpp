@@ -25,7 +25,7 @@ Handle(TColStd_HArray2OfReal) rows_of(const Eigen::Affine3d& location) {
 }  // namespace
 
 Eigen::Affine3d location_of(const IGESData_IGESEntity& entity) {
-  return entity.HasTransf() ? in_metres(entity.Location(), 1) : Eigen::Affine3d::Identity();
+  return entity.Transf().IsNull() ? Eigen::Affine3d::Identity() : in_metres(entity.Location(), 1);
 }
 
 Eigen::Affine3d rigid_location(const IGESData_IGESEntity& entity) {
@@ -42,8 +42,7 @@ Eigen::Affine3d chained_location(const IGESData_TransfEntity& matrix) {
   constexpr std::size_t most = 100;
   Eigen::Affine3d location = in_metres(matrix.Value(), 1);
   std::set<const IGESData_TransfEntity*> passed{&matrix};
-  for (const IGESData_TransfEntity* last = &matrix; last->HasTransf();) {
-    last = last->Transf().get();
+  for (const IGESData_TransfEntity* last = matrix.Transf().get(); last; last = last->Transf().get()) {
     if (!passed.insert(last).second)
       throw std::runtime_error(
           "the matrices (124) that its directory entry goes on to lead in a circle; the last "

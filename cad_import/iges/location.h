@@ -6,7 +6,8 @@ class IGESData_TransfEntity;
 
 namespace nurbeam {
 
-/// Where the transformation (124) of an entity puts it, in the unit of the file.
+/// Where the transformation (124) of an entity puts it, in the unit of the file; nowhere else where what its
+/// directory entry names as one is none.
 Eigen::Affine3d location_of(const IGESData_IGESEntity& entity);
 
 /// The same. Throws std::runtime_error

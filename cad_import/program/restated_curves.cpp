@@ -94,15 +94,23 @@ class Remarks {
 /// to.
 void chain_matrices(const IGESData_IGESModel& model, Remarks& remarks) {
   EntitySet seen;
+  std::vector<Entity> without_matrix;
   std::vector<std::pair<Handle(IGESData_TransfEntity), Eigen::Affine3d>> chained;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const auto entity = Handle(IGESData_IGESEntity)::DownCast(model.Value(i));
-    if (entity->IsKind(STANDARD_TYPE(IGESData_TransfEntity)) || !entity->HasTransf()) continue;
     const Handle(IGESData_TransfEntity) matrix = entity->Transf();
-    if (!matrix->HasTransf() || !seen.insert(matrix.get()).second) continue;
+    if (entity->HasTransf() && matrix.IsNull()) without_matrix.push_back(entity);
+    if (entity->IsKind(STANDARD_TYPE(IGESData_TransfEntity)) || matrix.IsNull() ||
+        !seen.insert(matrix.get()).second || !matrix->HasTransf())
+      continue;
     remarks.attempt(matrix, [&] { chained.emplace_back(matrix, chained_location(*matrix)); });
   }
   for (const auto& [matrix, location] : chained) set_matrix(*matrix, location);
+  if (!without_matrix.empty())
+    remarks.warn(without_matrix[0],
+                 "what field 7 of its directory entry names is no transformation matrix (124), and "
+                 "it is read without; so are " +
+                     std::to_string(without_matrix.size()) + " entities in all: correct the fields");
 }
 
 /// Lines that need no ends.

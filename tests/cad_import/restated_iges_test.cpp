@@ -223,6 +223,24 @@ TEST(RestatedIges, ChainsOfMatricesThatDoNotEndAreNamedAndHarmNothing) {
   EXPECT_FALSE(deep.ok());
 }
 
+TEST(RestatedIges, EntitiesWhoseMatrixIsNoneAreReadWithoutAndNamed) {
+  const IgesEntity line{.type = 110, .parameters = "110,0,0,0,1,0,0;", .label = "odd", .matrix = 5};
+  const ImportReport report =
+      import_text(iges_text_of({line, turn, {.type = 116, .parameters = "116,0,0,2,0;"}, line}));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_EQ(end_of(report.curves[0].curve), Eigen::Vector3d(1e-3, 0, 0));
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_NE(report.diagnostics[0].where.find("D1 Line 'odd'"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("no transformation matrix (124)"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("so are 2 entities"), std::string::npos);
+  const ImportReport instance =
+      import_text(iges_text_of({{.type = 110, .parameters = "110,0,0,0,1,0,0;", .status = dependent},
+                                {.type = 308, .parameters = "308,0,3Hsub,1,1;", .status = 20200},
+                                {.type = 408, .parameters = "408,3,5.,0.,0.,2.;", .matrix = 1}}));
+  ASSERT_EQ(instance.curves.size(), 1U);
+  EXPECT_LE((1e3 * end_of(instance.curves[0].curve) - Eigen::Vector3d(7, 0, 0)).norm(), 1e-14);
+}
+
 TEST(RestatedIges, CircularArcsUnderAMirrorGoTheRightWay) {
   const ImportReport report =
       import_text(iges_text_of({{.type = 100, .parameters = "100,2,0,0,5,0,0,5;", .matrix = 3}, mirror}));
