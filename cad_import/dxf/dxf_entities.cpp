@@ -71,20 +71,25 @@ std::vector<double> DxfEntity::numbers_of(int code) const {
 DxfDrawing dxf_drawing(std::string_view content) {
   DxfDrawing drawing;
   std::string_view section, variable;
-  bool names_section = false;
+  bool names_section = false, in_layer = false;
+  const auto begin = [](std::string_view type, std::vector<DxfEntity>& list) {
+    list.push_back({std::string(type), static_cast<int>(list.size()) + 1, {}});
+  };
   for (const DxfPair& pair : pairs_of(content)) {
     if (pair.code == 0) {
       names_section = pair.value == "SECTION";
       if (names_section || pair.value == "ENDSEC") section = {};
-      if (section == "ENTITIES")
-        drawing.entities.push_back(
-            {std::string(pair.value), static_cast<int>(drawing.entities.size()) + 1, {}});
+      in_layer = section == "TABLES" && pair.value == "LAYER";
+      if (in_layer) begin(pair.value, drawing.layers);
+      if (section == "ENTITIES") begin(pair.value, drawing.entities);
     } else if (names_section && pair.code == 2) {
       section = pair.value;
       names_section = false;
     } else if (section == "HEADER") {
       if (pair.code == 9) variable = pair.value;
       if (pair.code == 70 && variable == "$INSUNITS") drawing.unit = static_cast<int>(number_in(pair));
+    } else if (in_layer) {
+      drawing.layers.back().pairs.push_back(pair);
     } else if (section == "ENTITIES" && !drawing.entities.empty()) {
       drawing.entities.back().pairs.push_back(pair);
     }

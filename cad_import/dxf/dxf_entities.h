@@ -25,10 +25,11 @@ struct DxfEntity {
   std::vector<double> numbers_of(int code) const;
 };
 
-/// A drawing: its unit and the entities of its section ENTITIES. The pairs point into the content.
+/// A drawing: its unit, the entries of its layer table and the entities of its section ENTITIES. The pairs
+/// point into the content.
 struct DxfDrawing {
   int unit = 0;  // $INSUNITS
-  std::vector<DxfEntity> entities;
+  std::vector<DxfEntity> layers, entities;
 };
 
 /// Throws std::runtime_error, naming the line, for a content that is no list of pairs.

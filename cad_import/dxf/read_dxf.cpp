@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <new>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
+#include "cad_import/dxf/drawing_unit.h"
 #include "cad_import/dxf/dxf_entities.h"
 #include "cad_import/report/length_unit.h"
 
@@ -91,13 +91,22 @@ Drawn ellipse(const DxfEntity& entity) {
                                from, sweep_of(from, to, 2 * pi))};
 }
 
+void check_count(std::size_t count, std::size_t points, const std::string& what) {
+  if (count != points)
+    throw std::runtime_error("it has " + std::to_string(points) + " x of control points (group 10) and " +
+                             std::to_string(count) + " " + what + "; each point needs its own");
+}
+
+/// A spline without group 30 lies in the plane z = 0, one without group 41 is not rational.
 Drawn spline(const DxfEntity& entity) {
-  const std::vector<double> x = entity.numbers_of(10), y = entity.numbers_of(20), z = entity.numbers_of(30);
-  std::vector<double> weights = entity.numbers_of(41);
+  const std::vector<double> x = entity.numbers_of(10), y = entity.numbers_of(20);
+  std::vector<double> z = entity.numbers_of(30), weights = entity.numbers_of(41);
   if (x.empty()) throw std::runtime_error("it has fit points only; draw it with control points");
+  if (z.empty()) z.assign(x.size(), 0);
   if (weights.empty()) weights.assign(x.size(), 1);
-  if (y.size() != x.size() || z.size() != x.size() || weights.size() != x.size())
-    throw std::runtime_error("its control points and weights differ in number");
+  check_count(y.size(), x.size(), "y (group 20)");
+  check_count(z.size(), x.size(), "z (group 30)");
+  check_count(weights.size(), x.size(), "weights (group 41)");
   Eigen::Matrix3Xd points(3, x.size());
   for (std::size_t i = 0; i < x.size(); ++i) points.col(static_cast<Eigen::Index>(i)) << x[i], y[i], z[i];
   return {"bspline",
@@ -205,11 +214,39 @@ std::string colour_of(const DxfEntity& entity) {
   return number > 0 && number < 8 ? numbered[number] : "";
 }
 
-std::optional<double> unit_in_metres(int insunits) {
-  static const std::map<int, double> known{{1, 0.0254}, {2, 0.3048},  {4, 1e-3},  {5, 1e-2}, {6, 1},
-                                           {7, 1e3},    {10, 0.9144}, {13, 1e-6}, {14, 0.1}};
-  const auto at = known.find(insunits);
-  return at == known.end() ? std::nullopt : std::optional(at->second);
+std::string without_unit(int insunits) {
+  if (insunits == 0) return "the drawing declares no length unit ($INSUNITS); millimetres are assumed";
+  return "$INSUNITS is " + std::to_string(insunits) +
+         ", which is no unit; the units of DXF are 1 to 24: millimetres are assumed";
+}
+
+/// Layers are one where their names differ in the case of letters only.
+std::string layer_key(std::string name) {
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// Those that are frozen, or switched off by a negative colour.
+std::set<std::string> hidden_layers(const DxfDrawing& drawing) {
+  constexpr int frozen = 1;
+  std::set<std::string> hidden;
+  for (const DxfEntity& layer : drawing.layers)
+    if ((static_cast<int>(layer.number_of(70, 0)) & frozen) || layer.number_of(62, 7) < 0)
+      hidden.insert(layer_key(layer.text_of(2)));
+  return hidden;
+}
+
+bool is_curve(const DxfEntity& entity) {
+  static const std::set<std::string> kinds{"LINE",   "ARC",        "CIRCLE",  "ELLIPSE",
+                                           "SPLINE", "LWPOLYLINE", "POLYLINE"};
+  return kinds.contains(entity.type);
+}
+
+bool is_in_paper_space(const DxfEntity& entity) { return entity.number_of(67, 0) == 1; }
+
+std::string label_of(const DxfEntity& entity) {
+  return "entity " + std::to_string(entity.number) + " " + entity.type;
 }
 
 ImportedCurve imported(Drawn drawn, const DxfEntity& entity, double unit) {
@@ -229,25 +266,35 @@ ImportedCurve imported(Drawn drawn, const DxfEntity& entity, double unit) {
 
 ImportReport read_dxf(const std::string& content) {
   const DxfDrawing drawing = dxf_drawing(content);
-  const std::optional<double> unit = unit_in_metres(drawing.unit);
-  const NamedUnit named = named_unit(unit.value_or(metres_per_millimetre));
+  const std::optional<NamedUnit> unit = drawing_unit(drawing.unit);
+  const NamedUnit named = unit.value_or(named_unit(metres_per_millimetre));
   ImportReport report{
       .file = "", .unit = named.name, .unit_in_metres = named.in_metres, .curves = {}, .diagnostics = {}};
-  if (!unit)
-    report.diagnostics.push_back(
-        {Severity::warning, "", "the drawing declares no length unit ($INSUNITS); millimetres are assumed"});
+  if (!unit) report.diagnostics.push_back({Severity::warning, "", without_unit(drawing.unit)});
+  const std::set<std::string> hidden = hidden_layers(drawing);
+  std::vector<const DxfEntity*> on_paper;
   for (const DxfEntity& entity : drawing.entities) {
     try {
+      if (is_in_paper_space(entity)) {
+        if (is_curve(entity)) on_paper.push_back(&entity);
+        continue;
+      }
       for (Drawn& drawn : curves_of(entity, drawing.entities))
         report.curves.push_back(imported(std::move(drawn), entity, report.unit_in_metres));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      report.diagnostics.push_back({Severity::warning,
-                                    "entity " + std::to_string(entity.number) + " " + entity.type,
-                                    std::string("not read: ") + e.what()});
+      report.diagnostics.push_back(
+          {Severity::warning, label_of(entity), std::string("not read: ") + e.what()});
     }
   }
+  for (ImportedCurve& curve : report.curves) curve.hidden |= hidden.contains(layer_key(curve.layer));
+  if (!on_paper.empty())
+    report.diagnostics.push_back(
+        {Severity::warning, label_of(*on_paper[0]),
+         "not read, for it lies in the paper space (group 67), which is no part of the "
+         "model; so do " +
+             std::to_string(on_paper.size()) + " curve(s) in all: move what is wanted to the model space"});
   return report;
 }
 

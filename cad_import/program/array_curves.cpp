@@ -31,8 +31,10 @@ using IgesEntity = Handle(IGESData_IGESEntity);
 /// What an entity and all that stands in it become.
 class Expansion {
  public:
-  Expansion(const XSControl_Reader& reader, double unit, double tolerance)
-      : process_(reader.WS()->TransferReader()),
+  Expansion(const XSControl_Reader& reader, const RestatedCurves& restated, double unit, double tolerance)
+      : reader_(reader),
+        restated_(restated),
+        process_(reader.WS()->TransferReader()),
         appearances_(appearances_of(*reader.WS())),
         unit_(unit),
         tolerance_(tolerance) {
@@ -62,9 +64,12 @@ class Expansion {
     const TopoDS_Shape shape = process_->ShapeResult(entity);
     TopTools_IndexedMapOfShape edges;
     if (!shape.IsNull()) TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+    const TruePlaces places = true_places(reader_, restated_);
     std::vector<ImportedCurve> curves;
-    for (int i = 1; i <= edges.Extent(); ++i)
-      curves.push_back(imported_curve(TopoDS::Edge(edges(i)), tolerance_));
+    for (int i = 1; i <= edges.Extent(); ++i) {
+      ImportedCurve curve = imported_curve(TopoDS::Edge(edges(i)), tolerance_);
+      if (places.put_in_place(edges(i).Location(), curve)) curves.push_back(std::move(curve));
+    }
     return curves;
   }
 
@@ -99,6 +104,8 @@ class Expansion {
     std::move(more.begin(), more.end(), std::back_inserter(curves));
   }
 
+  const XSControl_Reader& reader_;
+  const RestatedCurves& restated_;
   Handle(XSControl_TransferReader) process_;
   Appearances appearances_;
   double unit_, tolerance_;
@@ -108,8 +115,9 @@ class Expansion {
 }  // namespace
 
 std::vector<ImportedCurve> array_curves(const Handle(IGESData_IGESEntity) & array,
-                                        const XSControl_Reader& reader, double unit, double tolerance) {
-  std::vector<ImportedCurve> curves = Expansion(reader, unit, tolerance).curves_of(array);
+                                        const XSControl_Reader& reader, const RestatedCurves& restated,
+                                        double unit, double tolerance) {
+  std::vector<ImportedCurve> curves = Expansion(reader, restated, unit, tolerance).curves_of(array);
   if (curves.empty()) throw std::runtime_error("what it repeats is no curve");
   return curves;
 }

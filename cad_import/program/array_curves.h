@@ -3,6 +3,7 @@
 #include <XSControl_Reader.hxx>
 #include <vector>
 
+#include "cad_import/program/restated_curves.h"
 #include "cad_import/report/import_report.h"
 
 namespace nurbeam {
@@ -13,6 +14,7 @@ namespace nurbeam {
 /// std::exception or Standard_Failure where there are none, more than 100,000, or arrays nested too deeply.
 /// `unit`: of the file [m].
 std::vector<ImportedCurve> array_curves(const opencascade::handle<IGESData_IGESEntity>& array,
-                                        const XSControl_Reader& reader, double unit, double tolerance);
+                                        const XSControl_Reader& reader, const RestatedCurves& restated,
+                                        double unit, double tolerance);
 
 }  // namespace nurbeam

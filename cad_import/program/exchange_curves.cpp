@@ -8,6 +8,7 @@
 #include <StepData_StepModel.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TransferBRep.hxx>
@@ -15,7 +16,6 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
-#include <gp_Trsf.hxx>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -24,6 +24,7 @@
 #include "cad_import/occt/centre_line.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
+#include "cad_import/occt/placed_curve.h"
 #include "cad_import/program/drawing_text.h"
 #include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
@@ -43,8 +44,8 @@ constexpr double import_tolerance = 1e-7;  ///< of ImportOptions [m]
 /// Where a drawn curve stands in the file.
 struct FoundCurve {
   int instance;
-  gp_Trsf to_world = {};   // of its part
-  bool backwards = false;  // against the instance
+  Eigen::Affine3d to_world = Eigen::Affine3d::Identity();  // of its part [m]
+  bool backwards = false;                                  // against the instance
   bool free = true;
   int places = 1;  // how often its part is placed
 };
@@ -65,7 +66,8 @@ int instance_of(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
   throw std::runtime_error("OpenCASCADE does not tell which instance of the file an edge came from");
 }
 
-std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const STEPControl_Reader& reader) {
+std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const TruePlaces& true_places,
+                                    const STEPControl_Reader& reader) {
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   const TopoDS_Shape shape = reader.OneShape();
   if (!shape.IsNull()) TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
@@ -73,13 +75,14 @@ std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const STEPControl_R
     const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
     if (BRep_Tool::Degenerated(edge)) continue;
     try {
-      if (!is_same(imported_curve(edge, import_tolerance).curve, drawn)) continue;
+      ImportedCurve curve = imported_curve(edge, import_tolerance);
+      if (!true_places.put_in_place(edge.Location(), curve) || !is_same(curve.curve, drawn)) continue;
     } catch (const std::exception&) {
       continue;  // no valid curve, and so none that import_curves() gave
     }
     int places = 0;
     for (int k = 1; k <= faces.Extent(); ++k) places += faces.FindKey(k).TShape() == edge.TShape();
-    return FoundCurve{instance_of(edge, reader), edge.Location().Transformation(),
+    return FoundCurve{instance_of(edge, reader), *true_places.to_world(edge.Location()),
                       edge.Orientation() == TopAbs_REVERSED, faces(i).IsEmpty(), places};
   }
   return std::nullopt;
@@ -100,7 +103,7 @@ std::optional<FoundCurve> find_lost(const NurbsCurve& drawn, const RestatedCurve
     for (std::size_t k = 0; k < places.size(); ++k)
       if (is_same(report.curves[first + k].curve, drawn))
         return FoundCurve{.instance = model->IdentLabel(model->Value(i)),
-                          .to_world = places[k],
+                          .to_world = in_metres(places[k], metres_per_millimetre),
                           .places = static_cast<int>(places.size())};
   }
   return std::nullopt;
@@ -115,15 +118,9 @@ double unit_of(int context, const StepData_StepModel& model) {
 }
 
 /// The curve in the coordinates and the unit [mm] of its part.
-NurbsCurve in_part(const NurbsCurve& world, const gp_Trsf& to_world, double unit) {
-  const gp_Trsf to_part = to_world.Inverted();
-  Eigen::Matrix4Xd points = world.control_points();
-  for (auto column : points.colwise()) {
-    const Eigen::Vector3d p = millimetres_per_metre / column(3) * column.head<3>();
-    const gp_Pnt moved = gp_Pnt(p.x(), p.y(), p.z()).Transformed(to_part);
-    column.head<3>() = column(3) / unit * Eigen::Vector3d(moved.X(), moved.Y(), moved.Z());
-  }
-  return {world.knots(), std::move(points)};
+NurbsCurve in_part(const NurbsCurve& world, const Eigen::Affine3d& to_world, double unit) {
+  const Eigen::Affine3d to_part = to_world.inverse();
+  return placed(world, Eigen::Scaling(millimetres_per_metre / unit) * to_part);
 }
 
 // ---------------------------------------------------------------------------------------------- exchange
@@ -219,12 +216,17 @@ std::vector<std::string> place_found(const DeformedCurve& wanted, const FoundCur
 }
 
 /// Why the file itself does not have the curve, although it was imported with it; nothing if it should.
-std::optional<std::string> absence(const NurbsCurve& drawn, const STEPControl_Reader& reader) {
+std::optional<std::string> absence(const NurbsCurve& drawn, const TruePlaces& true_places,
+                                   const STEPControl_Reader& reader) {
   const TopoDS_Shape shape = reader.OneShape();
-  if (!shape.IsNull())
-    for (const CentreLine& line : centre_lines(shape, import_tolerance).lines)
-      if (is_same(line.curve.curve, drawn))
+  TopTools_IndexedMapOfShape faces;
+  if (!shape.IsNull()) {
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    for (CentreLines found = centre_lines(shape, import_tolerance); CentreLine & line : found.lines)
+      if (true_places.put_in_place(faces(line.face).Location(), line.curve) &&
+          is_same(line.curve.curve, drawn))
         return "it is the centre line of a solid, which does not move with it";
+  }
   if (STEPConstruct_ExternRefs(reader.WS()).LoadExternRefs())
     return "its part lies in another file, which stays as it is";
   return std::nullopt;
@@ -236,18 +238,20 @@ std::vector<std::string> place_on_top(const DeformedCurve& wanted, const std::st
   const std::optional<int> representation = topmost_representation(step);
   if (!representation) throw std::runtime_error("no part of the file has a shape representation");
   const double unit = unit_of(context_of(*representation, step), model);
-  add_beside(*representation, curve_set_of(*representation, step), in_part(wanted.deformed, gp_Trsf(), unit),
-             step_string(wanted.name), step);
+  add_beside(*representation, curve_set_of(*representation, step),
+             in_part(wanted.deformed, Eigen::Affine3d::Identity(), unit), step_string(wanted.name), step);
   return {"'" + wanted.name + "': " + reason + "; the deformed curve was added to the topmost part"};
 }
 
 std::vector<std::string> place(const DeformedCurve& wanted, const RestatedCurves& restated,
                                const STEPControl_Reader& reader, StepInstances& step) {
   const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
-  std::optional<FoundCurve> found = find_edge(wanted.drawn, reader);
+  const TruePlaces places = true_places(reader, restated);
+  std::optional<FoundCurve> found = find_edge(wanted.drawn, places, reader);
   if (!found) found = find_lost(wanted.drawn, restated, reader);
   if (found) return place_found(wanted, *found, *model, step);
-  if (const auto reason = absence(wanted.drawn, reader)) return place_on_top(wanted, *reason, *model, step);
+  if (const auto reason = absence(wanted.drawn, places, reader))
+    return place_on_top(wanted, *reason, *model, step);
   throw std::runtime_error("the curve '" + wanted.name +
                            "' is not in the file as it was when it was imported");
 }

@@ -186,10 +186,16 @@ std::string refusal_of(const Entity& entity, const Standard_Failure& failure) {
   return "OpenCASCADE makes no curve of its numbers" + (why.empty() ? "" : ": " + why);
 }
 
-std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reader& reader, double unit,
-                                     double tolerance) {
+/// The coordinates that an entity is in.
+struct Coordinates {
+  std::vector<PartPlace> places;  // of its part
+  double unit;                    // [m]
+};
+
+std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reader& reader,
+                                     const RestatedCurves& restated, double unit, double tolerance) {
   if (is_array(entity))
-    return array_curves(Handle(IGESData_IGESEntity)::DownCast(entity), reader, unit, tolerance);
+    return array_curves(Handle(IGESData_IGESEntity)::DownCast(entity), reader, restated, unit, tolerance);
   ImportedCurve curve = step_curve(entity, unit, tolerance);
   curve.name = entity_name(entity);
   return {std::move(curve)};
@@ -197,14 +203,14 @@ std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reade
 
 // Why no curve was added; nothing if one was. `unit`: of the entity's coordinates [m].
 std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_Reader& reader,
-                                         const std::vector<PartPlace>& places, double unit, double tolerance,
-                                         ImportReport& report) {
+                                         const RestatedCurves& restated, const Coordinates& in,
+                                         double tolerance, ImportReport& report) {
   if (auto reason = obstacle(entity, reader.WS()->Graph())) return reason;
-  if (places.empty()) return "its place or its unit in the assembly is not known";
+  if (in.places.empty()) return "its place or its unit in the assembly is not known";
   try {
     OCC_CATCH_SIGNALS
-    const std::vector<ImportedCurve> curves = curves_of(entity, reader, unit, tolerance);
-    for (const PartPlace& place : places)
+    const std::vector<ImportedCurve> curves = curves_of(entity, reader, restated, in.unit, tolerance);
+    for (const PartPlace& place : in.places)
       for (ImportedCurve curve : curves) {
         if (place.to_world.Form() != gp_Identity)
           curve.curve = placed(curve.curve, in_metres(place.to_world, metres_per_millimetre));
@@ -230,12 +236,6 @@ std::string only_part(const Interface_InterfaceModel& model) {
       part = ++count == 1 ? product_name(definition) : "";
   return part;
 }
-
-/// The coordinates that an entity is in.
-struct Coordinates {
-  std::vector<PartPlace> places;  // of its part
-  double unit;                    // [m]
-};
 
 class Whole {
  public:
@@ -274,7 +274,7 @@ LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves&
   for (const Entity& entity : lost_curves(reader, restated)) {
     const std::size_t first = report.curves.size();
     const Coordinates in = whole.of(entity);
-    const auto why = add_curves_of(entity, reader, in.places, in.unit, tolerance, report);
+    const auto why = add_curves_of(entity, reader, restated, in, tolerance, report);
     if (!why) {
       RecoveredCurve& recovered = found.recovered[entity.get()];
       recovered.first = first;

@@ -22,6 +22,7 @@
 
 #include "cad_import/dxf/read_dxf.h"
 #include "cad_import/iges/iges_global.h"
+#include "cad_import/iges/line_forms.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/brep_text.h"
 #include "cad_import/program/damaged_entities.h"
@@ -56,11 +57,11 @@ LostCurves add_curves(const XSControl_Reader& reader, const RestatedCurves& rest
                       ImportReport& report) {
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return add_lost_curves(reader, restated, tolerance, report);
-  const Origins origins = origins_of_edges_and_faces(reader, restated.refused, report);
-  const PartNames parts = part_names(reader, shape);
-  add_edges(shape, origins, parts, tolerance, report);
+  const ShapeFacts facts{origins_of_edges_and_faces(reader, restated.refused, report),
+                         part_names(reader, shape), true_places(reader, restated)};
+  add_edges(shape, facts, tolerance, report);
   LostCurves lost = add_lost_curves(reader, restated, tolerance, report);
-  add_centre_lines(shape, origins, parts, tolerance, report);
+  add_centre_lines(shape, facts, tolerance, report);
   return lost;
 }
 
@@ -165,6 +166,7 @@ void read_iges(const std::string& content, double tolerance, ImportReport& repor
     throw std::runtime_error("OpenCASCADE refuses read.iges.bspline.continuity = 0");
   IGESControl_Reader reader;
   read(reader, content, report);
+  restore_line_forms(content, *reader.IGESModel());
   compare_units(global, reader.IGESModel()->GlobalSection());
   const double resolution = reader.IGESModel()->GlobalSection().Resolution();
   if (std::isfinite(resolution) && resolution > 0) report.resolution = resolution * global.unit_in_metres;
@@ -189,8 +191,24 @@ void read_brep(const std::string& content, double tolerance, ImportReport& repor
   const TopoDS_Shape shape = brep_shape(content);
   report_unit(metres_per_millimetre, report);
   add_diagnostic(report, Severity::note, "", "BREP files declare no length unit; millimetres are assumed");
-  add_edges(shape, {}, {}, tolerance, report);
-  add_centre_lines(shape, {}, {}, tolerance, report);
+  add_edges(shape, {}, tolerance, report);
+  add_centre_lines(shape, {}, tolerance, report);
+}
+
+// Why there is no curve: what was said of the entities of the file.
+std::string without_curves(const ImportReport& report) {
+  std::string reason;
+  int others = -1;
+  for (const auto& [severity, where, message] : report.diagnostics) {
+    const std::size_t file = report.file.size() + 2;  // "file: entity"
+    if (severity != Severity::warning || where.size() <= file) continue;
+    if (reason.empty()) reason = where.substr(file) + ": " + message;
+    ++others;
+  }
+  if (reason.empty())
+    return "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)";
+  return "no curve of the file can be read; " + reason +
+         (others > 0 ? " (and " + std::to_string(others) + " more warning(s))" : "");
 }
 
 void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,
@@ -225,10 +243,8 @@ ImportReport read_cad_file(const std::filesystem::path& file, const std::string&
   } catch (const std::runtime_error& e) {
     add_diagnostic(report, Severity::error, "", e.what());
   }
-  if (report.ok() && report.curves.empty()) {
-    add_diagnostic(report, Severity::error, "",
-                   "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)");
-  }
+  if (report.ok() && report.curves.empty())
+    add_diagnostic(report, Severity::error, "", without_curves(report));
   return report;
 }
 

@@ -1,29 +1,48 @@
 #include "cad_import/program/restated_curves.h"
 
 #include <HeaderSection_FileName.hxx>
+#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <IGESData_TransfEntity.hxx>
 #include <IGESGeom_CircularArc.hxx>
 #include <IGESGeom_ConicArc.hxx>
+#include <IGESGeom_Line.hxx>
 #include <IGESGeom_OffsetCurve.hxx>
+#include <IGESGeom_SurfaceOfRevolution.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_Axis2Placement3d.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_CurveReplica.hxx>
 #include <StepGeom_OffsetCurve3d.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_MappedItem.hxx>
+#include <StepRepr_RepresentationMap.hxx>
+#include <StepShape_ShapeRepresentation.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cctype>
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cad_import/iges/conic_position.h"
+#include "cad_import/iges/line_forms.h"
+#include "cad_import/iges/location.h"
 #include "cad_import/iges/offset_curve.h"
+#include "cad_import/iges/subfigure_instance.h"
 #include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/curve_replica.h"
 #include "cad_import/step/step_units.h"
+#include "cad_import/step/transformation_operator.h"
 #include "cad_import/step/trimmed_conic.h"
 
 namespace nurbeam {
@@ -49,14 +68,16 @@ class Remarks {
     }
     return false;
   }
-  void warn(const Entity& entity, const std::string& message) {
-    const std::string name = entity_name(entity);
-    add_diagnostic(report_, Severity::warning,
-                   entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"), message);
-  }
+  void warn(const Entity& entity, const std::string& message) { say(Severity::warning, entity, message); }
+  void note(const Entity& entity, const std::string& message) { say(Severity::note, entity, message); }
   const EntitySet& refused() const { return refused_; }
 
  private:
+  void say(Severity severity, const Entity& entity, const std::string& message) {
+    const std::string name = entity_name(entity);
+    add_diagnostic(report_, severity, entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"),
+                   message);
+  }
   void refuse(const Entity& entity, const std::string& why) {
     refused_.insert(entity.get());
     warn(entity, "skipped with all that is made of it: " + why);
@@ -69,18 +90,85 @@ class Remarks {
 
 // ---------------------------------------------------------------------------------------------------- IGES
 
-/// Offsets first: they refer to the parameters of the arcs as these are in the file.
-void restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
+/// Those that place other entities; all are read before one is changed, for they share those that they go on
+/// to.
+void chain_matrices(const IGESData_IGESModel& model, Remarks& remarks) {
+  EntitySet seen;
+  std::vector<Entity> without_matrix;
+  std::vector<std::pair<Handle(IGESData_TransfEntity), Eigen::Affine3d>> chained;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto entity = Handle(IGESData_IGESEntity)::DownCast(model.Value(i));
+    const Handle(IGESData_TransfEntity) matrix = entity->Transf();
+    if (entity->HasTransf() && matrix.IsNull()) without_matrix.push_back(entity);
+    if (entity->IsKind(STANDARD_TYPE(IGESData_TransfEntity)) || matrix.IsNull() ||
+        !seen.insert(matrix.get()).second || !matrix->HasTransf())
+      continue;
+    remarks.attempt(matrix, [&] { chained.emplace_back(matrix, chained_location(*matrix)); });
+  }
+  for (const auto& [matrix, location] : chained) set_matrix(*matrix, location);
+  if (!without_matrix.empty())
+    remarks.warn(without_matrix[0],
+                 "what field 7 of its directory entry names is no transformation matrix (124), and "
+                 "it is read without; so are " +
+                     std::to_string(without_matrix.size()) + " entities in all: correct the fields");
+}
+
+/// Lines that need no ends.
+EntitySet axes_of_revolution(const IGESData_IGESModel& model) {
+  EntitySet axes;
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto surface = Handle(IGESGeom_SurfaceOfRevolution)::DownCast(model.Value(i)))
+      axes.insert(surface->AxisOfRevolution().get());
+  return axes;
+}
+
+/// OpenCASCADE scales no shape: it leaves out the scale, or the shape. `unit`: [mm].
+RestatedPlace restate_scaled(const Handle(IGESBasic_SingularSubfigure) & instance, double unit,
+                             Remarks& remarks) {
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  const bool is_read = remarks.attempt(instance, [&] { place = place_of(*instance); });
+  set_place(*instance, stand_in(place));
+  place.translation() *= unit * metres_per_millimetre;
+  return {Entity(instance), is_read ? std::optional(place) : std::nullopt};
+}
+
+std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, double unit, Remarks& remarks) {
+  std::vector<RestatedPlace> places;
+  std::vector<Entity> turned_and_moved;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(model.Value(i));
+    if (instance.IsNull() || instance->Subfigure().IsNull()) continue;
+    if (is_moved_after_turning(*instance)) turned_and_moved.push_back(instance);
+    if (is_scaled(*instance)) places.push_back(restate_scaled(instance, unit, remarks));
+  }
+  if (!turned_and_moved.empty())
+    remarks.note(turned_and_moved[0],
+                 "its X, Y, Z move what its matrix (124) has turned, and are not turned by it; so in " +
+                     std::to_string(turned_and_moved.size()) +
+                     " instance(s) of subfigures (408): where that is not meant, write the whole place "
+                     "into the matrix");
+  return places;
+}
+
+/// Matrices before what they place, and offsets before arcs: they refer to the parameters of the arcs as
+/// these are in the file. Returns what scales.
+std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
+  chain_matrices(model, remarks);
+  const EntitySet axes = axes_of_revolution(model);
   const double unit = model.GlobalSection().UnitValue();  // [mm]
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto offset = Handle(IGESGeom_OffsetCurve)::DownCast(model.Value(i)))
       remarks.attempt(offset, [&] { restate_offset(*offset, unit); });
   for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (const auto line = Handle(IGESGeom_Line)::DownCast(model.Value(i));
+        !line.IsNull() && !axes.contains(line.get()))
+      remarks.attempt(line, [&] { check_bounded(*line); });
     if (const auto circle = Handle(IGESGeom_CircularArc)::DownCast(model.Value(i)))
       remarks.attempt(circle, [&] { put_into_position(*circle); });
     if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
       remarks.attempt(conic, [&] { put_into_position(*conic); });
   }
+  return restate_instances(model, unit, remarks);
 }
 
 // ---------------------------------------------------------------------------------------------------- STEP
@@ -95,6 +183,24 @@ bool is_by_open_cascade(const StepData_StepModel& model) {
   std::transform(systems.begin(), systems.end(), systems.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return systems.find("opencascade") != std::string::npos || systems.find("freecad") != std::string::npos;
+}
+
+bool places_a_shape(const StepRepr_MappedItem& item) {
+  return !item.MappingSource().IsNull() && !item.MappingSource()->MappedRepresentation().IsNull() &&
+         item.MappingSource()->MappedRepresentation()->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation));
+}
+
+bool is_between_axes(const StepRepr_MappedItem& item) {
+  return !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingSource()->MappingOrigin()).IsNull() &&
+         !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingTarget()).IsNull();
+}
+
+const StepGeom_CartesianTransformationOperator3d& operator_of(const StepRepr_MappedItem& item) {
+  const auto known = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(item.MappingTarget());
+  if (known.IsNull())
+    throw std::runtime_error(
+        "its target is neither AXIS2_PLACEMENT_3D nor CARTESIAN_TRANSFORMATION_OPERATOR_3D; place it by one");
+  return *known;
 }
 
 class StepCurves {
@@ -122,12 +228,37 @@ class StepCurves {
     } else if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(entity)) {
       restate(trimmed->BasisCurve());
       restate_piece(trimmed);
+    } else if (const auto item = Handle(StepRepr_MappedItem)::DownCast(entity)) {
+      restate_mapped(item);
     }
   }
 
   const EntitySet& parents() const { return parents_; }
+  const std::vector<RestatedPlace>& places() const { return places_; }
 
  private:
+  /// OpenCASCADE leaves out the scale, turns where the operator mirrors, and knows no axes but given ones.
+  void restate_mapped(const Handle(StepRepr_MappedItem) & item) {
+    if (!places_a_shape(*item) || is_between_axes(*item)) return;
+    Eigen::Affine3d place = Eigen::Affine3d::Identity();
+    double unit = 1;  // [mm]
+    bool is_right = false;
+    const bool is_read = remarks_.attempt(item, [&] {
+      is_right = is_location(operator_of(*item));
+      if (is_right) return;
+      unit = use_unit(item);
+      place = place_of(operator_of(*item));
+    });
+    if (is_right) return;
+    const bool only_axes_lack = is_read && is_rigid(place);
+    Eigen::Affine3d in_file = only_axes_lack ? place : stand_in(place);
+    in_file.translation() /= unit;
+    item->SetMappingTarget(transformation_operator(in_file));
+    if (only_axes_lack) return;
+    place.translation() *= metres_per_millimetre;
+    places_.push_back({Entity(item), is_read ? std::optional(place) : std::nullopt});
+  }
+
   void restate_piece(const Handle(StepGeom_TrimmedCurve) & trimmed) {
     std::optional<std::string> warning;
     remarks_.attempt(trimmed, [&] {
@@ -158,6 +289,7 @@ class StepCurves {
   Entity context_;
   bool has_one_unit_;
   EntitySet seen_, parents_;
+  std::vector<RestatedPlace> places_;
 };
 
 }  // namespace
@@ -165,14 +297,26 @@ class StepCurves {
 RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& report) {
   RestatedCurves restated;
   Remarks remarks(*reader.Model(), report);
-  if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model())) restate_iges(*iges, remarks);
+  if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model()))
+    restated.places = restate_iges(*iges, remarks);
   if (const auto step = Handle(StepData_StepModel)::DownCast(reader.Model())) {
     StepCurves curves(*step, reader.WS()->Graph(), remarks);
     for (int i = 1; i <= step->NbEntities(); ++i) curves.restate(step->Value(i));
     restated.parents = curves.parents();
+    restated.places = curves.places();
   }
   restated.refused = remarks.refused();
   return restated;
+}
+
+TruePlaces true_places(const XSControl_Reader& reader, const RestatedCurves& restated) {
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  TruePlaces places;
+  for (const RestatedPlace& restated_place : restated.places) {
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, restated_place.entity);
+    if (!shape.IsNull()) places.add(shape.Location(), restated_place.place);
+  }
+  return places;
 }
 
 }  // namespace nurbeam

@@ -48,16 +48,17 @@ void name_by_part(const TopoDS_Shape& shape, const PartNames& parts, ImportedCur
 }
 
 void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, const Origin& origin,
-              const PartNames& parts, double tolerance, ImportReport& report) {
+              const ShapeFacts& facts, double tolerance, ImportReport& report) {
   try {
     OCC_CATCH_SIGNALS
     ImportedCurve curve = imported_curve(edge, tolerance);
+    if (!facts.places.put_in_place(edge.Location(), curve)) return;
     curve.name = origin.name;
     curve.layer = origin.appearance.layer;
     curve.colour = origin.appearance.colour;
     curve.hidden = origin.appearance.hidden;
     curve.free = free;
-    name_by_part(edge, parts, curve);
+    name_by_part(edge, facts.parts, curve);
     note_approximation(curve, label, tolerance, report);
     report.curves.push_back(std::move(curve));
   } catch (const Standard_Failure& e) {
@@ -72,35 +73,35 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
 
 }  // namespace
 
-void add_edges(const TopoDS_Shape& shape, const Origins& origins, const PartNames& parts, double tolerance,
-               ImportReport& report) {
+void add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance, ImportReport& report) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edges.FindKey(i));
     if (BRep_Tool::Degenerated(edge)) continue;
-    const auto known = origins.find(edge.TShape().get());
-    const Origin origin = known == origins.end() ? Origin{} : known->second;
+    const auto known = facts.origins.find(edge.TShape().get());
+    const Origin origin = known == facts.origins.end() ? Origin{} : known->second;
     if (origin.left_out) continue;
-    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, parts, tolerance, report);
+    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, facts, tolerance, report);
   }
 }
 
-void add_centre_lines(const TopoDS_Shape& shape, const Origins& origins, const PartNames& parts,
-                      double tolerance, ImportReport& report) {
+void add_centre_lines(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance,
+                      ImportReport& report) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   CentreLines found = centre_lines(shape, tolerance);
   for (CentreLine& line : found.lines) {
-    const auto known = origins.find(faces(line.face).TShape().get());
-    if (known != origins.end()) {
+    if (!facts.places.put_in_place(faces(line.face).Location(), line.curve)) continue;
+    const auto known = facts.origins.find(faces(line.face).TShape().get());
+    if (known != facts.origins.end()) {
       if (known->second.left_out) continue;
       line.curve.name = known->second.name;
       line.curve.layer = known->second.appearance.layer;
       line.curve.colour = known->second.appearance.colour;
       line.curve.hidden = known->second.appearance.hidden;
     }
-    name_by_part(faces(line.face), parts, line.curve);
+    name_by_part(faces(line.face), facts.parts, line.curve);
     report.curves.push_back(std::move(line.curve));
   }
   for (const std::string& remark : found.remarks) add_diagnostic(report, Severity::note, "", remark);

@@ -146,6 +146,31 @@ TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
   EXPECT_GT(difference(after.curves[0].curve, before.curves[0].curve), 1e-3);
 }
 
+TEST(ExportIntoStep, ACurveThatIsMappedMirroredAtTwiceItsSizeGetsItsShapeInItsOwnCoordinates) {
+  const ScratchDirectory scratch;
+  const std::string part = step_text_of(
+      "#100",
+      "#100 = B_SPLINE_CURVE_WITH_KNOTS('wire',1,(#101,#102),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.);\n"
+      "#101 = CARTESIAN_POINT('',(1.,2.,3.));\n#102 = CARTESIAN_POINT('',(4.,6.,3.));\n"
+      "#110 = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#15),#26);\n"
+      "#111 = REPRESENTATION_MAP(#11,#110);\n#112 = MAPPED_ITEM('',#111,#113);\n"
+      "#113 = CARTESIAN_TRANSFORMATION_OPERATOR_3D('','',$,#14,#115,#114,2.,#13);\n"
+      "#114 = CARTESIAN_POINT('',(100.,0.,0.));\n#115 = DIRECTION('',(0.,-1.,0.));\n");
+  const fs::path source =
+      scratch.file("source.step",
+                   with(part, "#10 = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#15),#26);",
+                        "#10 = SHAPE_REPRESENTATION('',(#11,#112),#26);"));
+  const fs::path target = scratch.path() / "target.step";
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 1u);
+  EXPECT_LE((1e3 * before.curves[0].curve.point(1) - Eigen::Vector3d(108, -12, 6)).norm(), 1e-12);
+  const NurbsCurve deformed = bent(0.7, true);
+  EXPECT_TRUE(export_into_step(source, target, {{before.curves[0].curve, deformed, "wire"}}).empty());
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 1u);
+  EXPECT_LE(difference(after.curves[0].curve, deformed), 1e-14);
+}
+
 TEST(ExportIntoStep, AnEdgeOfASolidStaysAndTheCurveIsAddedBesideIt) {
   const ScratchDirectory scratch;
   const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";

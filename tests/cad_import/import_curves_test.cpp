@@ -313,7 +313,7 @@ TEST(ImportCurves, ManyThreadsMayReadAtOnce) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(counts, std::vector<std::size_t>(4 * 5, 12));
+  EXPECT_EQ(counts, std::vector<std::size_t>(4 * 5, 10));
 }
 
 TEST(ImportCurves, AToleranceThatIsNotPositiveIsRefused) {

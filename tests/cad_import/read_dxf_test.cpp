@@ -44,11 +44,43 @@ void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { EXPECT_LE
 
 TEST(ReadDxf, LinesHaveTheUnitOfTheDrawing) {
   const std::string line = "0 LINE 8 0 10 1 20 2 30 3 11 4 21 6 31 3";
-  for (const auto& [insunits, metres] : {std::pair{1, 0.0254}, {4, 1e-3}, {5, 1e-2}, {6, 1.0}}) {
-    const NurbsCurve curve = only_dxf_curve(line, insunits);
-    expect_near(start_of(curve), metres * Eigen::Vector3d(1, 2, 3));
-    expect_near(end_of(curve), metres * Eigen::Vector3d(4, 6, 3));
+  const std::vector<std::pair<std::string, double>> units{{"inch", 0.0254},
+                                                          {"ft", 0.3048},
+                                                          {"mile", 1609.344},
+                                                          {"mm", 1e-3},
+                                                          {"cm", 1e-2},
+                                                          {"m", 1},
+                                                          {"km", 1e3},
+                                                          {"microinch", 2.54e-8},
+                                                          {"mil", 2.54e-5},
+                                                          {"yard", 0.9144},
+                                                          {"angstrom", 1e-10},
+                                                          {"nm", 1e-9},
+                                                          {"um", 1e-6},
+                                                          {"dm", 0.1},
+                                                          {"dam", 10},
+                                                          {"hm", 100},
+                                                          {"Gm", 1e9},
+                                                          {"au", 149597870700.0},
+                                                          {"light year", 9460730472580800.0},
+                                                          {"parsec", 3.0856775814913673e16},
+                                                          {"US survey ft", 1200.0 / 3937},
+                                                          {"US survey inch", 100.0 / 3937},
+                                                          {"US survey yard", 3600.0 / 3937},
+                                                          {"US survey mile", 6336000.0 / 3937}};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const auto& [name, metres] = units[i];
+    const ImportReport report = import_dxf(dxf_of(line, static_cast<int>(i) + 1));
+    ASSERT_EQ(report.curves.size(), 1U) << name;
+    EXPECT_TRUE(report.diagnostics.empty()) << name;
+    EXPECT_EQ(report.unit, name);
+    EXPECT_DOUBLE_EQ(report.unit_in_metres, metres);
+    EXPECT_LE((start_of(report.curves[0].curve) / metres - Eigen::Vector3d(1, 2, 3)).norm(), 1e-15) << name;
+    EXPECT_LE((end_of(report.curves[0].curve) / metres - Eigen::Vector3d(4, 6, 3)).norm(), 2e-15) << name;
   }
+  const ImportReport unknown = import_dxf(dxf_of(line, 25));
+  ASSERT_EQ(unknown.diagnostics.size(), 1U);
+  EXPECT_NE(unknown.diagnostics[0].message.find("$INSUNITS is 25"), std::string::npos);
   const ImportReport without = import_dxf(dxf_of(line, 0));
   ASSERT_EQ(without.diagnostics.size(), 1U);
   EXPECT_NE(without.diagnostics[0].message.find("$INSUNITS"), std::string::npos);
@@ -91,6 +123,19 @@ TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
   for (double u = 0; u <= 1; u += 0.125) EXPECT_NEAR(arc.point(u).norm(), 1, 1e-15);
 }
 
+TEST(ReadDxf, ASplineWithoutZLiesInThePlane) {
+  const std::string start = "0 SPLINE 70 8 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1 ";
+  const NurbsCurve flat = only_dxf_curve(start + "10 1 20 0 10 1 20 1 10 0 20 1", 6);
+  expect_near(start_of(flat), {1, 0, 0});
+  expect_near(middle_of(flat), {0.75, 0.75, 0});
+  expect_near(end_of(flat), {0, 1, 0});
+  const ImportReport uneven = import_dxf(dxf_of(start + "10 1 20 0 30 2 10 1 20 1 10 0 20 1 0 LINE 11 1"));
+  ASSERT_EQ(uneven.diagnostics.size(), 1U);
+  EXPECT_NE(uneven.diagnostics[0].message.find("3 x of control points (group 10) and 1 z (group 30)"),
+            std::string::npos)
+      << uneven.diagnostics[0].message;
+}
+
 TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
   const NurbsCurve square =
       only_dxf_curve("0 LWPOLYLINE 90 4 70 1 38 2 10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1", 6);
@@ -129,6 +174,34 @@ TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   EXPECT_EQ(report.curves[0].colour, "#00ff00");
   EXPECT_EQ(report.curves[1].colour, "#ff8000");
   EXPECT_TRUE(report.curves[1].hidden);
+}
+
+TEST(ReadDxf, CurvesOfFrozenAndSwitchedOffLayersAreHidden) {
+  const std::string tables =
+      "0 SECTION 2 TABLES 0 TABLE 2 LAYER 70 4 0 LAYER 2 off 70 0 62 -3 0 LAYER 2 Frozen 70 1 62 5 "
+      "0 LAYER 2 locked 70 4 62 1 0 LAYER 2 0 70 0 62 7 0 ENDTAB 0 ENDSEC 0 SECTION 2 ENTITIES";
+  std::string text = dxf_of(
+      "0 LINE 8 off 11 1 0 LINE 8 FROZEN 11 2 0 LINE 8 locked 11 3 0 LINE 8 0 11 4 0 LINE 8 unlisted 11 5");
+  std::string lines = tables;
+  std::replace(lines.begin(), lines.end(), ' ', '\n');
+  const ImportReport report = import_dxf(with(text, "0\nSECTION\n2\nENTITIES", lines));
+  ASSERT_EQ(report.curves.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(report.curves[i].hidden, i < 2) << i;
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
+  EXPECT_NE(report.diagnostics[0].message.find("2 curve(s) are hidden"), std::string::npos);
+}
+
+TEST(ReadDxf, ThePaperSpaceIsNoPartOfTheModel) {
+  const ImportReport report = import_dxf(
+      dxf_of("0 LINE 67 1 11 1 0 VIEWPORT 67 1 0 INSERT 67 1 2 frame 0 POLYLINE 67 1 66 1 0 VERTEX 67 1 10 0 "
+             "0 VERTEX 67 1 10 1 0 SEQEND 67 1 0 LINE 67 0 11 2 0 LINE 11 3"));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_NEAR(length(report.curves[0].curve), 2e-3, 1e-17);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].where.find("entity 1 LINE"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("2 curve(s)"), std::string::npos);
 }
 
 TEST(ReadDxf, WhatCannotBeReadIsNamedAndHarmsNothing) {

@@ -170,6 +170,77 @@ TEST(RestatedIges, ConicsInCompositesLieWhereBothTransformationsPutThem) {
   }
 }
 
+/// Matrices in a chain: the first, in line 3, is followed by the others.
+std::vector<IgesEntity> chained(IgesEntity first, const std::vector<IgesEntity>& matrices) {
+  first.matrix = 3;
+  std::vector<IgesEntity> entities{first};
+  for (IgesEntity matrix : matrices) {
+    matrix.matrix = entities.size() < matrices.size() ? line_of(entities.size() + 1) : 0;
+    entities.push_back(matrix);
+  }
+  return entities;
+}
+
+TEST(RestatedIges, AMatrixActsOnWhatTheOneThatGoesOnToItGives) {
+  const IgesEntity line{.type = 110, .parameters = "110,1,2,3,40,50,60;"};
+  const ImportReport report = import_text(iges_text_of(chained(line, {mirror, turn, turn})));
+  ASSERT_EQ(report.curves.size(), 1U);
+  EXPECT_TRUE(report.diagnostics.empty());
+  const Eigen::Affine3d place = place_of(turn) * place_of(turn) * place_of(mirror);
+  EXPECT_LE((1e3 * start_of(report.curves[0].curve) - place * Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
+  EXPECT_LE((1e3 * end_of(report.curves[0].curve) - place * Eigen::Vector3d(40, 50, 60)).norm(), 1e-12);
+  const IgesEntity arc{.type = 100, .parameters = "100,2,0,0,5,0,0,5;"};
+  const ImportReport turned = import_text(iges_text_of(chained(arc, {mirror, turn})));
+  ASSERT_EQ(turned.curves.size(), 1U);
+  expect_conic(
+      turned.curves[0].curve,
+      {1, {1, 0, 1, 0, 0, -25}, 2, {5, 0}, {0, 5}, [](double x, double y) { return x > -1e-9 && y > -1e-9; }},
+      place_of(turn) * place_of(mirror), 1e-3);
+}
+
+TEST(RestatedIges, ChainsOfMatricesThatDoNotEndAreNamedAndHarmNothing) {
+  const auto expect_left_out = [](const std::vector<IgesEntity>& entities, const std::string& text) {
+    std::vector<IgesEntity> all = entities;
+    all.push_back({.type = 110, .parameters = "110,0,0,0,1,0,0;", .label = "good"});
+    const ImportReport report = import_text(iges_text_of(all));
+    ASSERT_EQ(report.curves.size(), 1U);
+    EXPECT_EQ(report.curves[0].name, "good");
+    ASSERT_EQ(report.diagnostics.size(), 1U);
+    EXPECT_NE(report.diagnostics[0].message.find(text), std::string::npos) << report.diagnostics[0].message;
+    EXPECT_NE(report.diagnostics[0].where.find("D3 TransformationMatrix"), std::string::npos)
+        << report.diagnostics[0].where;
+  };
+  const IgesEntity line{.type = 110, .parameters = "110,1,2,3,40,50,60;"};
+  std::vector<IgesEntity> circle = chained(line, {turn, mirror});
+  circle.back().matrix = 3;
+  expect_left_out(circle, "lead in a circle");
+  std::vector<IgesEntity> itself = chained(line, {turn});
+  itself.back().matrix = 3;
+  expect_left_out(itself, "lead in a circle");
+  expect_left_out(chained(line, std::vector<IgesEntity>(150, turn)), "more than 100 matrices");
+  const ImportReport deep = import_text(iges_text_of(chained(line, std::vector<IgesEntity>(20'000, turn))));
+  EXPECT_TRUE(deep.curves.empty());
+  EXPECT_FALSE(deep.ok());
+}
+
+TEST(RestatedIges, EntitiesWhoseMatrixIsNoneAreReadWithoutAndNamed) {
+  const IgesEntity line{.type = 110, .parameters = "110,0,0,0,1,0,0;", .label = "odd", .matrix = 5};
+  const ImportReport report =
+      import_text(iges_text_of({line, turn, {.type = 116, .parameters = "116,0,0,2,0;"}, line}));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_EQ(end_of(report.curves[0].curve), Eigen::Vector3d(1e-3, 0, 0));
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_NE(report.diagnostics[0].where.find("D1 Line 'odd'"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("no transformation matrix (124)"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("so are 2 entities"), std::string::npos);
+  const ImportReport instance =
+      import_text(iges_text_of({{.type = 110, .parameters = "110,0,0,0,1,0,0;", .status = dependent},
+                                {.type = 308, .parameters = "308,0,3Hsub,1,1;", .status = 20200},
+                                {.type = 408, .parameters = "408,3,5.,0.,0.,2.;", .matrix = 1}}));
+  ASSERT_EQ(instance.curves.size(), 1U);
+  EXPECT_LE((1e3 * end_of(instance.curves[0].curve) - Eigen::Vector3d(7, 0, 0)).norm(), 1e-14);
+}
+
 TEST(RestatedIges, CircularArcsUnderAMirrorGoTheRightWay) {
   const ImportReport report =
       import_text(iges_text_of({{.type = 100, .parameters = "100,2,0,0,5,0,0,5;", .matrix = 3}, mirror}));
@@ -218,6 +289,19 @@ TEST(RestatedIges, ConicsThatContradictThemselvesAreNamed) {
   expect_refused(
       {stretched, {.type = 124, .parameters = "124,2,0,0,0,0,1,0,0,0,0,1,0;", .status = dependent}},
       "stretches");
+}
+
+TEST(RestatedIges, RaysAndInfiniteLinesAreNamed) {
+  expect_refused({{.type = 110, .parameters = "110,0,0,0,10,0,0;", .form = 1}}, "it is a ray (form 1)");
+  expect_refused({{.type = 110, .parameters = "110,0,0,0,10,0,0;", .form = 2}},
+                 "it is an infinite line (form 2)");
+  const ImportReport turned = import_text(
+      iges_text_of({{.type = 110, .parameters = "110,0,0,0,0,0,1;", .form = 2, .status = dependent},
+                    {.type = 110, .parameters = "110,5,0,0,5,0,9;", .status = dependent},
+                    {.type = 120, .parameters = "120,1,3,0.,6.283185307179586;"}}));
+  EXPECT_TRUE(turned.diagnostics.empty());
+  EXPECT_TRUE(std::any_of(turned.curves.begin(), turned.curves.end(),
+                          [](const ImportedCurve& curve) { return curve.is_centre_line(); }));
 }
 
 IgesEntity offset_of(const std::string& range, int matrix = 0) {

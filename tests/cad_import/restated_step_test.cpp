@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 
 #include "nurbs/arc_length.h"
 #include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/imported_text.h"
+#include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
 namespace nurbeam::restated_step {
@@ -181,6 +183,66 @@ TEST(RestatedStep, ReplicasAreScaledTurnedAndMirrored) {
         EXPECT_NEAR((curve.point(u) / unit.in_metres - centre).norm(), 10 * matrix.col(0).norm(), 1e-12);
       }
     }
+}
+
+// ------------------------------------------------------------------------------------------ mapped items
+
+/// A file in which the arc #101 is mapped by the operator of a replica; also, where that is wanted, by an
+/// axis placement at the origin, which comes first.
+std::string mapped(const std::string& transformation, const std::string& unit, bool also_at_origin = false) {
+  std::string text = step_text_of("#101", transformation + arc, "", unit);
+  text.erase(text.find("#100 = CURVE_REPLICA"),
+             std::string("#100 = CURVE_REPLICA('copy',#101,#102);\n").size());
+  text =
+      with(text, "#10 = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#15),#26);",
+           std::string("#10 = SHAPE_REPRESENTATION('',(#11,") + (also_at_origin ? "#203," : "") +
+               "#202),#26);\n#200 = GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#15),#26);\n"
+               "#201 = REPRESENTATION_MAP(#11,#200);\n#202 = MAPPED_ITEM('',#201,#102);\n" +
+               (also_at_origin ? "#203 = MAPPED_ITEM('',#201,#11);\n" : ""));
+  return text;
+}
+
+TEST(RestatedStep, MappedItemsAreScaledTurnedAndMirroredAsReplicasAre) {
+  for (const Unit& unit : units)
+    for (const auto& [axis1, axis2, scale, axis3] : {std::array<std::string, 4>{"$", "$", "2.", "$"},
+                                                     {"#104", "$", "$", "$"},
+                                                     {"#104", "$", "0.5", "#13"},
+                                                     {"#14", "#105", "3.", "#13"},
+                                                     {"#14", "#105", "$", "$"},
+                                                     {"#14", "#104", "2.", "#106"}}) {
+      const std::string transformation = replica(axis1, axis2, scale, axis3);
+      SCOPED_TRACE(transformation);
+      const NurbsCurve witness = only_curve(step_text_of("#100", transformation + arc, "", unit.text));
+      const NurbsCurve curve = only_curve(mapped(transformation, unit.text));
+      expect_ends(curve, start_of(witness) / unit.in_metres, end_of(witness) / unit.in_metres,
+                  unit.in_metres);
+      EXPECT_NEAR(length(curve), length(witness), 1e-13);
+    }
+}
+
+TEST(RestatedStep, AScaledMappedItemLeavesTheOthersOfItsShapeAlone) {
+  const ImportReport report = import_text(mapped(replica("$", "$", "2.", "$"), units[0].text, true));
+  ASSERT_EQ(report.curves.size(), 2U);
+  EXPECT_TRUE(report.diagnostics.empty());
+  expect_ends(report.curves[0].curve, {10, 0, 4}, {0, 10, 4}, 1e-3);
+  expect_ends(report.curves[1].curve, {21, 2, 11}, {1, 22, 11}, 1e-3);
+}
+
+TEST(RestatedStep, MappedItemsWithoutAPlaceAreNamed) {
+  const auto expect_left_out = [](const std::string& text, const std::string& reason) {
+    const ImportReport report = import_text(text);
+    ASSERT_EQ(report.curves.size(), 1U);
+    expect_ends(report.curves[0].curve, {10, 0, 4}, {0, 10, 4}, 1e-3);
+    ASSERT_FALSE(report.diagnostics.empty());
+    EXPECT_NE(report.diagnostics.back().where.find("#202 MappedItem"), std::string::npos);
+    EXPECT_NE(report.diagnostics.back().message.find(reason), std::string::npos)
+        << report.diagnostics.back().message;
+  };
+  const std::string good = mapped(replica("$", "$", "2.", "$"), units[0].text, true);
+  expect_left_out(with(good, ",2.,", ",-2.,"), "its scale is -2");
+  expect_left_out(with(good, ",2.,", ",0.,"), "its scale is 0");
+  expect_left_out(with(good, "#201,#102", "#201,#103"), "neither AXIS2_PLACEMENT_3D nor");
+  expect_left_out(with(good, "#103,2.", "$,2."), "no origin");
 }
 
 TEST(RestatedStep, AReplicaOfAReplicaHasBothScales) {

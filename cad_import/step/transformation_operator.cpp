@@ -1,0 +1,91 @@
+#include "cad_import/step/transformation_operator.h"
+
+#include <Geom_CartesianPoint.hxx>
+#include <Geom_Direction.hxx>
+#include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
+#include <StepGeom_Direction.hxx>
+#include <StepToGeom.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "cad_import/occt/true_places.h"
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+namespace {
+
+using Operator = StepGeom_CartesianTransformationOperator3d;
+
+std::optional<Eigen::Vector3d> direction_of(const Handle(StepGeom_Direction) & direction) {
+  const Handle(Geom_Direction) known =
+      direction.IsNull() ? Handle(Geom_Direction)() : StepToGeom::MakeDirection(direction);
+  if (known.IsNull()) return std::nullopt;
+  return Eigen::Vector3d(known->X(), known->Y(), known->Z());
+}
+
+/// What is left of the direction at right angles to the others.
+Eigen::Vector3d perpendicular(Eigen::Vector3d direction, std::initializer_list<Eigen::Vector3d> others) {
+  for (const Eigen::Vector3d& other : others) direction -= direction.dot(other) * other;
+  if (!(direction.norm() > 1e-9)) throw std::runtime_error("its axes do not span space; correct them");
+  return direction.normalized();
+}
+
+/// base_axis of ISO 10303-42.
+Eigen::Matrix3d axes_of(const Operator& transformation) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d third = direction_of(transformation.Axis3()).value_or(Eigen::Vector3d::UnitZ());
+  const bool x_is_third = third.cross(x).norm() < 1e-9;
+  const Eigen::Vector3d first =
+      perpendicular(direction_of(transformation.Axis1()).value_or(x_is_third ? y : x), {third});
+  const auto given = direction_of(transformation.Axis2());
+  Eigen::Matrix3d axes;
+  axes << first, given ? perpendicular(*given, {third, first}) : Eigen::Vector3d(third.cross(first)), third;
+  return axes;
+}
+
+Handle(TCollection_HAsciiString) unnamed() { return new TCollection_HAsciiString(""); }
+
+Handle(StepGeom_Direction) step_direction(const Eigen::Vector3d& direction) {
+  const Handle(TColStd_HArray1OfReal) ratios = new TColStd_HArray1OfReal(1, 3);
+  for (int i = 0; i < 3; ++i) ratios->SetValue(i + 1, direction(i));
+  const Handle(StepGeom_Direction) result = new StepGeom_Direction;
+  result->Init(unnamed(), ratios);
+  return result;
+}
+
+}  // namespace
+
+Eigen::Affine3d place_of(const Operator& transformation) {
+  const double scale = transformation.HasScale() ? transformation.Scale() : 1;
+  if (!(scale > 0)) throw std::runtime_error("its scale is " + text_of(scale) + "; it must be positive");
+  const Handle(StepGeom_CartesianPoint) given = transformation.LocalOrigin();
+  const Handle(Geom_CartesianPoint) origin =
+      given.IsNull() ? Handle(Geom_CartesianPoint)() : StepToGeom::MakeCartesianPoint(given);
+  if (origin.IsNull()) throw std::runtime_error("its transformation has no origin in space");
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  place.linear() = scale * axes_of(transformation);
+  place.translation() << origin->X(), origin->Y(), origin->Z();
+  return place;
+}
+
+bool is_location(const Operator& transformation) {
+  const bool has_axes = transformation.HasAxis1() && transformation.HasAxis2() && transformation.HasAxis3();
+  return has_axes && is_rigid(place_of(transformation));
+}
+
+Handle(Operator) transformation_operator(const Eigen::Affine3d& place) {
+  const Handle(StepGeom_CartesianPoint) origin = new StepGeom_CartesianPoint;
+  origin->Init3D(unnamed(), place.translation().x(), place.translation().y(), place.translation().z());
+  const Handle(Operator) operation = new Operator;
+  operation->Init(unnamed(), true, step_direction(place.linear().col(0)), true,
+                  step_direction(place.linear().col(1)), origin, false, 1, true,
+                  step_direction(place.linear().col(2)));
+  return operation;
+}
+
+}  // namespace nurbeam
