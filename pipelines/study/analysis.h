@@ -67,6 +67,8 @@ struct OptimumResult {
   std::vector<double>
       history;  ///< the best objective so far that holds the constraints, after each variant; NaN before
   bool cut_off = false;  ///< the search ended because it had no more variants
+  /// Where and why a search came to no end that holds its constraints; empty where it did.
+  std::string not_converged = {};
 };
 /// With derivatives where they are given. Throws std::runtime_error where no variant holds the
 /// constraints.

@@ -92,6 +92,7 @@ Json answer_json(const StudyFile& study, const OptimumResult& result) {
     json["optima"].push_back({{"variables", named(study, result.points[i])}, {"quantities", quantities}});
   }
   if (result.cut_off) json["evaluations_used_up"] = true;
+  if (!result.not_converged.empty()) json["not_converged"] = result.not_converged;
   for (const double best : result.history)
     json["history"].push_back(std::isfinite(best) ? Json(best) : Json());
   return json;
