@@ -77,9 +77,11 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
 
 /// What a calibration found.
 struct CalibrationResult {
-  std::vector<double> point;             ///< values of the free variables
-  std::vector<double> sd, lower, upper;  ///< of each: standard deviation, ends of its confidence interval
-  std::vector<std::vector<double>> covariance;  ///< of the free variables
+  std::vector<double> point;  ///< values of the free variables
+  /// Of each: standard deviation, ends of its confidence interval; none where constraints are active.
+  std::vector<double> sd, lower, upper;
+  std::vector<std::vector<double>> covariance;  ///< of the free variables; likewise
+  std::vector<std::string> active;              ///< constraints at whose edge the point is
   double noise = 0;                ///< root mean square of what is left between measurement and run, in `sd`s
   std::vector<double> quantities;  ///< of that point
   int evaluations = 0;

@@ -170,6 +170,12 @@ void warn_of_answer(const StudyResult& result, const StudyOptions& options, std:
   const auto* optimum = std::get_if<OptimumResult>(&result.answer);
   if (optimum && !optimum->not_converged.empty())
     err << "warning: " << options.file.string() << ": optimise: " << optimum->not_converged << "\n";
+  const auto* calibrated = std::get_if<CalibrationResult>(&result.answer);
+  for (std::size_t i = 0; calibrated && i < calibrated->active.size(); ++i)
+    err << "warning: " << options.file.string() << ": calibrate: the estimate lies at the edge of \""
+        << calibrated->active[i]
+        << "\", beyond which the measurements would fit better: it has no standard deviations and no "
+           "intervals, which are those of an estimate that nothing holds; widen the constraint for them\n";
 }
 
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,

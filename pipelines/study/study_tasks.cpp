@@ -252,6 +252,13 @@ class StudyTaskReader : StudyPartReader {
     for_each_item(json, "observations", "calibrate", [&](const Json& item, const std::string& path) {
       read_observation(item, path, calibration);
     });
+    for_each_item(json_, "constraints", "", [&](const Json& item, const std::string& path) {
+      const auto constraint = parsed(item.get<std::string>(), path);
+      if (constraint && !constraint->sides())
+        findings_.error(path, in_quotes(constraint->text()) +
+                                  " is no comparison, of which a calibration does not know how far it is "
+                                  "from holding; write it as \"a + b <= 10\"");
+    });
     using Law = StudyDistribution::Kind;
     std::size_t normal = 0, uniform = 0;
     for (const std::size_t i : study_.free_variables()) {
