@@ -448,12 +448,15 @@ void check_determined(const StudyFile& study, const OT::CovarianceMatrix& covari
     throw std::runtime_error("the measurements do not determine " + names + ": others can make up for it");
 }
 
-// About the estimate: the posterior of OpenTURNS is about another point.
+// About the estimate: the posterior of OpenTURNS is about another point. Of Student's distribution where the
+// level of the noise is what is left of it.
 void add_intervals(const StudyFile& study, const StudyCalibration& calibration,
                    const std::vector<double>& units, const OT::CovarianceMatrix& covariance,
                    CalibrationResult& result) {
   check_determined(study, covariance);
-  const double quantile = OT::DistFunc::qNormal((1 + calibration.confidence) / 2);
+  const double level = (1 + calibration.confidence) / 2;
+  const int freedom = result.degrees_of_freedom;
+  const double quantile = freedom > 0 ? OT::DistFunc::qStudent(freedom, level) : OT::DistFunc::qNormal(level);
   for (std::size_t i = 0; i < units.size(); ++i) {
     result.covariance.emplace_back();
     for (std::size_t k = 0; k < units.size(); ++k)
@@ -492,6 +495,8 @@ CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& cali
   if (result.quantities.empty()) throw std::runtime_error("the variant that was found is not done");
   result.noise = left_at(runs, place).norm() / std::sqrt(static_cast<double>(runs.measured().size()));
   if (is_beyond) result.active = active_at(runs, place);
+  if (!calibration.prior)
+    result.degrees_of_freedom = static_cast<int>(runs.measured().size() - runs.variables());
   if (result.active.empty())
     add_intervals(study, calibration, runs.units(),
                   is_beyond ? covariance_at(runs, place, calibration.prior)

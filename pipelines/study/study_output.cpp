@@ -102,6 +102,7 @@ Json answer_json(const StudyFile& study, const CalibrationResult& result) {
   const auto& calibration = std::get<StudyCalibration>(study.task);
   const std::vector<std::size_t> free = study.free_variables();
   Json json = {{"confidence", calibration.confidence}, {"noise", result.noise}};
+  if (result.degrees_of_freedom > 0) json["degrees_of_freedom"] = result.degrees_of_freedom;
   for (std::size_t i = 0; i < free.size(); ++i) {
     Json& estimate = json["estimates"][study.variables[free[i]].name];
     estimate = {{"value", result.point[i]}};
