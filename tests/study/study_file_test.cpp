@@ -142,6 +142,21 @@ TEST(StudyFile, MovesAControlPointOnce) {
   EXPECT_NE(wrong.find("variables[0].transform.points[2]: is 2 again"), std::string::npos) << wrong;
 }
 
+TEST(StudyFile, WarnsOfConstraintsThatASearchCannotFollow) {
+  const auto told = [](const std::string& constraint, const std::string& method) {
+    return wrong_with(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [0, 1]}], "constraints": ["x < 0.9", ")json" +
+                      constraint + R"json("],
+      "quantities": [{"name": "f", "value": "x"}], "optimise": {"minimise": "f", "method": ")json" +
+                      method + "\"}}");
+  };
+  EXPECT_EQ(told("(x > 0.5) * (x < 0.8)", "cobyla").find("study.json: constraints[1]: "), 0U);
+  EXPECT_EQ(told("(x > 0.5) * (x < 0.8)", "genetic"), "");
+  EXPECT_EQ(told("x > 0.5", "cobyla"), "");
+  const std::string once = told("x >", "cobyla");
+  EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1) << once;
+}
+
 // As it is cut off: phi(1) / (1 - Phi(1)), phi(1) / Phi(1); of a triangle the mean, not the peak.
 TEST(StudyFile, TakesTheMeanOfWhatIsLeftAsNominal) {
   for (const auto& [distribution, mean] :
