@@ -4,6 +4,8 @@
 #include <string>
 #include <variant>
 
+#include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/run/model_digest.h"
 #include "pipelines/run/simulation_plan.h"
 #include "python/laws.h"
 
@@ -35,6 +37,45 @@ SimulationObserver observer_of(const BuiltCase& c, Recording& recording, Interru
   return observer;
 }
 
+// `value` in the model's coordinates.
+void set_value(Force& force, std::size_t number, const Eigen::Vector3d& value) {
+  std::visit(
+      [&](auto& load) {
+        using Load = std::remove_reference_t<decltype(load)>;
+        if constexpr (std::is_same_v<Load, PointLoad> || std::is_same_v<Load, Moment> ||
+                      std::is_same_v<Load, LineLoad>)
+          load.value = value;
+        else
+          throw std::invalid_argument(
+              "load " + std::to_string(number) +
+              " has no vector; only a force, a moment or a force per length can be changed");
+      },
+      force);
+}
+
+void check_model(const BuiltCase& c, const Checkpoint& start) {
+  const std::vector<std::string> parts = differing_parts(start.model, model_digest(c.case_file, c.built()));
+  if (parts.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    names += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + in_quotes(parts[i]);
+  throw std::invalid_argument("start: the checkpoint is of another model, which differs in " + names +
+                              "; go on with the model of which it was taken");
+}
+
+// The model, with the loads as a checkpoint has them.
+std::shared_ptr<const BeamModel> model_of(const BuiltCase& c, const Functions& functions,
+                                          const Checkpoint* start) {
+  if (start) check_model(c, *start);
+  BeamModel model = with_laws(c.built(), functions, c.case_file.analysis);
+  if (start)
+    for (const ChangedLoad& load : start->changed_loads) {
+      const auto number = static_cast<std::size_t>(load.force);
+      set_value(model.forces.at(number), number, load.value);
+    }
+  return std::make_shared<const BeamModel>(std::move(model));
+}
+
 }  // namespace
 
 // While it lives no other thread advances the run, and Python goes on.
@@ -61,10 +102,18 @@ class LiveRun::Turn {
 LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, const Checkpoint* start)
     : of_(std::move(of)),
       recording_(recording_for(*of_)),
-      simulation_(
-          std::make_shared<const BeamModel>(with_laws(of_->built(), functions, of_->case_file.analysis)),
-          probe_places(of_->built()), simulation_options(of_->case_file),
-          observer_of(*of_, *recording_, interrupts_, begun_), start) {}
+      simulation_(model_of(*of_, functions, start), probe_places(of_->built()),
+                  simulation_options(of_->case_file), observer_of(*of_, *recording_, interrupts_, begun_),
+                  start) {
+  if (start) changed_loads_ = start->changed_loads;
+}
+
+Checkpoint LiveRun::checkpoint() const {
+  Checkpoint point = simulation_.checkpoint();
+  point.model = model_digest(of_->case_file, of_->built());
+  point.changed_loads = changed_loads_;
+  return point;
+}
 
 bool LiveRun::advance() {
   if (ended_ || interrupts_.pending()) return false;
@@ -115,22 +164,12 @@ void LiveRun::change_load(std::size_t number, const Eigen::Vector3d& value) {
         "the value of load " + std::to_string(number) +
         " does not lie in the plane of the model, as the loads that it began with do");
   const Turn turn(*this);
-  const bool goes_on = simulation_.change_forces([&](std::vector<Force>& forces) {
-    std::visit(
-        [&](auto& load) {
-          if constexpr (std::is_same_v<decltype(load), PointLoad&>)
-            load.value = frame.direction_to_local(value);
-          else if constexpr (std::is_same_v<decltype(load), Moment&>)
-            load.value = frame.moment_to_local(value);
-          else if constexpr (std::is_same_v<decltype(load), LineLoad&>)
-            load.value = frame.direction_to_local(value);
-          else
-            throw std::invalid_argument(
-                "load " + std::to_string(number) +
-                " has no vector; only a force, a moment or a force per length can be changed");
-        },
-        forces.at(number));
-  });
+  const Eigen::Vector3d local = is_moment ? frame.moment_to_local(value) : frame.direction_to_local(value);
+  const bool goes_on = simulation_.change_forces(
+      [&](std::vector<Force>& forces) { set_value(forces.at(number), number, local); });
+  std::erase_if(changed_loads_,
+                [&](const ChangedLoad& load) { return load.force == static_cast<int>(number); });
+  changed_loads_.push_back({static_cast<int>(number), local});
   if (!goes_on) ended_ = true;
 }
 

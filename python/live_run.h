@@ -17,7 +17,7 @@ namespace nurbeam::python {
 /// std::runtime_error.
 class LiveRun {
  public:
-  /// `start` may be null.
+  /// `start` may be null. Throws std::invalid_argument where it is of another model.
   LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, const Checkpoint* start);
 
   /// Takes the next step; whether more are to come. Ctrl-C is answered before it.
@@ -31,7 +31,7 @@ class LiveRun {
   const std::shared_ptr<BuiltCase>& of() const { return of_; }
   const std::shared_ptr<Recording>& recording() const { return recording_; }
   SimulationReport report() const { return simulation_.report(); }
-  Checkpoint checkpoint() const { return simulation_.checkpoint(); }
+  Checkpoint checkpoint() const;
   const Simulation& simulation() const { return simulation_; }
   /// The present state as a snapshot of its own.
   Frame now() const;
@@ -47,6 +47,7 @@ class LiveRun {
   Interrupts interrupts_;
   bool begun_ = false, ended_ = false;
   Simulation simulation_;
+  std::vector<ChangedLoad> changed_loads_;
   std::size_t given_ = 0;  // snapshots
   std::atomic_flag busy_;
 };

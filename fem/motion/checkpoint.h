@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,19 @@
 
 namespace nurbeam {
 
+/// A load of a model that has another value than the model has it.
+struct ChangedLoad {
+  int force = 0;  ///< of the model
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+};
+
 /// A moment between two steps of a run, with all that the run needs to go on from there as if it had not been
 /// interrupted, in the model's own coordinates.
 struct Checkpoint {
-  std::string inputs;         ///< digest of the case and its files: a checkpoint belongs to them
-  std::size_t snapshots = 0;  ///< taken before it
+  std::string inputs;                      ///< digest of the case and its files: a checkpoint belongs to them
+  std::size_t snapshots = 0;               ///< taken before it
+  std::string model;                       ///< digest of what makes the model: it goes on in no other
+  std::vector<ChangedLoad> changed_loads;  ///< since the run began
   MeshPlan plan;
   State state;
   IntegratorHistory history;

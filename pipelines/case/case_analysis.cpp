@@ -95,7 +95,8 @@ bool has_tables(const CaseFile& read) {
   const auto any = [](const auto& list, const auto& has) {
     return std::any_of(list.begin(), list.end(), has);
   };
-  return any(read.beams, [](const CaseBeam& beam) { return beam.temperature.size() > 1; }) ||
+  return !read.laws.empty() ||
+         any(read.beams, [](const CaseBeam& beam) { return beam.temperature.size() > 1; }) ||
          any(read.loads, [](const CaseLoad& load) { return !load.time.empty() || load.moving_speed; }) ||
          any(read.supports, [](const CaseSupport& s) { return !s.motion.empty() || s.motion_law; }) ||
          any(read.sliding_joints, [](const CaseSlidingJoint& joint) {

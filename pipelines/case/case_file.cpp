@@ -247,6 +247,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   read_all("stops", result.stops, read_stop);
   read_all("joints", result.joints, read_beam_joint);
   read_all("connectors", result.connectors, read_connector);
+  result.laws = read_laws(json);
   result.analysis = read_analysis(part(json, "analysis"), findings);
   if (result.analysis.type == CaseAnalysis::Type::statics) {
     result.analysis.reads_tables = has_tables(result);
@@ -264,7 +265,6 @@ CaseFileReport checked_case(Json& json, const Shape& shape, const std::filesyste
   put_in_tables(shape, json, "", std::filesystem::absolute(file).parent_path(), findings);
   if (check_shape(shape, json, findings)) {
     value = read_case(json, file, findings);
-    value->laws = read_laws(json);
     check_across(json, *value, findings);
   }
   if (findings.has_errors()) value.reset();

@@ -254,6 +254,13 @@ std::string dimension_name(Dimension dimension) { return info(dimension).name; }
 std::string default_unit(Dimension dimension) { return info(dimension).default_unit; }
 std::string unit_examples(Dimension dimension) { return info(dimension).examples; }
 
+std::optional<double> in_si_units(std::string_view unit) {
+  for (const char* const as_it_is : {"1", "-", "J", "W", "Hz"})
+    if (unit == as_it_is) return 1;
+  const UnitProduct product = parse_units(plain(unit), "");
+  return product.error.empty() ? std::optional(product.multiply / product.divide) : std::nullopt;
+}
+
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   const auto failed = [&](const std::string& reason) {
     return ParsedQuantity{{}, in_quotes(text) + ": " + reason};

@@ -49,4 +49,7 @@ struct ParsedQuantity {
 /// (m2, m^2 and m² are the same), whose dimension must be the expected one.
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
 
+/// What 1 of this unit ("mm", "N m", "deg") is in SI units; nothing for one that is not known.
+std::optional<double> in_si_units(std::string_view unit);
+
 }  // namespace nurbeam

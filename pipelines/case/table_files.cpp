@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "nurbs/number_text.h"
+#include "pipelines/case/quantity.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -47,6 +48,18 @@ std::optional<double> number_of(const std::string& cell) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
+// "z [mm]" is the column z in millimetres.
+struct Column {
+  std::string name;
+  std::optional<std::string> unit = {};
+};
+
+Column column_of(const std::string& heading) {
+  const std::size_t open = heading.find('[');
+  if (open == std::string::npos || !heading.ends_with(']')) return {heading};
+  return {trimmed(heading.substr(0, open)), trimmed(heading.substr(open + 1, heading.size() - open - 2))};
+}
+
 // The lines of a file that count, with their numbers.
 struct Line {
   int number;
@@ -69,11 +82,12 @@ class TableFile {
                       "unknown key " + in_quotes(key) + known_names(key, {"file", "columns"}));
     if (!has_text("file")) return failed(path_, "\"file\" is missing (a CSV file with the rows)");
     if (!read()) return nullptr;
-    if (!choose_columns()) return nullptr;
+    if (!choose_columns() || !read_units()) return nullptr;
     Json rows = Json::array();
     for (const Line& line : lines_) {
       Json row = Json::array();
-      for (const std::size_t column : columns_) {
+      for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const std::size_t column = columns_[i];
         const auto number =
             column < line.cells.size() ? number_of(line.cells[column]) : std::optional<double>{};
         if (!number)
@@ -82,7 +96,7 @@ class TableFile {
               where(line) + "column " + std::to_string(column + 1) +
                   (column < line.cells.size() ? " is " + in_quotes(line.cells[column]) : " is missing") +
                   "; expected a number in SI units");
-        row.push_back(*number);
+        row.push_back(*number * units_[i]);
       }
       rows.push_back(std::move(row));
     }
@@ -145,7 +159,10 @@ class TableFile {
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto name = names[i].get<std::string>();
-      const auto found = std::find(header_.begin(), header_.end(), name);
+      auto found = std::find(header_.begin(), header_.end(), name);
+      if (found == header_.end())
+        found = std::find_if(header_.begin(), header_.end(),
+                             [&](const std::string& heading) { return column_of(heading).name == name; });
       if (found == header_.end()) {
         findings_.error(child(child(path_, "columns"), i),
                         in_quotes(file_.string()) + (header_.empty() ? " has no line with names of columns"
@@ -158,6 +175,24 @@ class TableFile {
     return true;
   }
 
+  // What 1 of each column is in SI units.
+  bool read_units() {
+    for (const std::size_t column : columns_) {
+      const Column of = column < header_.size() ? column_of(header_[column]) : Column{};
+      const std::optional<double> unit = of.unit ? in_si_units(*of.unit) : std::optional(1.0);
+      if (!unit) {
+        findings_.error(child(path_, "file"), in_quotes(file_.string()) + ": the column " +
+                                                  in_quotes(header_[column]) + " has an unknown unit " +
+                                                  in_quotes(*of.unit) +
+                                                  "; write one as \"[mm]\" or \"[N m]\", or numbers in SI "
+                                                  "units without one");
+        return false;
+      }
+      units_.push_back(*unit);
+    }
+    return true;
+  }
+
   const Json& json_;
   std::string path_;
   std::size_t count_;
@@ -166,6 +201,7 @@ class TableFile {
   std::vector<std::string> header_;
   std::vector<Line> lines_;
   std::vector<std::size_t> columns_;
+  std::vector<double> units_;  // of them
 };
 
 }  // namespace

@@ -330,10 +330,11 @@ void exchange_plan(Archive& archive, MeshPlan& plan) {
 /// The one list of what a restart point holds: it writes and reads.
 template <class Archive>
 void exchange(Archive& archive, Checkpoint& p) {
-  std::vector<std::string> inputs{p.inputs};
+  std::vector<std::string> inputs{p.inputs, p.model};
   archive.texts("inputs", inputs);
   exchange_numbers(archive, p);
   p.inputs = inputs.at(0);
+  p.model = inputs.at(1);
   exchange_vector(archive, "q", "generalised positions", p.state.q);
   exchange_vector(archive, "v", "generalised velocities", p.state.v);
   exchange_vector(archive, "a", "generalised accelerations", p.state.a);
@@ -347,6 +348,11 @@ void exchange(Archive& archive, Checkpoint& p) {
   exchange_plan(archive, p.plan);
   exchange_rows(archive, "connector_lengths", "free lengths of the connectors", p.connector_lengths,
                 [](double& length, auto& slot) { slot(length); });
+  exchange_rows(archive, "changed_loads", "load, its value since it was changed", p.changed_loads,
+                [](ChangedLoad& load, auto& slot) {
+                  slot(load.force);
+                  for (double& component : load.value) slot(component);
+                });
   exchange_rows(archive, "steps",
                 "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
                 [](StepRecord& step, auto& slot) {

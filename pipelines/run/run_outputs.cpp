@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "nurbs/number_text.h"
+#include "pipelines/run/model_digest.h"
 
 namespace nurbeam {
 
@@ -34,6 +35,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       built_(built),
       directory_(directory),
       inputs_(std::move(inputs)),
+      model_(model_digest(case_file, built)),
       results_(results_writer(case_file.name, built, directory, from)),
       cad_(case_file, built, directory, from ? from->snapshots : 0),
       last_restart_(processor_time()),
@@ -128,6 +130,7 @@ void RunOutputs::write(Checkpoint point) {
 
 void RunOutputs::put(Checkpoint point) {
   point.inputs = inputs_;
+  point.model = model_;
   write_checkpoint(directory_ / "restart.nc", std::move(point));
   last_restart_ = processor_time();
   next_look_ = Clock::now() + restart_interval;

@@ -63,7 +63,7 @@ class RunOutputs {
   const CaseFile& case_;
   const BuiltModel& built_;
   std::filesystem::path directory_;
-  std::string inputs_;
+  std::string inputs_, model_;
   ResultsWriter results_;
   CadOutput cad_;
   std::optional<ParaviewSeries> paraview_;

@@ -67,6 +67,8 @@ struct OptimumResult {
   std::vector<double>
       history;  ///< the best objective so far that holds the constraints, after each variant; NaN before
   bool cut_off = false;  ///< the search ended because it had no more variants
+  /// Where and why a search came to no end that holds its constraints; empty where it did.
+  std::string not_converged = {};
 };
 /// With derivatives where they are given. Throws std::runtime_error where no variant holds the
 /// constraints.
@@ -75,9 +77,12 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
 
 /// What a calibration found.
 struct CalibrationResult {
-  std::vector<double> point;             ///< values of the free variables
-  std::vector<double> sd, lower, upper;  ///< of each: standard deviation, ends of its confidence interval
-  std::vector<std::vector<double>> covariance;  ///< of the free variables
+  std::vector<double> point;  ///< values of the free variables
+  /// Of each: standard deviation, ends of its confidence interval; none where constraints are active.
+  std::vector<double> sd, lower, upper;
+  std::vector<std::vector<double>> covariance;  ///< of the free variables; likewise
+  std::vector<std::string> active;              ///< constraints at whose edge the point is
+  int degrees_of_freedom = 0;                   ///< of the noise that is estimated; 0: its sd is given
   double noise = 0;                ///< root mean square of what is left between measurement and run, in `sd`s
   std::vector<double> quantities;  ///< of that point
   int evaluations = 0;

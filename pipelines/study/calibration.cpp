@@ -3,23 +3,31 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/allowed_region.h"
 #include "pipelines/study/openturns_study.h"
 
 namespace nurbeam {
 
 namespace {
 
+constexpr double difference_step = 1e-3;  // of variables, in their units
+
 /// Runs as functions of (number of a measurement, the variables), in units of the measurement's noise.
+/// Instead of one that would be rejected the nearest that is not runs, and its derivatives say the rest.
 /// Variables count from where the search begins, as parts of half their ranges or of their standard
 /// deviations.
 class MeasuredRuns {
  public:
   MeasuredRuns(const StudyFile& study, const StudyCalibration& calibration, const StudyEvaluation& evaluate,
                const StudyDerivatives& derivatives)
-      : calibration_(calibration), evaluate_(evaluate), derivatives_(derivatives) {
+      : calibration_(calibration),
+        evaluate_(evaluate),
+        derivatives_(derivatives),
+        region_(study, [this](const std::vector<double>& place) { return point_of(place); }) {
     for (const std::size_t i : study.free_variables()) {
       const StudyVariable& variable = study.variables[i];
       const std::vector<double>& p = variable.distribution.parameters;
@@ -47,6 +55,11 @@ class MeasuredRuns {
   const std::vector<double>& quantities(const std::vector<double>& place) {
     return runs_.at(point_of(place));
   }
+  AllowedRegion& region() { return region_; }
+  /// The place itself, or what runs instead.
+  std::vector<double> allowed(const std::vector<double>& place) {
+    return region_.nearest(place).value_or(place);
+  }
   std::vector<double> point_of(const std::vector<double>& place) const {
     std::vector<double> point;
     for (std::size_t i = 0; i < unit_.size(); ++i) point.push_back(origin_[i] + place[i] * unit_[i]);
@@ -55,9 +68,8 @@ class MeasuredRuns {
 
   /// Of a row (number, place), by the place; nothing where there are none.
   std::vector<double> derivatives(const OT::Point& row) {
-    const std::vector<double> point = point_of({row.begin() + 1, row.end()});
-    if (!gradients_.contains(point)) gradients_[point] = gradient(point);
-    const StudyGradient& of_quantities = gradients_[point];
+    const std::vector<double> place = allowed({row.begin() + 1, row.end()});
+    const StudyGradient& of_quantities = gradient_at(place);
     if (of_quantities.empty()) return {};
     const auto number = static_cast<std::size_t>(std::lround(row[0]));
     std::vector<double> derivatives;
@@ -67,8 +79,7 @@ class MeasuredRuns {
   }
   /// Whether derivatives come with the run at a place, else they are differences.
   bool has_derivatives(const std::vector<double>& place) const {
-    const auto found = gradients_.find(point_of(place));
-    return found != gradients_.end() && !found->second.empty();
+    return with_derivatives_.contains(point_of(place));
   }
   /// Whether all runs that f() asks for are done.
   template <class Function>
@@ -79,21 +90,18 @@ class MeasuredRuns {
   }
   /// Of rows (number, place): each place runs once.
   std::vector<double> values(const OT::Sample& rows) {
-    StudyPoints fresh;
-    for (std::size_t r = 0; r < rows.getSize(); ++r) {
-      const std::vector<double> point = point_of(place_of(rows, r));
-      if (!runs_.contains(point) && std::find(fresh.begin(), fresh.end(), point) == fresh.end())
-        fresh.push_back(point);
-    }
-    run(fresh);
+    StudyPoints places;
+    for (std::size_t r = 0; r < rows.getSize(); ++r) places.push_back(allowed(place_of(rows, r)));
+    run(places);
     std::vector<double> values;
     for (std::size_t r = 0; r < rows.getSize(); ++r) {
       const auto number = static_cast<std::size_t>(std::lround(rows(r, 0)));
-      const auto found = runs_.find(point_of(place_of(rows, r)));
+      const auto found = runs_.find(point_of(places[r]));
       constexpr double far_off = 1e6;  // what is not done: the search turns back
       const bool done = found != runs_.end() && !found->second.empty();
       all_done_ = all_done_ && done;
-      values.push_back(done ? found->second[first_ + number] / sd_[number] : far_off);
+      values.push_back(done ? found->second[first_ + number] / sd_[number] + beyond(rows[r], places[r])
+                            : far_off);
     }
     return values;
   }
@@ -104,7 +112,29 @@ class MeasuredRuns {
     return {row.begin() + 1, row.end()};
   }
 
-  StudyGradient gradient(const std::vector<double>& point) {
+  /// How much more it is at a row than at the place that ran for it.
+  double beyond(const OT::Point& row, const std::vector<double>& place) {
+    const std::vector<double> wanted(row.begin() + 1, row.end());
+    if (wanted == place) return 0;
+    const std::vector<double> slopes = derivatives(row);
+    double more = 0;
+    for (std::size_t i = 0; i < slopes.size(); ++i) more += slopes[i] * (wanted[i] - place[i]);
+    return more;
+  }
+
+  /// Of the quantities by the variables: of the run where it has them; where constraints are near,
+  /// differences.
+  const StudyGradient& gradient_at(const std::vector<double>& place) {
+    const std::vector<double> point = point_of(place);
+    const auto [at, is_fresh] = gradients_.try_emplace(point);
+    StudyGradient& gradient = at->second;
+    if (!is_fresh) return gradient;
+    gradient = gradient_of_run(point);
+    if (!gradient.empty()) with_derivatives_.insert(point);
+    if (gradient.empty() && !region_.is_whole()) gradient = differences_at(place);
+    return gradient;
+  }
+  StudyGradient gradient_of_run(const std::vector<double>& point) {
     if (!derivatives_ || stopped_) return {};
     try {
       return derivatives_(point);
@@ -113,8 +143,38 @@ class MeasuredRuns {
       return {};
     }
   }
+  /// To both sides of a place, to one where the other would be rejected.
+  StudyGradient differences_at(const std::vector<double>& place) {
+    StudyPoints sides{place};
+    for (std::size_t i = 0; i < place.size(); ++i)
+      for (const double by : {-difference_step, difference_step}) {
+        sides.push_back(place);
+        sides.back()[i] += by;
+        if (!region_.has(sides.back())) sides.back() = place;
+      }
+    run(sides);
+    StudyPoints values;
+    for (const std::vector<double>& side : sides) {
+      const auto found = runs_.find(point_of(side));
+      if (found == runs_.end() || found->second.empty()) return {};
+      values.push_back(found->second);
+    }
+    StudyGradient slopes(values[0].size(), std::vector<double>(place.size()));
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const double between = (sides[2 * i + 2][i] - sides[2 * i + 1][i]) * unit_[i];
+      for (std::size_t k = 0; k < slopes.size() && between > 0; ++k)
+        slopes[k][i] = (values[2 * i + 2][k] - values[2 * i + 1][k]) / between;
+    }
+    return slopes;
+  }
 
-  void run(const StudyPoints& fresh) {
+  void run(const StudyPoints& places) {
+    StudyPoints fresh;
+    for (const std::vector<double>& place : places) {
+      const std::vector<double> point = point_of(place);
+      if (!runs_.contains(point) && std::find(fresh.begin(), fresh.end(), point) == fresh.end())
+        fresh.push_back(point);
+    }
     if (fresh.empty() || stopped_) return;
     try {
       used_up_ = evaluations() >= calibration_.evaluations;
@@ -131,7 +191,9 @@ class MeasuredRuns {
   const StudyCalibration& calibration_;
   const StudyEvaluation& evaluate_;
   const StudyDerivatives& derivatives_;
+  AllowedRegion region_;
   std::map<std::vector<double>, StudyGradient> gradients_;
+  std::set<std::vector<double>> with_derivatives_;  // of the run, of the points
   std::vector<double> origin_, unit_, measured_, sd_;
   std::size_t first_ = 0;  // of the observed quantities
   std::map<std::vector<double>, std::vector<double>> runs_;
@@ -165,7 +227,8 @@ class MeasuredGradient : public OT::GradientImplementation {
  public:
   explicit MeasuredGradient(MeasuredRuns& runs)
       : runs_(&runs),
-        differences_(OT::Point(runs.variables() + 1, 1e-3), OT::Evaluation(MeasuredFunction(runs))) {}
+        differences_(OT::Point(runs.variables() + 1, difference_step),
+                     OT::Evaluation(MeasuredFunction(runs))) {}
   MeasuredGradient* clone() const override { return new MeasuredGradient(*this); }
   OT::UnsignedInteger getInputDimension() const override { return runs_->variables() + 1; }
   OT::UnsignedInteger getOutputDimension() const override { return 1; }
@@ -232,6 +295,110 @@ Eigen::MatrixXd effects_at(MeasuredRuns& runs, const std::vector<double>& place)
   return done && effects.allFinite() ? effects : Eigen::MatrixXd();
 }
 
+// What is left between runs and measurements at a place, in units of the noise.
+Eigen::VectorXd left_at(MeasuredRuns& runs, const std::vector<double>& place) {
+  OT::Sample rows(0, runs.variables() + 1);
+  for (std::size_t i = 0; i < runs.measured().size(); ++i) {
+    OT::Point row(1, static_cast<double>(i));
+    row.add(to_point(place));
+    rows.add(row);
+  }
+  const std::vector<double> values = runs.values(rows);
+  Eigen::VectorXd left(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    left[static_cast<Eigen::Index>(i)] = values[i] - runs.measured()[i];
+  return left;
+}
+
+Eigen::VectorXd to_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+// Half the sum of squares, of what is known before too, under the constraints of the variables: where it is
+// least, by slopes.
+std::vector<double> least_within(const StudyFile& study, MeasuredRuns& runs, bool prior,
+                                 const std::vector<double>& begin) {
+  const StudyEvaluation none = [](const StudyPoints& places) { return StudyPoints(places.size()); };
+  const double known = prior ? 1 : 0;
+  const auto slopes = [&](const std::vector<double>& x) -> Eigen::VectorXd {
+    const Eigen::MatrixXd effects = effects_at(runs, x);
+    if (effects.size() == 0) return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.size()));
+    return effects.transpose() * left_at(runs, x) + known * to_vector(x);
+  };
+  const double unit = std::max(slopes(begin).norm(), 1e-12);
+  OT::OptimizationProblem problem(study_function(
+      study, none, 1,
+      [&](const std::vector<double>&, const std::vector<double>& x) {
+        const double squares = left_at(runs, x).squaredNorm() + known * to_vector(x).squaredNorm();
+        return std::vector<double>{squares / 2 / unit};
+      },
+      [&](const std::vector<double>& x) {
+        const Eigen::VectorXd by = slopes(x) / unit;
+        return StudyGradient{{by.begin(), by.end()}};
+      }));
+  problem.setInequalityConstraint(study_function(
+      study, none, runs.region().margins(begin).size(),
+      [&](const std::vector<double>&, const std::vector<double>& x) { return runs.region().margins(x); },
+      {}));
+  std::vector<double> place = begin;
+  constexpr int most_rounds = 20;
+  constexpr double little = 1e-6;
+  for (int i = 0; i < most_rounds; ++i) {
+    OT::NLopt search(problem, "LD_SLSQP");
+    search.setStartingPoint(to_point(place));
+    search.setMaximumAbsoluteError(1e-9);
+    search.setMaximumRelativeError(1e-9);
+    search.setMaximumResidualError(0);
+    search.setMaximumConstraintError(1e-9);
+    std::vector<double> ended = place;
+    try {
+      search.run();
+      ended = runs.allowed(from_point(search.getResult().getOptimalPoint()));
+    } catch (const OT::Exception&) {  // steps have come down to round-off
+    }
+    const bool has_moved = (to_vector(ended) - to_vector(place)).norm() > little;
+    place = ended;
+    if (!has_moved) break;
+  }
+  return place;
+}
+
+// The constraints at whose edge a place is.
+std::vector<std::string> active_at(MeasuredRuns& runs, const std::vector<double>& place) {
+  constexpr double step = 1e-6, near = 1e-4;
+  const std::vector<double> margins = runs.region().margins(place);
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(margins.size()));
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    std::vector<double> more = place, less = place;
+    more[i] += step;
+    less[i] -= step;
+    const Eigen::VectorXd by =
+        (to_vector(runs.region().margins(more)) - to_vector(runs.region().margins(less))) / (2 * step);
+    slopes += by.cwiseAbs();
+  }
+  std::vector<std::string> active;
+  for (std::size_t k = 0; k < margins.size(); ++k)
+    if (margins[k] <= near * slopes[static_cast<Eigen::Index>(k)]) active.push_back(runs.region().text(k));
+  return active;
+}
+
+// Of the problem linear at the place, in units of the variables.
+OT::CovarianceMatrix covariance_at(MeasuredRuns& runs, const std::vector<double>& place, bool prior) {
+  const Eigen::MatrixXd effects = effects_at(runs, place);
+  Eigen::MatrixXd normal = effects.transpose() * effects;
+  double variance = 1;
+  if (prior)
+    normal.diagonal().array() += 1;
+  else
+    variance = left_at(runs, place).squaredNorm() / static_cast<double>(effects.rows() - effects.cols());
+  const Eigen::MatrixXd inverse = variance * normal.inverse();
+  OT::CovarianceMatrix covariance(runs.variables());
+  for (std::size_t i = 0; i < runs.variables(); ++i)
+    for (std::size_t k = 0; k <= i; ++k)
+      covariance(i, k) = inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+  return covariance;
+}
+
 // "a", "b" and "c", of the free variables for which it is so.
 std::string names_where(const StudyFile& study, const std::vector<bool>& is_so) {
   std::vector<std::string> names;
@@ -281,6 +448,26 @@ void check_determined(const StudyFile& study, const OT::CovarianceMatrix& covari
     throw std::runtime_error("the measurements do not determine " + names + ": others can make up for it");
 }
 
+// About the estimate: the posterior of OpenTURNS is about another point. Of Student's distribution where the
+// level of the noise is what is left of it.
+void add_intervals(const StudyFile& study, const StudyCalibration& calibration,
+                   const std::vector<double>& units, const OT::CovarianceMatrix& covariance,
+                   CalibrationResult& result) {
+  check_determined(study, covariance);
+  const double level = (1 + calibration.confidence) / 2;
+  const int freedom = result.degrees_of_freedom;
+  const double quantile = freedom > 0 ? OT::DistFunc::qStudent(freedom, level) : OT::DistFunc::qNormal(level);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    result.covariance.emplace_back();
+    for (std::size_t k = 0; k < units.size(); ++k)
+      result.covariance[i].push_back(covariance(i, k) * units[i] * units[k]);
+    const double sd = std::sqrt(result.covariance[i][i]);
+    result.sd.push_back(sd);
+    result.lower.push_back(result.point[i] - quantile * sd);
+    result.upper.push_back(result.point[i] + quantile * sd);
+  }
+}
+
 }  // namespace
 
 CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& calibration,
@@ -296,29 +483,26 @@ CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& cali
   }
   if (!runs.used_up()) runs.throw_if_stopped();
   const bool ended = problem.empty() && !runs.used_up();
-  const std::vector<double> place =
-      ended ? from_point(found.getParameterMAP()) : std::vector<double>(runs.variables());  // where it began
+  std::vector<double> place = runs.allowed(ended ? from_point(found.getParameterMAP())
+                                                 : std::vector<double>(runs.variables()));  // where it began
+  const bool is_beyond = ended && !runs.region().has(from_point(found.getParameterMAP()));
+  if (is_beyond) place = least_within(study, runs, calibration.prior, place);
+  if (!runs.used_up()) runs.throw_if_stopped();
   if (!calibration.prior) check_told_apart(study, runs, place);
   runs.throw_if_stopped();
   if (!ended) throw std::runtime_error("the measurements do not determine the variables: " + problem);
-  const OT::CovarianceMatrix covariance = found.getParameterPosterior().getCovariance();
   CalibrationResult result{.point = runs.point_of(place), .quantities = runs.quantities(place)};
   if (result.quantities.empty()) throw std::runtime_error("the variant that was found is not done");
-  check_determined(study, covariance);
-  const std::vector<double>& units = runs.units();
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    result.covariance.emplace_back();
-    for (std::size_t k = 0; k < units.size(); ++k)
-      result.covariance[i].push_back(covariance(i, k) * units[i] * units[k]);
-    // About the estimate: the posterior of OpenTURNS is about another point.
-    const double sd = std::sqrt(result.covariance[i][i]),
-                 width = OT::DistFunc::qNormal((1 + calibration.confidence) / 2) * sd;
-    result.sd.push_back(sd);
-    result.lower.push_back(result.point[i] - width);
-    result.upper.push_back(result.point[i] + width);
-  }
-  const OT::Sample left = found.getResidualFunction()(OT::Sample(1, found.getParameterMAP()));
-  result.noise = OT::Point(left[0]).norm() / std::sqrt(static_cast<double>(runs.measured().size()));
+  result.noise = left_at(runs, place).norm() / std::sqrt(static_cast<double>(runs.measured().size()));
+  if (is_beyond) result.active = active_at(runs, place);
+  if (!calibration.prior)
+    result.degrees_of_freedom = static_cast<int>(runs.measured().size() - runs.variables());
+  if (result.active.empty())
+    add_intervals(study, calibration, runs.units(),
+                  is_beyond ? covariance_at(runs, place, calibration.prior)
+                            : found.getParameterPosterior().getCovariance(),
+                  result);
+  runs.throw_if_stopped();
   result.evaluations = runs.evaluations();
   return result;
 }

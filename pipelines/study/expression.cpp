@@ -32,6 +32,7 @@ struct Expression::Node {
   double number = 0;
   std::string name = {};  ///< of a leaf that is no number
   bool at_time = false;   ///< the first argument is the time at which a history is asked for
+  enum class Comparison { none, less, greater } comparison = Comparison::none;  ///< of the first argument
 
   ExpressionValue evaluate(const ExpressionScope& scope) const {
     if (!name.empty()) return scope.value(name);
@@ -231,13 +232,26 @@ class ExpressionParser {
         Node{.operation = std::move(operation), .arguments = std::move(arguments)});
   }
 
+  NodePointer compared(Node::Comparison way, bool (*holds)(double, double), NodePointer left) {
+    return std::make_shared<const Node>(
+        Node{.operation = by_time(holds), .arguments = {std::move(left), sum()}, .comparison = way});
+  }
   NodePointer comparison() {
     const Level level(*this);
+    using Way = Node::Comparison;
     NodePointer left = sum();
-    if (accept("<=")) return call(by_time([](double x, double y) { return x <= y; }), {left, sum()});
-    if (accept(">=")) return call(by_time([](double x, double y) { return x >= y; }), {left, sum()});
-    if (accept("<")) return call(by_time([](double x, double y) { return x < y; }), {left, sum()});
-    if (accept(">")) return call(by_time([](double x, double y) { return x > y; }), {left, sum()});
+    if (accept("<="))
+      return compared(
+          Way::less, [](double x, double y) { return x <= y; }, left);
+    if (accept(">="))
+      return compared(
+          Way::greater, [](double x, double y) { return x >= y; }, left);
+    if (accept("<"))
+      return compared(
+          Way::less, [](double x, double y) { return x < y; }, left);
+    if (accept(">"))
+      return compared(
+          Way::greater, [](double x, double y) { return x > y; }, left);
     return left;
   }
   NodePointer sum() {
@@ -408,6 +422,13 @@ double Expression::number(const ExpressionScope& scope) const {
   throw std::invalid_argument(
       "the expression is a history; take one number of it by min, max, mean, rms, first, last, "
       "integral or at(end, ...)");
+}
+
+std::optional<std::pair<Expression, Expression>> Expression::sides() const {
+  if (root_->comparison == Node::Comparison::none) return {};
+  const Expression first(text_, root_->arguments[0]), second(text_, root_->arguments[1]);
+  if (root_->comparison == Node::Comparison::less) return std::pair(second, first);
+  return std::pair(first, second);
 }
 
 std::vector<double> Expression::times() const {

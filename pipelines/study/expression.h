@@ -1,8 +1,10 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -51,6 +53,8 @@ class Expression {
   std::vector<std::string> names() const;
   /// The times at which it asks for histories, of those that depend on nothing.
   std::vector<double> times() const;
+  /// Of a comparison of two sides: what must be greater, and the other; nothing of another expression.
+  std::optional<std::pair<Expression, Expression>> sides() const;
   const std::string& text() const { return text_; }
 
   struct Node;

@@ -5,246 +5,23 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "pipelines/study/openturns_study.h"
-#include "pipelines/study/variant.h"
+#include "pipelines/study/search.h"
 
 namespace nurbeam {
 
 namespace {
 
-bool is_held(double margin) { return margin >= -1e-9; }
-
-using Sides = std::pair<double, double>;  // of a constraint: what must be greater, and the other
-
-/// What a search minimises and holds, of one variant.
-class Goal {
- public:
-  Goal(const StudyFile& study, const StudyOptimum& optimum) : study_(study), optimum_(optimum) {
-    for (const StudyOptimum::Objective& objective : optimum.objectives)
-      indices_.push_back(quantity_index(study, objective.quantity));
-  }
-
-  std::size_t count() const { return indices_.size(); }
-  /// The first objective; else it maximises it.
-  bool minimises() const { return optimum_.objectives.front().minimise; }
-  std::size_t constraints() const { return optimum_.constraints.size(); }
-  std::vector<double> objectives(const std::vector<double>& quantities) const {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < indices_.size(); ++i)
-      values.push_back(optimum_.objectives[i].minimise ? quantities[indices_[i]] : -quantities[indices_[i]]);
-    return values;
-  }
-  /// Each 0 or more where it holds, as a part of its unit.
-  std::vector<double> margins(const std::vector<double>& quantities, const std::vector<double>& point) const {
-    std::vector<double> margins;
-    for (const auto& [greater, lesser] : sides(quantities, point))
-      margins.push_back((greater - lesser) / units_[margins.size()]);
-    return margins;
-  }
-  /// The units of constraints are the larger sides in the first variant that is done.
-  void measure(const std::vector<double>& quantities, const std::vector<double>& point) {
-    if (!units_.empty()) return;
-    for (const auto& [greater, lesser] : sides(quantities, point)) {
-      const double larger = std::max(std::abs(greater), std::abs(lesser));
-      units_.push_back(larger > 0 && std::isfinite(larger) ? larger : 1);
-    }
-  }
-  double unit(std::size_t constraint) const { return units_.at(constraint); }
-  bool holds(const std::vector<double>& quantities, const std::vector<double>& point) const {
-    const std::vector<double> all = margins(quantities, point);
-    return std::all_of(all.begin(), all.end(), is_held);
-  }
-
- private:
-  std::vector<Sides> sides(const std::vector<double>& quantities, const std::vector<double>& point) const {
-    const std::vector<double> variables = all_values(study_, point);
-    const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
-      for (std::size_t i = 0; i < study_.variables.size(); ++i)
-        if (study_.variables[i].name == name) return variables[i];
-      return quantities[quantity_index(study_, name)];
-    }};
-    std::vector<Sides> sides;
-    for (const StudyOptimum::Constraint& constraint : optimum_.constraints)
-      sides.emplace_back(constraint.greater.number(scope), constraint.lesser.number(scope));
-    return sides;
-  }
-
-  const StudyFile& study_;
-  const StudyOptimum& optimum_;
-  std::vector<std::size_t> indices_;
-  std::vector<double> units_;  // of constraints; none before a variant is done
-};
-
-/// The variants that a search asks for. It sees the free variables as parts of their ranges, 0 to 1, so that
-/// lengths and moduli weigh the same, and never leaves them.
-class Search {
- public:
-  Search(const StudyFile& study, const StudyEvaluation& evaluate, const StudyDerivatives& derivatives,
-         Goal& goal)
-      : study_(study),
-        evaluate_(evaluate),
-        derivatives_(derivatives),
-        goal_(goal),
-        range_(joint_distribution(study).getRange()),
-        least_margins_(goal.constraints(), -1.0) {}
-
-  /// Each variant runs once, however often it is asked for: objective and constraints ask for the same
-  /// points.
-  StudyPoints quantities(const StudyPoints& parts) {
-    StudyPoints fresh;
-    for (const std::vector<double>& each : parts) {
-      const std::vector<double> point = point_of(each);
-      if (indices_.emplace(point, points_.size() + fresh.size()).second) fresh.push_back(point);
-    }
-    if (parts.size() == 1) single_ += fresh.size();
-    StudyPoints result(parts.size());
-    try {
-      if (stopped_) return result;
-      if (!fresh.empty()) keep(fresh, evaluate_(fresh));
-    } catch (...) {  // the methods are written in C
-      stopped_ = std::current_exception();
-      return result;
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) result[i] = quantities_[indices_.at(point_of(parts[i]))];
-    return result;
-  }
-  /// The objectives and the margins by the parts; none of a variant that is not done.
-  StudyGradient objective_gradient(const std::vector<double>& part) {
-    StudyGradient rows =
-        gradient(part, [&](const std::vector<double>& quantities, const std::vector<double>&) {
-          return goal_.objectives(quantities);
-        });
-    for (std::vector<double>& row : rows)
-      for (double& by : row) by /= unit_;
-    return rows;
-  }
-  StudyGradient margin_gradient(const std::vector<double>& part) {
-    return gradient(
-        part, [&](const std::vector<double>& quantities,
-                  const std::vector<double>& point) { return goal_.margins(quantities, point); });
-  }
-  /// What a search sees of objectives from now on is in this unit.
-  void set_unit(double unit) { unit_ = unit; }
-  bool has_derivatives() const { return static_cast<bool>(derivatives_); }
-
-  bool stopped() const { return stopped_ != nullptr; }
-  void throw_if_stopped() const {
-    if (stopped_) std::rethrow_exception(stopped_);
-  }
-  /// Variants that were asked for one by one: those of differences and of generations come in batches.
-  std::size_t single() const { return single_; }
-
-  std::vector<double> objectives(const std::vector<double>& quantities) const {
-    std::vector<double> values = quantities.empty() ? worse_than_all() : goal_.objectives(quantities);
-    for (double& value : values) value /= unit_;
-    return values;
-  }
-  std::vector<double> margins(const std::vector<double>& quantities, const std::vector<double>& part) const {
-    return quantities.empty() ? least_margins_ : goal_.margins(quantities, point_of(part));
-  }
-
-  std::vector<double> start() const {
-    std::vector<double> parts;
-    for (const std::size_t i : study_.free_variables()) {
-      const std::size_t k = parts.size();
-      const double lower = range_.getLowerBound()[k], upper = range_.getUpperBound()[k];
-      parts.push_back(std::clamp((study_.variables[i].nominal - lower) / (upper - lower), 0.0, 1.0));
-    }
-    return parts;
-  }
-
-  const StudyPoints& points() const { return points_; }
-  const StudyPoints& quantities() const { return quantities_; }
-
- private:
-  /// Of f(quantities, point), by the chain rule: a row for each value of f.
-  template <class Function>
-  StudyGradient gradient(const std::vector<double>& part, const Function& f) {
-    const std::vector<double> quantities = this->quantities({part}).front(), point = point_of(part);
-    StudyGradient of_quantities;
-    try {
-      if (stopped_ || quantities.empty()) return {};
-      of_quantities = derivatives_(point);
-    } catch (...) {
-      stopped_ = std::current_exception();
-      return {};
-    }
-    StudyGradient rows;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      constexpr double step = 1e-4;  // of the range
-      const double width = range_.getUpperBound()[i] - range_.getLowerBound()[i];
-      const auto moved = [&](double by) {
-        std::vector<double> q = quantities, x = point;
-        for (std::size_t k = 0; k < q.size(); ++k) q[k] += by * width * of_quantities[k][i];
-        x[i] += by * width;
-        return f(q, x);
-      };
-      const std::vector<double> more = moved(step), less = moved(-step);
-      rows.resize(more.size(), std::vector<double>(part.size()));
-      for (std::size_t k = 0; k < rows.size(); ++k) rows[k][i] = (more[k] - less[k]) / (2 * step);
-    }
-    return rows;
-  }
-
-  std::vector<double> point_of(const std::vector<double>& parts) const {
-    std::vector<double> point;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const double lower = range_.getLowerBound()[k], upper = range_.getUpperBound()[k];
-      point.push_back(std::clamp(lower + parts[k] * (upper - lower), lower, upper));
-    }
-    return point;
-  }
-
-  void keep(const StudyPoints& fresh, const StudyPoints& quantities) {
-    for (std::size_t i = 0; i < fresh.size(); ++i) {
-      points_.push_back(fresh[i]);
-      quantities_.push_back(quantities[i]);
-      if (quantities[i].empty()) continue;
-      goal_.measure(quantities[i], fresh[i]);
-      const std::vector<double> values = goal_.objectives(quantities[i]);
-      if (least_.empty()) least_ = most_ = values;
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        least_[k] = std::min(least_[k], values[k]);
-        most_[k] = std::max(most_[k], values[k]);
-      }
-      const std::vector<double> margins = goal_.margins(quantities[i], fresh[i]);
-      for (std::size_t k = 0; k < margins.size(); ++k)
-        least_margins_[k] = std::min(least_margins_[k], margins[k]);
-    }
-  }
-
-  // What a variant that is not done counts as: a search turns back from it, but is not thrown far away.
-  std::vector<double> worse_than_all() const {
-    constexpr double unusable = 1e30;  // before any variant is done
-    std::vector<double> worse(goal_.count(), unusable);
-    for (std::size_t k = 0; k < most_.size(); ++k)
-      worse[k] = most_[k] + std::max({most_[k] - least_[k], 0.1 * std::abs(most_[k]), 1e-12});
-    return worse;
-  }
-
-  const StudyFile& study_;
-  const StudyEvaluation& evaluate_;
-  const StudyDerivatives& derivatives_;
-  Goal& goal_;
-  OT::Interval range_;
-  std::map<std::vector<double>, std::size_t> indices_;  // of points, in the order in which they ran
-  StudyPoints points_, quantities_;
-  std::vector<double> least_, most_;   // of each objective
-  std::vector<double> least_margins_;  // and what a variant that is not done counts as
-  double unit_ = 1;
-  std::size_t single_ = 0;
-  std::exception_ptr stopped_;
-};
-
-OT::OptimizationProblem problem_of(const StudyFile& study, const StudyOptimum& optimum, Search& search) {
+OT::OptimizationProblem problem_of(const StudyFile& study, const StudyOptimum& optimum, const Goal& goal,
+                                   Search& search) {
   const StudyEvaluation evaluate = [&search](const StudyPoints& parts) { return search.quantities(parts); };
   StudyDerivatives of_objectives, of_margins;
-  if (search.has_derivatives()) {
+  if (search.has_slopes()) {
     of_objectives = [&search](const std::vector<double>& part) { return search.objective_gradient(part); };
     of_margins = [&search](const std::vector<double>& part) { return search.margin_gradient(part); };
   }
@@ -256,9 +33,9 @@ OT::OptimizationProblem problem_of(const StudyFile& study, const StudyOptimum& o
       of_objectives);
   OT::OptimizationProblem problem(objective);
   problem.setBounds(OT::Interval(study.free_variables().size()));
-  if (!optimum.constraints.empty())
+  if (goal.constraints() > 0)
     problem.setInequalityConstraint(study_function(
-        study, evaluate, optimum.constraints.size(),
+        study, evaluate, goal.constraints(),
         [&search](const std::vector<double>& quantities, const std::vector<double>& part) {
           return search.margins(quantities, part);
         },
@@ -283,18 +60,24 @@ OT::OptimizationAlgorithm genetic_search(const StudyFile& study, const StudyOpti
   return genetic;
 }
 
+/// Where a search begins, in parts of the ranges, and how.
+struct SearchRound {
+  StudyOptimum::Method method;
+  std::vector<double> start;
+  double first_step = 0.1;
+};
+
 OT::OptimizationAlgorithm algorithm_of(const StudyFile& study, const StudyOptimum& optimum,
-                                       const OT::OptimizationProblem& problem, const Search& search) {
+                                       const OT::OptimizationProblem& problem, const SearchRound& round) {
   using Method = StudyOptimum::Method;
-  if (optimum.method == Method::genetic) return genetic_search(study, optimum, problem);
-  const std::string method = optimum.method == Method::gradient      ? "LD_SLSQP"
-                             : optimum.method == Method::nelder_mead ? "LN_NELDERMEAD"
-                                                                     : "LN_COBYLA";
+  if (round.method == Method::genetic) return genetic_search(study, optimum, problem);
+  const std::string method = round.method == Method::gradient      ? "LD_SLSQP"
+                             : round.method == Method::nelder_mead ? "LN_NELDERMEAD"
+                                                                   : "LN_COBYLA";
   OT::NLopt algorithm(problem, method);
-  constexpr double first_step = 0.1;
-  if (optimum.method != Method::gradient)
-    algorithm.setInitialStep(OT::Point(study.free_variables().size(), first_step));
-  algorithm.setStartingPoint(to_point(search.start()));
+  if (round.method != Method::gradient)
+    algorithm.setInitialStep(OT::Point(study.free_variables().size(), round.first_step));
+  algorithm.setStartingPoint(to_point(round.start));
   // Out of the way: it counts calls, also those for a variant that has run already.
   constexpr std::size_t calls_of_a_variant = 10;
   algorithm.setMaximumEvaluationNumber(calls_of_a_variant * static_cast<std::size_t>(optimum.evaluations));
@@ -307,8 +90,8 @@ OT::OptimizationAlgorithm algorithm_of(const StudyFile& study, const StudyOptimu
 }
 
 // The slope of the objective where a search along gradients begins: its first step is as long.
-double slope_at_start(const Search& search, const OT::OptimizationProblem& problem) {
-  const OT::Matrix slopes = problem.getObjective().gradient(to_point(search.start()));
+double slope_at_start(const OT::OptimizationProblem& problem, const std::vector<double>& start) {
+  const OT::Matrix slopes = problem.getObjective().gradient(to_point(start));
   double sum = 0;
   for (std::size_t i = 0; i < slopes.getNbRows(); ++i) sum += slopes(i, 0) * slopes(i, 0);
   return sum > 0 && std::isfinite(sum) ? std::sqrt(sum) : 1;
@@ -370,9 +153,9 @@ OptimumResult best_of(const Search& search, const Goal& goal) {
 }
 
 // Why none of the variants of a search holds the constraints.
-std::string none_holds(const StudyOptimum& optimum, const Search& search, const Goal& goal) {
+std::string none_holds(const Search& search, const Goal& goal) {
   std::size_t done = 0;
-  std::vector<double> best(optimum.constraints.size(), -std::numeric_limits<double>::infinity());
+  std::vector<double> best(goal.constraints(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < search.points().size(); ++i) {
     if (search.quantities()[i].empty()) continue;
     ++done;
@@ -381,13 +164,153 @@ std::string none_holds(const StudyOptimum& optimum, const Search& search, const 
   }
   std::string missed;
   for (std::size_t k = 0; k < best.size(); ++k)
-    if (!is_held(best[k]))
-      missed += (missed.empty() ? "" : ", ") + in_quotes(optimum.constraints[k].text) +
+    if (!is_satisfied(best[k]))
+      missed += (missed.empty() ? "" : ", ") + in_quotes(goal.text(k)) +
                 (std::isfinite(best[k]) ? " is missed by " + text_of(-best[k] * goal.unit(k), 4) + " at least"
                                         : " is no number");
   return "none of the " + std::to_string(done) + " variants that are done holds \"subject_to\": " +
          (missed.empty() ? "each holds in some of them, but not all together" : missed) +
          "; take wider ranges or more \"evaluations\"";
+}
+
+// The mean of some points, and how far they are from it at most, in parts of the ranges.
+std::pair<OT::Point, double> spread_of(const Search& search, std::size_t first, std::size_t count) {
+  OT::Sample parts(0, search.points().front().size());
+  for (std::size_t i = first; i < first + count; ++i)
+    parts.add(to_point(search.part_of(search.points()[search.asked()[i]])));
+  const OT::Point mean = parts.computeMean();
+  double spread = 0;
+  for (std::size_t i = 0; i < count; ++i) spread = std::max(spread, OT::Point(parts[i] - mean).norm());
+  return {mean, spread};
+}
+
+// Whether a search goes round and round in its last variants, of those from the first on: it stays where it
+// is with steps as long as ever.
+bool is_circling(const Search& search, std::size_t first, std::size_t variables) {
+  const std::size_t turn = 10 * (variables + 1), count = search.asked().size();
+  if (count < first + 2 * turn) return false;
+  const auto [before, wide_before] = spread_of(search, count - 2 * turn, turn);
+  const auto [now, wide_now] = spread_of(search, count - turn, turn);
+  return wide_now > 0.7 * wide_before && OT::Point(now - before).norm() < 0.25 * wide_now;
+}
+
+/// How far a search has come: the variant it stands at, and the best one that holds the constraints.
+struct Standing {
+  std::optional<std::size_t> end, best;
+};
+
+double violation_of(const Search& search, const Goal& goal, std::size_t variant) {
+  double violation = 0;
+  for (const double margin : goal.margins(search.quantities()[variant], search.points()[variant]))
+    if (!is_satisfied(margin)) violation = std::fmax(violation, -margin);
+  return violation;
+}
+
+double distance_of(const Search& search, std::size_t a, std::size_t b) {
+  return (to_point(search.part_of(search.points()[a])) - to_point(search.part_of(search.points()[b]))).norm();
+}
+
+double objective_of(const Search& search, const Goal& goal, std::size_t variant) {
+  return goal.objectives(search.quantities()[variant]).front();
+}
+
+// The variants where a round ended, which began with the first of those that were asked for: one along slopes
+// at the last, others among the last, which are beside each other.
+std::vector<std::size_t> last_of(const Search& search, const SearchRound& round, std::size_t first) {
+  const std::size_t most = round.method == StudyOptimum::Method::gradient ? 1 : round.start.size() + 1;
+  std::vector<std::size_t> last;
+  for (std::size_t i = search.asked().size(); i-- > first && last.size() < most;)
+    if (!search.quantities()[search.asked()[i]].empty()) last.push_back(search.asked()[i]);
+  if (last.empty() && !search.asked().empty() && !search.quantities()[search.asked().back()].empty())
+    last.push_back(search.asked().back());  // it went nowhere
+  return last;
+}
+
+Standing standing_of(const Search& search, const Goal& goal, const SearchRound& round, std::size_t first) {
+  Standing standing;
+  for (std::size_t i = 0; i < search.points().size(); ++i) {
+    if (search.quantities()[i].empty() || !goal.holds(search.quantities()[i], search.points()[i])) continue;
+    if (!standing.best || objective_of(search, goal, i) < objective_of(search, goal, *standing.best))
+      standing.best = i;
+  }
+  for (const std::size_t i : last_of(search, round, first))
+    if (!standing.end || violation_of(search, goal, i) < violation_of(search, goal, *standing.end))
+      standing.end = i;
+  return standing;
+}
+
+// Whether a search ended that near to the best variant that holds its constraints.
+bool ended_beside_best(const Search& search, const Standing& standing, double distance) {
+  return standing.best && standing.end && distance_of(search, *standing.end, *standing.best) <= distance;
+}
+
+double moved_by(const Search& search, const SearchRound& round, std::size_t to) {
+  return (to_point(search.part_of(search.points()[to])) - to_point(round.start)).norm();
+}
+
+// Where to go on: where the search ended, with the constraints that it just misses so much tighter or those
+// that were too tight less so, else from the best variant. One along slopes that ended there goes on from it
+// until that moves it no more: its steps may have been too short only for the slopes before. Nothing where
+// there is nothing to do.
+std::optional<SearchRound> next_round(Search& search, const Goal& goal, const StudyOptimum& optimum,
+                                      const SearchRound& last, const Standing& standing) {
+  if (!standing.end && !standing.best) return {};
+  constexpr double just_missed = 1e-2, whole = 0.1, least = 1e-3;
+  const double small = std::clamp(10 * optimum.tolerance, least, whole);
+  const auto from = [&](std::size_t variant, double first_step) {
+    return SearchRound{optimum.method, search.part_of(search.points()[variant]), first_step};
+  };
+  if (ended_beside_best(search, standing, 3 * optimum.tolerance)) {
+    const bool has_moved = moved_by(search, last, *standing.best) > 3 * optimum.tolerance;
+    const bool to_be_confirmed = optimum.method == StudyOptimum::Method::gradient && has_moved;
+    if (!search.relax(0.1 * optimum.tolerance) && !to_be_confirmed) return {};
+    return from(*standing.best, small);
+  }
+  if (standing.best && (!standing.end || violation_of(search, goal, *standing.end) > just_missed))
+    return from(*standing.best, whole);
+  const std::vector<double> margins =
+      goal.margins(search.quantities()[*standing.end], search.points()[*standing.end]);
+  for (std::size_t k = 0; k < margins.size(); ++k)
+    if (!is_satisfied(margins[k])) search.tighten(k, -margins[k]);
+  return from(*standing.end, small);
+}
+
+// "a = 1, b = 2" and what a variant misses.
+std::string place_text(const StudyFile& study, const Search& search, const Goal& goal, std::size_t variant) {
+  const std::vector<double>& point = search.points()[variant];
+  std::string text, missed;
+  for (std::size_t i = 0; i < point.size(); ++i)
+    text +=
+        (i > 0 ? ", " : "") + study.variables[study.free_variables()[i]].name + " = " + text_of(point[i], 6);
+  const std::vector<double> margins = goal.margins(search.quantities()[variant], point);
+  for (std::size_t k = 0; k < margins.size(); ++k)
+    if (!is_satisfied(margins[k]))
+      missed += (missed.empty() ? ", which misses " : " and ") + in_quotes(goal.text(k)) + " by " +
+                text_of(-margins[k] * goal.unit(k), 4);
+  return text + missed;
+}
+
+std::string why_not_converged(const StudyFile& study, const StudyOptimum& optimum, const Search& search,
+                              const Goal& goal, const Standing& standing) {
+  const double far = std::max(1e-3, 30 * optimum.tolerance);
+  if (!standing.end || ended_beside_best(search, standing, far)) return {};
+  return "the search did not converge: it ended at " + place_text(study, search, goal, *standing.end) +
+         ", and the best of the variants that hold the constraints is given; begin beside it (\"nominal\"), "
+         "or take " +
+         (optimum.method == StudyOptimum::Method::cobyla ? "\"gradient\"" : "\"cobyla\"") + " as \"method\"";
+}
+
+void run_round(const StudyFile& study, const StudyOptimum& optimum, const OT::OptimizationProblem& problem,
+               const SearchRound& round, const Search& search, std::function<bool()>& ended) {
+  try {
+    OT::OptimizationAlgorithm algorithm = algorithm_of(study, optimum, problem, round);
+    algorithm.setStopCallback(
+        [](void* of) -> OT::Bool { return (*static_cast<std::function<bool()>*>(of))(); }, &ended);
+    algorithm.run();
+  } catch (const OT::Exception& stopped) {  // also where steps come down to round-off
+    if (search.points().empty())
+      throw std::runtime_error(std::string("the search did not begin: ") + stopped.what());
+  }
 }
 
 }  // namespace
@@ -400,22 +323,31 @@ OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
     return optimum.method != StudyOptimum::Method::genetic &&
            search.single() >= static_cast<std::size_t>(optimum.evaluations);
   };
-  std::function<bool()> ended = [&] { return search.stopped() || used_up(); };
-  try {
-    const OT::OptimizationProblem problem = problem_of(study, optimum, search);
-    if (optimum.method == StudyOptimum::Method::gradient) search.set_unit(slope_at_start(search, problem));
-    OT::OptimizationAlgorithm algorithm = algorithm_of(study, optimum, problem, search);
-    algorithm.setStopCallback(
-        [](void* of) -> OT::Bool { return (*static_cast<std::function<bool()>*>(of))(); }, &ended);
-    algorithm.run();
-  } catch (const OT::Exception& problem) {
-    if (search.points().empty())
-      throw std::runtime_error(std::string("the search did not begin: ") + problem.what());
+  std::size_t first = 0;  // of the variants of a round
+  const std::size_t variables = study.free_variables().size();
+  std::function<bool()> ended = [&] {
+    return search.stopped() || used_up() ||
+           (goal.knows_constraints() && is_circling(search, first, variables));
+  };
+  const OT::OptimizationProblem problem = problem_of(study, optimum, goal, search);
+  SearchRound round{optimum.method, search.start()};
+  if (goal.takes_slopes()) search.set_unit(slope_at_start(problem, round.start));
+  constexpr int most_rounds = 8;
+  Standing standing;
+  for (int i = 0; i < most_rounds && !search.stopped() && !used_up(); ++i) {
+    first = search.asked().size();
+    run_round(study, optimum, problem, round, search, ended);
+    if (search.stopped() || !goal.knows_constraints()) break;
+    standing = standing_of(search, goal, round, first);
+    const std::optional<SearchRound> next = next_round(search, goal, optimum, round, standing);
+    if (!next) break;
+    round = *next;
   }
   search.throw_if_stopped();
   OptimumResult result = best_of(search, goal);
   result.cut_off = used_up();
-  if (result.points.empty()) throw std::runtime_error(none_holds(optimum, search, goal));
+  if (result.points.empty()) throw std::runtime_error(none_holds(search, goal));
+  if (!result.cut_off) result.not_converged = why_not_converged(study, optimum, search, goal, standing);
   return result;
 }
 

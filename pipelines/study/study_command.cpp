@@ -165,6 +165,19 @@ void remove_former_results(const std::filesystem::path& directory) {
   }
 }
 
+// What an answer is not.
+void warn_of_answer(const StudyResult& result, const StudyOptions& options, std::ostream& err) {
+  const auto* optimum = std::get_if<OptimumResult>(&result.answer);
+  if (optimum && !optimum->not_converged.empty())
+    err << "warning: " << options.file.string() << ": optimise: " << optimum->not_converged << "\n";
+  const auto* calibrated = std::get_if<CalibrationResult>(&result.answer);
+  for (std::size_t i = 0; calibrated && i < calibrated->active.size(); ++i)
+    err << "warning: " << options.file.string() << ": calibrate: the estimate lies at the edge of \""
+        << calibrated->active[i]
+        << "\", beyond which the measurements would fit better: it has no standard deviations and no "
+           "intervals, which are those of an estimate that nothing holds; widen the constraint for them\n";
+}
+
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
                   std::ostream& out, std::ostream& err) {
   silence_openturns();
@@ -181,6 +194,7 @@ int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEng
   }
   write_results(ready, options, result);
   out << answer_text(ready.study, result) << "results in " << options.out.string() << "\n";
+  warn_of_answer(result, options, err);
   if (result.interrupted) {
     err << "interrupted after " << result.variants.size() << " variants; go on with --resume\n";
     return exit_interrupted;

@@ -80,7 +80,7 @@ class StudyReader : StudyPartReader {
     if (has(json, "nominal"))
       variable.nominal = measured(json["nominal"], dimension, child(path, "nominal")).value_or(0);
     else if (!variable.derived && !findings_.has_errors())
-      variable.nominal = within_ends(variable.distribution, middle_of(variable.distribution));
+      variable.nominal = middle_of(variable.distribution);
     if (!variable.derived && !findings_.has_errors()) check_ends(variable);
     study_.variables.push_back(std::move(variable));
   }
@@ -106,17 +106,15 @@ class StudyReader : StudyPartReader {
                                                            " to " + text_of(upper, all_digits));
   }
 
-  // The middle, or the mean of what is left where that is cut off.
-  static double within_ends(const StudyDistribution& d, double middle) {
-    const bool is_left = !(d.lower && middle < *d.lower) && !(d.upper && middle > *d.upper);
-    return is_left ? middle : mean_of(d).value_or(middle);
-  }
-
+  // The mean of what is left within the ends.
   static double middle_of(const StudyDistribution& d) {
     using Law = StudyDistribution::Kind;
-    if (d.parameters.size() < 2) return 0;
-    if (d.kind == Law::uniform) return (d.parameters[0] + d.parameters[1]) / 2;
-    return d.kind == Law::triangular ? d.parameters[1] : d.parameters[0];
+    const std::vector<double>& p = d.parameters;
+    if (p.size() < 2) return 0;
+    double mean = p[0];
+    if (d.kind == Law::uniform) mean = (p[0] + p[1]) / 2;
+    if (d.kind == Law::triangular) mean = (p[0] + p[1] + p[2]) / 3;
+    return d.lower || d.upper ? mean_of(d).value_or(mean) : mean;
   }
 
   std::optional<StudyTarget> read_target(const Json& json, const std::string& path) {

@@ -67,7 +67,8 @@ Shape variable() {
        {"range", pair_of(measured()), "[least, greatest]: any value between, with equal chances"},
        {"distribution", distribution(), "how its values are scattered"},
        {"value", any_text(), "an expression of other variables"},
-       {"nominal", measured(), "where a search begins; the middle of the range, or the mean, when omitted"}},
+       {"nominal", measured(),
+        "where a search begins; the middle of the range, or the mean of the distribution within its \"lower\" and \"upper\", when omitted"}},
       {{{"path", "control_point", "weight", "transform"}, false},
        {{"range", "distribution", "value"}, required}});
 }

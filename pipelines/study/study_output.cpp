@@ -92,6 +92,7 @@ Json answer_json(const StudyFile& study, const OptimumResult& result) {
     json["optima"].push_back({{"variables", named(study, result.points[i])}, {"quantities", quantities}});
   }
   if (result.cut_off) json["evaluations_used_up"] = true;
+  if (!result.not_converged.empty()) json["not_converged"] = result.not_converged;
   for (const double best : result.history)
     json["history"].push_back(std::isfinite(best) ? Json(best) : Json());
   return json;
@@ -101,13 +102,18 @@ Json answer_json(const StudyFile& study, const CalibrationResult& result) {
   const auto& calibration = std::get<StudyCalibration>(study.task);
   const std::vector<std::size_t> free = study.free_variables();
   Json json = {{"confidence", calibration.confidence}, {"noise", result.noise}};
-  for (std::size_t i = 0; i < free.size(); ++i)
-    json["estimates"][study.variables[free[i]].name] = {{"value", result.point[i]},
-                                                        {"sd", result.sd[i]},
-                                                        {"lower", result.lower[i]},
-                                                        {"upper", result.upper[i]}};
+  if (result.degrees_of_freedom > 0) json["degrees_of_freedom"] = result.degrees_of_freedom;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    Json& estimate = json["estimates"][study.variables[free[i]].name];
+    estimate = {{"value", result.point[i]}};
+    if (result.sd.empty()) continue;
+    estimate["sd"] = result.sd[i];
+    estimate["lower"] = result.lower[i];
+    estimate["upper"] = result.upper[i];
+  }
   json["variables"] = named(study, result.point);
-  json["covariance"] = result.covariance;
+  if (!result.active.empty()) json["active_constraints"] = result.active;
+  if (!result.covariance.empty()) json["covariance"] = result.covariance;
   std::size_t at = 0;
   while (at < study.quantities.size() && !study.quantities[at].observed) ++at;
   for (const StudyCalibration::Observation& observation : calibration.observations) {
@@ -213,8 +219,12 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
   const auto& calibration = std::get<StudyCalibration>(study.task);
   const std::vector<std::size_t> free = study.free_variables();
   for (std::size_t i = 0; i < free.size(); ++i) {
-    out << study.variables[free[i]].name << " = " << text_of(result.point[i], 6) << " +- "
-        << text_of(result.sd[i], 3) << "  (" << text_of(result.lower[i], 6) << " to "
+    out << study.variables[free[i]].name << " = " << text_of(result.point[i], 6);
+    if (result.sd.empty()) {
+      out << "\n";
+      continue;
+    }
+    out << " +- " << text_of(result.sd[i], 3) << "  (" << text_of(result.lower[i], 6) << " to "
         << text_of(result.upper[i], 6) << " with " << text_of(100 * calibration.confidence) << " %)\n";
     for (std::size_t k = 0; k < i; ++k)
       out << "  correlation with " << study.variables[free[k]].name << " "

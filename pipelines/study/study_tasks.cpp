@@ -14,6 +14,15 @@ namespace nurbeam {
 
 namespace {
 
+// Or what is no expression, which has been said.
+bool is_comparison(const std::string& text) {
+  try {
+    return Expression::parse(text).sides().has_value();
+  } catch (const ExpressionError&) {
+    return true;
+  }
+}
+
 class StudyTaskReader : StudyPartReader {
  public:
   using StudyPartReader::StudyPartReader;
@@ -230,6 +239,10 @@ class StudyTaskReader : StudyPartReader {
     if (optimum.method == Method::nelder_mead && has(json, "subject_to"))
       findings_.error("optimise.method",
                       "is \"nelder_mead\", which knows no \"subject_to\"; take \"cobyla\" or \"gradient\"");
+    if (optimum.method == Method::cobyla || optimum.method == Method::gradient)
+      for_each_no_comparison([&](const std::string& path, const std::string& is_none) {
+        findings_.warn(path, is_none + ": else it may end before the optimum");
+      });
     study_.derivatives = read_derivatives(json, "optimise", optimum.method == Method::gradient);
     optimum.evaluations = static_cast<int>(number(json, "evaluations", 100));
     optimum.tolerance = number(json, "tolerance", 1e-4);
@@ -244,14 +257,30 @@ class StudyTaskReader : StudyPartReader {
     return needs && (!has(json, "derivatives") || text(json, "derivatives") == "tangents");
   }
 
+  // Of the constraints of variables: told(path, what is wrong with it for a search).
+  void for_each_no_comparison(const std::function<void(const std::string&, const std::string&)>& told) {
+    for_each_item(
+        json_, "constraints", "",
+        [&](const Json& item, const std::string& path) {
+          const auto text = item.get<std::string>();
+          if (is_comparison(text)) return;
+          told(path,
+               in_quotes(text) +
+                   " is no comparison, of which a search does not know how far it is from holding; write it "
+                   "as \"a + b <= 10\", several as one each");
+        });
+  }
+
   StudyCalibration read_calibration(const Json& json) {
     StudyCalibration calibration{.confidence = number(json, "confidence", 0.95),
                                  .evaluations = static_cast<int>(number(json, "evaluations", 200))};
     study_.derivatives = read_derivatives(json, "calibrate", true);
     study_.derivatives_where_known = !has(json, "derivatives");
-    for_each_item(json, "observations", "calibrate", [&](const Json& item, const std::string& path) {
-      read_observation(item, path, calibration);
-    });
+    for_each_item(
+        json, "observations", "calibrate",
+        [&](const Json& item, const std::string& path) { read_observation(item, path, calibration); });
+    for_each_no_comparison(
+        [&](const std::string& path, const std::string& is_none) { findings_.error(path, is_none); });
     using Law = StudyDistribution::Kind;
     std::size_t normal = 0, uniform = 0;
     for (const std::size_t i : study_.free_variables()) {

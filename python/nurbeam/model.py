@@ -429,6 +429,9 @@ class Model:
     def _run_into(
         self, built: _core.BuiltCase, out: str | os.PathLike[str], resume: bool, progress: bool | None
     ) -> Results:
+        if resume and (self._laws or self._motions):
+            tell([Finding("warning", "resume", "the functions of the model cannot be compared with those of the run that is "
+                          "there: the results are right where they are the same; else run without resume")])
         with progress_bar(built, progress) as told:
             code, messages = _core.run_into(built, self._functions(), os.fspath(out), resume, told)
         lines = [line.split("error: ", 1)[-1] for line in messages.splitlines() if "error: " in line]

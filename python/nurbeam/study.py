@@ -102,10 +102,18 @@ def _finding(line: str, file: Path) -> Finding:
     return Finding(severity, where, message) if message else Finding(severity, str(file), rest)
 
 
+def _name_files_absolutely(value: Any) -> None:
+    """The program looks for them beside the study file, which is another than the user's directory."""
+    for item in value.values() if isinstance(value, dict) else value if isinstance(value, list) else []:
+        _name_files_absolutely(item)
+    if isinstance(value, dict) and isinstance(value.get("file"), str):
+        value["file"] = os.path.abspath(value["file"])
+
+
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
     """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
-    arrays may stand for lists; its case is relative to the file, or to the working directory.
+    arrays may stand for lists; its case and other files are relative to the file, or to the working directory.
 
     `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
     variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
@@ -119,6 +127,7 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
             raise CaseError([Finding(f.severity, f"study: {f.where}", f.message) for f in wrong])
         if isinstance(described.get("case"), str):
             described["case"] = os.path.abspath(described["case"])
+        _name_files_absolutely(described)
         directory = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
         directory.mkdir(parents=True, exist_ok=True)
         file = directory / "study_file.json"

@@ -33,7 +33,7 @@ set(homes
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/strand\\.cpp"
   "Spectra/.*"                                                                    "solver/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
-  "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h)"
+  "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h)"
   "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
   "mpi\\.h"                                                                       "pipelines/study/mpi_engine\\.cpp"
   "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"

@@ -233,3 +233,14 @@ def test_a_body_driven_beyond_its_beam_leaves_it():
     assert np.isnan(results.histories["bead.s"][-1])
     left = [event["time"] for event in results.report["events"] if "left" in event["kind"]]
     assert left == pytest.approx([0.5], abs=5e-3)
+
+
+def test_a_static_run_calls_a_law_at_the_factor():
+    def sagged(**analysis):
+        model = straight_cantilever()
+        model.add_force(lambda t, r, v: (0, -t, 0), beam="rod", at="end")
+        model.add_probe("tip", "rod", "end")
+        return model.run(type="static", **analysis)
+
+    assert sagged().times == [1]
+    assert sagged().histories["tip.y"][-1] == sagged(load_steps=[1]).histories["tip.y"][-1] != 0

@@ -273,3 +273,44 @@ def test_a_simulation_goes_on_after_control_c():
     simulation.run()
     whole = swinging().run(**RUN)
     assert np.allclose(simulation.results.histories["tip.y"], whole.histories["tip.y"], atol=1e-9)
+
+
+def test_a_checkpoint_keeps_what_set_load_has_set(tmp_path):
+    simulation = swinging().simulate(**RUN)
+    simulation.run_until(0.01)
+    simulation.set_load(0, [0, -3, 0])
+    simulation.run_until(0.0235)
+    simulation.checkpoint.save(tmp_path / "point.nc")
+    rest = swinging().simulate(**RUN, start=nb.Checkpoint.load(tmp_path / "point.nc"))
+    again = rest.checkpoint
+    whole, half = simulation.run().histories, rest.run().histories
+    count = len(rest.results)
+    for name, values in whole.items():
+        assert np.array_equal(values[-count:], half[name], equal_nan=True), name
+    assert same(half, swinging().simulate(**RUN, start=again).run().histories)
+
+
+def test_a_checkpoint_of_another_model_is_refused(tmp_path):
+    simulation = swinging().simulate(**RUN)
+    simulation.run_until(0.0235)
+    simulation.checkpoint.save(tmp_path / "point.nc")
+    other = swinging()
+    other.set("beams[0].material.density", 7000)
+    for point in (simulation.checkpoint, nb.Checkpoint.load(tmp_path / "point.nc")):
+        with pytest.raises(ValueError, match='of another model, which differs in "beams"; go on'):
+            other.simulate(**RUN, start=point)
+    swinging().run(**RUN, out=tmp_path / "out")
+    with pytest.raises(ValueError, match="of another model"):
+        other.simulate(**RUN, start=nb.Checkpoint.load(tmp_path / "out" / "restart.nc"))
+    swinging().simulate(**RUN, start=nb.Checkpoint.load(tmp_path / "out" / "restart.nc"))
+
+
+def test_resuming_a_run_with_functions_says_that_they_are_not_compared(tmp_path):
+    def pushed(by):
+        model = straight_cantilever()
+        model.add_force(lambda t, r, v: (0, by, 0), beam="rod", at="end")
+        return model
+
+    pushed(1).run(end_time=0.01, step=1e-3, out=tmp_path / "out")
+    with pytest.warns(nb.CaseWarning, match="the functions of the model cannot be compared"):
+        pushed(2).run(end_time=0.01, step=1e-3, out=tmp_path / "out", resume=True)

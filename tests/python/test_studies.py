@@ -141,3 +141,49 @@ except KeyboardInterrupt:
     while any(map(runs, begun)) and time.monotonic() < sent + 5:
         time.sleep(0.05)
     assert not [pid for pid in begun if runs(pid)]
+
+
+def measured_study(case, file, column):
+    return {"nurbeam_study": 1, "case": case, "variables": [{"name": "g", "path": "gravity[2]", "range": [-12, -8]}],
+            "calibrate": {"observations": [{"value": "ball.z", "measured": {"file": file, "columns": ["t", column]},
+                                            "sd": 0.001}]}}
+
+
+def falling_ball(directory, unit):
+    """A case of a ball on what hardly holds it, and z = -9 t^2 / 2 in a file, in that unit."""
+    model = nb.Model(gravity=[0, 0, -9.81])
+    model.add("beams", name="far", rigid=True, axis={"polyline": [[5, 0, 0], [6, 0, 0]]})
+    model.add("bodies", name="ball", mass=1, position=[0, 0, 0])
+    model.add("connectors", name="thread", **{"from": {"body": "ball"}}, to={"point": [0, 0, 1]}, direction=[0, 0, 1],
+              stiffness=1e-9, length="drawn")
+    model.set("analysis", {"end_time": 0.5, "step": "10 ms"})
+    model.set("output.every", 0.1)
+    model.save(directory / "case.json")
+    scale = {"mm": 1e3, "m": 1}.get(unit, 1)
+    rows = [f"{1e3 * t:.0f},{-4.5 * t * t * scale:.12g}" for t in (0.1, 0.2, 0.3, 0.4, 0.5)]
+    (directory / "measured.csv").write_text("\n".join([f"t [ms],z [{unit}]", *rows]) + "\n")
+
+
+@pytest.mark.parametrize("column", ["z", "z [mm]"])
+def test_files_of_a_mapping_are_relative_and_their_units_are_read(tmp_path, monkeypatch, column):
+    falling_ball(tmp_path, "mm")
+    monkeypatch.chdir(tmp_path)
+    study = nb.study(measured_study("case.json", "measured.csv", column))
+    assert study.answer["estimates"]["g"]["value"] == pytest.approx(-9, rel=1e-6)
+
+
+def test_a_column_in_an_unknown_unit_is_refused(tmp_path, monkeypatch):
+    falling_ball(tmp_path, "px")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(nb.CaseError, match=r'the column "z \[px\]" has an unknown unit "px"'):
+        nb.study(measured_study("case.json", "measured.csv", "z"))
+
+
+def test_an_estimate_at_the_edge_of_a_constraint_is_told(tmp_path, monkeypatch):
+    falling_ball(tmp_path, "mm")
+    monkeypatch.chdir(tmp_path)
+    study = {**measured_study("case.json", "measured.csv", "z"), "constraints": ["g < -9.5"]}
+    with pytest.warns(nb.CaseWarning, match='the estimate lies at the edge of "g < -9.5"'):
+        answer = nb.study(study).answer
+    assert answer["active_constraints"] == ["g < -9.5"] and "sd" not in answer["estimates"]["g"]
+    assert answer["estimates"]["g"]["value"] == pytest.approx(-9.5, rel=1e-5)

@@ -373,6 +373,70 @@ TEST(Optimum, HoldsConstraintsOfSmallNumbersAsOthers) {
   }
 }
 
+// Problems at whose ends a search misses its constraint by 1e-8 to 1e-3, with what is the least: the first
+// one along gradients, the second without a variant that holds it, the third where COBYLA goes round and
+// round.
+TEST(Optimum, EndsWithAVariantThatHoldsItsConstraints) {
+  for (const auto& [f, constraint, method, least] :
+       {std::tuple{"0.6377706197300419*(x-0.2883924339166324)^2+1.2798419650411421*(y-1.0556107696995278)^2",
+                   "0.22578438911091797*x^2+0.3064153962004147*y^2 <= 0.2649360739997162", "gradient",
+                   0.029809183546221},
+        {"1.7120313742701134*(x+0.7743666645567867)^2+2.3669040331394715*(y-1.8885937353296836)^2",
+         "0.8879896499194682*x^2+0.9950536494833679*y^2 <= 0.21016767515495188", "cobyla", 5.8600269620316},
+        {"0.9736764394664277*(x+0.567991374942227)^2+0.5755751303409931*(y-1.152115178318704)^2",
+         "0.2597833348716704*x^2+0.4272861992669107*y^2 <= 0.2575396150170699", "cobyla", 0.3953888604155}}) {
+    const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
+      "quantities": [{"name": "f", "value": ")json" +
+                                     std::string(f) + R"json("}],
+      "optimise": {"minimise": "f", "evaluations": 400, "subject_to": [")json" +
+                                     constraint + "\"], \"method\": \"" + method + "\"}}");
+    const OptimumResult result =
+        find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study), derivatives_of(study));
+    EXPECT_NEAR(result.quantities[0][0], least, 5e-4) << constraint;
+    EXPECT_EQ(result.not_converged, "") << constraint;
+    EXPECT_FALSE(result.cut_off) << constraint;
+  }
+}
+
+// The least of x^2 + 2 y^2 on the line x + y = 1, from both sides of it; nothing beyond the line is run.
+TEST(Optimum, HoldsTheConstraintsOfVariables) {
+  for (const char* method : {R"("cobyla")", R"("gradient")", R"("gradient", "derivatives": "differences")"})
+    for (const char* nominal : {"1.5", "-1"}) {
+      const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+        "variables": [{"name": "x", "range": [-2, 2], "nominal": )json" +
+                                       std::string(nominal) + R"json(}, {"name": "y", "range": [-2, 2]}],
+        "constraints": ["x + y >= 1"], "quantities": [{"name": "f", "value": "x^2 + 2 * y^2"}],
+        "optimise": {"minimise": "f", "method": )json" +
+                                       method + "}}");
+      const StudyEvaluation inside = [&](const StudyPoints& points) {
+        for (const std::vector<double>& point : points) EXPECT_GE(point[0] + point[1], 1) << method;
+        return evaluated(study, points);
+      };
+      StudyDerivatives derivatives;
+      if (study.derivatives) derivatives = derivatives_of(study);
+      const OptimumResult result =
+          find_optimum(study, std::get<StudyOptimum>(study.task), inside, derivatives);
+      EXPECT_NEAR(result.points[0][0], 2.0 / 3, 1e-3) << method << nominal;
+      EXPECT_NEAR(result.points[0][1], 1.0 / 3, 1e-3) << method << nominal;
+      EXPECT_NEAR(result.quantities[0][0], 2.0 / 3, 1e-6) << method << nominal;
+    }
+}
+
+// A step has no slope that leads back over it.
+TEST(Optimum, SaysThatASearchDidNotConverge) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [0, 1], "nominal": 0.8}],
+    "quantities": [{"name": "f", "value": "x^2"}, {"name": "g", "value": "x > 0.6"}],
+    "optimise": {"minimise": "f", "subject_to": ["g >= 0.5"], "method": "gradient"}})json");
+  const OptimumResult result =
+      find_optimum(study, std::get<StudyOptimum>(study.task), evaluation_of(study), derivatives_of(study));
+  EXPECT_NE(result.not_converged.find("the search did not converge: it ended at x = "), std::string::npos)
+      << result.not_converged;
+  EXPECT_NE(result.not_converged.find(", which misses \"g >= 0.5\" by 0.5, and the best"), std::string::npos)
+      << result.not_converged;
+}
+
 TEST(Variant, WithoutADerivativeHasFailed) {
   const StudyFile study = study_of(R"json({"nurbeam_study": 1,
     "variables": [{"name": "x", "range": [0, 3], "nominal": 1}],

@@ -80,7 +80,71 @@ TEST(Calibration, OfALineIsThatOfTheTextbooks) {
       EXPECT_NEAR(result.covariance[i][k], covariance, 1e-5 * std::abs(covariance)) << i << k;
     }
   EXPECT_NEAR(result.noise, std::sqrt(squares / times) / 0.1, 1e-7);
+  EXPECT_EQ(result.degrees_of_freedom, times - 2);
+  for (int i = 0; i < 2; ++i)  // Student's quantile of 97.5 % with 18 degrees of freedom
+    EXPECT_NEAR(result.upper[i], result.point[i] + 2.1009220402 * result.sd[i], 1e-9 * result.sd[i]);
   EXPECT_LE(result.evaluations, 30);
+}
+
+// A study in which `constraint` holds besides.
+std::string within(const std::string& constraint, const std::string& study) {
+  std::string text = study;
+  return text.insert(text.find("\"variables\""), "\"constraints\": [\"" + constraint + "\"], ");
+}
+
+/// As calibrated(), of variants among which those that do not hold `allows` are rejected.
+CalibrationResult calibrated_within(const StudyFile& study, double (*model)(double, double, double),
+                                    bool (*allows)(double, double)) {
+  const StudyEvaluation evaluate = [&](const StudyPoints& points) {
+    StudyPoints quantities;
+    for (const auto& point : points) {
+      quantities.emplace_back();
+      for (int i = 0; i < times && allows(point[0], point[1]); ++i)
+        quantities.back().push_back(model(point[0], point[1], time_of(i)));
+    }
+    return quantities;
+  };
+  return calibrate(study, std::get<StudyCalibration>(study.task), evaluate);
+}
+
+// The search passes beyond the constraint, behind which the optimum does not lie.
+TEST(Calibration, WithinConstraintsIsThatWithoutThem) {
+  std::mt19937 generator(4);
+  const std::vector<double> measured = noisy(decay, 2, 0.7e-3, 0.02, generator);
+  const std::string study = two_variables(ranges[0] + R"(, "nominal": 0.2)", ranges[1], measured);
+  const auto allows = [](double a, double b) { return 1e3 * b < 0.72 && a * a + 1e6 * b * b < 4.6; };
+  const CalibrationResult free = calibrated(study_of(study), decay);
+  const CalibrationResult held =
+      calibrated_within(study_of(within(R"(1e3 * b < 0.72", "a^2 + 1e6 * b^2 < 4.6)", study)), decay, allows);
+  ASSERT_TRUE(held.active.empty());
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(held.point[i], free.point[i], 1e-5 * free.point[i]);
+    EXPECT_NEAR(held.sd[i], free.sd[i], 1e-3 * free.sd[i]);
+  }
+}
+
+// With a = 1.2, b is that of a line through (0, 1.2).
+TEST(Calibration, AtTheEdgeOfAConstraintIsTheLeastThereAndHasNoIntervals) {
+  std::mt19937 generator(4);
+  const std::vector<double> measured = noisy(line, 1.5, 0.8e-3, 0.1, generator);
+  const StudyFile study =
+      study_of(within("a <= 1.2", two_variables(ranges[0] + R"(, "nominal": 0.5)", ranges[1], measured)));
+  const CalibrationResult result = calibrated_within(study, line, [](double a, double) { return a <= 1.2; });
+  double products = 0, squares = 0;
+  for (int i = 0; i < times; ++i) {
+    products += time_of(i) * (measured[static_cast<std::size_t>(i)] - 1.2);
+    squares += time_of(i) * time_of(i);
+  }
+  EXPECT_NEAR(result.point[0], 1.2, 1e-6);
+  EXPECT_NEAR(result.point[1], 1e-3 * products / squares, 1e-8);
+  EXPECT_EQ(result.active, std::vector<std::string>{"a <= 1.2"});
+  EXPECT_TRUE(result.sd.empty() && result.lower.empty() && result.covariance.empty());
+}
+
+TEST(Calibration, TakesNoConstraintOfWhichItDoesNotKnowHowFarItIs) {
+  const std::string wrong = wrong_with(
+      within("(a < 1) * (b < 1)", two_variables(ranges[0], ranges[1], std::vector<double>(times, 1.0))));
+  EXPECT_NE(wrong.find("constraints[0]: \"(a < 1) * (b < 1)\" is no comparison"), std::string::npos) << wrong;
 }
 
 TEST(Calibration, TakesTheDerivativesThatVariantsHave) {

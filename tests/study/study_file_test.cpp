@@ -142,12 +142,34 @@ TEST(StudyFile, MovesAControlPointOnce) {
   EXPECT_NE(wrong.find("variables[0].transform.points[2]: is 2 again"), std::string::npos) << wrong;
 }
 
-// Where the mean is cut off: the mean of what is left.
+TEST(StudyFile, WarnsOfConstraintsThatASearchCannotFollow) {
+  const auto told = [](const std::string& constraint, const std::string& method) {
+    return wrong_with(R"json({"nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [0, 1]}], "constraints": ["x < 0.9", ")json" +
+                      constraint + R"json("],
+      "quantities": [{"name": "f", "value": "x"}], "optimise": {"minimise": "f", "method": ")json" +
+                      method + "\"}}");
+  };
+  EXPECT_EQ(told("(x > 0.5) * (x < 0.8)", "cobyla").find("study.json: constraints[1]: "), 0U);
+  EXPECT_EQ(told("(x > 0.5) * (x < 0.8)", "genetic"), "");
+  EXPECT_EQ(told("x > 0.5", "cobyla"), "");
+  const std::string once = told("x >", "cobyla");
+  EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1) << once;
+}
+
+// As it is cut off: phi(1) / (1 - Phi(1)), phi(1) / Phi(1); of a triangle the mean, not the peak.
 TEST(StudyFile, TakesTheMeanOfWhatIsLeftAsNominal) {
-  const StudyFile study = study_of(R"json({"nurbeam_study": 1, "variables": [{"name": "x",
-    "distribution": {"normal": {"mean": 0, "sd": 1}, "lower": 1}}],
-    "quantities": [{"name": "y", "value": "x"}], "plan": {"monte_carlo": {"count": 10}}})json");
-  EXPECT_NEAR(study.variables[0].nominal, 0.2419707245 / 0.1586552539, 1e-6);  // phi(1) / (1 - Phi(1))
+  for (const auto& [distribution, mean] :
+       {std::pair{R"("normal": {"mean": 0, "sd": 1}, "lower": 1)", 0.2419707245 / 0.1586552539},
+        {R"("normal": {"mean": 0, "sd": 1}, "upper": 1)", -0.2419707245 / 0.8413447461},
+        {R"("normal": {"mean": 0.3, "sd": 1})", 0.3},
+        {R"("triangular": [0, 1, 5])", 2.0}}) {
+    const StudyFile study =
+        study_of(R"json({"nurbeam_study": 1, "variables": [{"name": "x", "distribution": {)json" +
+                 std::string(distribution) + R"json(}}],
+      "quantities": [{"name": "y", "value": "x"}], "plan": {"monte_carlo": {"count": 10}}})json");
+    EXPECT_NEAR(study.variables[0].nominal, mean, 1e-6) << distribution;
+  }
 }
 
 TEST(StudyFile, RefusesNamesThatCannotHeadAColumn) {
