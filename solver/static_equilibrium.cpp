@@ -22,9 +22,7 @@ constexpr double noticeable_change = 1e-6;   ///< that is no round-off
 constexpr double settled_change = 0.05;      ///< in a proximal step, from which plain Newton is tried
 constexpr double proximal_tolerance = 1e-6;  ///< on the scaled residual of a proximal step, where it moves
 constexpr double first_increment = 0.1;
-constexpr double smallest_increment = 1e-6;
-constexpr double branching_increment = 1e-3;  ///< the smallest where the branch itself becomes unstable
-constexpr double leap = 1e-2;  ///< to where a branch has ended or is unstable by more than a little
+constexpr double smallest_increment = 1e-8;
 constexpr int easy_iterations = 6;
 constexpr int proximal_iterations = 15;
 constexpr double departing_change = 1e-2;  ///< from an unstable equilibrium, of a coordinate over its scale
@@ -88,10 +86,9 @@ class EquilibriumSearch {
       const Outcome outcome = reach(factor);
       if (outcome.converged) {
         if (outcome.iterations <= easy_iterations) increment *= 2;
-      } else if (increment > (outcome.branches() ? branching_increment : smallest_increment) &&
-                 !outcome.singular_at_start) {
+      } else if (increment > smallest_after(outcome) && !outcome.singular_at_start) {
         increment /= 2;
-      } else if (relax(diverged_ ? factor : load_after(std::max(increment, leap)))) {
+      } else if (relax(diverged_ ? factor : load_after(std::max(increment, leap())))) {
         increment = first_increment;
       } else {
         return;
@@ -99,6 +96,17 @@ class EquilibriumSearch {
     }
   }
 
+  /// Where the branch itself becomes unstable no smaller ones will follow it.
+  double smallest_after(const Outcome& outcome) const {
+    constexpr double largest = 1e-3, of_the_load = 1e-2;
+    if (!outcome.branches()) return smallest_increment;
+    return std::max(smallest_increment, std::min(largest, of_the_load * report_.load_factor));
+  }
+  /// To where a branch has ended or is unstable by more than a little, and not by much.
+  double leap() const {
+    constexpr double longest = 1e-2, of_the_load = 0.1;
+    return std::min(longest, of_the_load * report_.load_factor);
+  }
   double load_after(double increment) const { return std::min(1.0, report_.load_factor + increment); }
 
   /// Newton at a load factor from the last equilibrium to a stable one within the bound on the change, and on

@@ -228,6 +228,26 @@ TEST(Catenary, HangsFromAStraightLineThatIsTooShortForIt) {
   }
 }
 
+// Stiff enough to stand, it hangs all the same.
+TEST(Catenary, HangsWhereAnArchWouldStandToo) {
+  for (const char* support : {"clamped", "pinned"})
+    for (const double length : {1.109, 1.2, 1.5})
+      for (const double weight : {1.0, 2.0, 5.0, 10.0}) {  // of it all, in EI/L^2
+        const std::string ends = std::string(R"(", "type": ")") + support + "\" }";
+        std::ostringstream text;
+        text << R"({ "nurbeam": 1, "beams": [{ "name": "wire", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] },
+            "section": { "radius": )"
+             << std::sqrt(7800 * 9.81 * 4 / (2e11 * weight))
+             << R"( }, "material": { "density": 7800, "youngs_modulus": 2e11 }, "unstressed_length": )"
+             << length << R"(, "elements": { "count": 12 } }], "supports": [{ "beam": "wire", "at": "start)"
+             << ends << R"(, { "beam": "wire", "at": "end)" << ends << R"(], "analysis": { "type": "static" },
+            "output": { "report": false, "probes": [{ "name": "m", "beam": "wire", "at": { "fraction": 0.5 } }] } })";
+        const CaseRun r = run_text(text.str());
+        ASSERT_EQ(r.code, 0) << r.messages;
+        EXPECT_LT(r.last("m.z [m]"), -0.15) << support << length << " " << weight;
+      }
+}
+
 TEST(Catenary, HangsBetweenUnevenSupports) {
   const Hanging stiff = hang({.EA = 1e15, .w = 10}, 105, 100, -20);
   const double a = stiff.H / 10;
