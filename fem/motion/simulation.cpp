@@ -186,7 +186,7 @@ struct Simulation::Implementation {
   bool start_rest() {
     const std::vector<double>& times = run_.options.output_times;
     const double first = times.empty() ? run_.at.state.t : times.front();
-    const bool whole = times.size() <= 1 && (first == 0 || first == 1);  // without tables at 0
+    const bool whole = times.size() <= 1 && first == 1;
     if (!whole && asks_for_lengths(*run_.model)) {
       run_.at.state.t = 1;
       if (!find_lengths()) return false;

@@ -314,8 +314,8 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
 // force that moves, which is there in full.
 TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
   if (!load.time.empty() || load.moving_speed || analysis.load_factors.empty()) return load.time;
-  const double last = analysis.load_factors.back();
-  return last > 0 ? TimeTable{{0, 0}, {last, last}} : TimeTable{{0, 0}};
+  const double last = std::max(1.0, analysis.load_factors.back());
+  return {{0, 0}, {last, last}};
 }
 
 // That of a force or a moment at a place.

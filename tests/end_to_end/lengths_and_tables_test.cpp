@@ -211,6 +211,10 @@ TEST(LoadSteps, LeaveConnectorsTheirLengths) {
       EXPECT_NEAR(run.value(full, "e.z [m]"), plain.last("e.z [m]"), 1e-9) << length << steps;
       EXPECT_NEAR(run.value(full, "guy.force [N]"), plain.last("guy.force [N]"), 1e-6) << length << steps;
     }
+    const CaseRun half = run_text(text, {"analysis.load_steps=[0.5]"}),
+                  both = run_text(text, {"analysis.load_steps=[0.5, 1]"});
+    ASSERT_EQ(half.code, 0) << half.messages;
+    EXPECT_NEAR(half.last("e.z [m]"), both.value(0, "e.z [m]"), 1e-9) << length;
   }
 }
 
