@@ -95,7 +95,7 @@ std::optional<SquaredFrequencies> lowest(const Matrix& kkt, const Matrix& mass_k
   shifted += shift * mass_alone;
   std::optional<Eigenpairs> found = largest_eigenpairs(shift * M, shifted, count, between);
   if (!found) return std::nullopt;
-  constexpr double accuracy = 1e-12;  // of an eigenvalue near 1
+  constexpr double accuracy = 1e-14;  // of an eigenvalue near 1
   SquaredFrequencies result{shift * (found->values.cwiseInverse().array() - 1).matrix(), found->vectors,
                             accuracy * shift};
   for (Eigen::Index i = 0; i < result.values.size(); ++i) {
@@ -169,6 +169,15 @@ std::optional<Failure> find_vibrations(const ModesOptions& options, const std::f
 
 // ---- Buckling ----
 
+// That in which beams without torsion do not bend, in space: the strain of their bending is the size of the
+// curvature, across which it is as stiff, and which turns with the loads. Its stiffness is alike all around.
+BeamModel without_round_bending(const BeamModel& model, int dimension) {
+  BeamModel bare = model;
+  for (Beam& beam : bare.beams)
+    if (dimension == 3 && !beam.properties.sections) beam.properties.bending_stiffness = 0;
+  return bare;
+}
+
 // The same with all laws held on the side of their kinks where they are, by what they are there.
 State with_sides(const BeamSystem& system, State state) {
   state.memory.resize(0);
@@ -225,10 +234,10 @@ double longest(const BeamSystem& system, const Vector& change) {
 
 // By how much the section forces, multipliers and loads of `loaded` beside those of `system` stiffen it, by
 // what they are in first order.
-// `viscous`: `system` with viscous strains.
+// `stressed`: `system` without bending that is alike all around; `viscous`: that with viscous strains.
 std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const BeamSystem& loaded,
-                                                const BeamSystem& viscous, const State& state,
-                                                const Matrix& kkt) {
+                                                const BeamSystem& stressed, const BeamSystem& viscous,
+                                                const State& state, const Matrix& kkt) {
   const int n = system.coordinate_count(), m = system.constraint_count();
   Vector without(n + m), with(n + m);
   system.residual(state, without.head(n), without.tail(m));
@@ -236,25 +245,26 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   const EquilibratedKkt solver(kkt, n);
   if (!solver.regular()) return std::nullopt;
   Vector path = solver.solve(without - with);
-  const Vector scale = system.coordinate_scale();
   const double fastest = longest(system, path.head(n));
-  // What the loads could move were nothing else there: loads on supports move round-off of it.
+  // What the loads would do were nothing else there: those that constraints carry do round-off of it.
+  const Vector pull = (without - with).head(n);
   double free = 0;
   for (int i = 0; i < n; ++i)
-    if (kkt.coeff(i, i) > 0)
-      free = std::max(free, std::abs(without[i] - with[i]) / kkt.coeff(i, i) / scale[i]);
-  const bool moves = fastest > 1e-10 * free;
+    if (kkt.coeff(i, i) > 0) free += pull[i] * pull[i] / kkt.coeff(i, i);
+  const bool moves = std::abs(pull.dot(path.head(n))) > 1e-12 * free;
   if (!moves) path.head(n).setZero();  // constraints carry them all
   const State here = with_sides(system, state);
   // What stiffness of the strains, turned by the path, would change is of second order in the loads.
   const auto of_stresses = [&](const State& at) -> Matrix {
-    const Matrix of_strains = tangent(viscous, at, {.damping = 1}) - tangent(system, at, {.damping = 1});
-    return tangent(system, at, {.stiffness = 1}) - of_strains;
+    const Matrix of_strains = tangent(viscous, at, {.damping = 1}) - tangent(stressed, at, {.damping = 1});
+    return tangent(stressed, at, {.stiffness = 1}) - of_strains;
   };
   const auto slope = [&](double h) -> Matrix {
     return (of_stresses(along(here, path, h)) - of_stresses(along(here, path, -h))) / (2 * h);
   };
-  const double h = moves ? 2e-3 / fastest : 1;  // extrapolated: errors of h^4, round-off of 1e-13
+  // Extrapolated: errors of h^4, round-off of 1e-13. By multipliers alone it is linear.
+  const double multiplier = m > 0 ? path.tail(m).lpNorm<Eigen::Infinity>() : 0;
+  const double h = moves ? 2e-3 / fastest : multiplier > 0 ? largest_entry(kkt) / multiplier : 1;
   const Matrix geometric = (4 * slope(h / 2) - slope(h)) / 3;
   const Matrix of_loads = tangent(loaded, state, {.stiffness = 1}) - kkt;
   // Stresses have an energy, of which differences leave less of the symmetry than of exact tangents is left.
@@ -290,8 +300,10 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, const Mod
     return failure_of(Failure::Kind::resting_place);
   State state = at.state;
   state.load = 1;
-  const BeamSystem viscous(with_viscous_strains(at.system->model()), at.system->mesh().plan, held);
-  const auto by_loads = stiffness_of_loads(*at.system, loaded, viscous, state, kkt);
+  const BeamModel bare = without_round_bending(at.system->model(), at.system->dimension());
+  const BeamSystem stressed(bare, at.system->mesh().plan, held);
+  const BeamSystem viscous(with_viscous_strains(bare), at.system->mesh().plan, held);
+  const auto by_loads = stiffness_of_loads(*at.system, loaded, stressed, viscous, state, kkt);
   if (!by_loads) return failure_of(Failure::Kind::not_held);
   const Matrix& geometric = by_loads->geometric;
   if (!by_loads->loads_have_energy) return failure_of(Failure::Kind::no_energy);

@@ -352,6 +352,47 @@ TEST(Buckling, IsThatOfALoadThatARodCarries) {
   EXPECT_NEAR(factors[0], 3 * 2.1e11 * 1.3e-9 * 0.7, 1e-4 * factors[0]);
 }
 
+// Two rods hold a beam on them upright, as far as a spring does: P = k l/2, whatever the loads are beside
+// that.
+TEST(Buckling, OfLoadsThatRodsCarryIsInProportionToThem) {
+  for (const double load : {1.0, 1e-3, 1e-6}) {
+    std::ostringstream text;
+    text << R"("beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] },
+        "section": { "area": 0.01, "second_moment": 1e-4 }, "elements": { "count": 4 }, )"
+         << steel << R"(}], "loads": [{ "beam": "b", "at": "start", "force": [0, 0, )" << -load << R"(] },
+        { "beam": "b", "at": "end", "force": [0, 0, )"
+         << -load << R"(] }], "connectors": [
+        { "name": "left", "type": "rod", "from": { "beam": "b", "at": "start" }, "to": { "point": [0, 0, -1.5] } },
+        { "name": "right", "type": "rod", "from": { "beam": "b", "at": "end" }, "to": { "point": [1, 0, -1.5] } },
+        { "name": "spring", "from": { "beam": "b", "at": "end" }, "to": { "point": [2, 0, 0] }, "stiffness": 2000 }])";
+    const std::vector<double> factors = factors_of(text.str());
+    ASSERT_FALSE(factors.empty());
+    EXPECT_NEAR(factors[0] * load, 2000 * 1.5 / 2, 1e-2) << load;
+  }
+}
+
+// Wind across the weight turns the way in which a strut without torsion is bent, and no stiffness with it.
+TEST(Buckling, OfAStrutInAWindIsEulers) {
+  const auto strut = [](const std::string& loads, Left& left) {
+    run_modes_text(R"({ "nurbeam": 1, "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] },
+        "section": { "radius": 0.01 }, "elements": { "count": 16 }, )" +
+                       steel + R"(}],
+      "supports": [{ "beam": "b", "at": "start", "type": "pinned" },
+                   { "beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0] }],
+      "loads": [)" + loads +
+                       R"({ "beam": "b", "force_per_length": [0, 10, 0] }],
+      "analysis": { "type": "buckling", "modes": { "count": 1 } }, "output": { "report": false } })",
+                   left);
+  };
+  Left left, wind;
+  strut(R"({ "beam": "b", "at": "end", "force": [-1000, 0, 0] }, )", left);
+  ASSERT_EQ(left.code, 0) << left.messages;
+  const double euler = pi * pi * 2.1e11 * pi * 1e-8 / 4 / 4;
+  EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler / 1000, 2e-3);
+  strut("", wind);
+  EXPECT_EQ(wind.code, 3) << wind.messages;
+}
+
 // What a drawing says of a connector is its force, which gives its length.
 TEST(Modes, AboutTheDrawingHaveTheForcesOfConnectors) {
   const auto frequencies = [](const std::string& length) {
