@@ -5,8 +5,6 @@
 
 namespace nurbeam {
 
-using Vector = Eigen::VectorXd;
-
 State resting(const SecondOrderSystem& system, State state) {
   state.v.setZero(system.coordinate_count());
   state.a.setZero(system.coordinate_count());
@@ -16,13 +14,13 @@ State resting(const SecondOrderSystem& system, State state) {
 
 double ForceSizes::applied_force(const State& state) const {
   State free = resting(system_, state);
-  const Vector with_multipliers = dynamics(free);
+  const Eigen::VectorXd with_multipliers = dynamics(free);
   free.lambda.setZero();
-  const Vector without_multipliers = dynamics(free);
+  const Eigen::VectorXd without_multipliers = dynamics(free);
   free.load = 0;
-  const Vector unloaded = dynamics(free);
+  const Eigen::VectorXd unloaded = dynamics(free);
   free.load = 1;
-  const Vector loaded = dynamics(free);
+  const Eigen::VectorXd loaded = dynamics(free);
   return std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
 }
 
@@ -41,7 +39,7 @@ double ForceSizes::largest_force(const State& state) const {
 // What is held moved by G'g to where it is to be: of the size of what the constraints ask for.
 State ForceSizes::towards_constraints(State state) const {
   const int n = system_.coordinate_count(), m = system_.constraint_count();
-  Vector rows(n), constraints(m);
+  Eigen::VectorXd rows(n), constraints(m);
   system_.residual(state, rows, constraints);
   Eigen::SparseMatrix<double> kkt = system_.tangent_pattern().matrix();
   system_.tangent(state, {}, kkt);
@@ -51,8 +49,8 @@ State ForceSizes::towards_constraints(State state) const {
   return state;
 }
 
-Vector ForceSizes::dynamics(const State& state) const {
-  Vector rows(system_.coordinate_count()), constraints(system_.constraint_count());
+Eigen::VectorXd ForceSizes::dynamics(const State& state) const {
+  Eigen::VectorXd rows(system_.coordinate_count()), constraints(system_.constraint_count());
   system_.residual(state, rows, constraints);
   return rows;
 }
