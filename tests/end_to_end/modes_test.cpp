@@ -47,6 +47,15 @@ void run_modes_text(const std::string& text, Left& left) {
     left.run = nlohmann::json::parse(text_of_file(results / "run.json"));
 }
 
+/// Of each mode in a list of the summary.
+std::vector<double> numbers_of(const Left& left, const char* list, const char* key) {
+  EXPECT_EQ(left.code, 0) << left.messages;
+  std::vector<double> numbers;
+  if (left.code == 0)
+    for (const auto& mode : left.run[list]) numbers.push_back(mode[key].get<double>());
+  return numbers;
+}
+
 TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
   Left left;
   run_modes_text(cantilever_case(R"({ "type": "modes", "modes": { "count": 5 } })"), left);
@@ -253,11 +262,7 @@ TEST(Buckling, OfABarThatLiesAskewIsThatOfOneAlongAnAxis) {
   const auto factors = [&](const Eigen::Matrix3d& turn) {
     Left left;
     buckle({-900, 17, -12}, turn, left);
-    EXPECT_EQ(left.code, 0) << left.messages;
-    std::vector<double> result;
-    if (left.code == 0)
-      for (const auto& mode : left.run["buckling"]) result.push_back(mode["factor"].get<double>());
-    return result;
+    return numbers_of(left, "buckling", "factor");
   };
   // What bends it by its own size before it buckles is no load that has no energy.
   const auto bends = [&](const Eigen::Matrix3d& turn) {
@@ -287,11 +292,7 @@ std::vector<double> factors_of(const std::string& rest) {
       "output": { "report": false }, )" +
           rest + "}",
       left);
-  EXPECT_EQ(left.code, 0) << left.messages;
-  std::vector<double> result;
-  if (left.code == 0)
-    for (const auto& mode : left.run["buckling"]) result.push_back(mode["factor"].get<double>());
-  return result;
+  return numbers_of(left, "buckling", "factor");
 }
 const std::string steel =
     R"("material": { "density": 7800, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3 })";
@@ -402,11 +403,7 @@ TEST(Modes, AboutTheDrawingHaveTheForcesOfConnectors) {
           "to": { "point": [2, 0.5, 0] }, "stiffness": 2e4, "type": "tension-only", )" +
                                        length + "}],"),
                    left);
-    EXPECT_EQ(left.code, 0) << left.messages;
-    std::vector<double> result;
-    if (left.code == 0)
-      for (const auto& mode : left.run["modes"]) result.push_back(mode["frequency [Hz]"].get<double>());
-    return result;
+    return numbers_of(left, "modes", "frequency [Hz]");
   };
   const std::vector<double> by_force = frequencies(R"("force": 500)"),
                             by_length = frequencies(R"("length": 0.475)");
