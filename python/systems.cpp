@@ -8,6 +8,7 @@
 #include "python/bindings.h"
 #include "python/laws.h"
 #include "python/live_run.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam::python {
 
@@ -113,9 +114,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> residual(const Equations& e, const s
 
 Eigen::SparseMatrix<double> tangent(const Equations& e, double mass, double damping, double stiffness,
                                     const std::optional<double>& t, Given q, Given v, Given a, Given lambda) {
-  Eigen::SparseMatrix<double> kkt = e.system().tangent_pattern().matrix();
-  e.system().tangent(e.at(t, q, v, a, lambda), {mass, damping, stiffness}, kkt);
-  return kkt;
+  return tangent_matrix(e.system(), e.at(t, q, v, a, lambda), {mass, damping, stiffness});
 }
 
 }  // namespace

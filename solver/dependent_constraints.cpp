@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "solver/tangent_matrix.h"
+
 namespace nurbeam {
 
 namespace {
@@ -17,8 +19,7 @@ struct Entry {
 
 // The rows of G, each of unit length.
 std::vector<std::vector<Entry>> unit_rows(const SecondOrderSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(state, {}, kkt);
+  Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {});
   const int n = system.coordinate_count();
   std::vector<std::vector<Entry>> rows(system.constraint_count());
   for (int column = 0; column < n; ++column)

@@ -3,6 +3,8 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 
+#include "solver/tangent_matrix.h"
+
 namespace nurbeam {
 
 State resting(const SecondOrderSystem& system, State state) {
@@ -41,8 +43,7 @@ State ForceSizes::towards_constraints(State state) const {
   const int n = system_.coordinate_count(), m = system_.constraint_count();
   Eigen::VectorXd rows(n), constraints(m);
   system_.residual(state, rows, constraints);
-  Eigen::SparseMatrix<double> kkt = system_.tangent_pattern().matrix();
-  system_.tangent(state, {}, kkt);
+  Eigen::SparseMatrix<double> kkt = tangent_matrix(system_, state, {});
   for (int row = 0; row < m; ++row)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(kkt, n + row); entry; ++entry)
       if (entry.row() < n) state.q[entry.row()] -= entry.value() * constraints[row];

@@ -8,6 +8,7 @@
 
 #include "fem/system/observables.h"
 #include "solver/kkt_solver.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -70,8 +71,7 @@ std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::
 
 std::optional<Eigen::MatrixXd> holding_stiffness(const BeamSystem& system, const State& state,
                                                  const std::vector<int>& joints) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(state, {.stiffness = 1}, kkt);
+  Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {.stiffness = 1});
   KktSolver solver;
   if (!solver.factorise(kkt)) return {};
   const int n = system.coordinate_count();

@@ -8,6 +8,7 @@
 #include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
 #include "solver/equilibrated_kkt.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -75,8 +76,7 @@ class LengthEquations {
 
   // dq/dl_0 of the equilibrium, a column per connector.
   Eigen::MatrixXd by_lengths(const std::vector<int>& connectors) const {
-    Eigen::SparseMatrix<double> kkt = a_.tangent_pattern().matrix();
-    a_.tangent(state_, {.stiffness = 1}, kkt);
+    Eigen::SparseMatrix<double> kkt = tangent_matrix(a_, state_, {.stiffness = 1});
     const int n = a_.coordinate_count();
     const EquilibratedKkt solver(kkt, n);
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(connectors.size()));

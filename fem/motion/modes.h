@@ -6,7 +6,6 @@
 #include "fem/motion/mesh_rules.h"
 #include "fem/motion/meshed_state.h"
 #include "fem/motion/resting_place.h"
-#include "fem/motion/snapshot.h"
 
 namespace nurbeam {
 
@@ -42,24 +41,12 @@ struct ModesReport {
 
 /// Small vibrations about a state at rest, or the factors on loads under which it buckles. Constraints hold
 /// exactly, in first order: shapes lie in the null space of their gradients. K is the tangent of the state,
-/// with the geometric stiffness of its section forces, supports and loads. K_g is by what the
-/// stresses of the linear response to the loads stiffen it, by central differences extrapolated once, with
-/// the stiffness of the loads themselves; factors with which that response is no small one are left out.
+/// with the geometric stiffness of its section forces, supports and loads.
 ///
 /// In the model's own coordinates. Fails where the state is unstable, the tangent is not symmetric (loads
 /// that follow a section, moments in space) or the eigenvalues are not found. `interrupted` is asked all
 /// along: true ends the search, and its report says so.
 ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
                        const std::function<bool()>& interrupted);
-
-/// The amplitude [s.u.] that makes a shape well visible: no node moves by more than a twentieth of the
-/// model's size, no slope by more than 0.5 and no section turns by more than 0.5.
-double visible_amplitude(const MeshedState& at, const Mode& mode);
-
-/// The state at rest moved by `amount` times the shape: places of the points, and as velocities `rate` times
-/// the shape. Section forces, energies and reactions stay those at rest: of large linear displacements they
-/// would mean nothing.
-Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, double rate,
-                     const std::vector<ProbePlace>& probes);
 
 }  // namespace nurbeam

@@ -6,16 +6,13 @@
 #include <optional>
 
 #include "solver/eigenpairs.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
 double longest_explicit_step(const BeamSystem& system, const State& state) {
   const int n = system.coordinate_count();
-  const auto tangent = [&](const TangentWeights& weights) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-    system.tangent(state, weights, kkt);
-    return kkt;
-  };
+  const auto tangent = [&](const TangentWeights& weights) { return tangent_matrix(system, state, weights); };
   const Eigen::SparseMatrix<double> K = tangent({.stiffness = 1}).topLeftCorner(n, n);
   const std::optional<Eigenpairs> fastest = largest_eigenpairs(K, tangent({.mass = 1}), 1);
   constexpr double never = std::numeric_limits<double>::infinity();

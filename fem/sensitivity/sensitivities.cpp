@@ -18,6 +18,7 @@
 #include "solver/equilibrated_kkt.h"
 #include "solver/near_equilibrium.h"
 #include "solver/side_by_side.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -208,8 +209,7 @@ void Sensitivities::begins(const MeshedState& drawn) {
 
 void Sensitivities::rests(const MeshedState& at) {
   const int n = at.system->coordinate_count(), m = at.system->constraint_count();
-  Eigen::SparseMatrix<double> stiffness = at.system->tangent_pattern().matrix();
-  at.system->tangent(at.state, {.stiffness = 1}, stiffness);
+  Eigen::SparseMatrix<double> stiffness = tangent_matrix(*at.system, at.state, {.stiffness = 1});
   ++work_.tangents;
   side_by_side(static_cast<int>(parameters_.size()), [&](int k) {
     Parameter& parameter = parameters_[static_cast<std::size_t>(k)];

@@ -11,6 +11,7 @@
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "solver/dependent_constraints.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -72,8 +73,7 @@ class FreedomCheck {
     const BeamSystem system(model_);
     State state = drawn_state(system);
     start_moving(system, state);
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-    system.tangent(state, {}, kkt);
+    Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {});
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(kkt.rows());
     padded.head(system.coordinate_count()) = state.v;
     const Eigen::VectorXd rates = (kkt * padded).tail(system.constraint_count());

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "fem/motion/mode_shape.h"
 #include "fem/motion/modes.h"
 #include "pipelines/run/simulation_plan.h"
 

@@ -17,6 +17,7 @@
 #include "pipelines/verification/verify_oracles.h"
 #include "pipelines/verification/verify_run.h"
 #include "solver/consistent.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -32,9 +33,7 @@ using std::numbers::pi;
 Eigen::VectorXd frequencies(const BeamSystem& system, const State& state) {
   const int n = system.coordinate_count();
   const auto tangent = [&](const TangentWeights& w) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-    system.tangent(state, w, kkt);
-    return Eigen::MatrixXd(kkt);
+    return Eigen::MatrixXd(tangent_matrix(system, state, w));
   };
   const Eigen::MatrixXd M = tangent({.mass = 1}), K = tangent({.stiffness = 1});
   const Eigen::MatrixXd free = M.bottomLeftCorner(system.constraint_count(), n).fullPivLu().kernel();

@@ -15,6 +15,7 @@
 #include "solver/consistent.h"
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -75,8 +76,7 @@ struct Flight {
   /// About the origin [kg m^2/s]: by the rotations of all nodes, which turn the angle by w . (t + m)/(1 + t .
   /// m).
   Vector3d angular_momentum() const {
-    Eigen::SparseMatrix<double> kkt = at.system->tangent_pattern().matrix();
-    at.system->tangent(at.state, {.mass = 1}, kkt);
+    Eigen::SparseMatrix<double> kkt = tangent_matrix(*at.system, at.state, {.mass = 1});
     const VectorXd p = kkt * at.state.v;
     Vector3d sum = Vector3d::Zero();
     const auto& nodes = at.system->mesh().nodes[0];

@@ -9,6 +9,7 @@
 #include "fem/system/observables.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 
@@ -29,11 +30,7 @@ struct AllowedMotions {
 
   AllowedMotions(const BeamSystem& system, const State& state) {
     const int n = system.coordinate_count(), m = system.constraint_count();
-    const auto tangent = [&](const TangentWeights& w) {
-      Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-      system.tangent(state, w, kkt);
-      return MatrixXd(kkt);
-    };
+    const auto tangent = [&](const TangentWeights& w) { return MatrixXd(tangent_matrix(system, state, w)); };
     const MatrixXd stiffness = tangent({.stiffness = 1});
     const MatrixXd Z =
         m == 0 ? MatrixXd::Identity(n, n) : MatrixXd(stiffness.bottomLeftCorner(m, n).fullPivLu().kernel());
@@ -131,8 +128,7 @@ State twisted_state(const BeamSystem& system, double M) {
 
 /// The stiffness at a state with coordinates `held` and others tied to one another.
 MatrixXd stiffness(const BeamSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(state, {.stiffness = 1}, kkt);
+  Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {.stiffness = 1});
   return MatrixXd(kkt).topLeftCorner(system.coordinate_count(), system.coordinate_count());
 }
 
@@ -214,8 +210,7 @@ State equilibrium(const BeamSystem& system, State state, double load) {
   for (int i = 0; i < 30; ++i) {
     VectorXd rows(n + m);
     system.residual(state, rows.head(n), rows.tail(m));
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-    system.tangent(state, {.stiffness = 1}, kkt);
+    Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {.stiffness = 1});
     const VectorXd step = MatrixXd(kkt).partialPivLu().solve(rows);
     state.q -= step.head(n);
     state.lambda -= step.tail(m);

@@ -8,6 +8,7 @@
 #include "fem/motion/simulation.h"
 #include "fem/system/beam_system.h"
 #include "nurbs/primitives.h"
+#include "solver/tangent_matrix.h"
 
 namespace nurbeam {
 namespace {
@@ -18,8 +19,7 @@ struct Momenta {
 
 // p = M v; a rotation turns positions and slopes.
 Momenta momenta_of(const BeamSystem& system, const State& state) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(state, {.mass = 1}, kkt);
+  Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {.mass = 1});
   const Eigen::VectorXd p =
       (kkt *
        (Eigen::VectorXd(kkt.rows()) << state.v, Eigen::VectorXd::Zero(system.constraint_count())).finished())

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fem/system/beam_system.h"
+#include "solver/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {
@@ -49,8 +50,7 @@ void check_custom_tangent(int seed) {
     return rows;
   };
   const auto product = [&](const TangentWeights& w, const Eigen::VectorXd& x) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-    system.tangent(state, w, kkt);
+    Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, w);
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(n + m);
     padded.head(n) = x;
     return Eigen::VectorXd((kkt * padded).head(n));

@@ -7,8 +7,10 @@
 #include <memory>
 #include <random>
 
+#include "fem/motion/mode_shape.h"
 #include "fem/system/initial_state.h"
 #include "solver/static_equilibrium.h"
+#include "solver/tangent_matrix.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {
@@ -25,9 +27,7 @@ ModesReport modes_of(const BeamModel& model, const ModesOptions& options = {}) {
 Eigen::VectorXd dense_squares(const BeamSystem& system, const State& state) {
   const int n = system.coordinate_count();
   const auto tangent = [&](const TangentWeights& w) {
-    Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-    system.tangent(state, w, kkt);
-    return Eigen::MatrixXd(kkt);
+    return Eigen::MatrixXd(tangent_matrix(system, state, w));
   };
   const Eigen::MatrixXd M = tangent({.mass = 1}), K = tangent({.stiffness = 1});
   const Eigen::MatrixXd Z = M.bottomLeftCorner(system.constraint_count(), n).fullPivLu().kernel();
@@ -67,8 +67,7 @@ TEST(Modes, ShapesHoldTheConstraintsAndHaveUnitMass) {
   ASSERT_FALSE(found.rest.failure);
   const BeamSystem& system = *found.at.system;
   const int n = system.coordinate_count(), m = system.constraint_count();
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(found.at.state, {.mass = 1}, kkt);
+  Eigen::SparseMatrix<double> kkt = tangent_matrix(system, found.at.state, {.mass = 1});
   const Eigen::MatrixXd dense(kkt);
   for (const Mode& a : found.modes) {
     EXPECT_LT((dense.bottomLeftCorner(m, n) * a.shape).norm(), 1e-9 * a.shape.norm());

@@ -8,6 +8,7 @@
 #include "fem/system/material_points.h"
 #include "solver/consistent.h"
 #include "solver/generalized_alpha.h"
+#include "solver/tangent_matrix.h"
 #include "solver/tangent_rows.h"
 #include "tests/fem/torsion_models.h"
 
@@ -39,9 +40,7 @@ Eigen::VectorXd residual(const BeamSystem& system, const State& state) {
 }
 
 Eigen::SparseMatrix<double> tangent(const BeamSystem& system, const State& state, const TangentWeights& w) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(state, w, kkt);
-  return kkt;
+  return tangent_matrix(system, state, w);
 }
 
 // The state moved by h along a direction of (q, v, a, lambda).

@@ -8,6 +8,7 @@
 
 #include "fem/motion/simulation.h"
 #include "fem/system/initial_state.h"
+#include "solver/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam::testing {
@@ -51,11 +52,7 @@ TEST(ConnectedSystem, TangentsAreRatesOfForces) {
     const BeamSystem system(connected_model(random, dimension));
     const State state = disturbed_state(system, random, 0.02);
     const int n = system.coordinate_count();
-    const auto along = [&](const TangentWeights& w) {
-      Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-      system.tangent(state, w, kkt);
-      return kkt;
-    };
+    const auto along = [&](const TangentWeights& w) { return tangent_matrix(system, state, w); };
     const Eigen::SparseMatrix<double> K = along({.stiffness = 1}), C = along({.damping = 1}),
                                       M = along({.mass = 1});
     std::uniform_real_distribution<double> unit(-1, 1);

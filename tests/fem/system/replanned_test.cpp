@@ -5,6 +5,7 @@
 #include "fem/system/assembly.h"
 #include "fem/system/same_elements.h"
 #include "solver/consistent.h"
+#include "solver/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {
@@ -52,9 +53,7 @@ void for_each_change(int dimension, Check&& check) {
 
 Eigen::SparseMatrix<double> tangent_of(const BeamSystem& system, const State& state,
                                        const TangentWeights& w) {
-  Eigen::SparseMatrix<double> kkt = system.tangent_pattern().matrix();
-  system.tangent(state, w, kkt);
-  return kkt;
+  return tangent_matrix(system, state, w);
 }
 
 // (n) M v.
