@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fem/motion/free_lengths.h"
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
 
@@ -45,6 +46,38 @@ void Run::start_afresh(const Integrator* before) {
 void Run::note(RunEvent event) {
   if (observer.follower) observer.follower->happens(event);
   report.events.push_back(std::move(event));
+}
+
+Checkpoint Run::checkpoint() const {
+  Checkpoint point;
+  point.plan = at.system->mesh().plan;
+  point.state = at.state;
+  point.history = integrator->history();
+  point.next_step = step;
+  point.last_step = last_step;
+  point.transient = transient;
+  point.restarted = restarted;
+  point.dissipated = account.dissipated();
+  point.input = account.input();
+  point.start_energy = account.start();
+  for (const Connector& connector : model->connectors) point.connector_lengths.push_back(connector.length);
+  point.steps = steps;
+  return point;
+}
+
+void Run::go_on_from(const Checkpoint& point) {
+  model = with_lengths(*model, point.connector_lengths);
+  at = {std::make_unique<BeamSystem>(model, point.plan), point.state};
+  integrator = start_integrator(options.integrator, *at.system, at.state);
+  integrator->restore(point.state, point.history);
+  step = point.next_step;
+  last_step = point.last_step;
+  transient = point.transient;
+  restarted = point.restarted;
+  account = EnergyAccount(point.dissipated, point.input, point.start_energy);
+  steps = point.steps;
+  report = point.report;
+  report.energy_noise = energy_noise(*model);
 }
 
 bool Run::goes_on(std::optional<Failure> failure) {

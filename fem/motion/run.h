@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/motion/checkpoint.h"
 #include "fem/motion/energy_account.h"
 #include "fem/motion/meshed_state.h"
 #include "fem/motion/simulation_options.h"
@@ -54,6 +55,10 @@ struct Run {
   bool restart_balanced(const std::vector<int>& around);
   /// Writes an event down.
   void note(RunEvent event);
+
+  /// What of a checkpoint is the run's: the simulation adds what it has written, and the time that took.
+  Checkpoint checkpoint() const;
+  void go_on_from(const Checkpoint& point);
 
   bool goes_on(std::optional<Failure> failure);
   bool fail(Failure::Kind kind) { return goes_on(Failure{.kind = kind, .time = at.state.t}); }

@@ -108,22 +108,9 @@ struct Simulation::Implementation {
 
   Checkpoint checkpoint() const {
     if (!run_.integrator) throw std::invalid_argument("a checkpoint is one of a motion that has begun");
-    Checkpoint point;
+    Checkpoint point = run_.checkpoint();
     point.snapshots = next_output_;
-    point.plan = run_.at.system->mesh().plan;
-    point.state = run_.at.state;
-    point.history = run_.integrator->history();
-    point.next_step = run_.step;
-    point.last_step = run_.last_step;
-    point.transient = run_.transient;
-    point.restarted = run_.restarted;
-    point.dissipated = run_.account.dissipated();
-    point.input = run_.account.input();
-    point.start_energy = run_.account.start();
-    for (const Connector& connector : run_.model->connectors)
-      point.connector_lengths.push_back(connector.length);
     point.iterations_in_snapshots = iterations_written_;
-    point.steps = run_.steps;
     point.report = report_up_to_now();
     return point;
   }
@@ -246,18 +233,7 @@ struct Simulation::Implementation {
   }
 
   void go_on_from(const Checkpoint& point) {
-    run_.model = with_lengths(*run_.model, point.connector_lengths);
-    run_.at = {std::make_unique<BeamSystem>(run_.model, point.plan), point.state};
-    run_.integrator = start_integrator(run_.options.integrator, *run_.at.system, run_.at.state);
-    run_.integrator->restore(point.state, point.history);
-    run_.step = point.next_step;
-    run_.last_step = point.last_step;
-    run_.transient = point.transient;
-    run_.restarted = point.restarted;
-    run_.account = EnergyAccount(point.dissipated, point.input, point.start_energy);
-    run_.steps = point.steps;
-    run_.report = point.report;
-    run_.report.energy_noise = energy_noise(*run_.model);
+    run_.go_on_from(point);
     iterations_written_ = point.iterations_in_snapshots;
     next_output_ = point.snapshots;
     seconds_ = run_.report.motion_seconds + run_.report.length_control_seconds;
