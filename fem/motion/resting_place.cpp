@@ -11,8 +11,10 @@
 #include "fem/motion/crossing.h"
 #include "fem/motion/descent.h"
 #include "fem/motion/friction_modes.h"
+#include "fem/motion/loaded_between.h"
 #include "fem/motion/recentring.h"
 #include "fem/motion/sliding_bodies.h"
+#include "fem/motion/snap.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "solver/static_equilibrium.h"
@@ -48,56 +50,6 @@ std::vector<double> present_places(const MeshedState& at) {
   return places;
 }
 
-// A share of a model's loads at a time.
-struct Loading {
-  double load, t;
-};
-
-// A system whose load factor 0 is one loading and 1 another: on the way from an equilibrium under the first.
-// Its tangent throws Interruption where the search is to end.
-class LoadedBetween final : public SecondOrderSystem {
- public:
-  LoadedBetween(const SecondOrderSystem& system, Loading from, Loading to,
-                const std::function<bool()>& interrupted)
-      : system_(system), from_(from), to_(to), interrupted_(interrupted) {}
-
-  Loading at(double factor) const {
-    return {from_.load + (to_.load - from_.load) * factor, from_.t + (to_.t - from_.t) * factor};
-  }
-
-  int coordinate_count() const override { return system_.coordinate_count(); }
-  int constraint_count() const override { return system_.constraint_count(); }
-  void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
-                Eigen::Ref<Eigen::VectorXd> constraints) const override {
-    system_.residual(loaded(state), dynamics, constraints);
-  }
-  const SparsePattern& tangent_pattern() const override { return system_.tangent_pattern(); }
-  void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override {
-    if (interrupted_ && interrupted_()) throw Interruption{};
-    system_.tangent(loaded(state), w, kkt);
-  }
-  Eigen::VectorXd constraint_rate(const State& state) const override {
-    return system_.constraint_rate(state);
-  }
-  Eigen::VectorXd constraint_curvature(const State& state) const override {
-    return system_.constraint_curvature(state);
-  }
-  bool admissible(const State& state) const override { return system_.admissible(state); }
-  Eigen::VectorXd coordinate_scale() const override { return system_.coordinate_scale(); }
-
- private:
-  State loaded(State state) const {
-    const Loading now = at(state.load);
-    state.load = now.load;
-    state.t = now.t;
-    return state;
-  }
-
-  const SecondOrderSystem& system_;
-  Loading from_, to_;
-  const std::function<bool()>& interrupted_;
-};
-
 // Brings `at` to rest.
 class RestSearch {
  public:
@@ -105,6 +57,11 @@ class RestSearch {
   RestSearch(MeshedState& at, const LengthControl& control, const std::function<bool()>& interrupted,
              std::optional<double> equilibrium = {})
       : at_(at), control_(control), interrupted_(interrupted), equilibrium_(equilibrium) {}
+
+  RestSearch& watching_snaps() {
+    watches_ = true;
+    return *this;
+  }
 
   RestReport held_equilibrium() {
     return told([&] { hold_in_equilibrium(at_.system->mesh().plan); });
@@ -194,7 +151,11 @@ class RestSearch {
     at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
     const Loading to{1, at.state.t};
     const bool later = equilibrium_ && *equilibrium_ != to.t;
-    StaticReport found = load(at, later ? Loading{1, *equilibrium_} : Loading{0, to.t}, to);
+    const Loading from = later ? Loading{1, *equilibrium_} : Loading{0, to.t};
+    const State before = at.state;
+    StaticReport found = load(at, from, to);
+    if (watches_ && found.status == StaticStatus::converged && (later || !equilibrium_) && !report_.snap)
+      report_.snap = find_snap(*at.system, {before, from}, {at.state, to}, interrupted_);
     // Sections that turn far stop it half way, in charts that go no further.
     const MeshedState start = at;
     constexpr int most_recentrings = 20;
@@ -313,6 +274,7 @@ class RestSearch {
   const std::function<bool()>& interrupted_;
   std::optional<double> equilibrium_;  // the time of the last one found
   std::vector<CoupledDescent> coupled_;
+  bool watches_ = false;
   RestReport report_;
 };
 
@@ -337,19 +299,22 @@ RestReport find_start(MeshedState& at, const LengthControl& control,
   const std::vector<bool> slides = sliding_at_rest(at.system->model(), StaticPlace::held);
   const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
   RestSearch search(at, control, interrupted);
+  search.watching_snaps();
   return any ? search.rest(slides) : search.held_equilibrium();
 }
 
 RestReport find_rest(MeshedState& at, const LengthControl& control,
                      const std::function<bool()>& interrupted) {
-  return RestSearch(at, control, interrupted).rest(sliding_at_rest(at.system->model(), StaticPlace::free));
+  return RestSearch(at, control, interrupted)
+      .watching_snaps()
+      .rest(sliding_at_rest(at.system->model(), StaticPlace::free));
 }
 
 RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
                           const std::function<bool()>& interrupted) {
   RestSearch search(at, control, interrupted, at.state.t);
   at.state.t = t;
-  return search.rest(sliding_at_rest(at.system->model(), StaticPlace::free));
+  return search.watching_snaps().rest(sliding_at_rest(at.system->model(), StaticPlace::free));
 }
 
 }  // namespace nurbeam

@@ -2,6 +2,7 @@
 #include <functional>
 #include <optional>
 
+#include "fem/motion/loaded_between.h"
 #include "fem/motion/meshed_state.h"
 
 namespace nurbeam {
@@ -13,13 +14,11 @@ struct RestReport {
   /// Whether what rests anywhere but at an end, a stop or by friction is free to slide there in the state
   /// that was found; else it is held, as nothing was found nearby with which it is free.
   bool freed = true;
-  bool diverges = false;  ///< StaticReport::diverges of an equilibrium on the way
+  bool diverges = false;             ///< StaticReport::diverges of an equilibrium on the way
+  std::optional<Loading> snap = {};  ///< what the model snaps through or buckles under, on the way
   long load_steps = 0, newton_iterations = 0;
   double length_control_seconds = 0;
 };
-
-/// Thrown out of a search that is to end, and caught where that began.
-struct Interruption {};
 
 /// Brings a model to equilibrium with all sliding bodies held where they are; the mesh then holds them.
 /// `interrupted` is asked at every Newton iteration, here and below; a search that it ends leaves a state

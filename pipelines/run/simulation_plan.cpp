@@ -75,6 +75,17 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
       "space have no energy that it could be the least of; see with a damped dynamic analysis where it goes"};
 }
 
+std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run) {
+  constexpr double slight = 0.01;  // of the loads: what hangs loosely finds its shape
+  if (!run.snap || *run.snap < slight) return {};
+  return Diagnostic{
+      Severity::warning, file.string() + ": loads",
+      "the model snaps through or buckles under " + text_of(*run.snap, 3) +
+          " of its loads: the equilibrium beyond is on another branch, of which there may be "
+          "several; \"load_steps\" show the way up to there, a damped dynamic analysis where it "
+          "goes from there"};
+}
+
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run) {
   const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
   const bool between_events = run.integration_error > noticed;

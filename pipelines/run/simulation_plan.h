@@ -25,6 +25,9 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
 /// A warning where an equilibrium is unstable and no stable one was found; `file` heads it.
 std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run);
 
+/// A warning where loads have led past the end of a branch of equilibria; `file` heads it.
+std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run);
+
 /// A warning where energy comes from nowhere or is lost; `file` heads it.
 std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
 

@@ -76,6 +76,70 @@ TEST(Elastica, ADeadTipLoadBendsTheBeamAsMattiassonSays) {
   }
 }
 
+// ---- Snapping through ----
+
+// A flat truss of two hinged bars: P = E A (h^2 - u^2) u / l^3 at a rise of u, greatest at h / sqrt(3).
+TEST(SnapThrough, OfATrussIsToldWithTheLoadThatItIsUnder) {
+  const double h = 0.01, area = pi * 0.005 * 0.005, l = std::hypot(0.5, h);
+  const double greatest = 2 / (3 * std::sqrt(3.0)) * 7e10 * area * std::pow(h, 3) / std::pow(l, 3);
+  const std::string truss =
+      R"({ "nurbeam": 1, "gravity": [0, 0, 0], "beams": [{ "name": "b", "corners": "hinge",
+      "axis": { "polyline": [[0, 0, 0], [0.5, 0.01, 0], [1, 0, 0]] }, "section": { "radius": 0.005 },
+      "material": { "density": 2700, "youngs_modulus": 7e10 }, "elements": { "count": 8 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "pinned" }, { "beam": "b", "at": "end", "type": "pinned" }],
+    "loads": [{ "beam": "b", "at": { "fraction": 0.5 }, "force": [0, -1, 0] }], "analysis": { "type": "static" },
+    "output": { "report": false } })";
+  const std::string told = "the model snaps through or buckles under ";
+  for (const double over : {1.3, 4.0, 30.0}) {
+    const CaseRun beyond = run_text(truss, {set_y("loads[0].force", -over * greatest)});
+    ASSERT_EQ(beyond.code, 0) << beyond.messages;
+    const auto at = beyond.messages.find(told);
+    ASSERT_NE(at, std::string::npos) << over << beyond.messages;
+    EXPECT_NEAR(std::stod(beyond.messages.substr(at + told.size())), 1 / over, 2e-3) << over;
+  }
+  const CaseRun steps = run_text(truss, {set_y("loads[0].force", -4 * greatest), "analysis.load_steps=10"});
+  EXPECT_TRUE(steps.says(told + "0.25 of its loads")) << steps.messages;
+  const CaseRun below = run_text(truss, {set_y("loads[0].force", -0.97 * greatest)});
+  ASSERT_EQ(below.code, 0) << below.messages;
+  EXPECT_FALSE(below.says(told)) << below.messages;
+}
+
+// It may buckle to either side.
+TEST(SnapThrough, IsToldOfAStraightStrutThatBuckles) {
+  const double euler = pi * pi * 7e10 * pi * std::pow(0.005, 4) / 4;
+  const std::string strut = R"({ "nurbeam": 1, "gravity": [0, 0, 0], "beams": [{ "name": "b",
+      "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.005 },
+      "material": { "density": 2700, "youngs_modulus": 7e10 }, "elements": { "count": 12 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "pinned" },
+                 { "beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0] }],
+    "loads": [{ "beam": "b", "at": "end", "force": [0, 0, 0] }], "analysis": { "type": "static" },
+    "output": { "report": false } })";
+  const auto pressed = [&](double over) {
+    const std::string force = set("loads[0].force", -over * euler);
+    const auto value = force.find('=') + 1;
+    return run_text(strut, {force.substr(0, value) + "[" + force.substr(value) + ",0,0]"});
+  };
+  EXPECT_TRUE(pressed(1.6).says("buckles under 0.62")) << pressed(1.6).messages;
+  EXPECT_FALSE(pressed(0.99).says("buckles")) << pressed(0.99).messages;
+}
+
+// What moves far, but smoothly, is on one branch.
+TEST(SnapThrough, IsNotToldOfWhatMovesFar) {
+  const CaseRun bent = run("elastica.json", {set_y("loads[0].force", -10)});
+  EXPECT_FALSE(bent.says("buckles")) << bent.messages;
+  const CaseRun rolled = run("rollup.json");
+  EXPECT_FALSE(rolled.says("buckles")) << rolled.messages;
+  const CaseRun hanging = run_text(R"({ "nurbeam": 1, "gravity": [0, -9.81, 0], "beams": [{ "name": "b",
+      "axis": { "polyline": [[0, 0, 0], [10, 0, 0]] }, "section": { "radius": 0.002 },
+      "unstressed_length": 10.5, "material": { "density": 7850, "youngs_modulus": 2e11 },
+      "elements": { "count": 20 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "pinned" }, { "beam": "b", "at": "end", "type": "pinned" }],
+    "loads": [{ "beam": "b", "at": { "fraction": 0.3 }, "force": [0, -50, 0] }], "analysis": { "type": "static" },
+    "output": { "report": false } })");
+  ASSERT_EQ(hanging.code, 0) << hanging.messages;
+  EXPECT_FALSE(hanging.says("buckles")) << hanging.messages;
+}
+
 // ---- Struts ----
 
 /// A steel bar of 2 m along z, clamped at its start A; its middle is p, its end e.

@@ -1,0 +1,130 @@
+#include "fem/motion/snap.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <utility>
+
+#include "solver/equilibrated_kkt.h"
+#include "solver/static_equilibrium.h"
+#include "solver/tangent_matrix.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr double resolution = 1e-3;  // of the way
+constexpr double near_no_load = 0.02;
+constexpr int few_load_steps = 12, most_load_steps = 400;  // of one, and of all equilibria in between
+
+class SnapSearch {
+ public:
+  SnapSearch(const BeamSystem& system, Loading from, Loading to, const std::function<bool()>& interrupted)
+      : system_(system),
+        way_(system, from, to, interrupted),
+        interrupted_(interrupted),
+        scale_(system.coordinate_scale()),
+        first_(from.load > 0 ? 0 : near_no_load) {}
+
+  // How far on the way from `from` to `to` (0 and 1).
+  std::optional<double> run(const State& from, const State& to) {
+    State start = from;
+    if (!settle(start, 0, 0, few_load_steps)) return {};
+    whole_ = distance(start, to);
+    constexpr double noticeable = 1e-6;  // of the model
+    if (whole_ < noticeable) return {};
+    return between({start, 0}, {to, 1});
+  }
+
+ private:
+  struct Point {
+    State state;
+    double part;  // of the way
+  };
+
+  std::optional<double> between(const Point& a, const Point& b) {
+    if (b.part <= first_ || joined(a, b)) return {};
+    if (b.part - a.part <= resolution) {
+      constexpr double jump = 0.02;  // of the whole way: twenty times what it would go on an even one
+      if (distance(a.state, b.state) > jump * whole_) return b.part;
+      return {};
+    }
+    const std::optional<Point> middle = between_equilibria(a, b);
+    if (!middle) return {};
+    if (const auto found = between(a, *middle)) return found;
+    return between(*middle, b);
+  }
+
+  // From the one before it where that is not far, or else from the one after it.
+  std::optional<Point> between_equilibria(const Point& a, const Point& b) {
+    const double part = (a.part + b.part) / 2;
+    for (const auto& [from, load_steps] :
+         {std::pair(&a, few_load_steps), {&b, few_load_steps}, {&a, most_load_steps}})
+      if (State state = from->state; settle(state, part, from->part, load_steps))
+        return Point{std::move(state), part};
+    return {};
+  }
+
+  bool settle(State& state, double part, double from, int most) {
+    most = std::min(most, load_steps_left_);
+    if (most <= 0) return false;
+    const LoadedBetween system(system_, way_.at(from), way_.at(part), interrupted_);
+    state.load = 1;
+    const StaticReport found = find_static_equilibrium({.max_load_steps = most}, system, state);
+    load_steps_left_ -= found.load_steps;
+    return found.status == StaticStatus::converged;
+  }
+
+  // Whether the tangents at both ends lead from one to the other.
+  bool joined(const Point& a, const Point& b) const {
+    constexpr double astray = 0.5;
+    const Vector way = (b.state.q - a.state.q).cwiseQuotient(scale_);
+    const auto leads = [&](const Vector& move) { return (move - way).norm() <= astray * way.norm(); };
+    return leads(heading(a, b.part)) && leads(-heading(b, a.part));
+  }
+
+  // (n) The move that the tangent gives; zero where it is singular.
+  Vector heading(const Point& from, double part) const {
+    const int n = system_.coordinate_count();
+    const EquilibratedKkt kkt(tangent_matrix(way_, at(from, from.part), {.stiffness = 1}), n);
+    if (!kkt.regular()) return Vector::Zero(n);
+    const Vector move = kkt.solve(residual(from, from.part) - residual(from, part)).head(n);
+    return move.cwiseQuotient(scale_);
+  }
+  Vector residual(const Point& point, double part) const {
+    const int n = system_.coordinate_count(), m = system_.constraint_count();
+    Vector rows(n + m);
+    way_.residual(at(point, part), rows.head(n), rows.tail(m));
+    return rows;
+  }
+  static State at(const Point& point, double part) {
+    State state = point.state;
+    state.load = part;
+    return state;
+  }
+
+  double distance(const State& a, const State& b) const {
+    return (a.q - b.q).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+  }
+
+  const BeamSystem& system_;
+  const LoadedBetween way_;
+  const std::function<bool()>& interrupted_;
+  const Vector scale_;
+  const double first_;
+  double whole_ = 0;
+  int load_steps_left_ = most_load_steps;
+};
+
+}  // namespace
+
+std::optional<Loading> find_snap(const BeamSystem& system, const LoadedState& from, const LoadedState& to,
+                                 const std::function<bool()>& interrupted) {
+  SnapSearch search(system, from.loading, to.loading, interrupted);
+  const std::optional<double> part = search.run(from.state, to.state);
+  if (!part) return {};
+  return LoadedBetween(system, from.loading, to.loading, interrupted).at(*part);
+}
+
+}  // namespace nurbeam
