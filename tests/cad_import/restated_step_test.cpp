@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "nurbs/arc_length.h"
 #include "tests/cad_import/curve_ends.h"
@@ -43,6 +44,37 @@ TEST(RestatedStep, OffsetCurvesHaveTheirDistanceInTheUnitOfTheFile) {
                                         "#101 = CIRCLE('',#11,10.);",
                                         "", unit.text)),
                 {9, 0, 0}, {9, 0, 0}, unit.in_metres);
+}
+
+// ------------------------------------------------------------------------------------------- placements
+
+TEST(RestatedStep, PlacementsWithoutFirstAxisHaveThatOfTheStandard) {
+  // build_axes of ISO 10303-42: the first axis is x as far as it is at right angles to the third, else y.
+  struct Axes {
+    std::string third;
+    Eigen::Vector3d first;
+  };
+  const std::vector<Axes> all{{"0.,1.,0.", {1, 0, 0}},
+                              {"1.,0.,0.", {0, 1, 0}},
+                              {"-1.,0.,0.", {0, 1, 0}},
+                              {"0.,0.,-1.", {1, 0, 0}},
+                              {"1.,1.,1.", Eigen::Vector3d(2, -1, -1).normalized()}};
+  for (const auto& [third, first] : all) {
+    const std::string placement =
+        "#102 = AXIS2_PLACEMENT_3D('',#12,#103,$);\n#103 = DIRECTION('',(" + third + "));\n";
+    expect_ends(only_curve(step_text_of("#100", "#100 = ELLIPSE('',#102,5.,2.);\n" + placement)), 5 * first,
+                5 * first, 1e-3);
+  }
+}
+
+TEST(RestatedStep, PiecesOfConicsWhosePlacementHasNoAxesAreNoWholeConics) {
+  const NurbsCurve arc = only_curve(step_text_of(
+      "#100",
+      "#100 = TRIMMED_CURVE('',#101,(PARAMETER_VALUE(0.5)),(PARAMETER_VALUE(2.)),.F.,.PARAMETER.);\n"
+      "#101 = CIRCLE('',#102,4.);\n#102 = AXIS2_PLACEMENT_3D('',#12,$,$);\n"));
+  const auto at = [](double angle) { return Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 0); };
+  expect_ends(arc, at(0.5), at(2), 1e-3);  // against the sense of the circle
+  EXPECT_NEAR(length(arc), 4 * (2 * std::numbers::pi - 1.5) * 1e-3, 1e-15);
 }
 
 // ------------------------------------------------------------------------------------- pieces of conics
