@@ -269,6 +269,7 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     STEPControl_Reader reader;
     if (reader.ReadFile(MemoryFile(content).path().c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");
+    restate_units(*reader.Model());
     join_supplemental_geometry(reader);
     ImportReport remarks;  // given when it was imported
     const RestatedCurves restated = restate_curves(reader, remarks);

@@ -133,6 +133,7 @@ void read_step(const std::string& content, double tolerance, const ReadFile& rea
   start_step();
   STEPControl_Reader reader;
   read(reader, content, report);
+  restate_units(*reader.Model());
   report_step_unit(*reader.Model(), report);
   join_supplemental_geometry(reader);
   transfer(reader, tolerance, report);
