@@ -69,9 +69,12 @@ NurbsCurve polyline(const std::vector<Eigen::Vector3d>& places) {
   return make_nurbs_curve(KnotVector(1, std::move(knots)), points, Eigen::VectorXd::Ones(points.cols()));
 }
 
+/// Counterclockwise; a whole turn where it is one but for the digits that files leave.
 double sweep_of(double from, double to, double turn) {
-  const double sweep = std::fmod(to - from, turn);
-  return sweep <= 0 ? sweep + turn : sweep;
+  const double digits = 2e-7 * turn;  // six decimals of radians
+  double sweep = std::fmod(to - from, turn);
+  if (sweep < 0) sweep += turn;
+  return sweep <= digits || sweep >= turn - digits ? turn : sweep;
 }
 
 Drawn circle(const DxfEntity& entity, bool whole) {

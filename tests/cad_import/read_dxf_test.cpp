@@ -114,6 +114,17 @@ TEST(ReadDxf, EllipsesRunFromTheirMajorAxis) {
   EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12);
 }
 
+TEST(ReadDxf, WholeTurnsAreWholeWhateverTheirDigits) {
+  for (const char* range : {"41 0 42 6.283185307179586", "41 0 42 6.28318530718", "41 0 42 6.283185",
+                            "41 -3.1415926535898 42 3.1415926535898"}) {
+    const NurbsCurve whole = only_dxf_curve(
+        std::string("0 ELLIPSE 10 0 20 0 30 0 11 3 21 0 31 0 40 0.33333333333333333 ") + range, 6);
+    EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12) << range;
+    EXPECT_LE((start_of(whole) - end_of(whole)).norm(), 1e-14) << range;
+  }
+  EXPECT_NEAR(length(only_dxf_curve("0 ARC 10 0 20 0 40 2 50 90 51 450.0000000001", 6)), 4 * pi, 1e-14);
+}
+
 TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
   // A quarter of the unit circle.
   const NurbsCurve arc = only_dxf_curve(
