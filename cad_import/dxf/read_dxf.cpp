@@ -181,10 +181,14 @@ std::vector<Drawn> heavy_polyline(const DxfEntity& entity, const std::vector<Dxf
   const int flags = static_cast<int>(entity.number_of(70, 0));
   if (flags & surface) throw std::runtime_error("it is a mesh");
   const Eigen::Matrix3d axes = flags & in_space ? Eigen::Matrix3d::Identity() : own_axes(entity);
+  const double height = flags & in_space ? 0 : entity.number_of(30, 0);  // of all its corners
   std::vector<Corner> corners;
-  for (std::size_t i = entity.number; i < all.size() && all[i].type == "VERTEX"; ++i)
-    if (!(static_cast<int>(all[i].number_of(70, 0)) & spline_frame))
-      corners.push_back({axes * point_at(all[i], 10), flags & in_space ? 0 : all[i].number_of(42, 0)});
+  for (std::size_t i = entity.number; i < all.size() && all[i].type == "VERTEX"; ++i) {
+    if (static_cast<int>(all[i].number_of(70, 0)) & spline_frame) continue;
+    Eigen::Vector3d place = point_at(all[i], 10);
+    if (height != 0) place.z() = height;
+    corners.push_back({axes * place, flags & in_space ? 0 : all[i].number_of(42, 0)});
+  }
   return polyline_of(std::move(corners), is_closed_flag(entity), axes.col(2));
 }
 

@@ -177,6 +177,17 @@ TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
   EXPECT_EQ(end_of(in_space), Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(ReadDxf, PolylinesInAPlaneLieAtTheHeightOfTheirEntity) {
+  for (const char* z : {"", "30 0 ", "30 5 "}) {
+    const std::string height(z);
+    const NurbsCurve flat = only_dxf_curve("0 POLYLINE 66 1 10 0 20 0 30 5 70 0 0 VERTEX 10 0 20 0 " +
+                                               height + "0 VERTEX 10 3 20 4 " + height + "0 SEQEND",
+                                           6);
+    expect_near(start_of(flat), {0, 0, 5});
+    expect_near(end_of(flat), {3, 4, 5});
+  }
+}
+
 TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   const ImportReport report = import_dxf(
       dxf_of("0 LINE 8 cables 62 3 11 1 0 LINE 8 frame 420 16744448 60 1 11 2 0 TEXT 1 note 10 0 20 0"));
