@@ -43,19 +43,26 @@ Eigen::Matrix3d own_axes(const DxfEntity& entity) {
   return axes;
 }
 
+/// How many quarters of a turn an arc is made of.
+int pieces_of(double sweep) { return std::max(1, static_cast<int>(std::ceil(sweep / (0.5 * pi) - 1e-9))); }
+
+std::vector<double> knots_of_pieces(int pieces) {
+  std::vector<double> knots(3, 0);
+  for (int i = 1; i <= pieces; ++i) knots.insert(knots.end(), i == pieces ? 3 : 2, i);
+  return knots;
+}
+
 /// centre + cos(t) a + sin(t) b from t = from to from + sweep, in quarters, as a rational quadratic.
 NurbsCurve conic_arc(const Eigen::Vector3d& centre, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                      double from, double sweep) {
-  const int pieces = std::max(1, static_cast<int>(std::ceil(sweep / (0.5 * pi) - 1e-9)));
+  const int pieces = pieces_of(sweep);
   const double half = 0.5 * sweep / pieces, weight = std::cos(half);
   Eigen::Matrix4Xd points(4, 2 * pieces + 1);
-  std::vector<double> knots(3, 0);
   for (int i = 0; i <= 2 * pieces; ++i) {
     const double w = i % 2 == 0 ? 1 : weight, t = from + i * half;
     points.col(i) << w * centre + std::cos(t) * a + std::sin(t) * b, w;
-    if (i > 0 && i % 2 == 0) knots.insert(knots.end(), i == 2 * pieces ? 3 : 2, 0.5 * i);
   }
-  return {KnotVector(2, std::move(knots)), std::move(points)};
+  return {KnotVector(2, knots_of_pieces(pieces)), std::move(points)};
 }
 
 NurbsCurve polyline(const std::vector<Eigen::Vector3d>& places) {
@@ -124,15 +131,34 @@ struct Corner {
   double bulge = 0;
 };
 
+/// The arc through these places, an odd number of them at equal angles, from each second one to the next a
+/// conic section whose own weight in the middle is `weight`.
+NurbsCurve arc_through(const std::vector<Eigen::Vector3d>& places, double weight) {
+  Eigen::Matrix4Xd points(4, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    auto point = points.col(static_cast<Eigen::Index>(i));
+    if (i % 2 == 0)
+      point << places[i], 1;
+    else
+      point << (1 + weight) * places[i] - 0.5 * (places[i - 1] + places[i + 1]), weight;
+  }
+  return {KnotVector(2, knots_of_pieces(static_cast<int>(places.size() / 2))), std::move(points)};
+}
+
+/// Its arc by chords from its start, so that it meets both corners however flat it is.
 Drawn side(const Corner& from, const Corner& to, const Eigen::Vector3d& normal) {
   if (from.bulge == 0) return {"line", polyline({from.point, to.point})};
   const Eigen::Vector3d chord = to.point - from.point, left = normal.cross(chord);
-  const double b = from.bulge;
-  // The centre lies (1 - b^2) / (4 b) chords to the left of the middle.
-  const Eigen::Vector3d centre = 0.5 * (from.point + to.point) + (1 - b * b) / (4 * b) * left;
-  const Eigen::Vector3d out = from.point - centre;
-  return {"circle",
-          conic_arc(centre, out, (b > 0 ? 1 : -1) * normal.cross(out), 0, 4 * std::atan(std::abs(b)))};
+  const double sweep = 4 * std::atan(from.bulge);
+  const int pieces = pieces_of(std::abs(sweep));
+  std::vector<Eigen::Vector3d> places{from.point};
+  for (int i = 1; i < 2 * pieces; ++i) {
+    const double angle = i * sweep / (2 * pieces), turn = 0.5 * (angle - sweep);
+    places.push_back(from.point + std::sin(0.5 * angle) / std::sin(0.5 * sweep) *
+                                      (std::cos(turn) * chord + std::sin(turn) * left));
+  }
+  places.push_back(to.point);
+  return {"circle", arc_through(places, std::cos(0.5 * sweep / pieces))};
 }
 
 std::vector<Drawn> polyline_of(std::vector<Corner> corners, bool closed, const Eigen::Vector3d& normal) {

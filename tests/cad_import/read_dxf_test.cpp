@@ -177,6 +177,17 @@ TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
   EXPECT_EQ(end_of(in_space), Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(ReadDxf, ArcsOfPolylinesMeetTheirCornersHoweverFlat) {
+  for (const std::string bulge : {"1e-12", "-1e-9", "1e-6", "-0.01", "0.7", "-1", "30"}) {
+    const NurbsCurve arc =
+        only_dxf_curve("0 LWPOLYLINE 90 2 70 0 10 1000 20 500 42 " + bulge + " 10 1002 20 500", 6);
+    EXPECT_EQ(start_of(arc), Eigen::Vector3d(1000, 500, 0)) << bulge;
+    EXPECT_EQ(end_of(arc), Eigen::Vector3d(1002, 500, 0)) << bulge;
+    // The bulge is the height of the arc over half its chord, to the right of a positive one.
+    EXPECT_LE((middle_of(arc) - Eigen::Vector3d(1001, 500 - std::stod(bulge), 0)).norm(), 3e-13) << bulge;
+  }
+}
+
 TEST(ReadDxf, PolylinesInAPlaneLieAtTheHeightOfTheirEntity) {
   for (const char* z : {"", "30 0 ", "30 5 "}) {
     const std::string height(z);
