@@ -41,6 +41,7 @@
 #include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/axis_placement.h"
+#include "cad_import/step/closed_spline.h"
 #include "cad_import/step/curve_replica.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/transformation_operator.h"
@@ -309,6 +310,7 @@ RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& repo
     restated.places = restate_iges(*iges, remarks);
   if (const auto step = Handle(StepData_StepModel)::DownCast(reader.Model())) {
     restate_placements(*step);
+    unmark_closed_splines(*step);
     StepCurves curves(*step, reader.WS()->Graph(), remarks);
     for (int i = 1; i <= step->NbEntities(); ++i) curves.restate(step->Value(i));
     restated.parents = curves.parents();

@@ -8,10 +8,12 @@
 #include <numbers>
 
 #include "nurbs/arc_length.h"
+#include "nurbs/number_text.h"
 #include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
+#include "tests/cad_import/uneven_circle.h"
 
 namespace nurbeam::restated_step {
 namespace {
@@ -75,6 +77,27 @@ TEST(RestatedStep, PiecesOfConicsWhosePlacementHasNoAxesAreNoWholeConics) {
   const auto at = [](double angle) { return Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 0); };
   expect_ends(arc, at(0.5), at(2), 1e-3);  // against the sense of the circle
   EXPECT_NEAR(length(arc), 4 * (2 * std::numbers::pi - 1.5) * 1e-3, 1e-15);
+}
+
+// ------------------------------------------------------------------------------------- closed splines
+
+TEST(RestatedStep, ClosedSplinesWhoseEndsHaveDifferentWeightsKeepThem) {
+  const NurbsCurve circle = uneven_circle(4);
+  std::string poles, weights, points;
+  for (int i = 0; i < circle.control_points().cols(); ++i) {
+    const Eigen::Vector4d pole = circle.control_points().col(i);
+    const std::string comma = i > 0 ? "," : "", number = std::to_string(200 + i);
+    poles += comma + "#" + number;
+    weights += comma + text_of(pole(3), 17);
+    points += "#" + number + " = CARTESIAN_POINT('',(" + text_of(pole(0) / pole(3), 17) + "," +
+              text_of(pole(1) / pole(3), 17) + ",0.));\n";
+  }
+  const NurbsCurve read = only_curve(step_text_of(
+      "#100", "#100 = ( BOUNDED_CURVE() B_SPLINE_CURVE(2,(" + poles +
+                  "),.UNSPECIFIED.,.T.,.F.) B_SPLINE_CURVE_WITH_KNOTS((3,2,2,3),(0.,1.,2.,3.),.UNSPECIFIED.) "
+                  "CURVE() GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((" +
+                  weights + ")) REPRESENTATION_ITEM('') );\n" + points));
+  for (double u = 0; u <= 3; u += 0.0625) EXPECT_NEAR(read.point(u).norm(), 4e-3, 1e-13) << u;
 }
 
 // ------------------------------------------------------------------------------------- pieces of conics
