@@ -71,16 +71,28 @@ std::vector<double> DxfEntity::numbers_of(int code) const {
 DxfDrawing dxf_drawing(std::string_view content) {
   DxfDrawing drawing;
   std::string_view section, variable;
-  bool names_section = false, in_layer = false;
-  const auto begin = [](std::string_view type, std::vector<DxfEntity>& list) {
-    list.push_back({std::string(type), static_cast<int>(list.size()) + 1, {}});
+  bool names_section = false, in_block = false;
+  DxfEntity* open = nullptr;  // whose pairs follow
+  const auto begin = [&](std::string_view type, std::vector<DxfEntity>& list) {
+    open = &list.emplace_back(DxfEntity{std::string(type), static_cast<int>(list.size()) + 1, {}});
+  };
+  const auto begin_in_blocks = [&](std::string_view type) {
+    if (type == "BLOCK") {
+      open = &drawing.blocks.emplace_back(DxfBlock{{std::string(type), 0, {}}, {}}).head;
+      in_block = true;
+    } else if (type == "ENDBLK") {
+      in_block = false;
+    } else if (in_block) {
+      begin(type, drawing.blocks.back().entities);
+    }
   };
   for (const DxfPair& pair : pairs_of(content)) {
     if (pair.code == 0) {
+      open = nullptr;
       names_section = pair.value == "SECTION";
       if (names_section || pair.value == "ENDSEC") section = {};
-      in_layer = section == "TABLES" && pair.value == "LAYER";
-      if (in_layer) begin(pair.value, drawing.layers);
+      if (section == "TABLES" && pair.value == "LAYER") begin(pair.value, drawing.layers);
+      if (section == "BLOCKS") begin_in_blocks(pair.value);
       if (section == "ENTITIES") begin(pair.value, drawing.entities);
     } else if (names_section && pair.code == 2) {
       section = pair.value;
@@ -88,10 +100,8 @@ DxfDrawing dxf_drawing(std::string_view content) {
     } else if (section == "HEADER") {
       if (pair.code == 9) variable = pair.value;
       if (pair.code == 70 && variable == "$INSUNITS") drawing.unit = static_cast<int>(number_in(pair));
-    } else if (in_layer) {
-      drawing.layers.back().pairs.push_back(pair);
-    } else if (section == "ENTITIES" && !drawing.entities.empty()) {
-      drawing.entities.back().pairs.push_back(pair);
+    } else if (open) {
+      open->pairs.push_back(pair);
     }
   }
   return drawing;
