@@ -7,6 +7,7 @@
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -47,22 +48,32 @@ struct FoundCurve {
   Eigen::Affine3d to_world = Eigen::Affine3d::Identity();  // of its part [m]
   bool backwards = false;                                  // against the instance
   bool free = true;
-  int places = 1;  // how often its part is placed
+  int places = 1;      // how often its part is placed
+  bool piece = false;  // of the instance, a composite curve
 };
 
 bool is_same(const NurbsCurve& a, const NurbsCurve& b) {
   return a.knots() == b.knots() && a.control_points() == b.control_points();
 }
 
-int instance_of(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
+/// The instance that OpenCASCADE made of such a shape, an edge or a wire, that has the edge; 0 for none.
+int instance_with(const TopoDS_Edge& edge, TopAbs_ShapeEnum kind, const STEPControl_Reader& reader) {
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
   for (int i = 1; i <= process->NbMapped(); ++i) {
     const TopoDS_Shape result = TransferBRep::ShapeResult(process, process->Mapped(i));
-    if (result.IsNull() || result.ShapeType() != TopAbs_EDGE || result.TShape() != edge.TShape()) continue;
     const int label = model->IdentLabel(process->Mapped(i));
-    if (label > 0) return label;
+    if (label <= 0 || result.IsNull() || result.ShapeType() != kind) continue;
+    for (TopExp_Explorer part(result, TopAbs_EDGE); part.More(); part.Next())
+      if (part.Current().TShape() == edge.TShape()) return label;
   }
+  return 0;
+}
+
+FoundCurve found_curve(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
+  if (const int own = instance_with(edge, TopAbs_EDGE, reader)) return {.instance = own};
+  if (const int composite = instance_with(edge, TopAbs_WIRE, reader))
+    return {.instance = composite, .piece = true};
   throw std::runtime_error("OpenCASCADE does not tell which instance of the file an edge came from");
 }
 
@@ -80,10 +91,13 @@ std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const TruePlaces& t
     } catch (const std::exception&) {
       continue;  // no valid curve, and so none that import_curves() gave
     }
-    int places = 0;
-    for (int k = 1; k <= faces.Extent(); ++k) places += faces.FindKey(k).TShape() == edge.TShape();
-    return FoundCurve{instance_of(edge, reader), *true_places.to_world(edge.Location()),
-                      edge.Orientation() == TopAbs_REVERSED, faces(i).IsEmpty(), places};
+    FoundCurve found = found_curve(edge, reader);
+    found.to_world = *true_places.to_world(edge.Location());
+    found.backwards = edge.Orientation() == TopAbs_REVERSED;
+    found.free = faces(i).IsEmpty();
+    found.places = 0;
+    for (int k = 1; k <= faces.Extent(); ++k) found.places += faces.FindKey(k).TShape() == edge.TShape();
+    return found;
   }
   return std::nullopt;
 }
@@ -186,6 +200,7 @@ void add_beside(int representation, std::optional<int> own, const NurbsCurve& cu
 std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundCurve& found,
                                     const StepInstances& step) {
   if (wanted.beside) return "the beam is a chain of several curves";
+  if (found.piece) return "the curve is a piece of this composite curve, which stays as it is";
   if (!found.free) return "the edge bounds faces, which do not move with it";
   for (const int user : step.users(found.instance))
     if (const std::string kind = step.keyword(user);

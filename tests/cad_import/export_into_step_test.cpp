@@ -215,6 +215,36 @@ TEST(ExportIntoStep, AChainIsAddedBesideItsFirstCurve) {
   EXPECT_EQ(sets_in(target), sets_in(source));
 }
 
+TEST(ExportIntoStep, APieceOfACompositeCurveStaysAndTheCurveIsAddedBesideIt) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.file(
+      "source.step",
+      step_text_of("#100",
+                   "#100 = COMPOSITE_CURVE('run',(#101,#102),.F.);\n"
+                   "#101 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#103);\n"
+                   "#102 = COMPOSITE_CURVE_SEGMENT(.DISCONTINUOUS.,.F.,#104);\n"
+                   "#103 = POLYLINE('',(#200,#201));\n#104 = POLYLINE('',(#202,#201));\n"
+                   "#200 = CARTESIAN_POINT('',(0.,0.,0.));\n#201 = CARTESIAN_POINT('',(3.,0.,0.));\n"
+                   "#202 = CARTESIAN_POINT('',(7.,0.,0.));"));
+  const fs::path target = scratch.path() / "target.step";
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 2U);
+  for (const bool chain : {false, true}) {
+    const auto warnings = export_into_step(
+        source, target,
+        {{.drawn = before.curves[1].curve, .deformed = bent(0.3, true), .name = "run", .beside = chain}});
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].message.find("#100 'run'"), std::string::npos) << warnings[0].message;
+    EXPECT_NE(warnings[0].message.find(chain ? "chain of several" : "piece of this composite"),
+              std::string::npos)
+        << warnings[0].message;
+    const ImportReport after = import_curves(target);
+    ASSERT_EQ(after.curves.size(), 3U);
+    EXPECT_LE(difference(after.curves[2].curve, bent(0.3, true)), 2e-15);
+    EXPECT_EQ(after.curves[2].name, "run");
+  }
+}
+
 TEST(ExportIntoStep, ConicsAndLinesOfTheSourceBecomeSplines) {
   const ScratchDirectory scratch;
   const fs::path target = scratch.path() / "target.step";
