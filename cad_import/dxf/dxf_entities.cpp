@@ -1,6 +1,7 @@
 #include "cad_import/dxf/dxf_entities.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -24,6 +25,40 @@ double number_in(const DxfPair& pair) {
     throw std::runtime_error("group " + std::to_string(pair.code) + " is '" + text +
                              "'; it must be a number from -1e15 to 1e15");
   return value;
+}
+
+/// A letter of the Basic Multilingual Plane.
+void append_utf8(unsigned code, std::string& text) {
+  const auto tail = [&](unsigned shift) { text += static_cast<char>(0x80 | ((code >> shift) & 0x3F)); };
+  if (code < 0x80) {
+    text += static_cast<char>(code);
+  } else if (code < 0x800) {
+    text += static_cast<char>(0xC0 | (code >> 6));
+    tail(0);
+  } else {
+    text += static_cast<char>(0xE0 | (code >> 12));
+    tail(6);
+    tail(0);
+  }
+}
+
+/// With the letters that drawings before 2007 write as U+00FC behind a backslash.
+std::string decoded(std::string_view value) {
+  constexpr std::string_view mark = "\\U+";
+  constexpr std::size_t digits = 4;
+  std::string text;
+  while (!value.empty()) {
+    unsigned code = 0;
+    const char* const first = value.data() + mark.size();
+    const bool is_letter = value.starts_with(mark) && value.size() >= mark.size() + digits &&
+                           std::from_chars(first, first + digits, code, 16).ptr == first + digits;
+    if (is_letter)
+      append_utf8(code, text);
+    else
+      text += value[0];
+    value.remove_prefix(is_letter ? mark.size() + digits : 1);
+  }
+  return text;
 }
 
 std::vector<DxfPair> pairs_of(std::string_view content) {
@@ -58,7 +93,7 @@ double DxfEntity::number_of(int code, double otherwise) const {
 
 std::string DxfEntity::text_of(int code) const {
   const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& p) { return p.code == code; });
-  return at == pairs.end() ? "" : std::string(at->value);
+  return at == pairs.end() ? "" : decoded(at->value);
 }
 
 std::vector<double> DxfEntity::numbers_of(int code) const {

@@ -210,6 +210,14 @@ TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   EXPECT_TRUE(report.curves[1].hidden);
 }
 
+TEST(ReadDxf, LettersThatAreWrittenByTheirNumbersAreRead) {
+  const auto layer_of = [](const std::string& layer) {
+    return import_dxf(dxf_of("0 LINE 8 " + layer + " 10 0 11 1")).curves.at(0).layer;
+  };
+  EXPECT_EQ(layer_of("\\U+00FCber_\\U+7D22"), "über_索");
+  EXPECT_EQ(layer_of("\\U+12G4\\U+41"), "\\U+12G4\\U+41");
+}
+
 TEST(ReadDxf, CurvesOfFrozenAndSwitchedOffLayersAreHidden) {
   const std::string tables =
       "0 SECTION 2 TABLES 0 TABLE 2 LAYER 70 4 0 LAYER 2 off 70 0 62 -3 0 LAYER 2 Frozen 70 1 62 5 "
