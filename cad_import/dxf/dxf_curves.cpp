@@ -68,6 +68,7 @@ DrawnCurve circle(const DxfEntity& entity, bool whole) {
 DrawnCurve ellipse(const DxfEntity& entity) {
   const Eigen::Vector3d major = point_at(entity, 11), normal = own_axes(entity).col(2);
   const double from = entity.number_of(41, 0), to = entity.number_of(42, 2 * pi);
+  if (entity.number_of(40, 1) == 0) throw std::runtime_error("its minor axis has no length");
   return {"ellipse", conic_arc(point_at(entity, 10), major, entity.number_of(40, 1) * normal.cross(major),
                                from, sweep_of(from, to, 2 * pi))};
 }
@@ -120,12 +121,13 @@ NurbsCurve arc_through(const std::vector<Eigen::Vector3d>& places, double weight
 DrawnCurve side(const Corner& from, const Corner& to, const Eigen::Vector3d& normal) {
   if (from.bulge == 0) return {"line", polyline({from.point, to.point})};
   const Eigen::Vector3d chord = to.point - from.point, left = normal.cross(chord);
-  const double sweep = 4 * std::atan(from.bulge);
+  const double b = from.bulge, sweep = 4 * std::atan(b);
+  const double chord_of_diameter = 2 * b / (1 + b * b);  // sin(sweep / 2)
   const int pieces = pieces_of(std::abs(sweep));
   std::vector<Eigen::Vector3d> places{from.point};
   for (int i = 1; i < 2 * pieces; ++i) {
     const double angle = i * sweep / (2 * pieces), turn = 0.5 * (angle - sweep);
-    places.push_back(from.point + std::sin(0.5 * angle) / std::sin(0.5 * sweep) *
+    places.push_back(from.point + std::sin(0.5 * angle) / chord_of_diameter *
                                       (std::cos(turn) * chord + std::sin(turn) * left));
   }
   places.push_back(to.point);
