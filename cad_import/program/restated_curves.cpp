@@ -273,6 +273,7 @@ class StepCurves {
     remarks_.attempt(trimmed, [&] {
       use_unit(trimmed);
       warning = restate_trims(*trimmed, graph_, by_open_cascade_);
+      if (!warning) warning = misplaced_trims(trimmed);
     });
     if (warning) remarks_.warn(trimmed, *warning);
   }

@@ -122,6 +122,30 @@ void expect_parabola(const NurbsCurve& curve, double unit) {
   }
 }
 
+TEST(RestatedStep, PiecesWhosePointsAreNotTheirEndsAreNamed) {
+  const auto warning_of = [](const std::string& trims, const std::string& places, const Unit& unit) {
+    const ImportReport report = import_text(step_text_of(
+        "#100", "#100 = TRIMMED_CURVE('arc',#101," + trims + ");\n#101 = CIRCLE('',#11,5.);\n" + places, "",
+        unit.text));
+    EXPECT_EQ(report.curves.size(), 1U);
+    return report.diagnostics.empty() ? "" : report.diagnostics[0].where + report.diagnostics[0].message;
+  };
+  const auto at = [](double radius) {
+    return "#200 = CARTESIAN_POINT('',(" + std::to_string(radius) +
+           ",0.,0.));\n#201 = CARTESIAN_POINT('',(0.,5.,0.));\n";
+  };
+  for (const Unit& unit : units) {
+    const std::string mm = 1e3 * unit.in_metres > 1 ? "76.2 mm" : "3 mm";
+    EXPECT_NE(warning_of("(#200),(#201),.T.,.CARTESIAN.", at(8), unit).find("'arc'it begins " + mm),
+              std::string::npos);
+    EXPECT_EQ(warning_of("(#200),(#201),.T.,.CARTESIAN.", at(5.004), unit), "");
+  }
+  const std::string contrary =
+      warning_of("(#200,PARAMETER_VALUE(0.)),(#201,PARAMETER_VALUE(3.1415926535897932)),.T.,.PARAMETER.",
+                 at(5), units[0]);
+  EXPECT_NE(contrary.find("ends " + text_of(std::sqrt(50.0)) + " mm"), std::string::npos) << contrary;
+}
+
 TEST(RestatedStep, PiecesOfParabolasGoByTheirPoints) {
   for (const Unit& unit : units) {
     const auto read = [&](const std::string& first, const std::string& last, const std::string& master,
