@@ -27,6 +27,7 @@
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/occt/placed_curve.h"
 #include "cad_import/program/drawing_text.h"
+#include "cad_import/program/edge_senses.h"
 #include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
 #include "cad_import/program/restated_curves.h"
@@ -82,19 +83,21 @@ std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const TruePlaces& t
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   const TopoDS_Shape shape = reader.OneShape();
   if (!shape.IsNull()) TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  const EdgeSenses senses(reader);
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
     if (BRep_Tool::Degenerated(edge)) continue;
     try {
-      ImportedCurve curve = imported_curve(edge, import_tolerance);
+      ImportedCurve curve = imported_curve(faces(i).IsEmpty() ? senses.of(edge) : edge, import_tolerance);
       if (!true_places.put_in_place(edge.Location(), curve) || !is_same(curve.curve, drawn)) continue;
     } catch (const std::exception&) {
       continue;  // no valid curve, and so none that import_curves() gave
     }
     FoundCurve found = found_curve(edge, reader);
     found.to_world = *true_places.to_world(edge.Location());
-    found.backwards = edge.Orientation() == TopAbs_REVERSED;
     found.free = faces(i).IsEmpty();
+    const bool as_its_vertices = found.free && senses.know(edge);  // and so it is written
+    found.backwards = edge.Orientation() == TopAbs_REVERSED && !as_its_vertices;
     found.places = 0;
     for (int k = 1; k <= faces.Extent(); ++k) found.places += faces.FindKey(k).TShape() == edge.TShape();
     return found;

@@ -58,7 +58,7 @@ LostCurves add_curves(const XSControl_Reader& reader, const RestatedCurves& rest
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return add_lost_curves(reader, restated, tolerance, report);
   const ShapeFacts facts{origins_of_edges_and_faces(reader, restated.refused, report),
-                         part_names(reader, shape), true_places(reader, restated)};
+                         part_names(reader, shape), true_places(reader, restated), EdgeSenses(reader)};
   add_edges(shape, facts, tolerance, report);
   LostCurves lost = add_lost_curves(reader, restated, tolerance, report);
   add_centre_lines(shape, facts, tolerance, report);
