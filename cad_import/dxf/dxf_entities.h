@@ -11,7 +11,8 @@ struct DxfPair {
   std::string_view value;
 };
 
-/// What stands between two pairs of code 0: an entity, and its number in the section, from 1.
+/// What stands between two pairs of code 0: an entity, and its number in the section or its
+/// block, from 1.
 struct DxfEntity {
   std::string type;
   int number;
@@ -25,11 +26,18 @@ struct DxfEntity {
   std::vector<double> numbers_of(int code) const;
 };
 
-/// A drawing: its unit, the entries of its layer table and the entities of its section ENTITIES. The pairs
-/// point into the content.
+/// Entities that an INSERT places; its name is group 2 of its head, its base point group 10.
+struct DxfBlock {
+  DxfEntity head;
+  std::vector<DxfEntity> entities;
+};
+
+/// A drawing: its unit, the entries of its layer table, its blocks and the entities of its section ENTITIES.
+/// The pairs point into the content.
 struct DxfDrawing {
   int unit = 0;  // $INSUNITS
   std::vector<DxfEntity> layers, entities;
+  std::vector<DxfBlock> blocks;
 };
 
 /// Throws std::runtime_error, naming the line, for a content that is no list of pairs.

@@ -1,208 +1,25 @@
 #include "cad_import/dxf/read_dxf.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <new>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
+#include "cad_import/dxf/block_places.h"
 #include "cad_import/dxf/drawing_unit.h"
+#include "cad_import/dxf/dxf_curves.h"
 #include "cad_import/dxf/dxf_entities.h"
 #include "cad_import/report/length_unit.h"
 
 namespace nurbeam {
 namespace {
 
-using std::numbers::pi;
-
-/// A curve and its kind.
-struct Drawn {
-  std::string entity;
-  NurbsCurve curve;
-};
-
-Eigen::Vector3d point_at(const DxfEntity& entity, int code) {
-  return {entity.number_of(code, 0), entity.number_of(code + 10, 0), entity.number_of(code + 20, 0)};
-}
-
-/// The axes of the entity's own coordinates from its normal, by the "arbitrary axis algorithm" of the DXF
-/// reference.
-Eigen::Matrix3d own_axes(const DxfEntity& entity) {
-  Eigen::Vector3d z(entity.number_of(210, 0), entity.number_of(220, 0), entity.number_of(230, 1));
-  if (!(z.norm() > 0)) throw std::runtime_error("its normal has no direction");
-  z.normalize();
-  const bool near_z = std::abs(z.x()) < 1.0 / 64 && std::abs(z.y()) < 1.0 / 64;
-  const Eigen::Vector3d x =
-      (near_z ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ()).cross(z).normalized();
-  Eigen::Matrix3d axes;
-  axes << x, z.cross(x), z;
-  return axes;
-}
-
-/// centre + cos(t) a + sin(t) b from t = from to from + sweep, in quarters, as a rational quadratic.
-NurbsCurve conic_arc(const Eigen::Vector3d& centre, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                     double from, double sweep) {
-  const int pieces = std::max(1, static_cast<int>(std::ceil(sweep / (0.5 * pi) - 1e-9)));
-  const double half = 0.5 * sweep / pieces, weight = std::cos(half);
-  Eigen::Matrix4Xd points(4, 2 * pieces + 1);
-  std::vector<double> knots(3, 0);
-  for (int i = 0; i <= 2 * pieces; ++i) {
-    const double w = i % 2 == 0 ? 1 : weight, t = from + i * half;
-    points.col(i) << w * centre + std::cos(t) * a + std::sin(t) * b, w;
-    if (i > 0 && i % 2 == 0) knots.insert(knots.end(), i == 2 * pieces ? 3 : 2, 0.5 * i);
-  }
-  return {KnotVector(2, std::move(knots)), std::move(points)};
-}
-
-NurbsCurve polyline(const std::vector<Eigen::Vector3d>& places) {
-  Eigen::Matrix3Xd points(3, places.size());
-  std::vector<double> knots{0};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    points.col(static_cast<Eigen::Index>(i)) = places[i];
-    knots.push_back(static_cast<double>(i));
-  }
-  knots.push_back(knots.back());
-  return make_nurbs_curve(KnotVector(1, std::move(knots)), points, Eigen::VectorXd::Ones(points.cols()));
-}
-
-double sweep_of(double from, double to, double turn) {
-  const double sweep = std::fmod(to - from, turn);
-  return sweep <= 0 ? sweep + turn : sweep;
-}
-
-Drawn circle(const DxfEntity& entity, bool whole) {
-  const Eigen::Matrix3d axes = own_axes(entity);
-  const double radius = entity.number_of(40, 0), degrees = pi / 180;
-  if (!(radius > 0)) throw std::runtime_error("its radius is not positive");
-  const double from = whole ? 0 : entity.number_of(50, 0);
-  const double sweep = whole ? 360 : sweep_of(from, entity.number_of(51, 360), 360);
-  return {"circle", conic_arc(axes * point_at(entity, 10), radius * axes.col(0), radius * axes.col(1),
-                              degrees * from, degrees * sweep)};
-}
-
-Drawn ellipse(const DxfEntity& entity) {
-  const Eigen::Vector3d major = point_at(entity, 11), normal = own_axes(entity).col(2);
-  const double from = entity.number_of(41, 0), to = entity.number_of(42, 2 * pi);
-  return {"ellipse", conic_arc(point_at(entity, 10), major, entity.number_of(40, 1) * normal.cross(major),
-                               from, sweep_of(from, to, 2 * pi))};
-}
-
-void check_count(std::size_t count, std::size_t points, const std::string& what) {
-  if (count != points)
-    throw std::runtime_error("it has " + std::to_string(points) + " x of control points (group 10) and " +
-                             std::to_string(count) + " " + what + "; each point needs its own");
-}
-
-/// A spline without group 30 lies in the plane z = 0, one without group 41 is not rational.
-Drawn spline(const DxfEntity& entity) {
-  const std::vector<double> x = entity.numbers_of(10), y = entity.numbers_of(20);
-  std::vector<double> z = entity.numbers_of(30), weights = entity.numbers_of(41);
-  if (x.empty()) throw std::runtime_error("it has fit points only; draw it with control points");
-  if (z.empty()) z.assign(x.size(), 0);
-  if (weights.empty()) weights.assign(x.size(), 1);
-  check_count(y.size(), x.size(), "y (group 20)");
-  check_count(z.size(), x.size(), "z (group 30)");
-  check_count(weights.size(), x.size(), "weights (group 41)");
-  Eigen::Matrix3Xd points(3, x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) points.col(static_cast<Eigen::Index>(i)) << x[i], y[i], z[i];
-  return {"bspline",
-          make_nurbs_curve(KnotVector(static_cast<int>(entity.number_of(71, 3)), entity.numbers_of(40)),
-                           points, Eigen::Map<Eigen::VectorXd>(weights.data(), points.cols()))};
-}
-
-/// A corner of a polyline, and the tangent of a quarter of the angle of the arc from it to the next; 0: a
-/// line.
-struct Corner {
-  Eigen::Vector3d point;
-  double bulge = 0;
-};
-
-Drawn side(const Corner& from, const Corner& to, const Eigen::Vector3d& normal) {
-  if (from.bulge == 0) return {"line", polyline({from.point, to.point})};
-  const Eigen::Vector3d chord = to.point - from.point, left = normal.cross(chord);
-  const double b = from.bulge;
-  // The centre lies (1 - b^2) / (4 b) chords to the left of the middle.
-  const Eigen::Vector3d centre = 0.5 * (from.point + to.point) + (1 - b * b) / (4 * b) * left;
-  const Eigen::Vector3d out = from.point - centre;
-  return {"circle",
-          conic_arc(centre, out, (b > 0 ? 1 : -1) * normal.cross(out), 0, 4 * std::atan(std::abs(b)))};
-}
-
-std::vector<Drawn> polyline_of(std::vector<Corner> corners, bool closed, const Eigen::Vector3d& normal) {
-  if (closed && !corners.empty()) corners.push_back(corners.front());
-  if (corners.size() < 2) throw std::runtime_error("it has fewer than two corners");
-  std::vector<Drawn> drawn;
-  std::vector<Eigen::Vector3d> places{corners[0].point};
-  bool straight = true;
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    if (corners[i].point == corners[i + 1].point) continue;
-    drawn.push_back(side(corners[i], corners[i + 1], normal));
-    places.push_back(corners[i + 1].point);
-    straight = straight && corners[i].bulge == 0;
-  }
-  if (straight && places.size() > 1) return {{"bspline", polyline(places)}};
-  return drawn;
-}
-
-bool is_closed_flag(const DxfEntity& entity) { return static_cast<int>(entity.number_of(70, 0)) & 1; }
-
-std::vector<Drawn> light_polyline(const DxfEntity& entity) {
-  const Eigen::Matrix3d axes = own_axes(entity);
-  const double height = entity.number_of(38, 0);
-  std::vector<Eigen::Vector3d> places;
-  std::vector<double> bulges;
-  DxfEntity one{entity.type, entity.number, {}};
-  for (const DxfPair& pair : entity.pairs) {  // 10, 20 and perhaps 42 of each corner
-    one.pairs = {pair};
-    if (pair.code == 10) {
-      places.emplace_back(one.number_of(10, 0), 0, height);
-      bulges.push_back(0);
-    } else if (!places.empty() && pair.code == 20) {
-      places.back().y() = one.number_of(20, 0);
-    } else if (!places.empty() && pair.code == 42) {
-      bulges.back() = one.number_of(42, 0);
-    }
-  }
-  std::vector<Corner> corners;
-  for (std::size_t i = 0; i < places.size(); ++i) corners.push_back({axes * places[i], bulges[i]});
-  return polyline_of(std::move(corners), is_closed_flag(entity), axes.col(2));
-}
-
-/// A POLYLINE, whose corners are the VERTEX entities after it.
-std::vector<Drawn> heavy_polyline(const DxfEntity& entity, const std::vector<DxfEntity>& all) {
-  constexpr int in_space = 8, surface = 16 | 64, spline_frame = 16;
-  const int flags = static_cast<int>(entity.number_of(70, 0));
-  if (flags & surface) throw std::runtime_error("it is a mesh");
-  const Eigen::Matrix3d axes = flags & in_space ? Eigen::Matrix3d::Identity() : own_axes(entity);
-  std::vector<Corner> corners;
-  for (std::size_t i = entity.number; i < all.size() && all[i].type == "VERTEX"; ++i)
-    if (!(static_cast<int>(all[i].number_of(70, 0)) & spline_frame))
-      corners.push_back({axes * point_at(all[i], 10), flags & in_space ? 0 : all[i].number_of(42, 0)});
-  return polyline_of(std::move(corners), is_closed_flag(entity), axes.col(2));
-}
-
-/// The curves of the entity; none of one that is no curve.
-std::vector<Drawn> curves_of(const DxfEntity& entity, const std::vector<DxfEntity>& all) {
-  if (entity.type == "LINE") return {{"line", polyline({point_at(entity, 10), point_at(entity, 11)})}};
-  if (entity.type == "ARC") return {circle(entity, false)};
-  if (entity.type == "CIRCLE") return {circle(entity, true)};
-  if (entity.type == "ELLIPSE") return {ellipse(entity)};
-  if (entity.type == "SPLINE") return {spline(entity)};
-  if (entity.type == "LWPOLYLINE") return light_polyline(entity);
-  if (entity.type == "POLYLINE") return heavy_polyline(entity, all);
-  if (entity.type == "INSERT") throw std::runtime_error("blocks are not placed; explode it");
-  if (std::set<std::string>{"MLINE", "RAY", "XLINE", "HELIX", "REGION", "3DFACE", "3DSOLID"}.contains(
-          entity.type))
-    throw std::runtime_error("entities of this kind are not read");
-  return {};
-}
-
-// AutoCAD's colour numbers that have a name; a true colour (420) goes before.
-std::string colour_of(const DxfEntity& entity) {
+/// AutoCAD's colour numbers that have a name; a true colour (420) goes before, 0 is that of the block.
+std::string colour_of(const DxfEntity& entity, const std::string& of_block) {
   constexpr std::array<const char*, 8> numbered{"",        "#ff0000", "#ffff00", "#00ff00",
                                                 "#00ffff", "#0000ff", "#ff00ff", "#ffffff"};
   if (const double colour = entity.number_of(420, -1); colour >= 0 && colour < 0x1000000) {
@@ -211,6 +28,7 @@ std::string colour_of(const DxfEntity& entity) {
     return text;
   }
   const int number = static_cast<int>(entity.number_of(62, 256));
+  if (number == 0) return of_block;
   return number > 0 && number < 8 ? numbered[number] : "";
 }
 
@@ -220,8 +38,8 @@ std::string without_unit(int insunits) {
          ", which is no unit; the units of DXF are 1 to 24: millimetres are assumed";
 }
 
-/// Layers are one where their names differ in the case of letters only.
-std::string layer_key(std::string name) {
+/// Layers and blocks are one where their names differ in the case of letters only.
+std::string name_key(std::string name) {
   for (char& c : name)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return name;
@@ -233,7 +51,7 @@ std::set<std::string> hidden_layers(const DxfDrawing& drawing) {
   std::set<std::string> hidden;
   for (const DxfEntity& layer : drawing.layers)
     if ((static_cast<int>(layer.number_of(70, 0)) & frozen) || layer.number_of(62, 7) < 0)
-      hidden.insert(layer_key(layer.text_of(2)));
+      hidden.insert(name_key(layer.text_of(2)));
   return hidden;
 }
 
@@ -245,22 +63,135 @@ bool is_curve(const DxfEntity& entity) {
 
 bool is_in_paper_space(const DxfEntity& entity) { return entity.number_of(67, 0) == 1; }
 
-std::string label_of(const DxfEntity& entity) {
-  return "entity " + std::to_string(entity.number) + " " + entity.type;
+/// What the entities of a block have of the INSERT that places it.
+struct Placement {
+  Eigen::Affine3d to_drawing = Eigen::Affine3d::Identity();
+  std::vector<std::string> blocks = {};  // from the outermost
+  std::string layer = "0", colour = {};
+  bool hidden = false;
+};
+
+std::string label_of(const DxfEntity& entity, const Placement& in) {
+  const std::string block = in.blocks.empty() ? "" : "block '" + in.blocks.back() + "', ";
+  return block + "entity " + std::to_string(entity.number) + " " + entity.type;
 }
 
-ImportedCurve imported(Drawn drawn, const DxfEntity& entity, double unit) {
-  Eigen::Matrix4Xd points = drawn.curve.control_points();
-  points.topRows<3>() *= unit;
-  NurbsCurve curve(drawn.curve.knots(), std::move(points));
-  if (!(length(curve) > 0)) throw std::runtime_error("it has no length");
-  return {.name = "",
-          .entity = std::move(drawn.entity),
-          .layer = entity.text_of(8),
-          .colour = colour_of(entity),
-          .hidden = entity.number_of(60, 0) == 1,
-          .curve = std::move(curve)};
+std::string path_of(const std::vector<std::string>& blocks) {
+  std::string path;
+  for (const std::string& block : blocks) path += (path.empty() ? "" : "/") + block;
+  return path;
 }
+
+NurbsCurve moved(const NurbsCurve& curve, const Eigen::Affine3d& place, double unit) {
+  Eigen::Matrix4Xd points = curve.control_points();
+  points.topRows<3>() = unit * (place.matrix().topRows<3>() * points).eval();
+  return {curve.knots(), std::move(points)};
+}
+
+/// Blocks that place others over and over would have no end.
+struct TooManyCopies : std::runtime_error {
+  TooManyCopies() : std::runtime_error("its blocks (INSERT) place more than 200000 entities; explode some") {}
+};
+
+class DrawnCurves {
+ public:
+  DrawnCurves(const DxfDrawing& drawing, ImportReport& report)
+      : drawing_(drawing), report_(report), hidden_layers_(hidden_layers(drawing)) {}
+
+  void add(const std::vector<DxfEntity>& entities, const Placement& in) {
+    for (const DxfEntity& entity : entities) {
+      try {
+        if (is_in_paper_space(entity)) {
+          if (is_curve(entity)) on_paper_.push_back(&entity);
+          continue;
+        }
+        if (entity.type == "INSERT") add_block(entity, in);
+        for (const DrawnCurve& drawn : curves_of(entity, entities)) add(drawn, entity, in);
+      } catch (const std::bad_alloc&) {
+        throw;
+      } catch (const TooManyCopies&) {
+        throw;
+      } catch (const std::exception& e) {
+        warn(label_of(entity, in), std::string("not read: ") + e.what());
+      }
+    }
+  }
+
+  void name_curves_on_paper() {
+    if (on_paper_.empty()) return;
+    warn(label_of(*on_paper_[0], {}),
+         "not read, for it lies in the paper space (group 67), which is no part of the "
+         "model; so do " +
+             std::to_string(on_paper_.size()) + " curve(s) in all: move what is wanted to the model space");
+  }
+
+ private:
+  void add(const DrawnCurve& drawn, const DxfEntity& entity, const Placement& in) {
+    NurbsCurve curve = moved(drawn.curve, in.to_drawing, report_.unit_in_metres);
+    if (!(length(curve) > 0)) throw std::runtime_error("it has no length");
+    report_.curves.push_back({.name = in.blocks.empty() ? "" : in.blocks.back(),
+                              .entity = drawn.entity,
+                              .layer = layer_of(entity, in),
+                              .colour = colour_of(entity, in.colour),
+                              .part = path_of(in.blocks),
+                              .hidden = is_hidden(entity, in),
+                              .curve = std::move(curve)});
+  }
+
+  void add_block(const DxfEntity& insert, const Placement& in) {
+    constexpr std::size_t most_copies = 200000;
+    const DxfBlock& block = block_of(insert);
+    Placement below = in;
+    below.blocks.push_back(block.head.text_of(2));
+    if (std::count(in.blocks.begin(), in.blocks.end(), below.blocks.back()) > 0)
+      throw std::runtime_error("the block '" + below.blocks.back() + "' places itself");
+    below.layer = layer_of(insert, in);
+    below.colour = colour_of(insert, in.colour);
+    below.hidden = is_hidden(insert, in);
+    for (const Eigen::Affine3d& place : places_of(insert, block)) {
+      copies_ += block.entities.size() + 1;
+      if (copies_ > most_copies) throw TooManyCopies();
+      below.to_drawing = in.to_drawing * place;
+      add(block.entities, below);
+    }
+  }
+
+  const DxfBlock& block_of(const DxfEntity& insert) const {
+    constexpr int external = 4 | 8;
+    const std::string name = insert.text_of(2);
+    const auto at = std::find_if(drawing_.blocks.begin(), drawing_.blocks.end(), [&](const DxfBlock& block) {
+      return name_key(block.head.text_of(2)) == name_key(name);
+    });
+    if (at == drawing_.blocks.end())
+      throw std::runtime_error("the block '" + name + "' that it places is not in the drawing");
+    if (static_cast<int>(at->head.number_of(70, 0)) & external)
+      throw std::runtime_error("the block '" + name + "' that it places lies in another drawing; bind it");
+    return *at;
+  }
+
+  /// What lies on the layer 0 of a block lies on that of its INSERT.
+  static std::string layer_of(const DxfEntity& entity, const Placement& in) {
+    const std::string own = entity.text_of(8);
+    return !in.blocks.empty() && (own == "0" || own.empty()) ? in.layer : own;
+  }
+
+  bool is_hidden(const DxfEntity& entity, const Placement& in) const {
+    return in.hidden || entity.number_of(60, 0) == 1 ||
+           hidden_layers_.contains(name_key(layer_of(entity, in)));
+  }
+
+  /// Once, however often its block is placed.
+  void warn(const std::string& where, const std::string& message) {
+    if (warned_.insert(where + message).second)
+      report_.diagnostics.push_back({Severity::warning, where, message});
+  }
+
+  const DxfDrawing& drawing_;
+  ImportReport& report_;
+  std::set<std::string> hidden_layers_, warned_;
+  std::vector<const DxfEntity*> on_paper_;
+  std::size_t copies_ = 0;
+};
 
 }  // namespace
 
@@ -271,30 +202,9 @@ ImportReport read_dxf(const std::string& content) {
   ImportReport report{
       .file = "", .unit = named.name, .unit_in_metres = named.in_metres, .curves = {}, .diagnostics = {}};
   if (!unit) report.diagnostics.push_back({Severity::warning, "", without_unit(drawing.unit)});
-  const std::set<std::string> hidden = hidden_layers(drawing);
-  std::vector<const DxfEntity*> on_paper;
-  for (const DxfEntity& entity : drawing.entities) {
-    try {
-      if (is_in_paper_space(entity)) {
-        if (is_curve(entity)) on_paper.push_back(&entity);
-        continue;
-      }
-      for (Drawn& drawn : curves_of(entity, drawing.entities))
-        report.curves.push_back(imported(std::move(drawn), entity, report.unit_in_metres));
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& e) {
-      report.diagnostics.push_back(
-          {Severity::warning, label_of(entity), std::string("not read: ") + e.what()});
-    }
-  }
-  for (ImportedCurve& curve : report.curves) curve.hidden |= hidden.contains(layer_key(curve.layer));
-  if (!on_paper.empty())
-    report.diagnostics.push_back(
-        {Severity::warning, label_of(*on_paper[0]),
-         "not read, for it lies in the paper space (group 67), which is no part of the "
-         "model; so do " +
-             std::to_string(on_paper.size()) + " curve(s) in all: move what is wanted to the model space"});
+  DrawnCurves curves(drawing, report);
+  curves.add(drawing.entities, {});
+  curves.name_curves_on_paper();
   return report;
 }
 

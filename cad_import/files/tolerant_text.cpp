@@ -6,6 +6,7 @@
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/files/complex_instance.h"
+#include "cad_import/files/real_text.h"
 #include "cad_import/files/simple_spline.h"
 
 namespace nurbeam {
@@ -59,12 +60,18 @@ std::string_view keyword_of(std::string_view statement) {
   return statement.substr(i, end == std::string_view::npos ? end : end - i);
 }
 
-void append_without_trailing_commas(std::string_view statement, std::string& out) {
+/// Without commas before a closing parenthesis, reals as reals.
+void append_parameters(std::string_view statement, std::string& out) {
   for (std::size_t i = 0; i < statement.size();) {
     const std::size_t next = after_quotation(statement, i);
     if (next > i) {
       out += statement.substr(i, next - i);
       i = next;
+      continue;
+    }
+    if (const NumberText number = number_text(statement, i, opens_typed_real(out)); number.size > 0) {
+      out += number.text;
+      i += number.size;
       continue;
     }
     const std::size_t after = statement.find_first_not_of(blanks, i + 1);
@@ -85,9 +92,9 @@ void append_instance(std::string_view statement, std::string& out) {
   const std::optional<std::string> other =
       value > 0 && statement.ends_with(';') ? rewritten(statement.substr(value, statement.size() - value - 1))
                                             : std::nullopt;
-  if (!other) return append_without_trailing_commas(statement, out);
+  if (!other) return append_parameters(statement, out);
   out += statement.substr(0, value);
-  append_without_trailing_commas(*other, out);
+  append_parameters(*other, out);
   out += ';';
 }
 

@@ -203,6 +203,15 @@ Eigen::Affine3d right_handed(Eigen::Affine3d location) {
   return location;
 }
 
+/// OpenCASCADE takes the radius at the start, and the direction alone of the end.
+void check_radius(const IGESGeom_CircularArc& arc) {
+  constexpr double digits = 1e-3;  // that files leave
+  const double first = arc.StartPoint().Distance(arc.Center()), last = arc.EndPoint().Distance(arc.Center());
+  if (!(std::abs(last - first) <= digits * first))
+    throw std::runtime_error("its start lies " + text_of(first) + " from its centre and its end " +
+                             text_of(last) + "; both must be its radius: correct the points");
+}
+
 }  // namespace
 
 ConicPosition position_of(const IGESGeom_ConicArc& arc) {
@@ -249,6 +258,7 @@ void put_into_position(IGESGeom_ConicArc& arc) {
 }
 
 void put_into_position(IGESGeom_CircularArc& arc) {
+  check_radius(arc);
   const Eigen::Affine3d location = rigid_location(arc);
   if (location.linear().determinant() > 0) return;
   const auto coordinates = [](const gp_Pnt2d& point) { return point.XY(); };

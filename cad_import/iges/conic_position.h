@@ -23,7 +23,8 @@ ConicPosition position_of(const IGESGeom_ConicArc& arc);
 /// puts them where they were: OpenCASCADE reads others as other curves, and goes the wrong way where a
 /// transformation mirrors. Throws std::runtime_error as position_of() and rigid_location() do.
 void put_into_position(IGESGeom_ConicArc& arc);
-/// The same for circular arcs (100), which are in their own axes already.
+/// The same for circular arcs (100), which are in their own axes already; throws where the ends are not at
+/// one distance from the centre.
 void put_into_position(IGESGeom_CircularArc& arc);
 
 }  // namespace nurbeam

@@ -7,6 +7,7 @@
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -26,6 +27,7 @@
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/occt/placed_curve.h"
 #include "cad_import/program/drawing_text.h"
+#include "cad_import/program/edge_senses.h"
 #include "cad_import/program/lost_curves.h"
 #include "cad_import/program/memory_file.h"
 #include "cad_import/program/restated_curves.h"
@@ -47,22 +49,32 @@ struct FoundCurve {
   Eigen::Affine3d to_world = Eigen::Affine3d::Identity();  // of its part [m]
   bool backwards = false;                                  // against the instance
   bool free = true;
-  int places = 1;  // how often its part is placed
+  int places = 1;      // how often its part is placed
+  bool piece = false;  // of the instance, a composite curve
 };
 
 bool is_same(const NurbsCurve& a, const NurbsCurve& b) {
   return a.knots() == b.knots() && a.control_points() == b.control_points();
 }
 
-int instance_of(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
+/// The instance that OpenCASCADE made of such a shape, an edge or a wire, that has the edge; 0 for none.
+int instance_with(const TopoDS_Edge& edge, TopAbs_ShapeEnum kind, const STEPControl_Reader& reader) {
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
   for (int i = 1; i <= process->NbMapped(); ++i) {
     const TopoDS_Shape result = TransferBRep::ShapeResult(process, process->Mapped(i));
-    if (result.IsNull() || result.ShapeType() != TopAbs_EDGE || result.TShape() != edge.TShape()) continue;
     const int label = model->IdentLabel(process->Mapped(i));
-    if (label > 0) return label;
+    if (label <= 0 || result.IsNull() || result.ShapeType() != kind) continue;
+    for (TopExp_Explorer part(result, TopAbs_EDGE); part.More(); part.Next())
+      if (part.Current().TShape() == edge.TShape()) return label;
   }
+  return 0;
+}
+
+FoundCurve found_curve(const TopoDS_Edge& edge, const STEPControl_Reader& reader) {
+  if (const int own = instance_with(edge, TopAbs_EDGE, reader)) return {.instance = own};
+  if (const int composite = instance_with(edge, TopAbs_WIRE, reader))
+    return {.instance = composite, .piece = true};
   throw std::runtime_error("OpenCASCADE does not tell which instance of the file an edge came from");
 }
 
@@ -71,19 +83,24 @@ std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const TruePlaces& t
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   const TopoDS_Shape shape = reader.OneShape();
   if (!shape.IsNull()) TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  const EdgeSenses senses(reader);
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(i));
     if (BRep_Tool::Degenerated(edge)) continue;
     try {
-      ImportedCurve curve = imported_curve(edge, import_tolerance);
+      ImportedCurve curve = imported_curve(faces(i).IsEmpty() ? senses.of(edge) : edge, import_tolerance);
       if (!true_places.put_in_place(edge.Location(), curve) || !is_same(curve.curve, drawn)) continue;
     } catch (const std::exception&) {
       continue;  // no valid curve, and so none that import_curves() gave
     }
-    int places = 0;
-    for (int k = 1; k <= faces.Extent(); ++k) places += faces.FindKey(k).TShape() == edge.TShape();
-    return FoundCurve{instance_of(edge, reader), *true_places.to_world(edge.Location()),
-                      edge.Orientation() == TopAbs_REVERSED, faces(i).IsEmpty(), places};
+    FoundCurve found = found_curve(edge, reader);
+    found.to_world = *true_places.to_world(edge.Location());
+    found.free = faces(i).IsEmpty();
+    const bool as_its_vertices = found.free && senses.know(edge);  // and so it is written
+    found.backwards = edge.Orientation() == TopAbs_REVERSED && !as_its_vertices;
+    found.places = 0;
+    for (int k = 1; k <= faces.Extent(); ++k) found.places += faces.FindKey(k).TShape() == edge.TShape();
+    return found;
   }
   return std::nullopt;
 }
@@ -186,6 +203,7 @@ void add_beside(int representation, std::optional<int> own, const NurbsCurve& cu
 std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundCurve& found,
                                     const StepInstances& step) {
   if (wanted.beside) return "the beam is a chain of several curves";
+  if (found.piece) return "the curve is a piece of this composite curve, which stays as it is";
   if (!found.free) return "the edge bounds faces, which do not move with it";
   for (const int user : step.users(found.instance))
     if (const std::string kind = step.keyword(user);
@@ -269,6 +287,7 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     STEPControl_Reader reader;
     if (reader.ReadFile(MemoryFile(content).path().c_str()) != IFSelect_RetDone)
       throw std::runtime_error("OpenCASCADE cannot read it");
+    restate_units(*reader.Model());
     join_supplemental_geometry(reader);
     ImportReport remarks;  // given when it was imported
     const RestatedCurves restated = restate_curves(reader, remarks);

@@ -58,7 +58,7 @@ LostCurves add_curves(const XSControl_Reader& reader, const RestatedCurves& rest
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) return add_lost_curves(reader, restated, tolerance, report);
   const ShapeFacts facts{origins_of_edges_and_faces(reader, restated.refused, report),
-                         part_names(reader, shape), true_places(reader, restated)};
+                         part_names(reader, shape), true_places(reader, restated), EdgeSenses(reader)};
   add_edges(shape, facts, tolerance, report);
   LostCurves lost = add_lost_curves(reader, restated, tolerance, report);
   add_centre_lines(shape, facts, tolerance, report);
@@ -133,6 +133,7 @@ void read_step(const std::string& content, double tolerance, const ReadFile& rea
   start_step();
   STEPControl_Reader reader;
   read(reader, content, report);
+  restate_units(*reader.Model());
   report_step_unit(*reader.Model(), report);
   join_supplemental_geometry(reader);
   transfer(reader, tolerance, report);

@@ -40,6 +40,8 @@
 #include "cad_import/iges/subfigure_instance.h"
 #include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/axis_placement.h"
+#include "cad_import/step/closed_spline.h"
 #include "cad_import/step/curve_replica.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/transformation_operator.h"
@@ -203,6 +205,13 @@ const StepGeom_CartesianTransformationOperator3d& operator_of(const StepRepr_Map
   return *known;
 }
 
+/// Before the curves, which are placed by them.
+void restate_placements(const StepData_StepModel& model) {
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto placement = Handle(StepGeom_Axis2Placement3d)::DownCast(model.Value(i)))
+      complete_axes(*placement);
+}
+
 class StepCurves {
  public:
   StepCurves(const StepData_StepModel& model, const Interface_Graph& graph, Remarks& remarks)
@@ -264,6 +273,7 @@ class StepCurves {
     remarks_.attempt(trimmed, [&] {
       use_unit(trimmed);
       warning = restate_trims(*trimmed, graph_, by_open_cascade_);
+      if (!warning) warning = misplaced_trims(trimmed);
     });
     if (warning) remarks_.warn(trimmed, *warning);
   }
@@ -300,6 +310,8 @@ RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& repo
   if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model()))
     restated.places = restate_iges(*iges, remarks);
   if (const auto step = Handle(StepData_StepModel)::DownCast(reader.Model())) {
+    restate_placements(*step);
+    unmark_closed_splines(*step);
     StepCurves curves(*step, reader.WS()->Graph(), remarks);
     for (int i = 1; i <= step->NbEntities(); ++i) curves.restate(step->Value(i));
     restated.parents = curves.parents();

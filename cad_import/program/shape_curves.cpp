@@ -82,7 +82,9 @@ void add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolera
     const auto known = facts.origins.find(edge.TShape().get());
     const Origin origin = known == facts.origins.end() ? Origin{} : known->second;
     if (origin.left_out) continue;
-    add_edge(edge, faces_of_edges(i).IsEmpty(), edge_label(i, origin), origin, facts, tolerance, report);
+    const bool free = faces_of_edges(i).IsEmpty();
+    add_edge(free ? facts.senses.of(edge) : edge, free, edge_label(i, origin), origin, facts, tolerance,
+             report);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <TopoDS_Shape.hxx>
 
 #include "cad_import/occt/true_places.h"
+#include "cad_import/program/edge_senses.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/part_names.h"
 #include "cad_import/report/import_report.h"
@@ -13,6 +14,7 @@ struct ShapeFacts {
   Origins origins = {};
   PartNames parts = {};
   TruePlaces places = {};
+  EdgeSenses senses = {};
 };
 
 /// Adds the curves of all edges of a shape [mm] that are not degenerate, each once, with what is known of

@@ -15,6 +15,7 @@
 #include <StepToGeom.hxx>
 #include <TColStd_HArray1OfInteger.hxx>
 #include <TColStd_HArray1OfReal.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <algorithm>
 #include <stdexcept>
@@ -99,6 +100,7 @@ gp_Pnt vertex_of(const Handle(StepShape_Vertex) & vertex) {
   return StepToGeom::MakeCartesianPoint(place)->Pnt();
 }
 
+/// From its first vertex to its last: against its curve where it has not the sense of that.
 TopoDS_Edge edge_of(const Handle(Standard_Transient) & entity) {
   const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity);
   const Handle(Geom_Curve) curve =
@@ -112,7 +114,8 @@ TopoDS_Edge edge_of(const Handle(Standard_Transient) & entity) {
   else
     maker.Init(curve, vertex_of(edge->EdgeEnd()), vertex_of(edge->EdgeStart()));
   if (!maker.IsDone()) throw std::runtime_error("it is not bounded, or its ends are not on it");
-  return maker.Edge();
+  const bool backwards = !edge.IsNull() && !edge->SameSense();
+  return backwards ? TopoDS::Edge(maker.Edge().Reversed()) : maker.Edge();
 }
 
 }  // namespace

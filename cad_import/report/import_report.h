@@ -12,10 +12,10 @@ struct ImportedCurve {
   std::string name = {};    ///< as in the file, else that of its part; "" for none
   std::string entity = {};  ///< kind in the file's terms: "line", "circle", "ellipse", "parabola",
                             ///< "hyperbola", "bspline", "bezier", "offset", "other"; "centre line" of a pipe
-  std::string layer = {};   ///< STEP: name of its layer; IGES: number of its level; "" for none
+  std::string layer = {};   ///< STEP, DXF: name of its layer; IGES: number of its level; "" for none
   std::string colour = {};  ///< "#rrggbb"; "" for none
   std::string part = {};    ///< path of the part that holds it, "bridge/cable" (STEP: names of occurrences or
-                            ///< products; IGES: of groups); "" for none
+                            ///< products; IGES: of groups; DXF: of blocks); "" for none
   bool free = true;         ///< no face uses it
   bool hidden = false;      ///< not shown: STEP INVISIBILITY, IGES blank status
   bool exact = true;        ///< whether `curve` is the entity exactly

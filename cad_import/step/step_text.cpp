@@ -28,6 +28,7 @@
 #include <stdexcept>
 
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/closed_spline.h"
 #include "cad_import/step/encoded_text.h"
 #include "cad_import/step/spine.h"
 #include "cad_import/step/swept_solid.h"
@@ -147,6 +148,7 @@ void describe(const Handle(StepData_StepModel) & model, const std::string& name)
 }
 
 std::string text(STEPControl_Writer& writer) {
+  unmark_closed_splines(*writer.Model());
   StepData_StepWriter out(writer.Model());
   // 17 digits, which give a number back; with one more OpenCASCADE overruns its buffer at "-1.2...E-101".
   out.FloatWriter().SetFormat("%.16E");

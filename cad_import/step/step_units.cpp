@@ -1,6 +1,10 @@
 #include "cad_import/step/step_units.h"
 
 #include <STEPConstruct_UnitContext.hxx>
+#include <StepBasic_ConversionBasedUnit.hxx>
+#include <StepBasic_MeasureWithUnit.hxx>
+#include <StepBasic_NamedUnit.hxx>
+#include <StepBasic_Unit.hxx>
 #include <StepData_GlobalFactors.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
@@ -20,6 +24,12 @@ Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty_of(const Handle(St
                           : context->GlobalUncertaintyAssignedContext();
 }
 
+/// What one of this unit is, in another one; null where it is no multiple of one.
+Handle(StepBasic_MeasureWithUnit) measure_of(const Handle(Standard_Transient) & unit) {
+  const auto multiple = Handle(StepBasic_ConversionBasedUnit)::DownCast(unit);
+  return multiple.IsNull() ? Handle(StepBasic_MeasureWithUnit)() : multiple->ConversionFactor();
+}
+
 }  // namespace
 
 Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transient) & entity) {
@@ -30,6 +40,19 @@ Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transi
           Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(entity))
     return context->GlobalUnitAssignedContext();
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
+}
+
+void restate_units(const Interface_InterfaceModel& model) {
+  constexpr int deepest = 100;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(StepBasic_MeasureWithUnit) measure = measure_of(model.Value(i));
+    for (int depth = 0; !measure.IsNull() && depth < deepest; ++depth) {
+      const Handle(StepBasic_MeasureWithUnit) next = measure_of(measure->UnitComponent().Value());
+      if (next.IsNull() || next == measure) break;
+      measure->SetValueComponent(measure->ValueComponent() * next->ValueComponent());
+      measure->SetUnitComponent(next->UnitComponent());
+    }
+  }
 }
 
 std::optional<double> length_unit_of(const Handle(Standard_Transient) & context) {

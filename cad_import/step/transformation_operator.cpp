@@ -1,12 +1,9 @@
 #include "cad_import/step/transformation_operator.h"
 
 #include <Geom_CartesianPoint.hxx>
-#include <Geom_Direction.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
-#include <StepGeom_Direction.hxx>
 #include <StepToGeom.hxx>
-#include <TColStd_HArray1OfReal.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <initializer_list>
 #include <optional>
@@ -14,19 +11,13 @@
 #include <string>
 
 #include "cad_import/occt/true_places.h"
+#include "cad_import/step/step_direction.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
 
 using Operator = StepGeom_CartesianTransformationOperator3d;
-
-std::optional<Eigen::Vector3d> direction_of(const Handle(StepGeom_Direction) & direction) {
-  const Handle(Geom_Direction) known =
-      direction.IsNull() ? Handle(Geom_Direction)() : StepToGeom::MakeDirection(direction);
-  if (known.IsNull()) return std::nullopt;
-  return Eigen::Vector3d(known->X(), known->Y(), known->Z());
-}
 
 /// What is left of the direction at right angles to the others.
 Eigen::Vector3d perpendicular(Eigen::Vector3d direction, std::initializer_list<Eigen::Vector3d> others) {
@@ -37,11 +28,9 @@ Eigen::Vector3d perpendicular(Eigen::Vector3d direction, std::initializer_list<E
 
 /// base_axis of ISO 10303-42.
 Eigen::Matrix3d axes_of(const Operator& transformation) {
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
   const Eigen::Vector3d third = direction_of(transformation.Axis3()).value_or(Eigen::Vector3d::UnitZ());
-  const bool x_is_third = third.cross(x).norm() < 1e-9;
   const Eigen::Vector3d first =
-      perpendicular(direction_of(transformation.Axis1()).value_or(x_is_third ? y : x), {third});
+      perpendicular(direction_of(transformation.Axis1()).value_or(default_first_axis(third)), {third});
   const auto given = direction_of(transformation.Axis2());
   Eigen::Matrix3d axes;
   axes << first, given ? perpendicular(*given, {third, first}) : Eigen::Vector3d(third.cross(first)), third;
@@ -49,14 +38,6 @@ Eigen::Matrix3d axes_of(const Operator& transformation) {
 }
 
 Handle(TCollection_HAsciiString) unnamed() { return new TCollection_HAsciiString(""); }
-
-Handle(StepGeom_Direction) step_direction(const Eigen::Vector3d& direction) {
-  const Handle(TColStd_HArray1OfReal) ratios = new TColStd_HArray1OfReal(1, 3);
-  for (int i = 0; i < 3; ++i) ratios->SetValue(i + 1, direction(i));
-  const Handle(StepGeom_Direction) result = new StepGeom_Direction;
-  result->Init(unnamed(), ratios);
-  return result;
-}
 
 }  // namespace
 

@@ -3,7 +3,9 @@
 #include <ElCLib.hxx>
 #include <Geom_CartesianPoint.hxx>
 #include <Geom_Parabola.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <Interface_EntityIterator.hxx>
+#include <Standard_Failure.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepGeom_CurveReplica.hxx>
@@ -166,7 +168,35 @@ bool is_trimmed_by_points(const StepGeom_TrimmedCurve& trimmed) {
          (!has_parameters || trimmed.MasterRepresentation() == StepGeom_tpCartesian);
 }
 
+/// Along chords [mm].
+double rough_length(const Geom_Curve& curve) {
+  constexpr int chords = 8;
+  const double first = curve.FirstParameter(), step = (curve.LastParameter() - first) / chords;
+  double sum = 0;
+  for (int i = 0; i < chords; ++i)
+    sum += curve.Value(first + i * step).Distance(curve.Value(first + (i + 1) * step));
+  return sum;
+}
+
 }  // namespace
+
+std::optional<std::string> misplaced_trims(const Handle(StepGeom_TrimmedCurve) & trimmed) {
+  constexpr double digits = 1e-3;  // of the piece
+  try {
+    const Handle(Geom_TrimmedCurve) piece = StepToGeom::MakeTrimmedCurve(trimmed);
+    if (piece.IsNull()) return std::nullopt;
+    const std::optional<gp_Pnt> first = trim_of(trimmed->Trim1()).point,
+                                last = trim_of(trimmed->Trim2()).point;
+    const double at_first = first ? first->Distance(piece->StartPoint()) : 0;
+    const double at_last = last ? last->Distance(piece->EndPoint()) : 0;
+    if (!(std::max(at_first, at_last) > digits * rough_length(*piece))) return std::nullopt;
+    return "it begins " + text_of(at_first) + " mm and ends " + text_of(at_last) +
+           " mm from the points that trim it, which contradict its curve, its parameters or its sense: correct "
+           "them";
+  } catch (const Standard_Failure&) {
+    return std::nullopt;  // said where it is translated
+  }
+}
 
 std::optional<std::string> restate_trims(StepGeom_TrimmedCurve& trimmed, const Interface_Graph& graph,
                                          bool by_open_cascade) {

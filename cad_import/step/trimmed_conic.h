@@ -16,4 +16,8 @@ namespace nurbeam {
 std::optional<std::string> restate_trims(StepGeom_TrimmedCurve& trimmed, const Interface_Graph& graph,
                                          bool by_open_cascade);
 
+/// That the points which trim the piece are not where it begins and ends, as OpenCASCADE reads it; nothing
+/// where they are.
+std::optional<std::string> misplaced_trims(const opencascade::handle<StepGeom_TrimmedCurve>& trimmed);
+
 }  // namespace nurbeam

@@ -89,13 +89,14 @@ Plane plane_of(const std::vector<Loop>& paths) {
   for (const Loop& path : paths)
     for (const RationalCubic& cubic : path)
       for (int i = 0; i < 4; ++i) points.push_back(cubic.control_point(i));
-  Eigen::Vector3d low = points[0], high = points[0];
+  Eigen::Vector3d low = points[0], high = points[0], sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
+    sum += p;
   }
   Plane plane;
-  plane.origin = 0.5 * (low + high);
+  plane.origin = sum / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& p : points) spread += (p - plane.origin) * (p - plane.origin).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU);

@@ -10,6 +10,7 @@
 
 #include "cad_import/import_curves.h"
 #include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/uneven_circle.h"
 
 namespace nurbeam {
 namespace {
@@ -130,6 +131,19 @@ TEST_P(RoundTrip, PrintsNothing) {
 INSTANTIATE_TEST_SUITE_P(All, RoundTrip, ::testing::ValuesIn(targets), [](const auto& test) {
   return test.param.extension.substr(1) + "_" + test.param.unit_name;
 });
+
+/// Readers that make marked curves periodic give their end the weight of their start.
+TEST(ExportCurves, ClosedCurvesWhoseEndsHaveDifferentWeightsAreNotMarkedAsClosed) {
+  const ScratchDirectory scratch;
+  for (const char* name : {"ring.step", "ring.igs", "ring.dxf", "ring.brep"}) {
+    const fs::path file = scratch.path() / name;
+    ASSERT_TRUE(export_curves(file, {{"ring", uneven_circle(0.05)}}, LengthUnit::millimetre).empty());
+    const NurbsCurve ring = import_curves(file).curves.at(0).curve;
+    for (double u = 0; u <= 3; u += 0.0625)
+      EXPECT_NEAR(ring.point(u).norm(), 0.05, 1e-15) << name << " " << u;
+  }
+  EXPECT_EQ(content_of(scratch.path() / "ring.step").find(".UNSPECIFIED.,.T."), std::string::npos);
+}
 
 TEST(ExportCurves, ReplacesAnOldFileAndLeavesNoOther) {
   const ScratchDirectory scratch;

@@ -28,7 +28,9 @@
 #include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
 #include "cad_import/step/step_instances.h"
+#include "nurbs/arc_length.h"
 #include "tests/cad_import/arch.h"
+#include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_parameter.h"
 #include "tests/cad_import/step_text_of.h"
@@ -215,6 +217,36 @@ TEST(ExportIntoStep, AChainIsAddedBesideItsFirstCurve) {
   EXPECT_EQ(sets_in(target), sets_in(source));
 }
 
+TEST(ExportIntoStep, APieceOfACompositeCurveStaysAndTheCurveIsAddedBesideIt) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.file(
+      "source.step",
+      step_text_of("#100",
+                   "#100 = COMPOSITE_CURVE('run',(#101,#102),.F.);\n"
+                   "#101 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#103);\n"
+                   "#102 = COMPOSITE_CURVE_SEGMENT(.DISCONTINUOUS.,.F.,#104);\n"
+                   "#103 = POLYLINE('',(#200,#201));\n#104 = POLYLINE('',(#202,#201));\n"
+                   "#200 = CARTESIAN_POINT('',(0.,0.,0.));\n#201 = CARTESIAN_POINT('',(3.,0.,0.));\n"
+                   "#202 = CARTESIAN_POINT('',(7.,0.,0.));"));
+  const fs::path target = scratch.path() / "target.step";
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 2U);
+  for (const bool chain : {false, true}) {
+    const auto warnings = export_into_step(
+        source, target,
+        {{.drawn = before.curves[1].curve, .deformed = bent(0.3, true), .name = "run", .beside = chain}});
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].message.find("#100 'run'"), std::string::npos) << warnings[0].message;
+    EXPECT_NE(warnings[0].message.find(chain ? "chain of several" : "piece of this composite"),
+              std::string::npos)
+        << warnings[0].message;
+    const ImportReport after = import_curves(target);
+    ASSERT_EQ(after.curves.size(), 3U);
+    EXPECT_LE(difference(after.curves[2].curve, bent(0.3, true)), 2e-15);
+    EXPECT_EQ(after.curves[2].name, "run");
+  }
+}
+
 TEST(ExportIntoStep, ConicsAndLinesOfTheSourceBecomeSplines) {
   const ScratchDirectory scratch;
   const fs::path target = scratch.path() / "target.step";
@@ -250,6 +282,37 @@ TEST(ExportIntoStep, AFreeEdgeWithVerticesGetsNewOnes) {
   ASSERT_EQ(after.curves.size(), 1u);
   EXPECT_EQ(after.curves[0].name, "brace");
   EXPECT_LE(difference(after.curves[0].curve, bent(0.1, true)), 2e-15);
+}
+
+TEST(ExportIntoStep, AnEdgeOfAWireframeRunsFromItsFirstVertexToItsLastBeforeAndAfter) {
+  const ScratchDirectory scratch;
+  // From (0, 5) to (5, 0): along the circle the long way round, against it the short one.
+  std::string text = step_text_of(
+      "#100",
+      "#100 = VERTEX_POINT('',#200);\n#101 = VERTEX_POINT('',#201);\n#102 = CIRCLE('',#11,5.);\n"
+      "#103 = EDGE_CURVE('bow',#101,#100,#102,.T.);\n#104 = EDGE_CURVE('arc',#101,#100,#102,.F.);\n"
+      "#105 = CONNECTED_EDGE_SET('',(#103,#104));\n"
+      "#200 = CARTESIAN_POINT('',(5.,0.,0.));\n#201 = CARTESIAN_POINT('',(0.,5.,0.));");
+  text = with(text, "GEOMETRIC_CURVE_SET('',(#100))", "EDGE_BASED_WIREFRAME_MODEL('',(#105))");
+  text = with(text, "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE", "EDGE_BASED_WIREFRAME_SHAPE");
+  const fs::path source = scratch.file("source.step", text), target = scratch.path() / "target.step";
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 2U);
+  for (const auto& [edge, length_over_pi] : {std::pair{0, 7.5e-3}, {1, 2.5e-3}}) {
+    const ImportedCurve& read = before.curves[edge];
+    ASSERT_EQ(read.name, edge == 0 ? "bow" : "arc");
+    EXPECT_LE((start_of(read.curve) - Eigen::Vector3d(0, 5e-3, 0)).norm(), 1e-16);
+    EXPECT_LE((end_of(read.curve) - Eigen::Vector3d(5e-3, 0, 0)).norm(), 1e-16);
+    EXPECT_NEAR(length(read.curve) / std::numbers::pi, length_over_pi, 1e-15);
+    EXPECT_TRUE(export_into_step(source, target, {{read.curve, bent(0.2, false), read.name}}).empty());
+    const ImportReport after = import_curves(target);
+    ASSERT_EQ(after.curves.size(), 2U);
+    for (const ImportedCurve& curve : after.curves)
+      if (curve.name == read.name)
+        EXPECT_LE(difference(curve.curve, bent(0.2, false)), 2e-15);
+      else
+        EXPECT_LE((start_of(curve.curve) - start_of(read.curve)).norm(), 1e-16) << curve.name;
+  }
 }
 
 TEST(ExportIntoStep, AClosedCurveStaysAClosedEdgeWithOneVertex) {

@@ -11,6 +11,7 @@
 
 #include "cad_import/files/child_process.h"
 #include "tests/cad_import/curve_ends.h"
+#include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
 
@@ -265,6 +266,18 @@ TEST(ImportCurves, TheLengthUnitOfAStepFileIsReportedAndApplied) {
     EXPECT_DOUBLE_EQ(report.unit_in_metres, unit.in_metres);
     EXPECT_NEAR(length(report.curves[0].curve), 2 * pi * unit.in_metres, 1e-13);
   }
+}
+
+TEST(ImportCurves, AFootOfTwelveInchesIsTwelveInches) {
+  const std::string feet =
+      "( CONVERSION_BASED_UNIT('FOOT',#34) LENGTH_UNIT() NAMED_UNIT(#33) );\n"
+      "#34 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(12.),#35);\n#35 = " +
+      inches;
+  const ImportReport report = import_text(step_text_of("#100", "#100 = CIRCLE('',#11,2.);", "", feet));
+  EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
+  ASSERT_EQ(report.curves.size(), 1U);
+  EXPECT_NEAR(report.unit_in_metres, 0.3048, 1e-16);
+  EXPECT_NEAR(start_of(report.curves[0].curve).x(), 2 * 0.3048, 1e-15);
 }
 
 TEST(ImportCurves, TheFormatIsFoundByContentNotByName) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 
@@ -80,6 +81,32 @@ TEST(LostCurves, ADegreeAboveTwentyFiveIsRead) {
   EXPECT_NEAR(curve->curve.point(0.3).x(), 0.3 * 30e-3, 1e-16);
 }
 
+/// A wire whose edge "side" lies on the line along x through #200.
+std::string wireframe_of_a_side(const std::string& first, const std::string& last, const std::string& sense) {
+  return "#120 = VERTEX_POINT(''," + first + ");\n#121 = VERTEX_POINT(''," + last +
+         ");\n#122 = DIRECTION('',(1.,0.,0.));\n"
+         "#123 = VECTOR('',#122,1.);\n#124 = LINE('',#200,#123);\n"
+         "#125 = EDGE_CURVE('side',#120,#121,#124," +
+         sense +
+         ");\n#126 = ORIENTED_EDGE('',*,*,#125,.T.);\n"
+         "#127 = EDGE_LOOP('',(#126));\n#128 = WIRE_SHELL('',(#127));\n"
+         "#129 = SHELL_BASED_WIREFRAME_MODEL('',(#128));\n"
+         "#130 = SHELL_BASED_WIREFRAME_SHAPE_REPRESENTATION('',(#129),#26);\n"
+         "#131 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#10,#130);\n";
+}
+
+TEST(LostCurves, AnEdgeOfAWireRunsFromItsFirstVertexToItsLast) {
+  const std::string line = points("200", {{0, 0, 0}, {3, 0, 0}});
+  for (const auto& [first, last, sense] :
+       {std::array{"#200", "#201", ".T."}, std::array{"#201", "#200", ".F."}}) {
+    const ImportReport wire = import_beside_a_circle(line + wireframe_of_a_side(first, last, sense));
+    ASSERT_NE(named(wire, "side"), nullptr);
+    const double start = sense == std::string(".T.") ? 0 : 3e-3;
+    EXPECT_NEAR(start_of(named(wire, "side")->curve).x(), start, 1e-15);
+    EXPECT_NEAR(end_of(named(wire, "side")->curve).x(), 3e-3 - start, 1e-15);
+  }
+}
+
 TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {
   const std::string line = points("200", {{0, 0, 0}, {3, 0, 0}, {3, 4, 0}});
   const ImportReport supplemental = import_beside_a_circle(
@@ -89,15 +116,7 @@ TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {
   ASSERT_NE(named(supplemental, "rim"), nullptr);
   EXPECT_EQ(named(supplemental, "rim")->part, "curves");
   EXPECT_NEAR(length(named(supplemental, "rim")->curve), 13.364893220555258e-3, 1e-12);
-  const ImportReport wireframe = import_beside_a_circle(
-      line +
-      "#120 = VERTEX_POINT('',#200);\n#121 = VERTEX_POINT('',#201);\n#122 = DIRECTION('',(1.,0.,0.));\n"
-      "#123 = VECTOR('',#122,1.);\n#124 = LINE('',#200,#123);\n"
-      "#125 = EDGE_CURVE('side',#120,#121,#124,.T.);\n#126 = ORIENTED_EDGE('',*,*,#125,.T.);\n"
-      "#127 = EDGE_LOOP('',(#126));\n#128 = WIRE_SHELL('',(#127));\n"
-      "#129 = SHELL_BASED_WIREFRAME_MODEL('',(#128));\n"
-      "#130 = SHELL_BASED_WIREFRAME_SHAPE_REPRESENTATION('',(#129),#26);\n"
-      "#131 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#10,#130);\n");
+  const ImportReport wireframe = import_beside_a_circle(line + wireframe_of_a_side("#200", "#201", ".T."));
   ASSERT_NE(named(wireframe, "side"), nullptr);
   EXPECT_NEAR(length(named(wireframe, "side")->curve), 3e-3, 1e-15);
   const ImportReport loop =

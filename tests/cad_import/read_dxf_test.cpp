@@ -16,10 +16,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// A drawing of these entities, written "0 LINE 10 1.5 ...", in the unit of this $INSUNITS.
-std::string dxf_of(const std::string& entities, int insunits = 4) {
-  std::string text = "0 SECTION 2 HEADER 9 $INSUNITS 70 " + std::to_string(insunits) +
-                     " 0 ENDSEC 0 SECTION 2 ENTITIES " + entities + " 0 ENDSEC 0 EOF";
+/// A drawing of these entities and blocks, written "0 LINE 10 1.5 ...", in the unit of this $INSUNITS.
+std::string dxf_of(const std::string& entities, int insunits = 4, const std::string& blocks = "") {
+  std::string text = "0 SECTION 2 HEADER 9 $INSUNITS 70 " + std::to_string(insunits) + " 0 ENDSEC " +
+                     (blocks.empty() ? "" : "0 SECTION 2 BLOCKS " + blocks + " 0 ENDSEC ") +
+                     "0 SECTION 2 ENTITIES " + entities + " 0 ENDSEC 0 EOF";
   std::replace(text.begin(), text.end(), ' ', '\n');
   return text + "\n";
 }
@@ -114,6 +115,17 @@ TEST(ReadDxf, EllipsesRunFromTheirMajorAxis) {
   EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12);
 }
 
+TEST(ReadDxf, WholeTurnsAreWholeWhateverTheirDigits) {
+  for (const char* range : {"41 0 42 6.283185307179586", "41 0 42 6.28318530718", "41 0 42 6.283185",
+                            "41 -3.1415926535898 42 3.1415926535898"}) {
+    const NurbsCurve whole = only_dxf_curve(
+        std::string("0 ELLIPSE 10 0 20 0 30 0 11 3 21 0 31 0 40 0.33333333333333333 ") + range, 6);
+    EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12) << range;
+    EXPECT_LE((start_of(whole) - end_of(whole)).norm(), 1e-14) << range;
+  }
+  EXPECT_NEAR(length(only_dxf_curve("0 ARC 10 0 20 0 40 2 50 90 51 450.0000000001", 6)), 4 * pi, 1e-14);
+}
+
 TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {
   // A quarter of the unit circle.
   const NurbsCurve arc = only_dxf_curve(
@@ -166,6 +178,29 @@ TEST(ReadDxf, PolylinesAreOneCurveOrTheirLinesAndArcs) {
   EXPECT_EQ(end_of(in_space), Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(ReadDxf, ArcsOfPolylinesMeetTheirCornersHoweverFlat) {
+  for (const std::string bulge : {"1e-12", "-1e-9", "1e-6", "-0.01", "0.7", "-1", "30", "1e6"}) {
+    const NurbsCurve arc =
+        only_dxf_curve("0 LWPOLYLINE 90 2 70 0 10 1000 20 500 42 " + bulge + " 10 1002 20 500", 6);
+    EXPECT_EQ(start_of(arc), Eigen::Vector3d(1000, 500, 0)) << bulge;
+    EXPECT_EQ(end_of(arc), Eigen::Vector3d(1002, 500, 0)) << bulge;
+    // The bulge is the height of the arc over half its chord, to the right of a positive one.
+    const double height = std::stod(bulge), digits = 3e-13 + 1e-15 * std::abs(height);
+    EXPECT_LE((middle_of(arc) - Eigen::Vector3d(1001, 500 - height, 0)).norm(), digits) << bulge;
+  }
+}
+
+TEST(ReadDxf, PolylinesInAPlaneLieAtTheHeightOfTheirEntity) {
+  for (const char* z : {"", "30 0 ", "30 5 "}) {
+    const std::string height(z);
+    const NurbsCurve flat = only_dxf_curve("0 POLYLINE 66 1 10 0 20 0 30 5 70 0 0 VERTEX 10 0 20 0 " +
+                                               height + "0 VERTEX 10 3 20 4 " + height + "0 SEQEND",
+                                           6);
+    expect_near(start_of(flat), {0, 0, 5});
+    expect_near(end_of(flat), {3, 4, 5});
+  }
+}
+
 TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   const ImportReport report = import_dxf(
       dxf_of("0 LINE 8 cables 62 3 11 1 0 LINE 8 frame 420 16744448 60 1 11 2 0 TEXT 1 note 10 0 20 0"));
@@ -174,6 +209,14 @@ TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   EXPECT_EQ(report.curves[0].colour, "#00ff00");
   EXPECT_EQ(report.curves[1].colour, "#ff8000");
   EXPECT_TRUE(report.curves[1].hidden);
+}
+
+TEST(ReadDxf, LettersThatAreWrittenByTheirNumbersAreRead) {
+  const auto layer_of = [](const std::string& layer) {
+    return import_dxf(dxf_of("0 LINE 8 " + layer + " 10 0 11 1")).curves.at(0).layer;
+  };
+  EXPECT_EQ(layer_of("\\U+00FCber_\\U+7D22"), "über_索");
+  EXPECT_EQ(layer_of("\\U+12G4\\U+41"), "\\U+12G4\\U+41");
 }
 
 TEST(ReadDxf, CurvesOfFrozenAndSwitchedOffLayersAreHidden) {
@@ -204,10 +247,71 @@ TEST(ReadDxf, ThePaperSpaceIsNoPartOfTheModel) {
   EXPECT_NE(report.diagnostics[0].message.find("2 curve(s)"), std::string::npos);
 }
 
+TEST(ReadDxf, BlocksStandWhereTheyAreInserted) {
+  // In the block's own coordinates, its base point at (1, 2): a line of (3, 4) and a quarter of a circle.
+  const std::string arm =
+      "0 BLOCK 2 arm 10 1 20 2 30 0 0 LINE 8 0 62 0 10 1 20 2 11 4 21 6 0 ARC 8 own 10 1 20 2 40 1 50 0 51 90 "
+      "0 ENDBLK 8 0";
+  const ImportReport placed =
+      import_dxf(dxf_of("0 INSERT 8 cables 62 1 2 ARM 10 10 20 20 30 30 41 2 42 3 50 90", 6, arm));
+  EXPECT_TRUE(placed.diagnostics.empty());
+  ASSERT_EQ(placed.curves.size(), 2U);
+  expect_near(start_of(placed.curves[0].curve), {10, 20, 30});
+  EXPECT_LE((end_of(placed.curves[0].curve) - Eigen::Vector3d(10 - 12, 20 + 6, 30)).norm(), 1e-14);
+  EXPECT_EQ(placed.curves[0].layer, "cables");
+  EXPECT_EQ(placed.curves[0].colour, "#ff0000");
+  EXPECT_EQ(placed.curves[0].part, "arm");
+  EXPECT_EQ(placed.curves[1].layer, "own");
+  const NurbsCurve& ellipse = placed.curves[1].curve;  // its axes are 2 along y and 3 along -x
+  for (double u = 0; u <= 1; u += 0.125) {
+    const Eigen::Vector3d p = ellipse.point(u) - Eigen::Vector3d(10, 20, 30);
+    EXPECT_NEAR(std::pow(p.x() / 3, 2) + std::pow(p.y() / 2, 2), 1, 1e-14);
+  }
+}
+
+TEST(ReadDxf, BlocksInBlocksStandInThemAndArraysAreCopied) {
+  const std::string blocks =
+      "0 BLOCK 2 side 10 0 20 0 0 LINE 8 0 10 0 20 0 11 1 21 0 0 ENDBLK "
+      "0 BLOCK 2 frame 10 0 20 0 0 INSERT 8 0 2 side 10 5 20 0 50 90 0 LINE 8 rim 11 7 0 ENDBLK";
+  // Seen from behind, x points the other way.
+  const ImportReport report = import_dxf(
+      dxf_of("0 INSERT 8 steel 2 frame 10 1 20 0 210 0 220 0 230 -1 70 2 71 3 44 10 45 20", 6, blocks));
+  EXPECT_TRUE(report.diagnostics.empty());
+  ASSERT_EQ(report.curves.size(), 12U);
+  for (int copy = 0; copy < 6; ++copy) {
+    const ImportedCurve& side = report.curves[2 * copy];
+    const Eigen::Vector3d at(-(1 + 5 + 10 * (copy % 2)), 20 * (copy / 2), 0);
+    EXPECT_LE((start_of(side.curve) - at).norm(), 1e-14);
+    EXPECT_LE((end_of(side.curve) - at - Eigen::Vector3d::UnitY()).norm(), 1e-14);
+    EXPECT_EQ(side.part, "frame/side");
+    EXPECT_EQ(side.layer, "steel");
+  }
+  EXPECT_EQ(report.curves[1].layer, "rim");
+}
+
+TEST(ReadDxf, BlocksWithoutEndAreRefusedAndHarmNothing) {
+  const std::string itself =
+      "0 BLOCK 2 a 0 INSERT 2 b 0 ENDBLK 0 BLOCK 2 b 0 INSERT 2 a 0 LINE 11 1 0 ENDBLK";
+  const ImportReport circle = import_dxf(dxf_of("0 INSERT 2 a", 6, itself));
+  EXPECT_EQ(circle.curves.size(), 1U);
+  ASSERT_EQ(circle.diagnostics.size(), 1U);
+  EXPECT_NE(circle.diagnostics[0].message.find("'a' places itself"), std::string::npos);
+  std::string nest = "0 BLOCK 2 n0 0 LINE 11 1 0 ENDBLK";
+  for (int i = 1; i <= 12; ++i) {
+    nest += " 0 BLOCK 2 n" + std::to_string(i);
+    for (int k = 0; k < 10; ++k) nest += " 0 INSERT 2 n" + std::to_string(i - 1) + " 10 " + std::to_string(k);
+    nest += " 0 ENDBLK";
+  }
+  const ImportReport many = import_dxf(dxf_of("0 INSERT 2 n12", 6, nest));
+  ASSERT_TRUE(has_errors(many.diagnostics));
+  EXPECT_NE(many.diagnostics[0].message.find("more than 200000"), std::string::npos);
+}
+
 TEST(ReadDxf, WhatCannotBeReadIsNamedAndHarmsNothing) {
-  for (const auto& [entity, reason] : {std::pair{"0 INSERT 2 block", "INSERT"},
+  for (const auto& [entity, reason] : {std::pair{"0 INSERT 2 block", "'block' that it places is not"},
                                        {"0 ARC 40 -1", "radius"},
                                        {"0 SPLINE 71 3 11 0 11 1", "fit points"},
+                                       {"0 ELLIPSE 11 3 40 0", "minor axis"},
                                        {"0 LINE 10 x 11 1", "'x'"},
                                        {"0 LINE 11 0", "length"},
                                        {"0 SPLINE 71 2 40 1 40 0 10 0 20 0 30 0", "not read"},

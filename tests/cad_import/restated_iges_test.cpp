@@ -291,6 +291,15 @@ TEST(RestatedIges, ConicsThatContradictThemselvesAreNamed) {
       "stretches");
 }
 
+TEST(RestatedIges, ArcsThatEndOffTheirCircleAreNamed) {
+  expect_refused({{.type = 100, .parameters = "100,0.,0.,0.,5.,0.,0.,6.;"}},
+                 "its start lies 5 from its centre");
+  const ImportReport rounded =
+      import_text(iges_text_of({{.type = 100, .parameters = "100,0,1,2,6,2,1,7.001;"}}));
+  EXPECT_TRUE(rounded.diagnostics.empty());
+  EXPECT_EQ(rounded.curves.size(), 1U);
+}
+
 TEST(RestatedIges, RaysAndInfiniteLinesAreNamed) {
   expect_refused({{.type = 110, .parameters = "110,0,0,0,10,0,0;", .form = 1}}, "it is a ray (form 1)");
   expect_refused({{.type = 110, .parameters = "110,0,0,0,10,0,0;", .form = 2}},

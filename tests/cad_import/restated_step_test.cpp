@@ -5,12 +5,15 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "nurbs/arc_length.h"
+#include "nurbs/number_text.h"
 #include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
 #include "tests/cad_import/step_text_of.h"
+#include "tests/cad_import/uneven_circle.h"
 
 namespace nurbeam::restated_step {
 namespace {
@@ -45,6 +48,58 @@ TEST(RestatedStep, OffsetCurvesHaveTheirDistanceInTheUnitOfTheFile) {
                 {9, 0, 0}, {9, 0, 0}, unit.in_metres);
 }
 
+// ------------------------------------------------------------------------------------------- placements
+
+TEST(RestatedStep, PlacementsWithoutFirstAxisHaveThatOfTheStandard) {
+  // build_axes of ISO 10303-42: the first axis is x as far as it is at right angles to the third, else y.
+  struct Axes {
+    std::string third;
+    Eigen::Vector3d first;
+  };
+  const std::vector<Axes> all{{"0.,1.,0.", {1, 0, 0}},
+                              {"1.,0.,0.", {0, 1, 0}},
+                              {"-1.,0.,0.", {0, 1, 0}},
+                              {"0.,0.,-1.", {1, 0, 0}},
+                              {"1.,1.,1.", Eigen::Vector3d(2, -1, -1).normalized()}};
+  for (const auto& [third, first] : all) {
+    const std::string placement =
+        "#102 = AXIS2_PLACEMENT_3D('',#12,#103,$);\n#103 = DIRECTION('',(" + third + "));\n";
+    expect_ends(only_curve(step_text_of("#100", "#100 = ELLIPSE('',#102,5.,2.);\n" + placement)), 5 * first,
+                5 * first, 1e-3);
+  }
+}
+
+TEST(RestatedStep, PiecesOfConicsWhosePlacementHasNoAxesAreNoWholeConics) {
+  const NurbsCurve arc = only_curve(step_text_of(
+      "#100",
+      "#100 = TRIMMED_CURVE('',#101,(PARAMETER_VALUE(0.5)),(PARAMETER_VALUE(2.)),.F.,.PARAMETER.);\n"
+      "#101 = CIRCLE('',#102,4.);\n#102 = AXIS2_PLACEMENT_3D('',#12,$,$);\n"));
+  const auto at = [](double angle) { return Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 0); };
+  expect_ends(arc, at(0.5), at(2), 1e-3);  // against the sense of the circle
+  EXPECT_NEAR(length(arc), 4 * (2 * std::numbers::pi - 1.5) * 1e-3, 1e-15);
+}
+
+// ------------------------------------------------------------------------------------- closed splines
+
+TEST(RestatedStep, ClosedSplinesWhoseEndsHaveDifferentWeightsKeepThem) {
+  const NurbsCurve circle = uneven_circle(4);
+  std::string poles, weights, points;
+  for (int i = 0; i < circle.control_points().cols(); ++i) {
+    const Eigen::Vector4d pole = circle.control_points().col(i);
+    const std::string comma = i > 0 ? "," : "", number = std::to_string(200 + i);
+    poles += comma + "#" + number;
+    weights += comma + text_of(pole(3), 17);
+    points += "#" + number + " = CARTESIAN_POINT('',(" + text_of(pole(0) / pole(3), 17) + "," +
+              text_of(pole(1) / pole(3), 17) + ",0.));\n";
+  }
+  const NurbsCurve read = only_curve(step_text_of(
+      "#100", "#100 = ( BOUNDED_CURVE() B_SPLINE_CURVE(2,(" + poles +
+                  "),.UNSPECIFIED.,.T.,.F.) B_SPLINE_CURVE_WITH_KNOTS((3,2,2,3),(0.,1.,2.,3.),.UNSPECIFIED.) "
+                  "CURVE() GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((" +
+                  weights + ")) REPRESENTATION_ITEM('') );\n" + points));
+  for (double u = 0; u <= 3; u += 0.0625) EXPECT_NEAR(read.point(u).norm(), 4e-3, 1e-13) << u;
+}
+
 // ------------------------------------------------------------------------------------- pieces of conics
 
 /// #100, a piece of #101.
@@ -65,6 +120,30 @@ void expect_parabola(const NurbsCurve& curve, double unit) {
         curve.point(curve.knots().start() + t * (curve.knots().end() - curve.knots().start())) / unit;
     EXPECT_NEAR(p.y() * p.y(), 8 * p.x(), 1e-12);
   }
+}
+
+TEST(RestatedStep, PiecesWhosePointsAreNotTheirEndsAreNamed) {
+  const auto warning_of = [](const std::string& trims, const std::string& places, const Unit& unit) {
+    const ImportReport report = import_text(step_text_of(
+        "#100", "#100 = TRIMMED_CURVE('arc',#101," + trims + ");\n#101 = CIRCLE('',#11,5.);\n" + places, "",
+        unit.text));
+    EXPECT_EQ(report.curves.size(), 1U);
+    return report.diagnostics.empty() ? "" : report.diagnostics[0].where + report.diagnostics[0].message;
+  };
+  const auto at = [](double radius) {
+    return "#200 = CARTESIAN_POINT('',(" + std::to_string(radius) +
+           ",0.,0.));\n#201 = CARTESIAN_POINT('',(0.,5.,0.));\n";
+  };
+  for (const Unit& unit : units) {
+    const std::string mm = 1e3 * unit.in_metres > 1 ? "76.2 mm" : "3 mm";
+    EXPECT_NE(warning_of("(#200),(#201),.T.,.CARTESIAN.", at(8), unit).find("'arc'it begins " + mm),
+              std::string::npos);
+    EXPECT_EQ(warning_of("(#200),(#201),.T.,.CARTESIAN.", at(5.004), unit), "");
+  }
+  const std::string contrary =
+      warning_of("(#200,PARAMETER_VALUE(0.)),(#201,PARAMETER_VALUE(3.1415926535897932)),.T.,.PARAMETER.",
+                 at(5), units[0]);
+  EXPECT_NE(contrary.find("ends " + text_of(std::sqrt(50.0)) + " mm"), std::string::npos) << contrary;
 }
 
 TEST(RestatedStep, PiecesOfParabolasGoByTheirPoints) {

@@ -6,6 +6,8 @@
 #include <zlib.h>
 
 #include "cad_import/import_curves.h"
+#include "nurbs/arc_length.h"
+#include "tests/cad_import/curve_ends.h"
 #include "tests/cad_import/iges_text_of.h"
 #include "tests/cad_import/imported_text.h"
 #include "tests/cad_import/scratch_directory.h"
@@ -35,6 +37,30 @@ TEST(TolerantText, LeavesWhatNeedsNothingAsItIs) {
 TEST(TolerantText, AByteOrderMarkAndTrailingCommasAreNoHindrance) {
   expect_the_circle("\xEF\xBB\xBF" + circle);
   expect_the_circle(with(circle, "(#100)", "(#100, )"));
+}
+
+TEST(TolerantText, RealsWithoutPointOrWithASmallEAreReals) {
+  const auto ends_of = [](const std::string& first, const std::string& last, const std::string& unit) {
+    const ImportReport report =
+        import_text(step_text_of("#100",
+                                 "#100 = POLYLINE('1e3 (2e-3)',(#200,#201));\n#200 = CARTESIAN_POINT('',(" +
+                                     first + "));\n#201 = CARTESIAN_POINT('',(" + last + "));\n",
+                                 "", with(inches, "25.4", unit)));
+    EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
+    EXPECT_EQ(report.curves.at(0).name, "1e3 (2e-3)");
+    return std::pair(start_of(report.curves[0].curve), end_of(report.curves[0].curve));
+  };
+  for (const char* unit : {"25.", "25", "2.5e1", "25E0"}) {
+    const auto [start, end] = ends_of("1e-1,-2E+1,+.5", "4,-20.0e0,5.E-1", unit);
+    EXPECT_LE((start / 0.025 - Eigen::Vector3d(0.1, -20, 0.5)).norm(), 1e-14) << unit;
+    EXPECT_LE((end / 0.025 - Eigen::Vector3d(4, -20, 0.5)).norm(), 1e-14) << unit;
+  }
+  const ImportReport piece = import_text(step_text_of(
+      "#100",
+      "#100 = TRIMMED_CURVE('',#101,(PARAMETER_VALUE(1)),(PARAMETER_VALUE(3)),.T.,.PARAMETER.);\n"
+      "#101 = CIRCLE('',#11,2);\n"));
+  ASSERT_EQ(piece.curves.size(), 1U);
+  EXPECT_NEAR(length(piece.curves[0].curve), 2 * (3 - 1) * 1e-3, 1e-15);
 }
 
 TEST(TolerantText, TheSectionsOfEditionThreeAreRead) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -92,6 +93,18 @@ TEST(SectionProfile, TheAxesFollowThePlaneOfTheDrawing) {
     EXPECT_NEAR(p.second_x / (0.1 * 0.027 / 12), 1, 1e-12);
     EXPECT_NEAR(p.second_y / (0.3 * 0.001 / 12), 1, 1e-12);
   }
+}
+
+TEST(SectionProfile, AnUnevenSectionMayLieInAnyPlane) {
+  // A triangle with legs of 3 and 4, whose box has its middle off the plane.
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const SectionProfile p = profile_of(imported({polygon({{0, 0}, {3, 0}, {0, 4}})}, turn, {7, 8, 9}));
+  EXPECT_NEAR(p.area, 6, 1e-13);
+  EXPECT_LE((p.centroid - turn * Eigen::Vector3d(1, 4.0 / 3, 0) - Eigen::Vector3d(7, 8, 9)).norm(), 1e-13);
+  EXPECT_NEAR(p.second_x + p.second_y, 3 * 64 / 36.0 + 4 * 27 / 36.0, 1e-12);
+  EXPECT_NEAR(p.principal_1() * p.principal_2(), 3 * 64 / 36.0 * (4 * 27 / 36.0) - std::pow(144 / 72.0, 2),
+              1e-12);
 }
 
 TEST(SectionProfile, AnIpe200FromStepOrIgesHasItsTableValues) {
