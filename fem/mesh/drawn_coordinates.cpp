@@ -2,6 +2,18 @@
 
 namespace nurbeam {
 
+namespace {
+
+// Of the body of a joint, with its offset, whose joint is at s.
+Eigen::Vector3d drawn_body(const Structure& structure, const SlidingJoint& joint, double s) {
+  const ReferenceCurve& curve = structure.beam_of(joint).curve;
+  if (!joint.is_offset() || !curve.has_sections()) return curve.position(s);
+  const DrawnSection section = curve.section(s);
+  return curve.position(s) + joint.offset[0] * section.d1 + joint.offset[1] * section.d2;
+}
+
+}  // namespace
+
 Eigen::VectorXd planned_places(const Mesh& mesh) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(mesh.coordinate_count);
   for (const std::vector<MeshNode>& nodes : mesh.nodes)
@@ -27,15 +39,17 @@ Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) 
   for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
     if (mesh.plan.modes[j] == JointMode::free) continue;
     const SlidingJoint& joint = structure.joints[j];
-    const double s = mesh.plan.places[j];
-    const ReferenceCurve& curve = structure.beam_of(joint).curve;
-    q.segment(mesh.bodies[joint.body], D) = curve.position(s).head(D);
-    if (joint.is_offset()) {
-      const DrawnSection section = curve.section(s);
-      q.segment(mesh.bodies[joint.body], 3) += joint.offset[0] * section.d1 + joint.offset[1] * section.d2;
-    }
+    q.segment(mesh.bodies[joint.body], D) = drawn_body(structure, joint, mesh.plan.places[j]).head(D);
   }
   return q;
+}
+
+Eigen::Vector3d drawn_place(const Structure& structure, const ConnectorEnd& end) {
+  if (end.beam >= 0) return structure.beams[end.beam].curve.position(end.s);
+  if (end.body < 0) return end.point;
+  for (const SlidingJoint& joint : structure.joints)
+    if (joint.body == end.body) return drawn_body(structure, joint, joint.s);
+  return structure.bodies.at(end.body).position;
 }
 
 }  // namespace nurbeam

@@ -8,6 +8,9 @@ namespace nurbeam {
 /// (mesh.coordinate_count) The places of moving nodes and of points where the plan has them; all others zero.
 Eigen::VectorXd planned_places(const Mesh& mesh);
 
+/// Where a connector's end is drawn, 3 [m].
+Eigen::Vector3d drawn_place(const Structure& structure, const ConnectorEnd& end);
+
 /// The coordinates of the drawn shape, (mesh.coordinate_count).
 Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/mesh/drawn_coordinates.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
@@ -188,14 +189,6 @@ ModelBuilder& ModelBuilder::moment(int beam, double s, const Eigen::Vector3d& va
   return add(Moment{{.beam = beam, .s = elastic_place(beam, s), .value = value}});
 }
 
-Eigen::Vector3d ModelBuilder::drawn_place(const ConnectorEnd& end) const {
-  if (end.beam >= 0) return checked_beam(end.beam).curve.position(end.s);
-  if (end.body < 0) return end.point;
-  for (const SlidingJoint& joint : model_.joints)
-    if (joint.body == end.body) return model_.beam_of(joint).curve.position(joint.s);
-  return model_.bodies.at(end.body).position;
-}
-
 Connector& ModelBuilder::connect(const ConnectorEnd& from, const ConnectorEnd& to, ConnectorType type,
                                  double stiffness) {
   if (type != ConnectorType::rod && !(stiffness >= 0))
@@ -207,7 +200,7 @@ Connector& ModelBuilder::connect(const ConnectorEnd& from, const ConnectorEnd& t
                       .stiffness = stiffness};
   for (ConnectorEnd& end : connector.ends)
     if (end.beam >= 0) end.s = place(end.beam, end.s);
-  connector.length = (drawn_place(connector.ends[1]) - drawn_place(connector.ends[0])).norm();
+  connector.length = (drawn_place(model_, connector.ends[1]) - drawn_place(model_, connector.ends[0])).norm();
   model_.connectors.push_back(std::move(connector));
   return model_.connectors.back();
 }

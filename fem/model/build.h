@@ -74,7 +74,6 @@ class ModelBuilder {
   double place(int beam, double s) const;
   double elastic_place(int beam, double s) const;
   const Beam& checked_beam(int i) const;
-  Eigen::Vector3d drawn_place(const ConnectorEnd& end) const;
   int add_beam(Beam beam, Part part);
 
   BeamModel model_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "fem/mesh/drawn_coordinates.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -26,15 +27,6 @@ ConnectorEnd end_of(const CaseConnectorEnd& from, const ResolvedCase& resolved,
   const double s = place_on(beams[b], from.at, from.path, findings);
   if (model.beams[b].rigid) return ConnectorEnd::at_point(beams[b].curve.position(s));
   return ConnectorEnd::on_beam(b, beams[b].material_coordinate(s));
-}
-
-// As drawn, in the model's own coordinates.
-Eigen::Vector3d place_of(const ConnectorEnd& end, const BeamModel& model) {
-  if (end.beam >= 0) return model.beams[end.beam].curve.position(end.s);
-  if (end.body < 0) return end.point;
-  for (const SlidingJoint& joint : model.joints)
-    if (joint.body == end.body) return model.beam_of(joint).curve.position(joint.s);
-  return model.bodies[end.body].position;
 }
 
 // Whether a support keeps the end where it is drawn.
@@ -109,7 +101,7 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
                         .length_rule = from.length_rule,
                         .force = from.force};
     if (from.direction) connector.direction = frame.direction_to_local(from.direction->stableNormalized());
-    const Eigen::Vector3d d = place_of(connector.ends[1], model) - place_of(connector.ends[0], model);
+    const Eigen::Vector3d d = drawn_place(model, connector.ends[1]) - drawn_place(model, connector.ends[0]);
     const double drawn = connector.direction ? connector.direction->dot(d) : d.norm();
     connector.length = from.length.value_or(drawn);
     check_drawing(from, connector, drawn, findings);
