@@ -8,14 +8,12 @@
 namespace nurbeam {
 
 /// A body that rests against a hard stop, or two that rest against each other: d = 0, 1 row; coordinates of
-/// their places. Its multiplier is the negative of the force between them.
+/// StopDistance. Its multiplier is the negative of the force between them.
 template <int D>
 class KeptContact {
  public:
   KeptContact(const MeshedBeams<D>& at, int stop)
-      : dofs_(places_of_stop(at.mesh, at.structure.stops[stop])),
-        number_(stop),
-        stop_(&at.structure.stops[stop]) {}
+      : number_(stop), distance_(at.structure, at.mesh, at.structure.stops[stop]) {}
 
   /// Of all stops that are closed.
   template <class Add>
@@ -29,22 +27,26 @@ class KeptContact {
   int closed_stop() const { return number_; }
 
   static constexpr int rows = 1;
-  static constexpr bool linear = true;  ///< no Hessian
-  const std::vector<int>& dofs() const { return dofs_; }
+  const std::vector<int>& dofs() const { return distance_.dofs(); }
+  /// What it gives to a body [N].
+  Eigen::Matrix<double, D, 1> on_body(int body, const State& state,
+                                      const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return distance_.on_body(body, state.q, -y[0]).template head<D>();
+  }
 
-  ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
-                           const typename ConstraintTerms<D>::Multipliers*) const {
-    ConstraintTerms<D> terms(rows, false);
-    terms.value[0] = stop_distance(at.mesh, *stop_, state.q);
-    terms.gradient(0, 0) = stop_->weight_of_joint();
-    terms.gradient(0, 1) = stop_->weight_of_other();
+  ConstraintTerms<D> terms(const MeshedBeams<D>&, const State& state,
+                           const typename ConstraintTerms<D>::Multipliers* y) const {
+    ConstraintTerms<D> terms(rows, y != nullptr);
+    const auto size = static_cast<Eigen::Index>(dofs().size());
+    terms.value[0] = distance_.value(state.q);
+    terms.gradient.row(0).head(size) = distance_.gradient(state.q).transpose();
+    if (y) terms.hessian.topLeftCorner(size, size) = (*y)[0] * distance_.hessian(state.q);
     return terms;
   }
 
  private:
-  std::vector<int> dofs_;
   int number_;
-  const Stop* stop_;
+  StopDistance distance_;
 };
 
 }  // namespace nurbeam

@@ -9,48 +9,44 @@ namespace nurbeam {
 
 template <int D>
 BufferForce<D>::BufferForce(const MeshedBeams<D>& at, int stop)
-    : stop_(stop), dofs_(places_of_stop(at.mesh, at.structure.stops[stop])) {
-  const Stop& of = at.structure.stops[stop];
-  by_places_ << of.weight_of_joint(), of.weight_of_other();
-}
-
-template <int D>
-double BufferForce<D>::pressed_in(const MeshedBeams<D>& at, const State& state) const {
-  return -stop_distance(at.mesh, stop(at), state.q);
-}
+    : stop_(stop), distance_(at.structure, at.mesh, at.structure.stops[stop]) {}
 
 template <int D>
 double BufferForce<D>::force(const MeshedBeams<D>& at, const State& state) const {
-  const double x = pressed_in(at, state);
+  const double x = pressed_in(state);
   const BufferContact contact = buffer_contact(at.structure, state.memory, stop_);
   const Buffer& buffer = *stop(at).buffer;
   // One that begins a step away has no damper in it: within a step nothing jumps.
   if (contact == BufferContact::away) return std::max(0.0, buffer.stiffness * x);
-  const double N = buffer.stiffness * x - buffer.damping * stop_rate(at.mesh, stop(at), state.v);
+  const double N = buffer.stiffness * x - buffer.damping * distance_.rate(state.q, state.v);
   return contact == BufferContact::pressing ? N : std::max(0.0, N);
 }
 
 template <int D>
 void BufferForce<D>::add_force(const MeshedBeams<D>& at, const State& state,
                                Eigen::Ref<Eigen::VectorXd> dynamics) const {
-  const double N = force(at, state);
-  for (int i = 0; i < 2; ++i)
-    if (dofs_[i] >= 0) dynamics[dofs_[i]] -= by_places_[i] * N;
+  const StopDistance::Vector push = force(at, state) * distance_.gradient(state.q);
+  for (Eigen::Index i = 0; i < push.size(); ++i)
+    if (dofs()[i] >= 0) dynamics[dofs()[i]] -= push[i];
 }
 
 template <int D>
-Eigen::Matrix2d BufferForce<D>::tangent(const MeshedBeams<D>& at, const State& state,
-                                        const TangentWeights& w) const {
-  if (force(at, state) == 0) return Eigen::Matrix2d::Zero();
+StopDistance::Matrix BufferForce<D>::tangent(const MeshedBeams<D>& at, const State& state,
+                                             const TangentWeights& w) const {
+  const StopDistance::Vector W = distance_.gradient(state.q);
+  const double N = force(at, state);
+  if (N == 0) return StopDistance::Matrix::Zero(W.size(), W.size());
   const Buffer& buffer = *stop(at).buffer;
   const bool away = buffer_contact(at.structure, state.memory, stop_) == BufferContact::away;
-  return (w.stiffness * buffer.stiffness + (away ? 0 : w.damping * buffer.damping)) * by_places_ *
-         by_places_.transpose();
+  const double c = away ? 0 : buffer.damping;
+  const StopDistance::Matrix H = distance_.hessian(state.q);
+  return (w.stiffness * buffer.stiffness + w.damping * c) * W * W.transpose() +
+         w.stiffness * (c * W * (H * distance_.own(state.v)).transpose() - N * H);
 }
 
 template <int D>
 double BufferForce<D>::stored(const MeshedBeams<D>& at, const State& state) const {
-  const double x = std::max(0.0, pressed_in(at, state));
+  const double x = std::max(0.0, pressed_in(state));
   return stop(at).buffer->stiffness * x * x / 2;
 }
 
@@ -61,7 +57,7 @@ void BufferForce<D>::add_energy(const MeshedBeams<D>& at, const State& state, Sy
 
 template <int D>
 double BufferForce<D>::loss(const MeshedBeams<D>& at, const State& from, const State& to) const {
-  const double work = (force(at, from) + force(at, to)) / 2 * (pressed_in(at, from) - pressed_in(at, to));
+  const double work = (force(at, from) + force(at, to)) / 2 * (pressed_in(from) - pressed_in(to));
   return stored(at, from) - stored(at, to) - work;
 }
 
@@ -70,9 +66,9 @@ void BufferForce<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen:
   if (memory.size() == 0) return;
   const BufferContact contact = buffer_contact(at.structure, memory, stop_);
   const bool let_go = contact == BufferContact::let_go;
-  if (contact == BufferContact::away || !(pressed_in(at, state) > 0))
+  if (contact == BufferContact::away || !(pressed_in(state) > 0))
     set_buffer_contact(at.structure, memory, stop_, BufferContact::away);
-  else if (force(at, state) > 0 && !(let_go && stop_rate(at.mesh, stop(at), state.v) >= 0))
+  else if (force(at, state) > 0 && !(let_go && distance_.rate(state.q, state.v) >= 0))
     set_buffer_contact(at.structure, memory, stop_, BufferContact::pressing);
 }
 

@@ -7,11 +7,10 @@
 
 namespace nurbeam {
 
-/// The force of a stop with a buffer along the beam, on the places of one body or two: max(0, k x + c dx/dt)
-/// for x = -d > 0. A body that has come to it presses from the first moment, which State::memory says, and
-/// while it does the force goes on below 0 in the trials of a step: the step ends where it comes to 0. With
-/// 0 below, a damper that is stiff against the step would have two answers, one of which throws the body
-/// back.
+/// The force of a stop with a buffer on its coordinates (StopDistance): max(0, k x + c dx/dt) for x = -d > 0.
+/// A body that has come to it presses from the first moment, which State::memory says, and while it does the
+/// force goes on below 0 in the trials of a step: the step ends where it comes to 0. With 0 below, a damper
+/// that is stiff against the step would have two answers, one of which throws the body back.
 template <int D>
 class BufferForce {
  public:
@@ -26,7 +25,7 @@ class BufferForce {
         add(BufferForce(at, i));
   }
 
-  const std::vector<int>& dofs() const { return dofs_; }
+  const std::vector<int>& dofs() const { return distance_.dofs(); }
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
@@ -34,19 +33,22 @@ class BufferForce {
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
   double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
+  /// What it gives to a body [N].
+  Eigen::Matrix<double, D, 1> on_body(const MeshedBeams<D>& at, int body, const State& state) const {
+    return distance_.on_body(body, state.q, force(at, state)).template head<D>();
+  }
   bool is_damper(const MeshedBeams<D>& at) const { return stop(at).buffer->damping > 0; }
   void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
 
  private:
   const Stop& stop(const MeshedBeams<D>& at) const { return at.structure.stops[stop_]; }
-  double pressed_in(const MeshedBeams<D>& at, const State& state) const;
+  double pressed_in(const State& state) const { return -distance_.value(state.q); }
   double force(const MeshedBeams<D>& at, const State& state) const;
   double stored(const MeshedBeams<D>& at, const State& state) const;
-  Eigen::Matrix2d tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
+  StopDistance::Matrix tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w) const;
 
   int stop_;
-  std::vector<int> dofs_;      // the places of both, -1 where there is none
-  Eigen::Vector2d by_places_;  // of d
+  StopDistance distance_;
 };
 
 extern template class BufferForce<2>;

@@ -34,8 +34,8 @@ std::optional<double> time_of_buffer(const MeshedState& at, int number) {
   const auto damped = change_of_acceleration(
       at, [&](Eigen::VectorXd& memory) { set_buffer_contact(model, memory, number, BufferContact::away); });
   if (!damped) return {};
-  const Mesh& mesh = at.system->mesh();
-  return std::abs(stop_rate(mesh, stop, at.state.v) / stop_rate(mesh, stop, *damped));
+  const StopDistance distance(model, at.system->mesh(), stop);
+  return std::abs(distance.rate(at.state.q, at.state.v) / distance.rate(at.state.q, *damped));
 }
 
 // m/c of a connector that has come taut [s].

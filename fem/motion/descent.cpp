@@ -206,7 +206,7 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
     if (stop.buffer || !is_in_place(at.system->mesh(), stop)) continue;
     Eigen::VectorXd row = stop.weight_of_joint() * row_of(stop.joint);
     if (stop.other >= 0) row += stop.weight_of_other() * row_of(stop.other);
-    add(row, -stop_distance(at.system->mesh(), stop, at.state.q), Of::stop);
+    add(row, -StopDistance(model, at.system->mesh(), stop).value(at.state.q), Of::stop);
   }
   return all;
 }

@@ -20,8 +20,9 @@ constexpr double least_rebound = 1e-10;    // of what else moves, that is follow
 double fastest(const BeamSystem& system, const State& state) {
   double most = 0;
   for (const Stop& stop : system.model().stops)
-    for (const int place : places_of_stop(system.mesh(), stop))
-      if (place >= 0) most = std::max(most, std::abs(state.v[place]));
+    for (const int joint : {stop.joint, stop.other})
+      if (const int place = joint < 0 ? -1 : system.mesh().joints[joint].place; place >= 0)
+        most = std::max(most, std::abs(state.v[place]));
   return most;
 }
 
@@ -180,7 +181,8 @@ std::optional<MeshedState> hit_stop(const MeshedState& at, int stop, double step
   if (!settle_friction_after_contact(at, moving, step)) return {};
   if (make_accelerations_smooth(*moving.system, step, moving.state) != ConsistencyStatus::done) return {};
   const double away = opening_rate(*open.system, open.state, stop),
-               pushed = -stop_rate(open.system->mesh(), stop_of(*at.system, stop), moving.state.a),
+               pushed = -distance_of(*open.system, stop)
+                             .acceleration(moving.state.q, moving.state.v, moving.state.a),
                unfelt = contact_noise * moving.state.a.lpNorm<Eigen::Infinity>();
   std::vector<bool> among = passing_contacts(*after);
   const bool is_still = std::abs(away) <= least.speed[stop],

@@ -9,12 +9,15 @@
 namespace nurbeam {
 
 inline const Stop& stop_of(const BeamSystem& system, int stop) { return system.model().stops[stop]; }
+inline StopDistance distance_of(const BeamSystem& system, int stop) {
+  return {system.model(), system.mesh(), stop_of(system, stop)};
+}
 /// How far the bodies of a stop that is in place are from it [m], and how fast that grows [m/s].
 inline double distance(const BeamSystem& system, const State& state, int stop) {
-  return stop_distance(system.mesh(), stop_of(system, stop), state.q);
+  return distance_of(system, stop).value(state.q);
 }
 inline double opening_rate(const BeamSystem& system, const State& state, int stop) {
-  return stop_rate(system.mesh(), stop_of(system, stop), state.v);
+  return distance_of(system, stop).rate(state.q, state.v);
 }
 /// A body is at its stop when it is nearer than this [m].
 double touching(const BeamModel& model, int joint);

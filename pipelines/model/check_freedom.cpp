@@ -60,7 +60,9 @@ class FreedomCheck {
       plan.closed[i] = !stop.buffer;
       const BeamSystem system(model_, plan);
       const State drawn = drawn_state(system);
-      if (stop.buffer || !(std::abs(stop_distance(system.mesh(), stop, drawn.q)) <= 1e-9 * length)) continue;
+      if (stop.buffer ||
+          !(std::abs(StopDistance(model_, system.mesh(), stop).value(drawn.q)) <= 1e-9 * length))
+        continue;
       if (!dependent_constraints(system, drawn).empty())
         findings_.error("stops",
                         "body " + in_quotes(name_of(stop.joint)) +

@@ -100,7 +100,7 @@ std::vector<double> acting(const BeamSystem& system, const State& state) {
     if (model.connectors[i].type != ConnectorType::rod) now.push_back(force);
   }
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
-    now.push_back(stop_distance(system.mesh(), model.stops[i], state.q));
+    now.push_back(StopDistance(model, system.mesh(), model.stops[i]).value(state.q));
     now.push_back(system.mesh().plan.is_closed(i));
   }
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)

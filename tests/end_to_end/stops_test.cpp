@@ -266,6 +266,67 @@ TEST(StopsRun, TwoBodiesExchangeMomentumAcrossTheirGap) {
   EXPECT_NEAR(stops.run.last("b.vx [m/s]"), 1.5, 1e-9);
 }
 
+// On a wire that deforms too: the impulse went into the wire, which took a quarter of the energy.
+TEST(StopsRun, BodiesOnAWireHitEachOtherAndNotTheWire) {
+  const std::string wire = R"({"nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{"name": "wire", "axis": {"polyline": [[0, 0, 0], [6, 0, 0]]}, "section": {"radius": 0.008},
+      "material": {"density": 7800, "youngs_modulus": 2e11}, "elements": {"count": 20}}],
+    "supports": [{"beam": "wire", "at": "start", "type": "clamped"},
+                 {"beam": "wire", "at": "end", "type": "clamped"}],
+    "bodies": [{"name": "a", "mass": 1}, {"name": "b", "mass": 3}],
+    "sliding_joints": [{"body": "a", "beam": "wire", "at": {"length": 1}, "speed": 10},
+                       {"body": "b", "beam": "wire", "at": {"length": 3}}],
+    "stops": [{"beam": "wire", "bodies": ["a", "b"], "gap": 0.7, "restitution": 1}],
+    "analysis": {"end_time": 0.2, "step": 2.5e-4},
+    "output": {"every": 0.01, "report": false, "probes": [{"name": "p", "beam": "wire", "at": {"length": 2.7}}]}})";
+  for (const char* const carried : {"node", "point"}) {
+    const std::string as = "sliding_joints[0].carried_as=" + std::string(carried),
+                      too = "sliding_joints[1].carried_as=" + std::string(carried);
+    const StopRun hard = run_stops(wire, {as, too});
+    ASSERT_EQ(hard.run.code, 0) << hard.run.messages;
+    EXPECT_EQ(hard.times("hits a stop").size(), 1u);
+    // m (1 - 3)/(1 + 3) and 2 m/(1 + 3) of 10 m/s.
+    EXPECT_NEAR(hard.run.last("a.vx [m/s]"), -5, 1e-6);
+    EXPECT_NEAR(hard.run.last("b.vx [m/s]"), 5, 1e-6);
+    const StopRun buffer = run_stops(
+        wire, {as, too, R"(stops[0]={"beam": "wire", "bodies": ["a", "b"], "gap": 0.7, "stiffness": 2e4})"});
+    ASSERT_EQ(buffer.run.code, 0) << buffer.run.messages;
+    EXPECT_NEAR(buffer.run.last("a.vx [m/s]"), -5, 2e-3);
+    EXPECT_NEAR(buffer.run.last("b.vx [m/s]"), 5, 2e-3);
+    for (const StopRun* run : {&hard, &buffer})
+      for (std::size_t i = 0; i < run->run.rows.size(); ++i)
+        EXPECT_LT(std::abs(run->run.value(i, "p.axial_force [N]")), 0.1);  // 1000 N once
+  }
+}
+
+// The second of two that lean against each other gets nothing from the beam along it, which is not pulled
+// between them.
+TEST(StopsRun, ABodyLeansAgainstTheOneBelowIt) {
+  const double c = std::sqrt(0.75);
+  std::ostringstream text;
+  text.precision(17);
+  text << R"({"nurbeam": 1, "beams": [{"name": "bar", "axis": {"polyline": [[0, 0, 0], [)" << 3 * c
+       << R"(, 0, 1.5]]}, "section": {"radius": 0.02}, "elements": {"count": 48},
+      "material": {"density": 1, "youngs_modulus": 2e11, "damping": 1e-3, "mass_damping": 50}}],
+    "supports": [{"beam": "bar", "at": "start", "type": "clamped"},
+                 {"beam": "bar", "at": "end", "type": "guided", "direction": [)"
+       << c << R"(, 0, 0.5]}],
+    "bodies": [{"name": "a", "mass": 10}, {"name": "b", "mass": 20}],
+    "sliding_joints": [{"body": "a", "beam": "bar", "at": {"length": 1.0001}},
+                       {"body": "b", "beam": "bar", "at": {"length": 1.5002}}],
+    "stops": [{"beam": "bar", "bodies": ["a"], "at": {"length": 1}}, {"beam": "bar", "bodies": ["a", "b"], "gap": 0.5}],
+    "analysis": {"end_time": 1, "step": 1e-3},
+    "output": {"every": 0.5, "report": false, "probes": [{"name": "p", "beam": "bar", "at": {"length": 1.25}}]}})";
+  const StopRun stops = run_stops(text.str());
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  const auto along = [&](const std::string& body) {
+    return stops.run.last(body + ".joint_force.x [N]") * c + stops.run.last(body + ".joint_force.z [N]") / 2;
+  };
+  EXPECT_NEAR(along("b"), 0, 0.2);  // 98.1 once
+  EXPECT_NEAR(along("a"), 30 * weight / 2, 0.3);
+  EXPECT_LT(std::abs(stops.run.last("p.axial_force [N]")), 3);  // 115.6 once
+}
+
 TEST(StopsRun, BodiesThatDoNotPartGoOnTogetherUntilTheyArePulledApart) {
   const StopRun stops = run_stops(two_bodies, {"stops[0].restitution=0", "bodies[0].drag_area=0.5",
                                                "air={\"density\": 1.2}", "gravity=[1, 0, -9.81]"});
