@@ -170,11 +170,11 @@ std::string nurbs_axis(const std::string& points, const std::string& weights = "
 }
 
 TEST(BadInput, ACurveThatNoBeamCanFollowIsNamed) {
-  const std::string where = "falling_beam.json: beams[0].axis: ";
+  const std::string axis = "falling_beam.json: beams[0].axis", where = axis + ": ";
   const std::string line = "[[0,0,0],[0.3,0,0],[0.6,0,0],[1,0,0]]";
   expect_refused(run_beam({nurbs_axis("[[0,0,0],[1,1,0],[0,1,0],[1,0,0]]")}), {where});  // a cusp
   expect_refused(run_beam({nurbs_axis("[[0,0,0],[0,0,0],[0,0,0],[0,0,0]]")}), {where});
-  expect_refused(run_beam({nurbs_axis(line, "[1,1e-300,1,1]")}), {where});
+  expect_refused(run_beam({nurbs_axis(line, "[1,1e-300,1,1]")}), {axis + ".nurbs.weights: "});
 }
 
 TEST(BadInput, LengthsThatNoBeamHas) {

@@ -367,6 +367,24 @@ TEST_F(CaseFileTest, ImpossibleAxesAreRefused) {
       "beams[0].axis.nurbs", {"3 weights", "2 control points"});
 }
 
+std::string line_with_weights(const std::string& weights) {
+  return R"(beams[0].axis={"nurbs": {"degree": 1, "knots": [0,0,1,1], "control_points": [[0,0,0],[1,0,0]],
+              "weights": )" +
+         weights + "}}";
+}
+
+TEST_F(CaseFileTest, WeightsOfACurveSayTheirRatiosAlone) {
+  for (const char* weights : {"[1e300, 5e299]", "[2, 1]", "[3e-300, 15e-301]"}) {
+    const CaseFile c = read_valid(smallest_case, {line_with_weights(weights)});
+    const auto& curve = std::get<NurbsCurve>(c.beams[0].axis.source);
+    EXPECT_NEAR(curve.point(0.5).x(), 1.0 / 3, 1e-15) << weights;
+    EXPECT_LE(curve.control_points().row(3).maxCoeff(), 2) << weights;
+  }
+  expect_error({line_with_weights("[1, 1e300]")}, "beams[0].axis.nurbs.weights",
+               {"from 1 to 1e+300", "1e+09 times"});
+  expect_error({line_with_weights("[1e-300, 1]")}, "beams[0].axis.nurbs.weights", {"from 1e-300 to 1"});
+}
+
 TEST_F(CaseFileTest, AMissingCadFileNamesTheClosestFile) {
   expect_error({R"(beams[0].axis={"file": "zipline.stp"})"}, "beams[0].axis.file",
                {"zipline.stp", "did you mean \"zipline.step\""});
