@@ -46,11 +46,12 @@ CaseSection i_section(const Json& section, const std::string& path, Findings& fi
   const Json& json = part(section, "i_section");
   const double x = number(json, "width") / 2, y = number(json, "height") / 2;
   const double web = number(json, "web") / 2, inner = y - number(json, "flange");
-  if (!(inner > 0))
+  // Comparisons with a missing (NaN) size are false: it has been reported.
+  if (inner <= 0)
     findings.error(child(path, "flange"), "is " + text_of(number(json, "flange")) +
                                               " m; two flanges must be thinner than the height, " +
                                               text_of(2 * y) + " m");
-  if (!(web < x))
+  if (web >= x)
     findings.error(child(path, "web"),
                    "is " + text_of(2 * web) + " m; must be less than the width, " + text_of(2 * x) + " m");
   return {.torsion_constant = optional_number(section, "torsion_constant"),

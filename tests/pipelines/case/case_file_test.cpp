@@ -385,6 +385,23 @@ TEST_F(CaseFileTest, WeightsOfACurveSayTheirRatiosAlone) {
   expect_error({line_with_weights("[1e-300, 1]")}, "beams[0].axis.nurbs.weights", {"from 1e-300 to 1"});
 }
 
+TEST_F(CaseFileTest, WhatIsOutOfItsRangeIsNotComparedBesides) {
+  const auto section = [](const std::string& sizes) {
+    return R"(beams[0].section={"i_section": )" + sizes + "}";
+  };
+  expect_error({section(R"({"width": 0.1, "height": 0.1, "flange": 0, "web": 0.01})")},
+               "beams[0].section.i_section.flange", {"0 m"});
+  expect_error({section(R"({"width": 1e-300, "height": 0.1, "flange": 0.01, "web": 0.01})")},
+               "beams[0].section.i_section.width", {"1e-300 m"});
+}
+
+TEST_F(CaseFileTest, PointsHaveALimit) {
+  expect_error({R"(supports[0].at={"near": [0, 1e300, 0]})"}, "supports[0].at.near[1]",
+               {"1e+300 m", "1e+09"});
+  expect_error({R"(beams[0].axis={"polyline": [[0, 0, 0], [1e300, 0, 0]]})"}, "beams[0].axis.polyline[1][0]",
+               {"1e+300 m"});
+}
+
 TEST_F(CaseFileTest, AMissingCadFileNamesTheClosestFile) {
   expect_error({R"(beams[0].axis={"file": "zipline.stp"})"}, "beams[0].axis.file",
                {"zipline.stp", "did you mean \"zipline.step\""});
