@@ -46,6 +46,7 @@ Json to_json(const Beam& beam, const BeamSource& source) {
   const double stretch =
       std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   Json json = {{"name", beam.name},
+               {"curve", source.curve_name},
                {"length [m]", beam.curve.length()},
                {"unstressed length [m]", beam.curve.length() * stretch},
                {"mass [kg]", beam.curve.length() * p.mass_per_length},

@@ -206,6 +206,23 @@ TEST_F(CadOutputTest, TheSourceGetsTheDeformedShapeInPlaceOfTheDrawnOne) {
   EXPECT_LE((middle(undeformed.curves[1].curve) - middle(before.curves[1].curve)).norm(), 1e-12);
 }
 
+TEST_F(CadOutputTest, ExportGivesTheCurveTheNameOfTheDrawing) {
+  drawing(directory);
+  ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                 "analysis.end_time=0.01", "--set", "beams[0].name=rope", "--set", "supports[0].beam=rope",
+                 "--set", R"(beams[0].axis={"file": "drawing.step", "curve": "cable"})"}),
+            0)
+      << messages;
+  const auto exported = [&] {
+    const std::string file = (directory.path() / "deformed.step").string();
+    EXPECT_EQ(run({"export", results.string(), "--time", "0.01", "--to", file}), 0) << messages;
+    return import_curves(file).curves.at(0).name;
+  };
+  EXPECT_EQ(exported(), "cable");
+  std::filesystem::remove(results / "run.json");  // which a run that is killed does not write
+  EXPECT_EQ(exported(), "rope");
+}
+
 TEST_F(CadOutputTest, ASourceThatIsNoStepFileIsRefusedBeforeTheRun) {
   const std::string into_source = R"(output.cad={"formats": ["step-source"]})";
   EXPECT_EQ(run({"check", case_file.string(), "--set", into_source}), 2);

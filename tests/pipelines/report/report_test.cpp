@@ -357,6 +357,7 @@ TEST(ModelSummary, TellsWhereTheModelStandsInTheWorld) {
   EXPECT_EQ(model["supports"][1]["type"], "pinned");
   expect_vector(model["supports"][1]["position [m]"], {1000, 7, 5});
   expect_vector(model["supports"][1]["outward"], {0, 0, 1});
+  EXPECT_EQ(beam["curve"], "beam");
   EXPECT_EQ(model["joints"][0]["at beam end"], "stops");
   EXPECT_EQ(model["joints"][0]["s at start [m]"], 0.5);
   expect_vector(model["loads"][0]["value"], {1, 0, 0});
