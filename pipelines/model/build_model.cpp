@@ -381,6 +381,8 @@ double mass_of(const BeamModel& model) {
   double mass = 0;
   for (const Beam& beam : model.beams) mass += beam.properties.mass_per_length * beam.curve.length();
   for (const Body& body : model.bodies) mass += body.mass;
+  for (const Force& force : model.forces)
+    if (const auto* lump = std::get_if<PlaceMass>(&force); lump && lump->weighs) mass += lump->mass;
   return mass;
 }
 
