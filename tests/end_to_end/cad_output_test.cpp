@@ -77,6 +77,15 @@ TEST_F(CadOutputTest, ListedTimesKeepTheirNames) {
   EXPECT_EQ(cad_files(), std::vector<std::string>{"deformed_t0.05.step"});
 }
 
+TEST_F(CadOutputTest, TimesThatSixDigitsDoNotTellApartHaveMore) {
+  ASSERT_EQ(run_case(R"({"times": [0.01, 0.0123456788, 0.0123456789, 0.02000001], "formats": ["step"]})"), 0)
+      << messages;
+  EXPECT_EQ(cad_files(), (std::vector<std::string>{"deformed_t0.01.step", "deformed_t0.0123456788.step",
+                                                   "deformed_t0.0123456789.step", "deformed_t0.02.step"}));
+  ASSERT_EQ(run_case(R"({"times": [0.01], "formats": ["step"]})"), 0) << messages;
+  EXPECT_EQ(cad_files(), std::vector<std::string>{"deformed_t0.01.step"});
+}
+
 TEST_F(CadOutputTest, AnUndeformedStraightCableIsALineAgain) {
   ASSERT_EQ(run_case(R"({"times": [0]})"), 0) << messages;
   const NurbsCurve curve = only_curve(results / "deformed_t0.step");
