@@ -463,7 +463,8 @@ Shape analysis() {
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "
         "in full), increasing, or under so many equal steps up to 1; tables over time are read at the "
-        "factor, and a force that moves is there in full where it is at that time; 1 when omitted"},
+        "factor, and a force that moves is there in full where it is at that time; when omitted one state under the "
+        "full loads, at the time 0, or 1 where a table or a moving force is read"},
        {"integrator", integrator, "time integrator"},
        {"length_control", length_control,
         "when elements beside a sliding body change, in standard element lengths"}},
