@@ -218,7 +218,7 @@ class Run {
     }
     for (const auto& warning :
          {compression_warning(case_.path, outputs.least_strain()), divergence_warning(case_.path, simulated),
-          snap_warning(case_.path, simulated), energy_warning(case_.path, simulated),
+          snap_warning(case_.path, simulated), energy_warning(case_, simulated),
           short_steps_note(case_.path, simulated)}) {
       if (!warning) continue;
       print_diagnostics(messages_, {*warning});

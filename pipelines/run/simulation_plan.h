@@ -28,7 +28,7 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
 /// A warning where loads have led past the end of a branch of equilibria; `file` heads it.
 std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run);
 
-/// A warning where energy comes from nowhere or is lost; `file` heads it.
-std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
+/// A warning where energy comes from nowhere or is lost.
+std::optional<Diagnostic> energy_warning(const CaseFile& case_file, const SimulationReport& run);
 
 }  // namespace nurbeam
