@@ -45,6 +45,14 @@ std::vector<ProbePlace> probe_places(const BuiltModel& built) {
   return places;
 }
 
+std::optional<Diagnostic> fewer_modes_note(const CaseFile& c, const ModeTable& table) {
+  const std::size_t asked = static_cast<std::size_t>(c.analysis.modes.count), found = table.rows.size();
+  if (found >= asked) return {};
+  return Diagnostic{Severity::note, c.path.string() + ": analysis.modes.count",
+                    "is " + std::to_string(asked) + ", but the model has " + std::to_string(found) +
+                        (table.buckling ? " buckling factors" : " modes") + "; more elements have more"};
+}
+
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain) {
   constexpr double nothing_left = -0.5;  // Green's strain of a length of zero
   if (strain.value > nothing_left) return {};

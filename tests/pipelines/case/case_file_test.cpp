@@ -568,6 +568,29 @@ void collect_used_keys(const Json& value, std::set<std::string>& keys) {
   }
 }
 
+TEST_F(CaseFileTest, WhatChangesNothingIsWarnedOf) {
+  const auto warned = [&](const std::vector<std::string>& overrides) {
+    const CaseFileReport report = read(full_case, overrides);
+    EXPECT_TRUE(report.value) << messages(report);
+    return messages(report);
+  };
+  const auto has = [](const std::string& said, const std::string& part) {
+    return said.find(part) != std::string::npos;
+  };
+  const std::string air = R"(air={"density": 1.2, "wind": [10, 0, 0]})";
+  EXPECT_TRUE(has(warned({air}), "air | has no effect")) << warned({air});
+  EXPECT_FALSE(has(warned({air, "bodies[0].drag_area=0.5"}), "air |"));
+  EXPECT_TRUE(has(warned({"output.cad.times=[]"}), "output.cad.times | is empty"));
+  EXPECT_FALSE(has(warned({"output.cad.times=all"}), "output.cad.times"));
+  const auto guided = [](const char* moves) {
+    return std::string(
+               R"(supports[0]={"beam": "cable", "at": "start", "type": "guided", "direction": [2, 0, 0],)") +
+           R"("motion": [[0, 0, 0, 0], [1, )" + moves + "]]}";
+  };
+  EXPECT_TRUE(has(warned({guided("0.1, 0, 0")}), "supports[0].motion | has no effect"));
+  EXPECT_FALSE(has(warned({guided("0.1, 0.1, 0")}), "supports[0].motion"));
+}
+
 TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
   std::set<std::string> in_schema, in_cases = {"extreme_fibre",
                                                "profile",
