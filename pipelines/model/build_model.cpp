@@ -520,6 +520,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, like, built, findings);
   if (findings.has_errors()) return {};
 
+  check_drawn_sections(case_file.output, resolved.beams, findings);
+  if (findings.has_errors()) return {};
   const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
   divide_beams(resolved, beams, joined, built.frame, built.model, findings);
   if (findings.has_errors()) return {};

@@ -67,6 +67,21 @@ bool is_bar(const Beam& beam) {
 
 }  // namespace
 
+void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>& beams, Findings& findings) {
+  for (std::size_t i = 0; i < output.cad_formats.size(); ++i) {
+    const std::string& format = output.cad_formats[i];
+    for (const CaseBeam& beam : beams)
+      if (!beam.torsion &&
+          (format == "step-section-lines" || (format == "step-solid" && !beam.section.radius))) {
+        findings.error("output.cad.formats[" + std::to_string(i) + "]",
+                       "is \"" + format + "\", but the beam \"" + beam.name +
+                           "\" has no torsion, which orients its section; give it \"torsion\": true, or "
+                           "use \"step\" for the curve");
+        break;
+      }
+  }
+}
+
 void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings) {
   if (model.dimension != 3) return;
   for (std::size_t b = 0; b < model.beams.size(); ++b) {

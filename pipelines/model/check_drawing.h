@@ -18,4 +18,7 @@ void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, con
 /// Notes what the damping of bars in space without torsion does not reach.
 void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings);
 
+/// Reports formats of CAD files that draw sections which nothing orients, as those of beams without torsion.
+void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>& beams, Findings& findings);
+
 }  // namespace nurbeam

@@ -55,6 +55,25 @@ TEST(CheckCase, SaysOfEachBeamInSpaceWhetherItHasTorsionAndWhy) {
   says({bent, sideways, "beams[0].torsion=false"}, "no, as the case asks for an element without it");
 }
 
+TEST(CheckCase, RefusesFilesOfSectionsThatNothingOrients) {
+  const test::TemporaryDirectory directory;
+  const auto refused = [&](const std::vector<std::string>& overrides) {
+    std::vector<std::string> all = {R"(output.cad={"formats": ["step", "step-section-lines"]})"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), all);
+    std::ostringstream out, err;
+    const int code = check_case(report.value.value(), out, err);
+    return std::pair{code, err.str()};
+  };
+  const auto [code, said] = refused({});
+  EXPECT_EQ(code, 2);
+  EXPECT_NE(
+      said.find("output.cad.formats[1]: is \"step-section-lines\", but the beam \"cable\" has no torsion"),
+      std::string::npos)
+      << said;
+  EXPECT_EQ(refused({"beams[0].torsion=true", "supports[0].type=clamped"}).first, 0);
+}
+
 TEST(CheckCase, GivesTheHolonomyOfRings) {
   const std::string ring =
       R"(beams[0].axis={"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1, 1],
