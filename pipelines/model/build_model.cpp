@@ -521,6 +521,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
 
   check_drawn_sections(case_file.output, resolved.beams, findings);
+  if (!like) check_proportions(resolved.beams, built.model, built.sources, findings);
   if (findings.has_errors()) return {};
   const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
   divide_beams(resolved, beams, joined, built.frame, built.model, findings);
