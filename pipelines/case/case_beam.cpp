@@ -6,6 +6,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_axis.h"
+#include "pipelines/case/case_keys.h"
 #include "pipelines/case/standard_materials.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -232,6 +233,11 @@ AxialStrain read_axial_strain(const Json& json, const std::string& path, const C
   return strain;
 }
 
+/// Others have been reported.
+bool is_key_of_beams(const std::string& name) {
+  return find_key(find_key(case_keys(), "beams")->shape.items[0], name) != nullptr;
+}
+
 /// Reports what a rigid guide takes no more, and what every other beam needs.
 void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
   if (!beam.rigid) {
@@ -243,7 +249,7 @@ void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
   static const std::set<std::string> known = {
       "name", "axis", "rigid", "closed", "corners", "smooth_up_to", "approximation_tolerance"};
   for (const auto& [key, value] : json.items())
-    if (!known.contains(key))
+    if (!known.contains(key) && is_key_of_beams(key))
       findings.error(child(beam.path, key),
                      "is for beams that deform, but \"rigid\" makes this one a guide; "
                      "leave one of them out");

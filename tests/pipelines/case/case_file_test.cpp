@@ -591,6 +591,13 @@ TEST_F(CaseFileTest, WhatChangesNothingIsWarnedOf) {
   EXPECT_FALSE(has(warned({guided("0.1, 0.1, 0")}), "supports[0].motion"));
 }
 
+TEST_F(CaseFileTest, AMisspeltKeyOfARigidBeamIsOneError) {
+  expect_error(
+      {R"(beams[0]={"name": "cable", "rigid": true, "axs": 1, "axis": {"polyline": [[0,0,0],[1,0,0]]}})",
+       "supports=[]"},
+      "beams[0].axs", {"unknown key \"axs\"", "did you mean \"axis\""});
+}
+
 TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
   std::set<std::string> in_schema, in_cases = {"extreme_fibre",
                                                "profile",
