@@ -47,6 +47,12 @@ void check_names(const Json& json, Findings& findings) {
   for (const auto& more : {probes, supports, joints, connectors})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
+  // The columns of a vector belong to the body: "B.joint_force.x".
+  for (const auto& [body, body_path] : collect(json, "bodies", ""))
+    for (const auto& [name, path] : columns)
+      if (name == body + ".joint_force")
+        findings.error(path, in_quotes(name) + " heads the columns of the joint's force on the body " +
+                                 in_quotes(body) + ", of " + body_path + "; give another name");
   // Both have a length in that table.
   for (const auto& [name, path] : connectors)
     for (const auto& [of_beam, beam_path] : beams)

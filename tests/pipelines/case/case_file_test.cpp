@@ -330,6 +330,8 @@ TEST_F(CaseFileTest, ReferencesToUnknownNamesListTheNames) {
 
 TEST_F(CaseFileTest, NamesMustDifferAndHeadColumns) {
   expect_error({"output.probes[0].name=trolley"}, "output.probes[0].name", {"bodies[0].name"}, full_case);
+  expect_error({"output.probes[0].name=trolley.joint_force"}, "output.probes[0].name",
+               {"\"trolley\"", "bodies[0].name"}, full_case);
   expect_error({"beams[0].name=a,b", "supports=[]"}, "beams[0].name", {"commas"});
   expect_error({R"(beams[0].name="")", "supports=[]"}, "beams[0].name", {"is empty"});
   for (const char* control : {"\\u0001", "\\u001f", "\\u007f"})  // as std::iscntrl has them
