@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_axis.h"

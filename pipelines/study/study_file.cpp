@@ -15,6 +15,7 @@
 #include "pipelines/case/case_values.h"
 #include "pipelines/case/table_files.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/analysis.h"
 #include "pipelines/study/study_keys.h"
 #include "pipelines/study/study_parts.h"
 
